@@ -32,7 +32,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.fit.fitted_case import fitted_case
     from lambda_core.fit.measured import compare_measured, measured_series
     from lambda_core.fmu.unit_file import export_fmu
-    from lambda_core.report.pictures import animate, draw, report, view, view_all, view_stem, views
+    from lambda_core.report.pictures import animate, draw, machine_pictures, report, view, view_all, view_stem, views
     from lambda_core.run.answers import cite, compare, result, side_by_side, summary
     from lambda_core.run.bearing_currents import electric, film_from_capacitance
     from lambda_core.run.duty_cycle import duty
@@ -40,7 +40,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.run.speed_curve import stribeck, stribeck_picture
     from lambda_core.run.temperatures import thermal, thermal_pictures, warm_up
     from lambda_core.shaft.export import stiffness_target, write_stiffness
-    from lambda_core.shaft.machine_answers import describe_machine, machine_pictures, modes
+    from lambda_core.shaft.machine_answers import describe_machine, modes
     from lambda_core.shaft.machine_text import machine_warnings
     from lambda_core.shaft.ross import ross_rotor
     from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, save, schema, templates

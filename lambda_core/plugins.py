@@ -20,7 +20,7 @@ from lambda_core.views.observer import EVENT_API, OBSERVER_API, Event, Integral,
 from lambda_core.views.scene import Scene
 from lambda_core.views.section import SECTION_API, ReportTable, Section
 from lambda_core.views.table import Column, StudyTable
-from lambda_core.views.view import VIEW_API, Figure, Options, RunData, View
+from lambda_core.views.view import VIEW_API, Figure, MachineData, Options, RunData, View
 
 if not TYPE_CHECKING:  # with it, any name would do
     from lambda_core.laws.old_form import __getattr__  # noqa: F401
@@ -46,6 +46,7 @@ __all__ = [
     "Integral",
     "Law",
     "LazyLaw",
+    "MachineData",
     "Mark",
     "Material",
     "Method",

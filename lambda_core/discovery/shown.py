@@ -13,7 +13,7 @@ from lambda_core.domain.plugin_errors import PluginError, blamed
 from lambda_core.views.chart import ViewData
 from lambda_core.views.view import Subject, View
 
-_WORDS = {"result": "one result", "results": "several results", "study": "a study"}
+_WORDS = {"result": "one result", "results": "several results", "study": "a study", "machine": "a machine without time"}
 
 
 def view_of(registry: Registry, name: str, subject: Subject) -> View:

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from lambda_core.report.gallery import ViewCard
     from lambda_core.report.page import Cover
     from lambda_core.results.reader import Result
+    from lambda_core.shaft.machine_equilibrium import MachineEquilibrium
+    from lambda_core.shaft.machine_modes import MachineModes
+    from lambda_core.system.machine import Machine
     from lambda_core.views.chart import ViewData
     from lambda_core.views.view import Subject
 
@@ -109,6 +112,34 @@ def view_all(
     subject, kind = subject_of(source, bearing)
     for found, data in every(registry(), subject, kind):
         yield found.name, data
+
+
+def machine_pictures(
+    model: Machine, equilibrium: MachineEquilibrium | None = None, modes: MachineModes | None = None
+) -> list[ViewData]:
+    """Return what there is to see of a machine: deflection and bending moment, natural frequencies over speed.
+
+    Parameters
+    ----------
+    model : Machine
+        From :func:`check_shaft`.
+    equilibrium : MachineEquilibrium, optional
+        From :func:`quasistatic`.
+    modes : MachineModes, optional
+        From :func:`modes`.
+
+    Returns
+    -------
+    list of ViewData
+        For :func:`draw`: every installed view of a machine that has something to show.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.report.gallery import every
+    from lambda_core.views.chart import ViewData
+    from lambda_core.views.view import MachineData
+
+    shown = every(registry(), MachineData(model, equilibrium, modes), "machine")
+    return [data for _, data in shown if isinstance(data, ViewData)]
 
 
 def draw(data: ViewData, folder: str | Path, stem: str, formats: Sequence[str] = ("svg", "png")) -> list[Path]:

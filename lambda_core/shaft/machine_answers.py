@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from lambda_core.shaft.machine_equilibrium import MachineEquilibrium
     from lambda_core.shaft.machine_modes import MachineModes
     from lambda_core.system.machine import Machine
-    from lambda_core.views.chart import ViewData
 
 
 @one_blas_thread()
@@ -80,31 +79,6 @@ def machine_of(source: Source | Machine, overrides: Iterable[str] = ()) -> Machi
     if list(overrides):
         raise UsageError("a resolved machine takes no overrides: change the case and resolve it")
     return source
-
-
-def machine_pictures(
-    model: Machine, equilibrium: MachineEquilibrium | None = None, modes: MachineModes | None = None
-) -> list[ViewData]:
-    """Return what there is to see of a machine: deflection and bending moment, natural frequencies over speed.
-
-    Parameters
-    ----------
-    model : Machine
-        From :func:`check_shaft`.
-    equilibrium : MachineEquilibrium, optional
-        From :func:`quasistatic`.
-    modes : MachineModes, optional
-        From :func:`modes`.
-
-    Returns
-    -------
-    list of ViewData
-        For :func:`draw`; one for each of what is given.
-    """
-    from lambda_core.shaft.machine_charts import campbell_picture, deflection_picture
-
-    found = [] if equilibrium is None else [deflection_picture(model, equilibrium)]
-    return found if modes is None or len(modes.campbell) < 2 else [*found, campbell_picture(modes)]
 
 
 def describe_machine(model: Machine) -> str:

@@ -138,7 +138,7 @@ def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem 
     table = [f"{'frequency Hz':<{_HEAD}}{'damping %':>{_COLUMN}}   motion"]
     table += [
         f"{f'{mode.frequency_Hz:.5g}':<{_HEAD}}{f'{1e2 * mode.damping_ratio:.2g}':>{_COLUMN}}   "
-        f"{mode.kind}, {_way(mode.direction)}{_with_bodies(mode.bodies_share)}"
+        f"{mode.kind}{f', {_way(mode.direction)}' if mode.kind == 'bending' else ''}{_with_bodies(mode.bodies_share)}"
         for mode in found.modes
     ]
     notes = [f"{'assumption' if i == 0 else '':<{HEAD}}{text}" for i, text in enumerate(found.assumptions)]

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import IO, Any, Literal, Protocol
+from typing import IO, Any, Literal, Protocol, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ from lambda_core.domain.channels import Channel
 from lambda_core.views.chart import ViewData
 
 VIEW_API = 1
-Subject = Literal["result", "results", "study"]
+Subject = Literal["result", "results", "study", "machine"]
 
 
 class RunData(Protocol):
@@ -66,6 +66,25 @@ class RunData(Protocol):
         """Hash of the code behind every law."""
 
 
+@dataclass(frozen=True)
+class MachineData:
+    """What a view may look at of a machine at its operating point.
+
+    Attributes
+    ----------
+    model : Machine
+        The resolved machine.
+    equilibrium : MachineEquilibrium or None
+        Where it was solved.
+    modes : MachineModes or None
+        Where they were computed.
+    """
+
+    model: Any
+    equilibrium: Any = None
+    modes: Any = None
+
+
 class Figure(Protocol):
     """What a drawing returns: a matplotlib figure, or anything that can be saved like one."""
 
@@ -90,10 +109,11 @@ class View:
     title : str
         One line for people.
     subject : str
-        ``result``: one run; ``results``: two runs or more; ``study``: the table of a study.
+        ``result``: one run; ``results``: two runs or more; ``study``: the table of a study; ``machine``: a machine at
+        its operating point, without time.
     data : callable
-        ``data(subject, options) -> ViewData``: `subject` is a :class:`RunData`, a sequence of them, or a
-        :class:`~lambda_core.views.table.StudyTable`. Raises
+        ``data(subject, options) -> ViewData``: `subject` is a :class:`RunData`, a sequence of them, a
+        :class:`~lambda_core.views.table.StudyTable`, or a :class:`MachineData`. Raises
         :class:`~lambda_core.views.method.NotApplicable` with a sentence when there is nothing to show.
     options : type
         A subclass of :class:`Options` whose fields have defaults and descriptions.
@@ -128,8 +148,8 @@ def view_fault(item: object) -> str:
         return f"the view {item.name} does not say for which version it is written: write view_api={VIEW_API}"
     if item.view_api != VIEW_API:
         return f"the view {item.name} is written for version {item.view_api} of the interface; this is {VIEW_API}"
-    if item.subject not in ("result", "results", "study"):
-        return f'the view {item.name} looks at "{item.subject}"; possible: result, results, study'
+    if item.subject not in get_args(Subject):
+        return f'the view {item.name} looks at "{item.subject}"; possible: {", ".join(get_args(Subject))}'
     for part in ("data", *(["figure"] if item.figure is not None else [])):
         if not callable(getattr(item, part)):
             return f"the {part} of the view {item.name} is a {type(getattr(item, part)).__name__}, not a function"

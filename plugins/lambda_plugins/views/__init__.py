@@ -23,6 +23,7 @@ def register_views(register: Callable[[View], None]) -> None:
         friction,
         heat,
         machine,
+        operating_point,
         ring,
         ring_shape,
         study,
@@ -43,6 +44,7 @@ def register_views(register: Callable[[View], None]) -> None:
         capacitance,
         electric,
         machine,
+        operating_point,
         comparison,
         study,
     ):

@@ -1,26 +1,27 @@
-"""Draw a machine at its operating point: deflection, bending moment, natural frequencies."""
+"""A machine at its operating point: deflection and bending moment of its shaft, natural frequencies over speed."""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from lambda_core.domain.arrays import FloatArray
-from lambda_core.shaft.machine_equilibrium import MachineEquilibrium
-from lambda_core.shaft.machine_modes import MachineModes
-from lambda_core.system.machine import Machine
-from lambda_core.views.chart import Arrows, Axis, Mark, Panel, Series, ViewData
+from lambda_core.plugins import Arrows, Axis, MachineData, Mark, NotApplicable, Options, Panel, Series, View, ViewData
 
 _ROLES = {"bending": "inner", "axial": "reference", "torsion": "cage", "body": "outer"}
 
 
-def _source(found: MachineEquilibrium | MachineModes) -> str:
+def _source(found: Any) -> str:
     return f"{found.case}   {found.speed_rpm:.5g} 1/min   " + ", ".join(
         f"{bearing.name} {bearing.title.split(' (')[0]}" for bearing in found.bearings
     )
 
 
-def deflection_picture(model: Machine, report: MachineEquilibrium) -> ViewData:
+def deflection(machine: MachineData, options: Options) -> ViewData:
     """Return the shaft, its deflection and its bending moment over one axis."""
+    model, report = machine.model, machine.equilibrium
+    if report is None:
+        raise NotApplicable("the equilibrium was not solved")
     length = 1e3 * model.outline[-1][1]
     along = Axis("position", "mm", low=0.0, high=length)
     places, cuts = np.array(report.positions_mm), np.array(report.cut_positions_mm)
@@ -47,7 +48,7 @@ def deflection_picture(model: Machine, report: MachineEquilibrium) -> ViewData:
     return ViewData("shaft", "A shaft in its bearings", _source(report), panels, 1, notes)
 
 
-def _drawing(model: Machine, report: MachineEquilibrium) -> Panel:
+def _drawing(model: Any, report: Any) -> Panel:
     """Return the shaft from the side with its bearings, discs, and the reactions as arrows."""
     series = [_loop("shaft", [_box(1e3 * a, 1e3 * b, -500.0 * d, 500.0 * d) for a, b, d, _ in model.outline], "total")]
     bores = [_box(1e3 * a, 1e3 * b, -500.0 * bore, 500.0 * bore) for a, b, _, bore in model.outline if bore > 0.0]
@@ -83,12 +84,15 @@ def _box(left: float, right: float, low: float, high: float) -> list[tuple[float
 
 def _loop(name: str, boxes: list[list[tuple[float, float]]], role: str) -> Series:
     """Return boxes as one line, broken between them."""
-    points: FloatArray = np.array([point for box in boxes for point in [*box, (np.nan, np.nan)]])
+    points = np.array([point for box in boxes for point in [*box, (np.nan, np.nan)]])
     return Series(name, points[:, 0], points[:, 1], "line", role)
 
 
-def campbell_picture(report: MachineModes) -> ViewData:
+def campbell(machine: MachineData, options: Options) -> ViewData:
     """Return natural frequencies of bending over speed, with the line of one per revolution."""
+    report = machine.modes
+    if report is None or len(report.campbell) < 2:
+        raise NotApplicable("the modes were not computed")
     speeds = np.array([row.speed_rpm for row in report.campbell])
     series, seen = [], set()
     for i in range(min(len(row.modes) for row in report.campbell)):
@@ -102,3 +106,9 @@ def campbell_picture(report: MachineModes) -> ViewData:
         "whirl", "Natural frequencies over speed", _source(report), (panel,), 1,
         ("bearings as stiff as at the operating point",),
     )  # fmt: skip
+
+
+VIEWS = (
+    View("shaft", "Shaft in its bearings: deflection, bending moment", "machine", deflection, view_api=1),
+    View("whirl", "Natural frequencies of a machine over speed", "machine", campbell, view_api=1),
+)
