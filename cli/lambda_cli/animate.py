@@ -40,9 +40,8 @@ def animate(
     def progress(done: int, total: int) -> None:
         typer.echo(f"\r{done} of {total} frames", err=True, nl=done == total)
 
-    found = api.result(source, bearing).of_bearing()
     path = api.animate(
-        found, out, turns=turns, start=start, frames=frames, fps=fps, overwrite=force,
+        source, out, bearing=bearing, turns=turns, start=start, frames=frames, fps=fps, overwrite=force,
         progress=progress if shown else None,
     )  # fmt: skip
     typer.echo(str(path))

@@ -61,10 +61,11 @@ def view(
         return
     from lambda_core.views.other_units import in_units
 
+    stem = api.view_stem(sources, bearing)
     with TemporaryDirectory(prefix="lambda-bearing-") as unseen:
         target, chosen_formats = (Path(unseen), ("png",)) if kind else (out, tuple(formats or ("svg", "png")))
         for one in data:
-            for path in _drawn(in_units(one, units.system), target, api.view_stem(sources), chosen_formats, bool(name)):
+            for path in _drawn(in_units(one, units.system), target, stem, chosen_formats, bool(name)):
                 if kind:
                     print_picture(path, kind)
                 else:

@@ -79,7 +79,7 @@ def draw(
 
     say("drawing ...")
     data = in_units(api.view(sources if len(sources) > 1 else sources[0], name, bearing=bearing), unit_system(units))
-    return [str(path) for path in api.draw(data, folder, api.view_stem(sources), formats)]
+    return [str(path) for path in api.draw(data, folder, api.view_stem(sources, bearing), formats)]
 
 
 def report(say: Say, sources: list[str], target: str, bearing: str | None = None) -> list[str]:

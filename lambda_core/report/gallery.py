@@ -14,6 +14,7 @@ from lambda_core.discovery.shown import data_of
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.files import check_target
 from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without
+from lambda_core.results.opening import BearingNeededError
 from lambda_core.views.chart import ViewData
 from lambda_core.views.method import NotApplicable
 from lambda_core.views.view import Subject, View
@@ -79,6 +80,8 @@ def every(
                 is_offered = view.offered is None or view.offered(subject)
             if is_offered:
                 yield view, data_of(view, subject, {})
+        except BearingNeededError:  # of a machine only its own views, unless a bearing is named
+            continue
         except NotApplicable as reason:
             yield view, reason
         except PluginError as fault:  # of one package: the other views are drawn

@@ -172,13 +172,15 @@ def draw(data: ViewData, folder: str | Path, stem: str, formats: Sequence[str] =
     return write(registry(), data, Path(folder), stem, formats)
 
 
-def view_stem(source: Sequence[str | PathLike[str]]) -> str:
+def view_stem(source: Sequence[str | PathLike[str]], bearing: str | None = None) -> str:
     """Return the beginning of file names for pictures of these results.
 
     Parameters
     ----------
     source : sequence of path-like
         Results or their files, or the folder of one study.
+    bearing : str, optional
+        Which bearing of machines.
 
     Returns
     -------
@@ -186,13 +188,15 @@ def view_stem(source: Sequence[str | PathLike[str]]) -> str:
     """
     from lambda_core.report.gallery import stem_of
 
-    return stem_of([Path(path) for path in source])
+    stem = stem_of([Path(path) for path in source])
+    return f"{stem}-{bearing}" if bearing else stem
 
 
 def animate(
     source: str | PathLike[str],
     out: str | Path | None = None,
     *,
+    bearing: str | None = None,
     turns: float = 1.0,
     start: float | None = None,
     frames: int = 120,
@@ -209,6 +213,8 @@ def animate(
     out : path-like, optional
         File whose ending says the format: ``.gif``, ``.mp4`` (with the extra ``animation``) or ``.glb``; default: the
         name of the source with ``.gif`` in the working directory.
+    bearing : str, optional
+        Which bearing of a machine; may be left out where there is one.
     turns : float
         Revolutions of the cage to show.
     start : float, optional
@@ -237,11 +243,11 @@ def animate(
     from lambda_core.report.animation import check_format, check_pace, write_animation
     from lambda_core.report.run_scene import scene_of
 
-    path = Path(out) if out is not None else Path(f"{view_stem([source])}.gif")
+    path = Path(out) if out is not None else Path(f"{view_stem([source], bearing)}.gif")
     check_format(path)
     check_pace(turns, frames, fps)
     _refuse_existing(path, overwrite)
-    scene = scene_of(result(source).of_bearing(), start=start, turns=turns, frames=frames)
+    scene = scene_of(result(source, bearing).of_bearing(), start=start, turns=turns, frames=frames)
     return write_animation(registry(), scene, path, fps, progress)
 
 
@@ -292,7 +298,7 @@ def report(
     from lambda_core.report.page import case_inputs, run_report, study_report, write_page
     from lambda_core.report.pdf import check_printer, write_pdf
 
-    path = Path(out) if out is not None else Path(f"{view_stem([source])}.html")
+    path = Path(out) if out is not None else Path(f"{view_stem([source], bearing)}.html")
     cover = _cover(project, author, appendices, units)
     _refuse_existing(path, overwrite)
     is_pdf = path.suffix.lower() == ".pdf"

@@ -83,13 +83,14 @@ def citation(result: Result) -> Citation:
         One entry per law that filled a role of some force element, and none for any other.
     """
     version = result.versions.get(PROGRAM, "")
-    laws, without = _laws(result.laws)
+    each = [result] if getattr(result, "bearing", True) else list(result.bearings.values())
+    laws, without = _laws(row for one in each for row in one.laws)
     return Citation(
         file=str(result.path),
         program=f"{TITLE}, version {version}, BSD-3-Clause",
         method=METHOD,
         laws=laws,
-        data=_data((value.source, value.path) for value in result.values if value.grade),
+        data=_data((value.source, value.path) for one in each for value in one.values if value.grade),
         without_reference=without,
     )
 
@@ -113,12 +114,15 @@ def _laws(rows: Iterable[dict[str, str]]) -> tuple[list[LawReference], list[str]
                 bibtex=row.get("bibtex", ""),
             ),
         )
-        entry.elements.append(row["element"])
+        if row["element"] not in entry.elements:
+            entry.elements.append(row["element"])
     return list(found.values()), list(dict.fromkeys(without))
 
 
 def _data(pairs: Iterable[tuple[str, str]]) -> list[DataReference]:
     found: dict[str, DataReference] = {}
     for source, path in pairs:
-        found.setdefault(source, DataReference(source=source, values=[])).values.append(path)
+        values = found.setdefault(source, DataReference(source=source, values=[])).values
+        if path not in values:
+            values.append(path)
     return list(found.values())

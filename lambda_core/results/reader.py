@@ -23,6 +23,7 @@ from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP
 from lambda_core.results.event_rows import EVENTS_GROUP
 from lambda_core.results.integrity import check_model, heaps_are_whole
 from lambda_core.results.opening import (
+    BearingNeededError,
     ResultError,
     channels_of,
     check_alone,
@@ -135,7 +136,7 @@ class Result:
     def _chosen(self) -> str:
         """Return the bearing that is looked at; UsageError where none was chosen."""
         if not self.bearing:
-            raise UsageError(
+            raise BearingNeededError(
                 f"{self.path} has {len(self.bearing_names)} bearings: choose one, {' or '.join(self.bearing_names)} "
                 f'(--bearing {self.bearing_names[0]}, in Python result.bearings["{self.bearing_names[0]}"])'
             )

@@ -12,6 +12,7 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.domain.number_text import NONE, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.summary import Summary
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
@@ -103,13 +104,15 @@ def side_by_side(runs: Sequence[Result]) -> SideBySide:
     if len(runs) < 2:
         raise UsageError("a comparison needs at least two results")
     summaries = [run.summary() for run in runs]
+    of_machines = any(len(summary.bearings) > 1 for summary in summaries)
     numbers = [
         Number(name=name, unit=unit, values=[getattr(summary, field) for summary in summaries])
         for name, unit, field in _NUMBERS
+        if not of_machines or field in Summary.model_fields
     ]
     numbers += [
         Number(name=name, unit=unit, values=[getattr(summary.rating, field, None) for summary in summaries])
-        for name, unit, field in _RATED
+        for name, unit, field in (() if of_machines else _RATED)
     ]
     files = [str(run.path) for run in runs]
     return SideBySide(files=files, names=list(run_names(runs)), inputs=differing_inputs(runs), numbers=numbers)

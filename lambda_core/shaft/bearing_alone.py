@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import UsageError, unknown_name
@@ -11,6 +12,9 @@ from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.system.bearing import BearingModel, DofState, TimeFunction
 from lambda_core.system.machine import Machine
+
+if TYPE_CHECKING:
+    from lambda_core.results.reader import Result
 
 
 def bearing_number(machine: Machine, name: str | None) -> int:
@@ -47,6 +51,26 @@ def bearing_alone(machine: Machine, name: str | None, announce: Callable[[str], 
     """
     number = bearing_number(machine, name)
     return alone_under_load(machine, solve_shaft(machine, announce), number)
+
+
+def bearing_of_run(result: Result) -> BearingModel:
+    """Return the model of the bearing that a result looks at, from the case in its file.
+
+    Of a machine it is alone under the load that it carries at the start, see :func:`bearing_alone`.
+
+    Raises
+    ------
+    CaseError, SolverError
+        When the case does not resolve any more, or the machine has no equilibrium.
+    """
+    from lambda_core.case.case_io import parse_case, toml_tables
+    from lambda_core.system.checking import resolve
+    from lambda_core.system.resolve_machine import check_shaft
+
+    if not result.is_machine:
+        return resolve(parse_case(result.case_toml, str(result.path)))
+    machine = check_shaft(toml_tables(result.case_toml, str(result.path)))
+    return bearing_alone(machine, result.of_bearing().bearing)
 
 
 def alone_under_load(machine: Machine, state: ShaftState, number: int) -> BearingModel:

@@ -34,6 +34,8 @@ def steady_temperatures(
         if list(overrides):
             raise UsageError("the losses of a run take no overrides: they are those of its case")
         run = Result(Path(str(source)))
+        if run.is_machine:
+            raise UsageError(f"{run.path} is the run of a machine: thermal takes its case, or a run of one bearing")
         loop, found = of_run(run, resolve(parse_case(run.case_toml, str(run.path))), announce)
         return steady_of(loop, found, f"averages of {run.path}")
     model = model_of(source, overrides)

@@ -86,10 +86,9 @@ def _moment(run: RunData, time: float) -> tuple[int, dict[str, FloatArray]]:
     return row, run.sample(row, _CHANNELS)
 
 
-def _field(run: RunData, row: int, sample: dict[str, FloatArray], ball: int, ring: str) -> ContactField:
+def _field(run: Any, row: int, sample: dict[str, FloatArray], ball: int, ring: str) -> ContactField:
     """Assemble the model of the run again and run its pipeline at the recorded state."""
-    from lambda_core import api
-    from lambda_core.case.case_io import parse_case
+    from lambda_core.shaft.bearing_alone import bearing_of_run
     from lambda_core.solver.drivers.contact_field import contact_field, contact_state
     from lambda_core.solver.drivers.contact_memory import hand_over
     from lambda_core.solver.drivers.equilibrium import solve
@@ -97,7 +96,7 @@ def _field(run: RunData, row: int, sample: dict[str, FloatArray], ball: int, rin
     from lambda_core.system.state_channels import state_channels
 
     try:
-        context = solve(api.resolve(parse_case(run.case_toml, str(run.path)))).context
+        context = solve(bearing_of_run(run)).context
         _refuse_other_physics(run, context, ring)
         kept = run.sample(row, [channel.name for channel in state_channels(context.model)])
         place = _place(run, row, context, ball, ring)
