@@ -66,6 +66,14 @@ _LAW_COLUMNS = (
     "kernel_key",
 )
 _VALUE_COLUMNS = ("path", "value", "type", "quantity", "source", "grade", "status")
+_PAIR_COLUMNS = ("name", "value")
+TABLES = {  # of a bearing's inputs, and their columns
+    "values": _VALUE_COLUMNS,
+    "laws": _LAW_COLUMNS,
+    "observers": OBSERVER_COLUMNS,
+    "events": EVENT_COLUMNS,
+    "kernel_keys": _PAIR_COLUMNS,
+}
 
 
 def create(file: h5py.File, provenance: Provenance, channels: RunChannels) -> None:
@@ -223,7 +231,7 @@ def _sentences(group: h5py.Group, name: str, lines: Sequence[str]) -> None:
 
 
 def _pairs(group: h5py.Group, name: str, pairs: Mapping[str, str]) -> None:
-    _table(group, name, ("name", "value"), [{"name": key, "value": value} for key, value in pairs.items()])
+    _table(group, name, _PAIR_COLUMNS, [{"name": key, "value": value} for key, value in pairs.items()])
 
 
 def _table(group: h5py.Group, name: str, columns: Sequence[str], rows: Sequence[dict[str, str]]) -> None:

@@ -93,6 +93,18 @@ def check_model(model: Any) -> None:
         raise ValueError("its model is not whole")
 
 
+def check_machine(name: str, found: Mapping[str, Any]) -> None:
+    """Raise ValueError where the model of a machine, or a number of it, lacks what a summary asks it for."""
+    needed = {"model_json": ("speed",), "numbers_json": ("drive_torque",)}[name]
+    if not all(_is_number(found.get(key)) for key in needed):
+        raise ValueError(f"its machine has no number {needed[0]}")
+    seats = found.get("bearings", {}) if name == "model_json" else {}
+    if not isinstance(seats, Mapping) or not all(
+        isinstance(seat, Mapping) and _is_number(seat.get("position")) for seat in seats.values()
+    ):
+        raise ValueError("the bearings of its machine are not whole")
+
+
 def _is_number(value: object) -> bool:
     """Tell whether `float` reads it: what is endless is written as a word."""
     try:

@@ -21,7 +21,7 @@ from lambda_core.results import checkpoint
 from lambda_core.results import file_format as layout
 from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP
 from lambda_core.results.event_rows import EVENTS_GROUP
-from lambda_core.results.integrity import check_model, heaps_are_whole
+from lambda_core.results.integrity import check_machine, check_model, heaps_are_whole
 from lambda_core.results.opening import (
     BearingNeededError,
     ResultError,
@@ -252,6 +252,7 @@ class Result:
                 return {}
             text = str(file[layout.MACHINE][layout.INPUTS_GROUP][name].asstr()[()])
             found: dict[str, Any] = dict(json.loads(printable(text)))
+            check_machine(name, found)
         return found
 
     @cached_property
@@ -456,4 +457,6 @@ class Result:
         with opened(self.path) as file:
             table = self._inputs(file).get(name)  # a case without observers or events has no such table
             rows = layout.read_table(table) if table is not None else []
+            if rows and set(rows[0]) != set(layout.TABLES[name]):
+                raise ValueError(f"columns of its table {name} are missing")
         return [{key: printable(text) for key, text in row.items()} for row in rows]

@@ -33,7 +33,7 @@ def file(whole: Path, tmp_path: Path) -> Path:
 
 def replace_text(path: Path, name: str, text: str) -> None:
     with h5py.File(path, "r+") as stream:
-        group = stream[layout.INPUTS_GROUP]
+        group = stream[f"bearings/bearing/{layout.INPUTS_GROUP}"]
         del group[name]
         group[name] = text
 
