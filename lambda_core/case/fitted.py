@@ -6,12 +6,13 @@ from lambda_core.case.option import Section, option
 
 
 class FittedValue(Section):
-    """One fitted value of the case."""
+    """One value of a fit; one that the data do not determine has the spread of its range."""
 
     path: str = option(description="option of the case")
     value: float = option(description="fitted value in `unit`")
     standard_error: float = option(description="standard deviation in `unit`", ge=0.0)
     unit: str = option("", "unit of both; empty for plain numbers")
+    range: list[float] = option([], "ends of the range of a value that the data do not determine", max_length=2)
 
 
 class FitOrigin(Section):

@@ -21,6 +21,7 @@ from lambda_core.results.record import INTERFACE, Record
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
+    from lambda_core.case.fitted import FitOrigin
 
 QUANTITIES = ("friction torque", "power loss", "minimum film", "maximum pressure", "capacitance")
 _NORMAL = 1.6448536269514722  # standard deviations of a normal distribution within which 90 % lie
@@ -165,8 +166,8 @@ def _effects(case: Case, text: str, names: tuple[str, ...], base: FloatArray, le
 
     model = resolve_point(text, ())
     fitted = {} if case.fit is None else {row.path: row for row in case.fit.parameters}
-    if fitted:
-        yield _fitted(case, text, names, base)
+    if case.fit is not None:
+        yield from _fitted(case.fit, text, names, base)
     for graded in graded_parameters(model):
         if graded.path in fitted or not graded.low < graded.high:
             continue
@@ -195,25 +196,44 @@ def _with_law(case: Case, role: str, law: str) -> str:
     return standalone_toml(case.with_(models={role: law}, parameters={role: None}))
 
 
-def _fitted(case: Case, text: str, names: tuple[str, ...], base: FloatArray) -> _Effect:
-    """Return the effect of the fitted values: their principal components, one standard deviation each way."""
+def _fitted(fit: FitOrigin, text: str, names: tuple[str, ...], base: FloatArray) -> Iterator[_Effect]:
+    """Yield the effect of the errors of the fitted values, and of the ranges of values that were held.
+
+    Over the range of a held value the fitted ones follow their regression on it: the data hold for each of its values.
+    """
     from lambda_core.batch.job import resolve_point
 
-    assert case.fit is not None
-    rows, model = case.fit.parameters, resolve_point(text, ())
-    slopes = []
-    for row in rows:
-        graded = varied(model, f"{row.path}={_ends(row)}")
-        up, down = (
-            _logarithms(text, graded.changes(row.value + sign * row.standard_error), names, base)
-            for sign in (1.0, -1.0)
-        )
-        slopes.append(0.5 * (up - down))
-    sizes, vectors = np.linalg.eigh(np.array(case.fit.correlation))
-    parts = (np.sqrt(np.maximum(sizes, 0.0)) * vectors).T @ np.array(slopes)
-    # As alternatives whose variance is that of all components together.
-    deviation = np.sqrt(np.sum(parts**2, axis=0))
-    return _Effect("fitted values", f"fitted to {case.fit.file}", np.array([deviation, -deviation]), is_range=False)
+    rows, model = fit.parameters, resolve_point(text, ())
+    graded = [varied(model, f"{row.path}={_ends(row)}") for row in rows]
+    deviation = np.array([row.standard_error for row in rows])
+    matrix = np.array(fit.correlation) * np.outer(deviation, deviation)
+    values = np.array([row.value for row in rows])
+    held = np.array([bool(row.range) for row in rows])
+
+    def logarithms(moved: FloatArray) -> FloatArray:
+        changes = [
+            change for entry, number in zip(graded, moved.tolist(), strict=True) for change in entry.changes(number)
+        ]
+        return _logarithms(text, tuple(changes), names, base)
+
+    follow = np.zeros((len(rows), len(rows)))
+    if held.any():
+        follow[:, held] = matrix[:, held] @ np.linalg.inv(matrix[np.ix_(held, held)])
+    for index in np.flatnonzero(held):
+        ends = [logarithms(values + follow[:, index] * (end - values[index])) for end in rows[index].range]
+        yield _Effect(f"{graded[index].short} (not fitted)", graded[index].source, np.array(ends), is_range=True)
+    if held.all():
+        return
+    rest = matrix - follow @ matrix
+    sizes, vectors = np.linalg.eigh(rest[np.ix_(~held, ~held)])
+    parts = []
+    for size, vector in zip(sizes, vectors.T, strict=True):
+        step = np.zeros(len(rows))
+        step[~held] = math.sqrt(max(float(size), 0.0)) * vector
+        parts.append(0.5 * (logarithms(values + step) - logarithms(values - step)))
+    # As two alternatives with the variance of all components together.
+    total = np.sqrt(np.sum(np.square(parts), axis=0))
+    yield _Effect("fitted values", f"fitted to {fit.file}", np.array([total, -total]), is_range=False)
 
 
 def _ends(row: Any) -> str:

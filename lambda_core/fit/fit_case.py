@@ -31,6 +31,7 @@ from lambda_core.fit.report import (
     SuggestedPoint,
     known,
 )
+from lambda_core.fit.uncertainty import correlations
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
@@ -154,6 +155,7 @@ def _report(
             for test in found.tests
         ],
         correlation=found.correlations.tolist() if free else [],
+        posterior_correlation=correlations(found.posterior).tolist(),
         combinations=[
             ParameterCombination(weights=d.weights, spread=known(d.spread), is_determined=d.is_determined)
             for d in found.directions
@@ -177,6 +179,7 @@ def _rms(values: FloatArray) -> float:
 
 def _parameters(problem: CaseProblem, found: Fit) -> list[FittedParameter]:
     quantile, rows = found.quantile(), []
+    posterior = np.sqrt(np.diag(found.posterior)).tolist()
     for index, graded in enumerate(problem.varied):
         value, error = float(found.values[index]), float(found.standard_errors[index])
         is_held = index in found.held
@@ -187,6 +190,7 @@ def _parameters(problem: CaseProblem, found: Fit) -> list[FittedParameter]:
                 unit=graded.scale.unit,
                 value=value,
                 standard_error=known(error),
+                posterior_error=posterior[index],
                 interval_95=[] if is_held else [value - quantile * error, value + quantile * error],
                 start=found.parameters[index].start,
                 low=graded.low,

@@ -64,22 +64,28 @@ def fitted_case(
 
 
 def with_fit(case: Case, report: FitReport) -> Case:
-    """Return the case with the fitted values, an assumption for each, and the section `fit`."""
+    """Return the case with the fitted values, an assumption for each, and the section `fit`.
+
+    A parameter that the data do not determine keeps its value; the section has its range as a standard deviation, and
+    how the fitted values go with it.
+    """
     changes: dict[str, Any] = {}
-    rows, sentences = [], []
+    rows: list[dict[str, Any]] = []
+    sentences = []
     for parameter in report.parameters:
-        if parameter.standard_error is None:
-            continue
         number = float(f"{parameter.value:.{DIGITS}g}")
-        _set(changes, parameter.path, f"{number:.{DIGITS}g} {parameter.unit}" if parameter.unit else number)
         rows.append(
             {
                 "path": parameter.path,
                 "value": number,
-                "standard_error": float(f"{parameter.standard_error:.4g}"),
+                "standard_error": float(f"{parameter.posterior_error:.4g}"),
                 "unit": parameter.unit,
             }
         )
+        if parameter.standard_error is None:
+            rows[-1]["range"] = [parameter.low, parameter.high]
+            continue
+        _set(changes, parameter.path, f"{number:.{DIGITS}g} {parameter.unit}" if parameter.unit else number)
         shown = f"{compact(parameter.value, parameter.standard_error)} {parameter.unit}".rstrip()
         sentences.append(f"{parameter.path} {shown}: fitted to {len(report.points)} values of {report.file}")
     changes["assumptions"] = [*case.assumptions, *sentences]
@@ -89,7 +95,7 @@ def with_fit(case: Case, report: FitReport) -> Case:
         "date": report.date,
         "count": len(report.points),
         "parameters": rows,
-        "correlation": [[float(f"{value:.6g}") for value in row] for row in report.correlation],
+        "correlation": [[float(f"{value:.6g}") for value in row] for row in report.posterior_correlation],
     }
     return case.with_(**changes)
 

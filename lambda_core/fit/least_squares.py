@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.fit import uncertainty as U
+from lambda_core.fit.model_calls import Model, ModelCalls
 from lambda_core.fit.parameters import Parameter, bounds, spreads, starts
 from lambda_core.fit.residual_tests import ResidualTest, residual_tests
 
-Model = Callable[[FloatArray], FloatArray]
 _ROUNDS = 6  # of weights from the residuals of the round before
 _SETTLED = 0.02  # of a standard deviation, and of the scatter: change that ends the rounds
-_UPDATED = 0.3  # of a change, by which an updated Jacobian may miss it before it is computed anew
 _COSTLY_TOLERANCE = 1e-4  # relative change of the cost that ends a round of a costly model
 _NORMAL_MAD = 1.482602218505602  # standard deviation over median absolute deviation of a normal distribution
 _STEP = 1e-6  # of a parameter, for slopes where no Jacobian is given
@@ -86,6 +85,8 @@ class Fit:
         Combinations of all parameters, best determined first.
     scale : float
         Scatter of the residuals over `errors`, 1 where the errors are known.
+    factor : float
+        On (J^T J)^-1 of the covariance, above 1 where residuals are larger than their errors.
     tests : list of ResidualTest
         Whether residuals show a pattern.
     evaluations : int
@@ -105,6 +106,7 @@ class Fit:
     jacobian: FloatArray
     directions: list[U.Direction]
     scale: float
+    factor: float
     limit: float
     tests: list[ResidualTest]
     evaluations: int
@@ -163,9 +165,22 @@ class Fit:
 
         return float(t.ppf(0.5 + 0.5 * confidence, max(self.degrees, 1)))
 
+    @property
+    def posterior(self) -> FloatArray:
+        """Covariance of all parameters: held ones have their spread before the fit, which widens the others."""
+        if not self.held:
+            return self.covariance
+        spread = spreads(self.parameters)
+        weighted = self.jacobian / (self.errors * self.scale)[:, None]
+        information = weighted.T @ weighted / self.factor
+        information[self.held, self.held] += 1.0 / spread[list(self.held)] ** 2
+        scaled = np.linalg.inv(information * np.outer(spread, spread))
+        found: FloatArray = scaled * np.outer(spread, spread)
+        return found
+
     def prediction_deviation(self, gradients: FloatArray, errors: FloatArray | float = 0.0) -> FloatArray:
         """Return the standard deviation of predicted values, with those of new measurements where given."""
-        variance = U.prediction_variance(gradients, self.covariance)
+        variance = U.prediction_variance(gradients, self.posterior)
         found: FloatArray = np.sqrt(variance + (np.asarray(errors) * self.scale) ** 2)
         return found
 
@@ -177,66 +192,6 @@ class Fit:
         away = (np.asarray(truth) - self.values)[free]
         distance = float(away @ np.linalg.solve(self.covariance[np.ix_(free, free)], away))
         return distance <= len(free) * float(f.ppf(confidence, len(free), max(self.degrees, 1)))
-
-
-class _Recorder:
-    """A model that remembers its answers, and the best point so far."""
-
-    def __init__(self, model: Model, jacobian: Model | None, step: FloatArray) -> None:
-        self._model, self._jacobian, self._step = model, jacobian, step
-        self._values: dict[bytes, FloatArray] = {}
-        self._slopes: dict[bytes, FloatArray] = {}
-        self._last: tuple[FloatArray, FloatArray] | None = None
-        self.evaluations = 0
-        self.best: tuple[float, FloatArray] = (math.inf, np.zeros(0))
-
-    def values(self, point: FloatArray) -> FloatArray:
-        """Return the predicted values at a point."""
-        key = point.tobytes()
-        if key not in self._values:
-            self.evaluations += 1
-            self._values[key] = np.asarray(self._model(point), dtype=np.float64)
-        return self._values[key]
-
-    def slopes(self, point: FloatArray) -> FloatArray:
-        """Return the derivatives at a point."""
-        key = point.tobytes()
-        if key not in self._slopes:
-            self._slopes[key] = self._computed(point)
-            self._last = (point, self._slopes[key])
-        return self._slopes[key]
-
-    def near_slopes(self, point: FloatArray, spread: FloatArray) -> FloatArray:
-        """Return the derivatives at a point by an update of the last ones (Broyden 1965, Math. Comp. 19, 577)."""
-        if self._last is None or point.tobytes() in self._slopes:
-            return self.slopes(point)
-        before, slopes = self._last
-        step = (point - before) / spread
-        change = self.values(point) - self.values(before)
-        missed = change - (slopes * spread) @ step
-        if np.linalg.norm(missed) > _UPDATED * np.linalg.norm(change):
-            return self.slopes(point)
-        updated = slopes + np.outer(missed, step / (step @ step)) / spread
-        self._last = (point, updated)
-        return updated
-
-    def last_slopes(self, point: FloatArray, count: int) -> FloatArray:
-        """Return the derivatives at a point, or the last ones there are, without a call of the model."""
-        found = self._slopes.get(point.tobytes())
-        if found is None:
-            found = next(reversed(self._slopes.values()), np.zeros((count, point.size)))
-        return found
-
-    def _computed(self, point: FloatArray) -> FloatArray:
-        if self._jacobian is not None:
-            return np.asarray(self._jacobian(point), dtype=np.float64)
-        columns = []
-        for index, step in enumerate(self._step):
-            up, down = point.copy(), point.copy()
-            up[index], down[index] = point[index] + step, point[index] - step
-            self.evaluations += 2
-            columns.append((np.asarray(self._model(up)) - np.asarray(self._model(down))) / (up[index] - down[index]))
-        return np.column_stack(columns)
 
 
 def fit(
@@ -289,7 +244,7 @@ def fit(
             "vary fewer parameters or add operating points"
         )
     step = _STEP * np.maximum(np.abs(starts(parameters)), spreads(parameters) * 1e-3)
-    recorder = _Recorder(model, jacobian, step)
+    recorder = ModelCalls(model, jacobian, step)
     search = _Search(recorder, tuple(parameters), data, input_slopes, limit, is_costly)
     try:
         search.run([])
@@ -306,7 +261,7 @@ class _Search:
 
     def __init__(
         self,
-        recorder: _Recorder,
+        recorder: ModelCalls,
         parameters: tuple[Parameter, ...],
         data: Data,
         input_slopes: Model | None,
@@ -347,7 +302,7 @@ class _Search:
     def inseparable(self) -> list[int]:
         """Return the parameters that the data do not determine."""
         spread = spreads(self._parameters)
-        kept = U.separable(self._weighted(range(len(self._parameters))), spread, self._factor())
+        kept = U.separable(self._weighted(range(len(self._parameters))), spread, U.NORMAL_FACTOR)
         return [index for index in range(len(self._parameters)) if index not in kept]
 
     def stop(self) -> None:
@@ -373,7 +328,7 @@ class _Search:
         found = Fit(
             parameters, data, self._point, matrix, tuple(self._held),
             tuple(index for index in free if at_limit[index]), self._predicted(), self._errors, slopes,
-            U.directions(weighted, names, spreads(parameters), factor), self._scale, self._limit, [],
+            U.directions(weighted, names, spreads(parameters), U.NORMAL_FACTOR), self._scale, factor, self._limit, [],
             self._recorder.evaluations, self._interrupted,
         )  # fmt: skip
         if self._interrupted or found.degrees < 1:
@@ -429,6 +384,8 @@ class _Search:
             own = float(np.sum(residuals**2)) / (residuals.size - free)
             return max(1.0, own) if self._data.is_error_known else own
         own = U.robust_factor(residuals, free, self._limit)
+        # Where few points are left inside the limit, the robust formula overstates what the residuals show.
+        own = min(own, float(np.sum(residuals**2)) / (residuals.size - free))
         return own if math.isfinite(own) and own > U.NORMAL_FACTOR else U.NORMAL_FACTOR
 
     def _deviations(self) -> FloatArray:

@@ -104,7 +104,13 @@ def _errors(one: ComparedSeries) -> str:
 
 
 def measured_series() -> list[MeasuredSeries]:
-    """Return the measured series of the program, by name."""
+    """Return the measured series of the program.
+
+    Returns
+    -------
+    list of MeasuredSeries
+        Sorted by name, each with its source, licence, reading and uncertainty.
+    """
     folder = files(__package__).joinpath(_FOLDER)
     names = sorted(entry.name for entry in folder.iterdir() if entry.name.endswith(".toml"))
     return [_read(folder.joinpath(name).read_text(encoding="utf-8"), name) for name in names]
@@ -119,7 +125,7 @@ def compare_measured(
     Parameters
     ----------
     names : sequence of str
-        Names of :func:`measured_series`, or files of one's own: a TOML file with the same entries beside a CSV file of
+        Names of :func:`measured_series`, or files of one's own: a TOML file with the same entries next to a CSV file of
         the same name. All of the program when empty.
     band : bool
         Compute the 90 % model band at every point.

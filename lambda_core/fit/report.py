@@ -22,6 +22,7 @@ class FittedParameter(Record):
     unit: str
     value: float
     standard_error: float | None = Field(description="null for a parameter that is held")
+    posterior_error: float = Field(description="standard deviation; that of the range where the data say nothing")
     interval_95: list[float] = Field(description="95 % confidence interval; empty for a parameter that is held")
     start: float
     low: float = Field(description="lower end of its range")
@@ -81,24 +82,25 @@ class FitReport(Record):
     case: str
     title: str
     file: str
-    sha256: str
-    date: str
+    sha256: str = Field(description="hash of the file of measurements")
+    date: str = Field(description="when the fit was made")
     sentence: str = Field(description="what the data determine")
-    warnings: list[str]
-    parameters: list[FittedParameter]
+    warnings: list[str] = Field(description="what speaks against the fitted values")
+    parameters: list[FittedParameter] = Field(description="in the order in which they were named")
     correlation: list[list[float]] = Field(description="of the parameters that are not held, in their order")
-    combinations: list[ParameterCombination]
-    tests: list[PatternTest]
-    points: list[FittedPoint]
-    next_point: SuggestedPoint | None
+    posterior_correlation: list[list[float]] = Field(description="of all parameters, with the ranges of held ones")
+    combinations: list[ParameterCombination] = Field(description="best determined first")
+    tests: list[PatternTest] = Field(description="clearest pattern first")
+    points: list[FittedPoint] = Field(description="measured values, in the order of the file")
+    next_point: SuggestedPoint | None = Field(description="to measure next; null where none was looked for")
     scatter_pct: float | None = Field(description="standard deviation of the residuals; null where errors are known")
     chi_square_per_degree: float | None = Field(description="null where errors are not known")
     rms_error_pct: float = Field(description="root mean square of predicted over measured value less one")
     left_out_rms_error_pct: float = Field(description="the same where each point is predicted from all others")
-    degrees_of_freedom: int
+    degrees_of_freedom: int = Field(description="measured values less fitted parameters")
     evaluations: int = Field(description="equilibria solved")
-    seconds: float
-    is_interrupted: bool
+    seconds: float = Field(description="wall time")
+    is_interrupted: bool = Field(description="whether the values are the best before an interruption")
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
         """Return the lines for people."""

@@ -72,7 +72,7 @@ def test_the_fitted_case_predicts_what_was_fitted(report: api.FitReport, tmp_pat
     case = api.case(path)
     assert case.fit is not None
     assert case.fit.sha256 == report.sha256
-    assert case.fit.correlation == [[pytest.approx(v, abs=1e-5) for v in row] for row in report.correlation]
+    assert case.fit.correlation == [[pytest.approx(v, abs=1e-5) for v in row] for row in report.posterior_correlation]
     model = api.check(path)
     assert any("0.0400" in sentence and "rig.csv" in sentence for sentence in model.assumptions)
     assert model.laws["ball_inner"]["elastic_hysteresis"].parameters.loss_factor == pytest.approx(0.04, rel=1e-3)
