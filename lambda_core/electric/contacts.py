@@ -72,6 +72,11 @@ class Contacts:
     origin: str
 
     @property
+    def ball_count(self) -> int:
+        """Number of balls."""
+        return int(self.load.shape[1])
+
+    @property
     def loaded(self) -> NDArray[np.bool_]:
         """Where surfaces press against each other."""
         return self.load > 0.0

@@ -6,7 +6,7 @@ The tables hold voltages between samples and every film that breaks down.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import Channel
@@ -37,6 +37,24 @@ DISCHARGES: tuple[Channel, ...] = (
     Channel("area", (), "m2", "Hertzian area"),
     Channel("joined", (), "", "1 where metal joins the ball's other contact to its ring"),
 )
+
+
+def circuit_channels(bearings: int) -> tuple[Channel, ...]:
+    """Return what a run writes of its circuit between samples; several bearings stand along a dimension."""
+    if bearings == 1:
+        return CIRCUIT
+    time, *each = CIRCUIT
+    shaft = (
+        Channel("shaft_voltage_least", (), "V", "smallest since the sample before, rotor less frame"),
+        Channel("shaft_voltage_largest", (), "V", "largest since the sample before"),
+    )
+    return (time, *(replace(channel, dims=("bearing",)) for channel in each), *shaft)
+
+
+def discharge_channels(bearings: int) -> tuple[Channel, ...]:
+    """Return what a run writes of every film that broke down; of several bearings also in which one."""
+    own = (Channel("bearing", (), "", "number of the bearing in the file, from 0"),) if bearings > 1 else ()
+    return (*DISCHARGES, *own)
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.channels import CHANNELS, DIMENSIONS, Channel
 from lambda_core.results.averages import INTEGRALS
-from lambda_core.results.circuit_rows import CIRCUIT, CIRCUIT_GROUP, DISCHARGES, DISCHARGES_GROUP
+from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP, circuit_channels, discharge_channels
 from lambda_core.results.event_rows import (
     EVENT_COLUMNS,
     EVENTS,
@@ -104,8 +104,11 @@ def create(file: h5py.File, provenance: Provenance, channels: RunChannels) -> No
     first = next(iter(provenance.bearings))
     file.attrs["headline"] = file[f"{BEARINGS}/{first}"].attrs["headline"] if machine is None else machine.headline
     if any(model.electric is not None for model in provenance.models):
-        _series(file.create_group(CIRCUIT_GROUP), CIRCUIT, "time")
-        _series(file.create_group(DISCHARGES_GROUP), DISCHARGES, "time")
+        names, circuit = list(provenance.bearings), file.create_group(CIRCUIT_GROUP)
+        if len(names) > 1:
+            _scale(circuit, "bearing", names)
+        _series(circuit, circuit_channels(len(names)), "time")
+        _series(file.create_group(DISCHARGES_GROUP), discharge_channels(len(names)), "time")
     file.create_dataset(SLOTS, (2, 0), np.uint8, maxshape=(2, None), chunks=(1, _SLOT_CHUNK)).attrs["long_name"] = (
         "checkpoints, written in turn; bytes with a checksum"
     )

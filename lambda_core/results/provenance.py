@@ -167,7 +167,15 @@ def machine_data(model: Machine) -> dict[str, Any]:
 
     Of each array there stand its shape and two sums over its numbers: enough to tell whether it has changed.
     """
-    apart = ("bearings", "case_toml", "assumptions", "warnings", "heat", "awaits_temperatures")  # they are found before
+    apart = (
+        "bearings",
+        "electric",
+        "case_toml",
+        "assumptions",
+        "warnings",
+        "heat",
+        "awaits_temperatures",
+    )  # they are found before
     found = {field.name: plain(getattr(model, field.name)) for field in fields(model) if field.name not in apart}
     seats = {one.name: {**vars(one), "model": one.name} for one in model.bearings}
     return {**found, "bearings": plain(seats)}

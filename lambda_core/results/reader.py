@@ -208,12 +208,23 @@ class Result:
             return checkpoint.latest(slot.tobytes() for slot in file[layout.SLOTS][()])
 
     def circuit(self) -> dict[str, NDArray[np.float64]]:
-        """Return what the run wrote of its electric circuit: columns of circuit_rows.CIRCUIT, empty without one."""
-        return self._table(CIRCUIT_GROUP)
+        """Return what the run wrote of its electric circuit: columns of circuit_rows.CIRCUIT, empty without one.
+
+        Of a machine as a whole a column has one value per bearing, and the voltage of the shaft stands there, too.
+        """
+        found = self._table(CIRCUIT_GROUP)
+        if not self.bearing:
+            return found
+        number = self.bearing_names.index(self.bearing)
+        return {name: values[:, number] if values.ndim > 1 else values for name, values in found.items()}
 
     def discharges(self) -> dict[str, NDArray[np.float64]]:
         """Return every film that broke down in the run, column -> values, SI; empty where it has no circuit."""
-        return self._table(DISCHARGES_GROUP)
+        found = self._table(DISCHARGES_GROUP)
+        if not self.bearing or "bearing" not in found:
+            return found
+        own = found.pop("bearing") == self.bearing_names.index(self.bearing)
+        return {name: values[own] for name, values in found.items()}
 
     def events(self) -> dict[str, NDArray[np.float64]]:
         """Return when events of the case began: ``time`` [s], ``event``, the row of :attr:`watched_events`."""
@@ -224,7 +235,7 @@ class Result:
             if group not in file:
                 return {}
             count = layout.rows_of(f"{group}/time", self._status(file).rows)
-            return {name: data[:count] for name, data in file[group].items()}
+            return {name: data[:count] for name, data in file[group].items() if layout.grows(data)}
 
     # -- where it comes from --
 

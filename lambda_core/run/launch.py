@@ -160,13 +160,18 @@ def _prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Pr
     return engine, dataclasses.replace(provenance, bearings=origins), attached
 
 
+def _live(model: Runnable, announce: Announce | None) -> Live | None:
+    """Return the electric circuit of the run, where the case has one."""
+    if model.electric is None:
+        return None
+    from lambda_core.electric.live import Live
+
+    return Live(model, announce)
+
+
 def _one(model: BearingModel, announce: Announce | None) -> tuple[RunEngine, Provenance, Live | None]:
     """Prepare the run of one bearing alone."""
-    live = None
-    if model.electric is not None:
-        from lambda_core.electric.live import Live
-
-        live = Live(model, announce)
+    live = _live(model, announce)
     with naming_laws(model):
         start = solve(model, announce=announce)
     if announce is not None:
@@ -178,6 +183,7 @@ def _one(model: BearingModel, announce: Announce | None) -> tuple[RunEngine, Pro
 
 def _machine(model: Machine, announce: Announce | None) -> tuple[RunEngine, Provenance, Live | None]:
     """Prepare the run of a machine."""
+    live = _live(model, announce)
     with naming_laws(*(one.model for one in model.bearings)):
         engine = BlamingMachineEngine(machine_start(model, announce), announce)
     start = engine.start
@@ -202,7 +208,7 @@ def _machine(model: Machine, announce: Announce | None) -> tuple[RunEngine, Prov
         assumptions=model.assumptions,
         warnings=model.warnings,
     )
-    return SeveralBearings(engine), Provenance(model.name, title, model.case_toml, bearings, origin), None
+    return SeveralBearings(engine), Provenance(model.name, title, model.case_toml, bearings, origin), live
 
 
 _DIMS = {"bearings": "bearing", "bodies": "body", "markers": "marker"}  # lists of names, and their dimensions

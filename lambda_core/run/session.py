@@ -267,7 +267,7 @@ class Session:
             samples = replace(samples, bearings=each)
         self._writer.add_samples(samples)
         if self._live is not None and len(samples.time):
-            self._writer.add_circuit(self._live.take(next(iter(samples.bearings.values()))))
+            self._writer.add_circuit(self._live.take(samples.bearings))
 
     def _look(self, samples: Samples) -> None:
         """Keep what progress shows of the newest samples: of the bearing with the largest contact load."""

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lambda_core.case.electric import MachineElectric
 from lambda_core.domain.errors import LambdaError, unknown_name
 from lambda_core.domain.roles import ELECTRIC_ROLES, ROLES
 from lambda_core.laws.calls import plain_call
-from lambda_core.system.bearing import ChosenLaw, ElectricModel
+from lambda_core.system.bearing import BearingModel, ChosenLaw, ElectricModel
 from lambda_core.system.given_parameters import given_parameters
 from lambda_core.system.law_defaults import default_sentences
 from lambda_core.system.law_packages import law_called
 from lambda_core.system.ledger import Ledger
 
 if TYPE_CHECKING:
-    from lambda_core.case.electric import Electric, MachineElectric
+    from lambda_core.case.electric import Electric
     from lambda_core.system.resolve_laws import ModelSource
 
 
@@ -50,6 +52,17 @@ def resolve_machine_electric(
         if name not in bearings:
             ledger.problem(f"electric.bearings.{name}", unknown_name("bearing", name, bearings))
     return resolve_electric(options, registry, ledger)
+
+
+def with_circuits(models: Mapping[str, BearingModel], circuit: ElectricModel | None) -> dict[str, BearingModel]:
+    """Return the bearings of a machine, each with its own options of the machine's circuit."""
+    if circuit is None or not isinstance(circuit.options, MachineElectric):
+        return dict(models)
+    options = circuit.options
+    return {
+        name: replace(model, electric=replace(circuit, options=options.of_bearing(name)))
+        for name, model in models.items()
+    }
 
 
 def _law(role: str, options: Electric, registry: ModelSource, ledger: Ledger) -> ChosenLaw | None:

@@ -40,7 +40,7 @@ from lambda_core.system.machine_heat import check_heat, resolve_heat, stretch
 from lambda_core.system.machine_solver import changing, refuse_settings, with_settings
 from lambda_core.system.mounting import mounted, refuse_motion
 from lambda_core.system.reduced_shaft import reduced_shaft
-from lambda_core.system.resolve_electric import resolve_machine_electric
+from lambda_core.system.resolve_electric import resolve_machine_electric, with_circuits
 from lambda_core.system.resolve_materials import body_material
 from lambda_core.system.rigid_bodies import (
     all_loads,
@@ -175,6 +175,7 @@ def _shaft(
     bodies = rigid_bodies(case, catalogue, ledger)
     springs = connections(case, stand, ledger)
     electric = resolve_machine_electric(case.electric, list(case.bearings), registry(), ledger)
+    models = with_circuits(models, electric)
     strain = around.thermal_expansion * (case.housing.temperature - REFERENCE_TEMPERATURE) if around else 0.0
     bearings = sorted(
         (

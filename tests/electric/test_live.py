@@ -48,7 +48,7 @@ def test_samples_may_come_in_any_pieces(run: Result, size: int) -> None:
     live = Live(api.check(CASE, CHANGES))
     samples = {name: run[name] for name in CHANNELS}
     parts = [
-        live.take({name: values[i : i + size] for name, values in samples.items()})
+        live.take({"bearing": {name: values[i : i + size] for name, values in samples.items()}})
         for i in range(0, samples["time"].size, size)
     ]
     for kind, whole in (("circuit", run.circuit()), ("discharges", run.discharges())):

@@ -96,3 +96,46 @@ def test_a_case_without_the_section_gets_defaults(tmp_path: Path) -> None:
     assert api.check_shaft(path).electric is None
     found = api.electric(path, ["electric.duration=1 ms"])
     assert list(found.bearings) == ["drive_end", "other_end"]
+
+
+SOFT = ["solver.duration=0.012 s", "electric.seed=3"]
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> api.Result:
+    return api.run(MOTOR, SOFT, out=tmp_path_factory.mktemp("motor") / "motor.h5")
+
+
+def test_circuit_beside_a_run_of_a_machine(run: api.Result) -> None:
+    """What was written while it ran is what the command finds afterwards, bearing by bearing, bit for bit."""
+    found = api.electric(run.path)
+    both = run.whole().circuit()
+    assert both["bearing_voltage_least"].shape[1] == 2
+    assert both["shaft_voltage_largest"].max() >= both["bearing_voltage_largest"][:, 0].max()
+    counted = 0
+    for name, simulation in found.bearings.items():
+        one = run.bearings[name]
+        begin, written = simulation.time[0], one.discharges()
+        events = simulation.events
+        for column in ("time", "ball", "ring", "energy", "bearing_voltage"):
+            late = written[column][written["time"] >= begin]
+            assert late.tobytes() == getattr(events, column).astype(float).tobytes(), (name, column)
+        inside = one.circuit()["time"] > begin
+        least = one.circuit()["bearing_voltage_least"][inside]
+        assert least.tobytes() == simulation.solution.extremes[:, 0].tobytes()
+        counted += written["time"].size
+    every = run.whole().discharges()
+    assert counted == every["time"].size > 0
+    assert (every["discharge"][1:] >= every["discharge"][:-1]).all()
+
+
+def test_a_longer_run_goes_on_with_its_circuit(run: api.Result, tmp_path: Path) -> None:
+    api.run(MOTOR, [*SOFT, "solver.duration=0.006 s"], out=tmp_path / "short.h5")
+    longer = api.resume(tmp_path / "short.h5", ["solver.duration=0.012 s"])
+    for one, other in (
+        (longer.whole().circuit(), run.whole().circuit()),
+        (longer.whole().discharges(), run.whole().discharges()),
+    ):
+        assert one.keys() == other.keys()
+        for name, values in other.items():
+            assert one[name].tobytes() == values.tobytes(), name
