@@ -9,7 +9,6 @@ import argparse
 import ast
 import re
 import subprocess
-from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -61,11 +60,6 @@ def _parameters(tree: Tree) -> int:
     rooms = ("plugins", "examples", "docs", "lambda_core")
     pages = {name: text for suffix in (".py", ".md") for name, text in tree.files(*rooms, suffix=suffix).items()}
     return _lines({name: text for name, text in pages.items() if name != "docs/house.md"}, r"par\[[0-9]")
-
-
-def _equal_names(tree: Tree) -> int:
-    names = Counter(name.rpartition("/")[2] for name in tree.core)
-    return sum(count > 1 for name, count in names.items() if not name.startswith("__"))
 
 
 def _imports(text: str) -> Iterator[str]:
@@ -144,7 +138,6 @@ class Figure:
 FIGURES = (
     Figure("lines of the core that read an array by a constant that stands for a name", "0", _index_reads, 0),
     Figure("lines that read a law's parameters by position", "0", _parameters, 0),
-    Figure("names that two modules of the core share", "<= 3", _equal_names, 3),
     Figure(
         "files that declare the type of an array of floats", "1",
         lambda tree: _with(tree.files(*_OURS, "tests", "benchmarks"), _DECLARED), 1,
@@ -160,7 +153,7 @@ FIGURES = (
     ),
     Figure("imports of the faces past api, domain and views", "0", _past_the_api, 0),
     Figure("lines of the paper inside the core", "0", _paper, 0),
-    Figure("lines of api.py", "<= 100", lambda tree: _api(tree), 100),
+    Figure("lines of api.py", "<= 120", lambda tree: _api(tree), 120),
     Figure("lines of the longest module", "<= 500", _longest, 500),
     Figure("lines of the longest function below its docstring", "", lambda tree: max(_functions(tree))),
     Figure(
