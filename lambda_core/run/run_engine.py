@@ -108,7 +108,7 @@ class SeveralBearings:
     def samples(self) -> Samples:
         """Return and clear the buffered samples."""
         found = self._engine.samples()
-        return Samples(found.whole[TIME], found.whole, dict(zip(self._names, found.each, strict=True)))
+        return Samples(found.machine[TIME], found.machine, dict(zip(self._names, found.bearings, strict=True)))
 
     def integrals(self) -> dict[str, dict[str, float]]:
         """Return the running integrals of every bearing by its name."""

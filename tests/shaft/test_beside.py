@@ -159,7 +159,7 @@ def test_a_housing_in_motion(model: Machine) -> None:
         losses = sum(value for name, value in row.items() if name.startswith("loss"))
         assert abs(row["input"] - losses - row["stored"]) < 1e-3 * row["input_abs"]
     samples = engine.samples()
-    moved = samples.whole["body_position"][:, 0] - engine.start.state.bodies[0, :3]
+    moved = samples.machine["body_position"][:, 0] - engine.start.state.bodies[0, :3]
     assert 0.0 < np.abs(moved).max() < 5e-6  # the ball passage shakes it, no more
 
 

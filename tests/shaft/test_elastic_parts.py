@@ -75,7 +75,7 @@ def test_motion_of_one_bearing(whole: MachineEngine) -> None:
     assert one.advance(2e-3).ok
     assert engine.advance(2e-3).ok
     samples, other = engine.samples(), one.samples()
-    (both,) = samples.each
+    (both,) = samples.bearings
     for name in ("outer_ring_waves_2", "outer_ring_waves_3", "outer_ring_ovality", "load", "ball_azimuth"):
         times, values = both["time"], both[name].reshape(both["time"].size, -1)
         reference = other[name].reshape(other["time"].size, -1)

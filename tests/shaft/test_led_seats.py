@@ -67,15 +67,15 @@ def test_a_shaft_follows_seats_that_move() -> None:
     moved, alike = engine.samples(), still.samples()
     assert moved is not None
     assert alike is not None
-    t = moved.whole["time"]
-    rings = [samples["body_position"][:, OUTER] for samples in moved.each]
+    t = moved.machine["time"]
+    rings = [samples["body_position"][:, OUTER] for samples in moved.bearings]
     assert rings[0][:, 2] == pytest.approx(np.minimum(t / 4e-3, 1.0) * 2e-5, abs=1e-12)
     assert rings[1][:, 0] == pytest.approx(2e-6 * np.sin(2.0 * np.pi * 250.0 * t), abs=1e-12)
-    speed = moved.each[1]["body_velocity"][:, OUTER, 0]
+    speed = moved.bearings[1]["body_velocity"][:, OUTER, 0]
     assert speed == pytest.approx(2e-6 * 500.0 * np.pi * np.cos(500.0 * np.pi * t), abs=1e-9)
     late = t > 6e-3
-    risen = moved.whole["shaft_position"][late, :, 2].mean(axis=0) - alike.whole["shaft_position"][
-        alike.whole["time"] > 6e-3, :, 2
+    risen = moved.machine["shaft_position"][late, :, 2].mean(axis=0) - alike.machine["shaft_position"][
+        alike.machine["time"] > 6e-3, :, 2
     ].mean(axis=0)
     assert risen == pytest.approx(2e-5, abs=1e-6)
     row = engine.integrals()[0]
@@ -115,11 +115,11 @@ def test_a_body_that_is_shaken_does_work() -> None:
     engine = machine_engine(check_shaft(boxed({"y": {"motion": swing}, "x": {"motion": "3 um"}})))
     assert engine.advance(8e-3).ok
     samples = engine.samples()
-    t = samples.whole["time"]
+    t = samples.machine["time"]
     expected = 1e-5 * np.sin(200.0 * np.pi * t)
-    assert samples.whole["body_position"][:, 0, 1] == pytest.approx(expected, abs=1e-12)
-    assert samples.whole["body_position"][:, 0, 0] == pytest.approx(3e-6, abs=1e-12)
-    shaft = samples.whole["shaft_position"][:, :, 1].mean(axis=1)
+    assert samples.machine["body_position"][:, 0, 1] == pytest.approx(expected, abs=1e-12)
+    assert samples.machine["body_position"][:, 0, 0] == pytest.approx(3e-6, abs=1e-12)
+    shaft = samples.machine["shaft_position"][:, :, 1].mean(axis=1)
     size = np.linalg.lstsq(np.column_stack([expected, np.ones(t.size)]), shaft, rcond=None)[0][0]
     assert size == pytest.approx(1.0, abs=0.15)
     row = engine.integrals()[0]

@@ -164,8 +164,8 @@ def test_a_shaft_that_twists() -> None:
     assert min(expected, key=abs) != 0.0
     assert engine.advance(1e-3).ok
     samples, rows = engine.samples(), engine.integrals()
-    assert samples.whole["shaft_twist"][-1] == pytest.approx(expected, rel=0.01)
-    assert samples.each[0]["body_spin"][:, 0] == pytest.approx(100.0 * np.pi, rel=1e-4)
+    assert samples.machine["shaft_twist"][-1] == pytest.approx(expected, rel=0.01)
+    assert samples.bearings[0]["body_spin"][:, 0] == pytest.approx(100.0 * np.pi, rel=1e-4)
     for row in rows:
         losses = sum(value for name, value in row.items() if name.startswith("loss"))
         assert abs(row["input"] - losses - row["stored"]) < 1e-3 * row["input_abs"]
@@ -280,7 +280,7 @@ def test_what_does_not_go_together(folder: Path, capsys: pytest.CaptureFixture[s
     for arguments, said in (
         (["run", str(folder / "box.toml"), "--duration", "soon"], "duration"),
         (["run", str(folder / "box.toml"), "--out", str(folder / "part.h5")], "exists"),
-        (["show", str(folder / "part.h5"), "--bearing", "middle"], 'has no bearing "middle"'),
+        (["show", str(folder / "part.h5"), "--bearing", "middle"], '"middle" is not a known bearing'),
         (["resume", str(folder / "part.h5"), "--duration", "1 ms"], "nothing is left to do"),
     ):
         assert main(arguments) in (2, 3)
@@ -299,8 +299,8 @@ def test_what_changes_over_time() -> None:
     engine = machine_engine(check_shaft(changed))
     assert engine.advance(2e-3).ok
     t, samples, rows = engine.time, engine.samples(), engine.integrals()
-    ramped = np.pi / 30.0 * (500.0 + 2500.0 * samples.each[0]["time"] / 4e-3)
-    assert samples.each[0]["body_spin"][:, 0] == pytest.approx(ramped, rel=1e-9)
+    ramped = np.pi / 30.0 * (500.0 + 2500.0 * samples.bearings[0]["time"] / 4e-3)
+    assert samples.bearings[0]["body_spin"][:, 0] == pytest.approx(ramped, rel=1e-9)
     angle = np.pi / 30.0 * (500.0 * t + 0.5 * 2500.0 * t * t / 4e-3)
     for row in rows:
         assert row["inner_angle"] == pytest.approx(angle, rel=1e-4)

@@ -94,7 +94,7 @@ def test_the_own_beam_from_a_file_runs_as_itself(beam: Machine, tmp_path: Path) 
         engine.sample_interval = 1e-4
         assert engine.advance(1e-3).ok
         samples = engine.samples()
-        found.append(samples.whole)
+        found.append(samples.machine)
     for name in ("time", "shaft_position", "shaft_tilt", "reaction_force", "power_loss"):
         assert found[1][name] == pytest.approx(found[0][name], abs=1e-9 * np.abs(found[0][name]).max()), name
 

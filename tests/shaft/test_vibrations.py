@@ -53,7 +53,7 @@ def ringing(solver: dict[str, Any]) -> Callable[[FloatArray], FloatArray]:
         assert engine.advance(0.0105).ok
         samples = engine.samples()
         wheel = int(np.argmin(np.abs(engine.start.shaft.positions - WHEEL)))
-        found.append(CubicSpline(samples.whole["time"], samples.whole["shaft_position"][:, wheel, 2]))
+        found.append(CubicSpline(samples.machine["time"], samples.machine["shaft_position"][:, wheel, 2]))
     up, down = found
     return lambda at: 0.5 * np.asarray(up(at) - down(at))
 
@@ -227,9 +227,9 @@ def lines(solver: dict[str, Any]) -> tuple[FloatArray, FloatArray]:
     engine._memory.control["sample_interval"] = 1.0 / rate
     assert engine.advance(0.062).ok
     samples = engine.samples()
-    after = samples.whole["time"] > 0.01
+    after = samples.machine["time"] > 0.01
     lump = int(np.argmin(np.abs(engine.start.shaft.positions - 0.148)))
-    moved = samples.whole["shaft_position"][after][:count, lump, 1:]
+    moved = samples.machine["shaft_position"][after][:count, lump, 1:]
     window, frequency = np.hanning(count)[:, None], np.fft.rfftfreq(count, 1.0 / rate)
     size = 2.0 * np.abs(np.fft.rfft((moved - moved.mean(axis=0)) * window, axis=0)) / window.sum()
     return frequency, size * (2.0 * np.pi * frequency)[:, None]

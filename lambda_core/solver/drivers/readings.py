@@ -160,8 +160,8 @@ class BearingReadings:
 class MachineSamples:
     """What was sampled: of the machine, and of every bearing as a run of it alone has it."""
 
-    whole: Channels
-    each: list[Channels]
+    machine: Channels
+    bearings: list[Channels]
 
 
 class MachineReadings:
@@ -215,7 +215,7 @@ class MachineReadings:
         """Return what is read at samples, which follow those of the last call."""
         flat = self.shared(times, states)
         found = [self._observed(one, times, states, flat) for one in self.bearings]
-        whole = {
+        machine = {
             "time": times,
             **self._members(times, flat),
             "reaction_force": np.stack([wrenches[:, :3] for _, wrenches in found], axis=1),
@@ -226,14 +226,14 @@ class MachineReadings:
         for i, channels in enumerate(each):
             self._add_up(i, channels)
         self._last_time = float(times[-1])
-        return MachineSamples(whole, each)
+        return MachineSamples(machine, each)
 
     def joined(self, blocks: list[MachineSamples]) -> MachineSamples:
         """Return blocks one after the other in time as one; without blocks there is no channel but an empty time."""
         if not blocks:
             return MachineSamples({"time": np.zeros(0)}, [{} for _ in self.bearings])
-        whole = _joined([block.whole for block in blocks])
-        return MachineSamples(whole, [_joined([block.each[i] for block in blocks]) for i in range(len(self.bearings))])
+        each = [_joined([block.bearings[i] for block in blocks]) for i in range(len(self.bearings))]
+        return MachineSamples(_joined([block.machine for block in blocks]), each)
 
     def channels(self, number: int, time: float, y: FloatArray) -> Channels:
         """Return every channel of a bearing at a state."""
