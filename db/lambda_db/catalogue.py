@@ -13,7 +13,7 @@ from sqlalchemy.orm import Session
 from lambda_core.catalogue.designation import without_suffixes
 from lambda_core.catalogue.protocol import BearingRow, CageRow, ClearanceRow, LubricantRow, MaterialRow, Shadow
 from lambda_core.catalogue.suffixes import Suffix
-from lambda_core.domain.errors import CatalogueError, Problem, unknown_name
+from lambda_core.domain.errors import CatalogueError, Problem, nearest, unknown_name
 from lambda_db import build, rows
 from lambda_db.engine import file_uri, sqlite_engine
 from lambda_db.models import (
@@ -120,16 +120,26 @@ class SqlCatalogue:
             query = select(Bearing).where(Bearing.designation.collate("NOCASE") == wanted).order_by(Bearing.maker)
             found = list(session.scalars(query))
             if not found:
-                raise _error("designation", unknown_name("bearing", designation, self.names("bearing")))
+                names = self._names_of(session, maker) or self.names("bearing")
+                raise _error("designation", unknown_name("bearing", designation, names))
             makers = ", ".join(row.maker for row in found)
             if maker is not None:
                 found = [row for row in found if row.maker.casefold() == maker.strip().casefold()]
                 if not found:
-                    raise _error("maker", f'"{maker}" is not a maker of {wanted} in the catalogue; makers: {makers}')
+                    close = nearest(wanted, self._names_of(session, maker))
+                    said = f'"{maker}" is not a maker of {wanted} in the catalogue; makers: {makers}'
+                    raise _error("maker", f"{said}; {maker} has {', '.join(close)}" if close else said)
             if len(found) > 1:
                 several = f'"{wanted}" stands in the catalogue from several makers, choose one: {makers}'
                 raise _error("maker", f'{several} (as in "{found[0].maker} {wanted}")')
             return self._bearing_rows(session, found)[0]
+
+    def _names_of(self, session: Session, maker: str | None) -> list[str]:
+        """Return the designations of one maker (case ignored); none of a maker that the catalogue does not know."""
+        if maker is None:
+            return []
+        query = select(Bearing.designation).where(Bearing.maker.collate("NOCASE") == maker.strip())
+        return list(session.scalars(query))
 
     def _bearing_rows(self, session: Session, found: Sequence[Bearing]) -> list[BearingRow]:
         keys = [(row.designation, row.maker) for row in found]
@@ -162,8 +172,6 @@ class SqlCatalogue:
     @staticmethod
     def _names_or_nearest_alias(name: str, names: list[str], aliases: Any) -> list[str]:
         """Offer aliases only if no proper name is near: they are many and long."""
-        from lambda_core.domain.errors import nearest
-
         spelled = list(aliases)
         return names if nearest(name, names) or not nearest(name, spelled) else spelled
 

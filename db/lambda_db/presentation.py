@@ -211,6 +211,10 @@ def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> BearingRow | 
             return look_up(name)
         except CatalogueError:
             continue
+    before, _, last = " ".join(name.split()).rpartition(" ")
+    makers = {row.maker.casefold() for row in catalogue.bearings("", 1_000_000)}
+    if before.casefold() in makers:  # the maker is right: of its own bearings
+        return catalogue.bearing(last, before)
     known = [*bearings, *catalogue.names("lubricant"), *catalogue.names("material"), *catalogue.names("cage")]
     raise CatalogueError(
         "catalogue", [Problem("name", unknown_name("bearing, lubricant, material or cage", name, known))]
