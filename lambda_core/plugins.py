@@ -14,6 +14,7 @@ from lambda_core.laws.context import Context, Material, Oil
 from lambda_core.laws.law import Law, LazyLaw, law
 from lambda_core.laws.parameter import NoParameters, Parameters, parameter
 from lambda_core.laws.state import State
+from lambda_core.laws.vector_math import asinh, asinh_of, asinh_quotient, exp, log, log1p, power
 from lambda_core.views.chart import Arrows, Axis, Field, Mark, Panel, Series, ViewData
 from lambda_core.views.method import METHOD_API, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 from lambda_core.views.observer import EVENT_API, OBSERVER_API, Event, Integral, Number, Observer, Samples
@@ -72,10 +73,17 @@ __all__ = [
     "StudyTable",
     "View",
     "ViewData",
+    "asinh",
+    "asinh_of",
+    "asinh_quotient",
     "built_in",
+    "exp",
     "gap_capacitance",
     "hertz_shape",
     "hookimpl",
     "law",
+    "log",
+    "log1p",
     "parameter",
+    "power",
 ]

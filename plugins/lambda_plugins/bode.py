@@ -11,10 +11,9 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from lambda_core.plugins import OK, Context, FloatArray, Parameters, law, parameter
+from lambda_core.plugins import OK, Context, FloatArray, Parameters, exp, law, log1p, parameter
 from lambda_plugins.rheology import capped
 from lambda_plugins.shapes import at_least, at_most
-from lambda_plugins.vector_math import exp, log1p
 
 _T_LOW = 223.15  # [K]
 _T_HIGH = 573.15  # [K]; N(T) of the published oil turns negative near 660 K

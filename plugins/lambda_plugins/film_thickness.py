@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import Annotated, NamedTuple
 
-from lambda_core.plugins import OK, Context, FloatArray, Parameters, Quantity, law, parameter
+from lambda_core.plugins import OK, Context, FloatArray, Parameters, Quantity, exp, law, log, parameter, power
 from lambda_plugins.shapes import at_least, at_most
-from lambda_plugins.vector_math import exp, log, power
 
 
 class Floors(Parameters):

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from lambda_core.plugins import OK, FloatArray, Parameters, Quantity, law, parameter
+from lambda_core.plugins import OK, FloatArray, Parameters, Quantity, asinh_of, asinh_quotient, exp, law, parameter
 from lambda_plugins.shapes import at_least, at_most, corner, smooth_min, smooth_min_by
-from lambda_plugins.vector_math import asinh_of, asinh_quotient, exp
 
 # ln(eta) is held between them: far outside any liquid, with room to spare for exp()
 _LOG_ETA_MIN = -60.0

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from lambda_plugins import vector_math
 from numba import float64, njit
 
+from lambda_core.laws import vector_math
 from lambda_core.laws.jit.machine_code import OPTIONS, make_callable
 from lambda_core.laws.jit.reach import reach
 
