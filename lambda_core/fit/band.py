@@ -16,6 +16,7 @@ from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, SolverError
 from lambda_core.fit.graded import exchanges, graded_parameters, varied
 from lambda_core.fit.operating_points import UNITS_OF, point_values
+from lambda_core.fit.quantities import MEASURED
 from lambda_core.fit.scores import COVERAGE, rounded
 from lambda_core.results.record import INTERFACE, Record
 
@@ -24,6 +25,10 @@ if TYPE_CHECKING:
     from lambda_core.case.fitted import FitOrigin
 
 QUANTITIES = ("friction torque", "power loss", "minimum film", "maximum pressure", "capacitance")
+_FIELDS = {
+    **{name: measured.response for name, measured in MEASURED.items()},
+    "maximum pressure": "max_pressure_GPa",
+}
 _NORMAL = 1.6448536269514722  # standard deviations of a normal distribution within which 90 % lie
 _NAMED = 3  # largest contributors
 _LEAST_SHARE = 0.02  # of the variance of a contributor that is named
@@ -76,9 +81,14 @@ class ModelBand(Record):
         """Return the band of one result."""
         return next(band for band in self.bands if band.quantity == quantity)
 
+    def fields(self) -> dict[str, list[float]]:
+        """Return the ends of each band under the name of its number in the machine interface, with ``_band``."""
+        return {f"{_FIELDS[band.quantity]}_band": [band.low, band.high] for band in self.bands}
+
     def text(self) -> str:
-        """Return one line per result."""
-        return "\n".join([*(band.text() for band in self.bands), *self.left_out])
+        """Return a heading and one line per result."""
+        head = "model band, quasi-static, mean over the positions of the balls:"
+        return "\n".join([head, *(band.text() for band in self.bands), *self.left_out])
 
 
 @dataclass(frozen=True)
@@ -129,7 +139,7 @@ def model_band(
     Returns
     -------
     ModelBand
-        ``text()`` has one line per result.
+        ``text()`` has a line per result.
 
     Raises
     ------

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
+from lambda_cli.main import main
 
 from lambda_core import api
 from lambda_core.fit.measurements import parse_measurements
@@ -60,6 +62,7 @@ def test_the_band_names_what_it_comes_from() -> None:
     assert not found.left_out
 
 
+@pytest.mark.full
 def test_the_errors_of_a_fit_replace_the_ranges(tmp_path: Path) -> None:
     head = "speed [1/min],radial load [kN],friction torque [N mm],friction torque error [%]\n"
     measured = parse_measurements(head + "500,8,440,1\n500,16,900,1\n500,24.6,1560,1\n500,30,2020,1", "rig.csv")
@@ -71,3 +74,13 @@ def test_the_errors_of_a_fit_replace_the_ranges(tmp_path: Path) -> None:
     assert "elastic_hysteresis.loss_factor" not in {c.name for c in after.contributors}
     assert "law of elastic_hysteresis" not in {c.name for c in after.contributors}
     assert after.half_width_pct < 0.9 * before.half_width_pct
+
+
+def test_the_command_prints_the_band_and_writes_it_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["quasistatic", "6319-cp10-500", "--band", "-q"]) == 0
+    assert "90 % model band" in capsys.readouterr().out
+    assert main(["quasistatic", "6319-cp10-500", "--band", "--json", "-q"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    low, high = found["friction_torque_Nmm_band"]
+    assert low < found["friction_torque_Nmm"] < high
+    assert len(found["min_film_um_band"]) == 2

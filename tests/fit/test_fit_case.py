@@ -81,6 +81,7 @@ def test_the_fitted_case_predicts_what_was_fitted(report: api.FitReport, tmp_pat
         api.fitted_case(CASE, report, path)
 
 
+@pytest.mark.full
 def test_the_temperature_error_of_the_oil_widens_the_errors(rows: list[str], report: api.FitReport) -> None:
     head = HEADER + ",oil temperature error [K]"
     measured = parse_measurements("\n".join([head, *(f"{row},0.5" for row in rows)]), "rig.csv")
