@@ -29,7 +29,10 @@ _NAMED = {
                          usual=("spring", "damper", "mount")),
     "loads": Named("Loads", "forces and moments at a place, over time", "load", {}, usual=("belt", "load")),
 }  # fmt: skip
-_TITLES = {"operation": "Drive", "materials": "Materials", "surface": "Surfaces", "life": "Rating life"}
+_TITLES = {
+    "operation": "Drive", "materials": "Materials", "surface": "Surfaces", "life": "Rating life",
+    "thermal": "Thermal network",
+}  # fmt: skip
 # What comes first on the form of a table: what each of them needs
 _FIRST: dict[str, tuple[str, ...]] = {
     "bearings": ("designation", "at", "outer", "takes", "preload", "preload_force"),
@@ -43,6 +46,8 @@ _BELOW: dict[Keys, dict[str, str]] = {
         "geometry": "Inner geometry",
         "fits": "Fits",
         "temperatures": "Temperatures",
+        "lubricant": "Its oil",
+        "lubricant.properties": "Properties of its oil",
         "elastic.outer_ring": "Elastic outer ring",
         "elastic.inner_ring": "Elastic inner ring",
         "elastic.cage": "Elastic cage",
@@ -79,6 +84,9 @@ def shaft_outline(names: Names | None = None) -> list[Node]:
         else:
             node = Node(section, _title(section), about(ShaftCase, (section,)), [_group((section,))])
             node.children = _below((section,), section)
+            if section == "thermal":
+                node.help += "; nodes and links are written in the file"
+                node.in_file = [("thermal", "nodes"), ("thermal", "links")]
             nodes.append(node)
     return nodes
 
@@ -103,7 +111,9 @@ def _shaft(names: Names) -> Node:
         for number in names.get(SECTIONS, ())
     ]  # fmt: skip
     words = about(ShaftCase, ("shaft",))
-    return Node("shaft", "Shaft", words, [_group(("shaft",))], pieces, kind="named", section=_PIECES, table=table)
+    node = Node("shaft", "Shaft", words, [_group(("shaft",))], pieces, kind="named", section=_PIECES, table=table)
+    node.in_file = [("shaft", "temperatures")]
+    return node
 
 
 def _named(section: str, names: tuple[str, ...]) -> Node:
@@ -121,6 +131,7 @@ def _named(section: str, names: tuple[str, ...]) -> Node:
         node.children = _below(table, node.key, heading=f"{name} · ")
         if section == "bearings":
             node.children.append(_own_laws(table))
+            node.in_file = [(*table, "thermal", "nodes")]
         nodes.append(node)
     return Node(section, what.title, what.about, children=nodes, kind="named", section=what, table=(section,))
 

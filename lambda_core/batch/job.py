@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import LambdaError, UsageError
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from lambda_core.solver.drivers.equilibrium import Equilibrium
     from lambda_core.system.bearing import BearingModel
     from lambda_core.system.machine import Machine
+
+_Model = TypeVar("_Model", "BearingModel", "Machine", "BearingModel | Machine")
 
 RUNS = "runs"
 State = Literal["done", "partial", "failed", "stopped", "pending"]
@@ -73,8 +75,6 @@ class Outcome:
 @one_blas_thread()
 def work(task: Task) -> Outcome:
     """Do one task; never raises for what is wrong with the point."""
-    from lambda_core.system.machine import Machine
-
     global _asked_to_stop
     start = time.perf_counter()
     hash_, state, reason, values, file = "", "failed", "", {}, ""
@@ -85,7 +85,7 @@ def work(task: Task) -> Outcome:
         _be_ready(task.guests)
         model = point_model(task.case_toml, task.changes)
         hash_ = point_hash(model)
-        model = machine_with_temperatures(model) if isinstance(model, Machine) else with_temperatures(model)
+        model = with_temperatures(model)
         if task.mode == "quasi-static":
             state, values = "done", static_values(model, task.responses)
         else:
@@ -153,20 +153,17 @@ def bearing_names(model: BearingModel | Machine) -> tuple[str, ...]:
     return tuple(bearing.name for bearing in getattr(model, "bearings", ()))
 
 
-def with_temperatures(model: BearingModel) -> BearingModel:
-    """Return the model at its own temperatures, where the case wants them computed."""
+def with_temperatures(model: _Model) -> _Model:
+    """Return the model of a bearing or a machine at its own temperatures, where the case wants them computed."""
     from lambda_core.discovery.manager import registry
+    from lambda_core.shaft.temperatures import ready_machine_of
+    from lambda_core.system.machine import Machine
     from lambda_core.system.resolve import resolve
     from lambda_core.thermal.operating import at_own_temperatures
 
+    if isinstance(model, Machine):
+        return ready_machine_of(model)
     return at_own_temperatures(model, lambda case: resolve(case, registry(), _catalogue()))
-
-
-def machine_with_temperatures(model: Machine) -> Machine:
-    """Return the machine at its own temperatures, where the case wants them computed."""
-    from lambda_core.shaft.temperatures import ready_machine_of
-
-    return ready_machine_of(model)
 
 
 def point_hash(model: BearingModel | Machine) -> str:

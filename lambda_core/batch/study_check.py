@@ -300,19 +300,20 @@ def _probe_machine(
     from lambda_core.run.estimate import machine_estimate
     from lambda_core.shaft.shaft_equilibrium import solve_shaft
 
-    state = solve_shaft(model, announce)  # compiles or loads; not timed
+    warm = with_temperatures(model)
+    state = solve_shaft(warm, announce)  # compiles or loads; not timed
     equilibria = [ring.equilibrium() for ring in state.rings]
-    columns = machine_columns(model, equilibria, names)
+    columns = machine_columns(warm, equilibria, names)
     if study.mode == "dynamic":
-        run = machine_estimate(model, announce)
+        run = machine_estimate(warm, announce)
         if run.processor_s is None or run.simulated_s is None:
             return math.nan, columns, math.nan
-        each = zip(model.bearings, equilibria, strict=True)
+        each = zip(warm.bearings, equilibria, strict=True)
         size = sum(_file_size(bearing.model, run.simulated_s, found.orbit) for bearing, found in each)
         return run.processor_s, columns, size
-    static_values(model, names)
+    static_values(warm, names)
     start = time.perf_counter()
-    static_values(point_model(model.case_toml, ()), names)
+    static_values(with_temperatures(point_model(model.case_toml, ())), names)
     return time.perf_counter() - start, columns, 0.0
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -24,6 +24,7 @@ from lambda_core.thermal.losses import Announce, Point, point_of
 from lambda_core.thermal.shaft_and_housing import network_of
 
 _ZERO_CELSIUS = 273.15
+_NEAR = (2.0, 1e-6)  # inlet temperatures [K] and lengths [m] this near to others have their slopes
 _PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
 
 
@@ -47,6 +48,8 @@ class MachineLoop(Loop):
         self.machine = replace(machine, awaits_temperatures=False)
         count = len(machine.bearings)
         self.steps = np.array([INLET_STEP] * count + [LENGTH_STEP] * (2 * count))
+        self._cells = np.array([_NEAR[0]] * count + [_NEAR[1]] * (2 * count))
+        self._known: tuple[FloatArray, FloatArray] | None = None  # what was seen, and the slopes there
         self._announce, self._kernels, self._count = announce, SharedKernels(announce), 0
 
     def seen(self, temperatures: FloatArray) -> FloatArray:
@@ -98,6 +101,17 @@ class MachineLoop(Loop):
         except SolverError as error:
             raise SolverError(f"{self._place(seen)}: {error}") from error
         return tuple(map(point_of, found))
+
+    def slopes(
+        self, seen: FloatArray, points: Sequence[Point], temperatures: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the slopes; d(steady temperatures)/d(seen) is that of a near place where one is known."""
+        known = self._known
+        if known is not None and float((np.abs(seen - known[0]) / self._cells).max()) <= 1.0:
+            return known[1], self.inward(temperatures)
+        outward, inward = super().slopes(seen, points, temperatures)
+        self._known = (seen, outward)
+        return outward, inward
 
     def _place(self, seen: FloatArray) -> str:
         inlets, clearances, _ = seen.reshape(3, -1).tolist()

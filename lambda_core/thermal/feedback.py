@@ -161,9 +161,12 @@ class Loop(ABC):
             moved = seen.copy()
             moved[k] += step
             outward[:, k] = (self.answer(self.solved(moved), base)[0] - base) / step
+        return outward, self.inward(temperatures)
+
+    def inward(self, temperatures: FloatArray) -> FloatArray:
+        """Return d(seen)/d(temperatures), shape (m, n)."""
         here = self.seen(temperatures)
-        inward = np.stack([self.seen(temperatures + step) - here for step in np.eye(base.size)], axis=1)
-        return outward, inward
+        return np.stack([self.seen(temperatures + step) - here for step in np.eye(temperatures.size)], axis=1)
 
     def gain(self, outward: FloatArray, inward: FloatArray) -> Gain:
         """Return the gain of the loop from its two slopes."""

@@ -90,6 +90,7 @@ def test_every_option_of_a_shaft_has_exactly_one_place() -> None:
     fields += [keys for node in nodes() if node.role for keys in node.law_places]
     assert len(fields) == len(set(fields))
     shown = {".".join(keys) for keys in fields}
+    shown |= {".".join(keys) for node in nodes() for keys in node.in_file}
     named = {name for name in NAMES if "." not in name}
     for path in option_paths(ShaftCase):
         if path in (*named, "parameters"):

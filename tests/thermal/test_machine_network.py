@@ -154,7 +154,7 @@ def test_a_machine_of_one_bearing_is_the_bearing_alone() -> None:
     for name in ("inner_ring", "outer_ring", "balls", "oil", "cage", "shaft"):
         assert found.temperatures_degC[f"only.{name}"] == pytest.approx(alone.temperatures_degC[name], abs=0.05)
     assert found.temperatures_degC["housing"] == pytest.approx(alone.temperatures_degC["housing"], abs=0.05)
-    assert found.gain.viscosity == pytest.approx(alone.gain.viscosity, rel=0.02)
+    assert found.gain.viscosity == pytest.approx(alone.gain.viscosity, rel=0.05)  # slopes of 2 K away
 
 
 def test_the_loss_of_a_gear_warms_the_shaft() -> None:
