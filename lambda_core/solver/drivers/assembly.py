@@ -21,7 +21,6 @@ from lambda_core.system.raceways import raceways
 from lambda_core.system.state_channels import states_of
 
 GROUND = -1  # number of the ground among the bodies that a link connects
-DIRECTIONS = 6  # of a member: x, y, z, turns about x, y, z
 
 
 @dataclass(frozen=True)
