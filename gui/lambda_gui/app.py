@@ -152,7 +152,7 @@ class BuilderApp(CaseApp):
             text = f"{count} mistake{'s' * (count != 1)} to mend first: F8"
             self.notify(text, severity="warning", timeout=4)
             return
-        self._queue_up(model.name, model.case_toml, "shaft" if builder.draft.is_shaft else "run")
+        self._queue_up(model.name, model.case_toml, "run")
 
     def _queue_up(self, name: str, case_toml: str, kind: RunKind, study_toml: str = "") -> None:
         path = self.builder.draft.path

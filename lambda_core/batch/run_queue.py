@@ -21,7 +21,7 @@ from lambda_core.batch.scheduler import Counts, Director, StudyProgress
 from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.run.progress import Progress
 
-RunKind = Literal["run", "study", "shaft"]
+RunKind = Literal["run", "study"]
 State = Literal["waiting", "running", "done", "stopped", "failed"]
 
 _MOST_KEPT = 4000  # points of the progress; older ones are thinned out
@@ -31,11 +31,10 @@ _FORGOTTEN_AFTER = 86400.0  # [s] age at which the files of a run that nobody to
 _WORK: dict[RunKind, tuple[list[str], list[str]]] = {
     "run": (["run", "case.toml", "--out"], ["resume"]),
     "study": (["study", "run", "study.toml", "--out"], ["study", "resume"]),
-    "shaft": (["run", "case.toml", "--out"], ["resume"]),
 }
-_COMPLETE: dict[RunKind, str] = {"run": "converged", "study": "every point has a result", "shaft": "converged"}
-_SHORT: dict[RunKind, str] = {"run": "not converged", "study": "not every point has a result", "shaft": "not converged"}
-_ENDING: dict[RunKind, str] = {"run": ".h5", "study": "", "shaft": ".h5"}
+_COMPLETE: dict[RunKind, str] = {"run": "converged", "study": "every point has a result"}
+_SHORT: dict[RunKind, str] = {"run": "not converged", "study": "not every point has a result"}
+_ENDING: dict[RunKind, str] = {"run": ".h5", "study": ""}
 
 
 @dataclass
@@ -189,7 +188,7 @@ def _code_of_study(folder: Path) -> int:
     return _PARTIAL if found.failed or found.partial else _CONVERGED
 
 
-_CODE_OF = {"run": _code_of_run, "shaft": _code_of_run, "study": _code_of_study}
+_CODE_OF = {"run": _code_of_run, "study": _code_of_study}
 
 
 class RunQueue:
@@ -215,8 +214,8 @@ class RunQueue:
 
         Parameters
         ----------
-        kind : "run", "study" or "shaft"
-            What is done with the case; "shaft" where it is that of a shaft in bearings.
+        kind : "run" or "study"
+            What is done with the case, of one bearing or of a machine.
         study_toml : str
             Of a study, whose case is ``case.toml``.
 

@@ -224,3 +224,13 @@ def test_other_code_does_not_go_on(kind: Kind, tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr("lambda_core.laws.pack.code", lambda: "pack linux x86-64-v3 numba 0.0")
     with pytest.raises(ResultError, match="cannot go on: it was computed by other machine code"):
         api.resume(path, ["solver.duration=0.2 ms"])
+
+
+def test_overwriting_keeps_every_other_file(kind: Kind, tmp_path: Path) -> None:
+    path = tmp_path / "run.h5"
+    (tmp_path / "measurement.h5").write_text("x")
+    api.run(kind.source, ["solver.duration=0.1 ms"], out=path)
+    api.run(kind.source, ["solver.duration=0.1 ms"], out=path, force=True)
+    assert {file.name: file.stat().st_size > 1000 for file in tmp_path.iterdir()} == {
+        "run.h5": True, "measurement.h5": False,
+    }  # fmt: skip
