@@ -79,6 +79,10 @@ def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
         (f"smallest film {units.unit('um')}", of("um", [one.min_film_um for one in each], 2)),
         (f"p_max {units.unit('GPa')}", of("GPa", [one.max_pressure_GPa for one in each], 3)),
     ]  # fmt: skip
+    if any(one.currents for one in each):
+        voltages = [max(map(abs, one.currents.bearing_voltage_V)) if one.currents else None for one in each]
+        rates = [one.currents.discharges_per_s if one.currents else None for one in each]
+        rows += [("bearing voltage V", of("V", voltages, 3)), ("discharges 1/s", [_digits(rate) for rate in rates])]
     for k, axis in enumerate("xyz"):
         head = f"{'force on shaft' if axis == 'x' else ' '} {axis} {force}"
         rows.append((head, [_pair(one.force_N[k], one.force_swing_N[k], "N", units) for one in each]))

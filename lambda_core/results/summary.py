@@ -110,6 +110,7 @@ class BearingSummary(Record):
     contact_capacitance_pF: list[float] = Field(description="smallest and largest under load at the end state")
     bearing_capacitance_nF: float | None = Field(description="at the end state")
     capacitance_note: str = Field(description="which contacts asperities short, where they do", default="")
+    currents: Currents | None = Field(description="of a case with a circuit; null without one", default=None)
     observed: list[ObserverNumber] = Field(description="numbers of the observers of the case", default=[])
     events: list[EventSeen] = Field(description="events that the case looks out for", default=[])
     rating: Rating | None = Field(description="life, safety and catalogue friction of the case at its start")
@@ -164,7 +165,6 @@ class Summary(Record):
     orbit: list[Swing] = Field(description="of a machine's shaft at every lump", default=[])
     bodies: dict[str, Swing] = Field(description="bodies of a machine other than the shaft", default={})
     markers: dict[str, Swing] = Field(description="named places of a machine", default={})
-    currents: Currents | None = Field(description="of a case with a circuit; null without one", default=None)
     plugin_faults: list[str] = Field(description="observers and events that failed, and why", default=[])
     warnings: list[str] = Field(description="where case or run left what bearings, oil and laws are made for")
     energy_residual: float | None = Field(description="(input - dissipated - stored) over integral of |input power|")
@@ -236,7 +236,6 @@ def summarise(result: Result) -> Summary:
         friction_torque_ci_Nmm=total(one.friction_torque_ci_Nmm for one in known),
         power_loss_W=total(one.power_loss_W for one in known),
         bearings=bearings,
-        currents=currents_of(result, start),
         plugin_faults=list(status.faults),
         warnings=alone.warnings if not of_machine else machine_warnings(result, bearings),
         energy_residual=finite(whole.energy_residual()),
@@ -289,6 +288,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         contact_capacitance_pF=span(1e12 * end["capacitance"][carrying]),
         bearing_capacitance_nF=finite(1e9 * float(end["bearing_capacitance"])),
         capacitance_note=capacitance_note(end["load"], end["capacitance"]),
+        currents=currents_of(result, start),
         observed=observed_numbers(result, start),
         events=events_seen(result),
         rating=result.rating,

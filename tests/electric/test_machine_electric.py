@@ -113,6 +113,9 @@ def test_circuit_beside_a_run_of_a_machine(run: api.Result) -> None:
     assert both["bearing_voltage_least"].shape[1] == 2
     assert both["shaft_voltage_largest"].max() >= both["bearing_voltage_largest"][:, 0].max()
     counted = 0
+    summary = run.summary()
+    assert summary.bearings["drive_end"].currents.discharges_per_s > 0.0
+    assert "discharges 1/s" in summary.text()
     for name, simulation in found.bearings.items():
         one = run.bearings[name]
         begin, written = simulation.time[0], one.discharges()
