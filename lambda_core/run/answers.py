@@ -6,7 +6,6 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.thermal.temperatures import ready_model
 
@@ -158,6 +157,7 @@ def compare(
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
+    from lambda_core.case.case_io import is_machine, refuse_bearing
     from lambda_core.discovery.manager import registry
     from lambda_core.results.reader import Result
     from lambda_core.run.compare_methods import compare as ask

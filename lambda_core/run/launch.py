@@ -26,13 +26,11 @@ from lambda_core.results.provenance import (
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.reader import Result
 from lambda_core.run.engineering import rating_of
-from lambda_core.run.law_blame import BlamingBearingEngine, BlamingMachineEngine, naming_laws
+from lambda_core.run.law_blame import BlamingBearingEngine, naming_laws
 from lambda_core.run.loop import resume, run
 from lambda_core.run.progress import Report
 from lambda_core.run.run_engine import OneBearing, RunEngine, SeveralBearings
 from lambda_core.run.session import Attachments
-from lambda_core.shaft.bearing_alone import alone_under_load
-from lambda_core.shaft.machine_motion import machine_start
 from lambda_core.solver.code_files import physics_sources
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.system.bearing import BearingModel
@@ -183,6 +181,10 @@ def _one(model: BearingModel, announce: Announce | None) -> tuple[RunEngine, Pro
 
 def _machine(model: Machine, announce: Announce | None) -> tuple[RunEngine, Provenance, Live | None]:
     """Prepare the run of a machine."""
+    from lambda_core.run.machine_law_blame import BlamingMachineEngine
+    from lambda_core.shaft.bearing_alone import alone_under_load
+    from lambda_core.shaft.machine_motion import machine_start
+
     live = _live(model, announce)
     with naming_laws(*(one.model for one in model.bearings)):
         engine = BlamingMachineEngine(machine_start(model, announce), announce)

@@ -21,11 +21,10 @@ from lambda_core.laws.kernels import CHECKED_VARIABLE, is_checked
 from lambda_core.laws.law import Law
 from lambda_core.laws.runaway import FAR
 from lambda_core.laws.state import ROLE
-from lambda_core.shaft.machine_motion import MachineEngine
 from lambda_core.solver.drivers.dynamics import BearingEngine, MotionEngine
 from lambda_core.solver.drivers.engine import Advance
 from lambda_core.solver.drivers.law_inputs import RACEWAYS
-from lambda_core.solver.drivers.readings import Channels, MachineSamples, ReadBearing, Sampled, Summed_co, Sums
+from lambda_core.solver.drivers.readings import Channels, ReadBearing, Sampled, Summed_co, Sums
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.system.law_packages import foreign_laws
 from lambda_core.system.raceways import raceways
@@ -118,10 +117,6 @@ class BlamingEngine(MotionEngine[Sampled, Summed_co]):
 
 class BlamingBearingEngine(BlamingEngine[Channels, Sums], BearingEngine):
     """The dynamics of one bearing; when they fail, the laws of others are looked at first."""
-
-
-class BlamingMachineEngine(BlamingEngine[MachineSamples, list[Sums]], MachineEngine):
-    """The dynamics of a machine; when they fail, the laws of others are looked at first."""
 
 
 def _of(one: ReadBearing, sentence: str) -> str:

@@ -53,9 +53,10 @@ def check(
         registry and the geometry can show.
     """
     from lambda_core.case.case_io import is_machine
-    from lambda_core.system.resolve_machine import check_shaft
 
     if is_machine(source):
+        from lambda_core.system.resolve_machine import check_shaft
+
         return check_shaft(source, overrides, folder=folder, catalogue=catalogue)
     return check_bearing(source, overrides, folder=folder, catalogue=catalogue, is_static=is_static)
 

@@ -30,9 +30,10 @@ HEAVY = (
     *(f"scipy.{room}" for room in ("integrate", "interpolate", "linalg", "optimize", "sparse", "spatial", "special")),
     "scipy.stats",
     "lambda_core.case.case",
-    "lambda_core.case.shaft",
     "lambda_core.discovery.manager",
     "lambda_core.system.resolve",
+    "lambda_core.system.resolve_machine",  # machines: never for one bearing
+    "lambda_core.shaft.shaft_equilibrium",
     "lambda_core.solver.entry",
     "lambda_core.report.page",
     "lambda_core.batch.studies",
