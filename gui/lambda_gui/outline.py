@@ -57,7 +57,7 @@ def outline(names: Names | None = None) -> list[Node]:
         Node("case", "Case", "name, description, what its author assumed", [Group("", (), tuple(_case_fields()))]),
         _bearing(),
         _bodies(),
-        _named("markers", names),
+        named_node("markers", names),
         _forces(names),
         _loads(),
         _lubricant(),
@@ -70,7 +70,7 @@ def outline(names: Names | None = None) -> list[Node]:
 
 def _output(names: Names) -> Node:
     node = _form("output", "Outputs", ("output",))
-    node.children = [_named("observers", names), _named("events", names)]
+    node.children = [named_node("observers", names), named_node("events", names)]
     return node
 
 
@@ -97,7 +97,7 @@ def _bodies() -> Node:
     return Node("bodies", "Bodies", "rings, balls and cage: masses, materials, the cage's type", children=nodes)
 
 
-def _named(section: str, names: Names) -> Node:
+def named_node(section: str, names: Names) -> Node:
     """Return the node of a section of named tables, one below it for each name."""
     what = NAMED[section]
     nodes = []
@@ -120,7 +120,7 @@ def _forces(names: Names) -> Node:
         kind="roles",
         children=[_role("", role) for role in MOTION_ROLES],
     )
-    nodes = [every, *force_elements(), _named("elements", names)]
+    nodes = [every, *force_elements(), named_node("elements", names)]
     return Node("forces", "Force elements", "every contact and the model that fills each role", children=nodes)
 
 

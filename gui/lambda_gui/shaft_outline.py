@@ -8,7 +8,7 @@ from lambda_core.api import InlineMaterial, ShaftCase
 from lambda_core.domain.option_tree import members, model_at
 from lambda_core.domain.roles import MOTION_ROLES, ROLES
 from lambda_gui.nodes import Group, Keys, Named, Names, Node, about, form_node, is_freedom, plain_fields, table_model
-from lambda_gui.outline import SHORT, force_elements
+from lambda_gui.outline import SHORT, force_elements, named_node
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -87,6 +87,8 @@ def shaft_outline(names: Names | None = None) -> list[Node]:
             if section == "thermal":
                 node.help += "; nodes and links are written in the file"
                 node.in_file = [("thermal", "nodes"), ("thermal", "links")]
+            if section == "output":
+                node.children += [named_node("observers", names), named_node("events", names)]
             nodes.append(node)
     return nodes
 

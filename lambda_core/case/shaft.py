@@ -11,7 +11,7 @@ from lambda_core.case.case import Written
 from lambda_core.case.elastic import Elastic
 from lambda_core.case.electric import MachineElectric
 from lambda_core.case.holding import SeatTilt, SeatTranslation
-from lambda_core.case.modelling import Depth, Forces, Models, Parameters, Solver
+from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters, Solver
 from lambda_core.case.motion import CageShape, Gravity
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, OwnLubricant, Surface
@@ -30,7 +30,19 @@ from lambda_core.domain.elements import POSE
 from lambda_core.domain.units import Force, Length, SmallLength, Temperature
 
 # tables of the case of every bearing
-SHARED = ("lubricant", "materials", "surface", "depth", "models", "parameters", "gravity", "solver")
+SHARED = (
+    "lubricant",
+    "materials",
+    "surface",
+    "depth",
+    "models",
+    "parameters",
+    "gravity",
+    "solver",
+    "output",
+    "observers",
+    "events",
+)
 OWN = ("elastic", "forces")  # tables of one of them
 NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "connections")  # tables of named parts
 # Names that are there already; a bearing's result stands beside that of the whole, shaft.h5
@@ -174,7 +186,6 @@ class ShaftCase(Written):
 
     INSTEAD: ClassVar[Mapping[str, str]] = {
         **dict.fromkeys(("springs", "elements"), "write [connections.NAME]"),
-        **dict.fromkeys(("observers", "events", "output"), "so far only the case of one bearing can have it"),
     }
 
     shaft: Shaft = option(description="the shaft")
@@ -202,6 +213,9 @@ class ShaftCase(Written):
         None, "the electric circuit of shaft and frame with all bearings; absent: not computed"
     )
     solver: Solver = option({}, "integrator and averages, in motion")
+    output: Output = option({}, "what is written, in motion")
+    observers: Parameters = option({}, "channels that plugins add to every bearing: a table per observer")
+    events: Parameters = option({}, "what plugins look out for in every bearing: a table per event")
 
 
 def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:

@@ -32,9 +32,6 @@ _NO_PLACE = {
     "elements": "force elements by law: write [connections.NAME] for springs and dampers",
     "thermal": "the network of temperatures",
     "electric": "the circuit",
-    "observers": "observers",
-    "events": "events",
-    "output": "how often samples are written",
     "fit": "where fitted values come from",
 }
 

@@ -77,7 +77,8 @@ def machine_start(machine: Machine, announce: Announce = None) -> MachineStart:
     changes = any(term.kind != "constant" for function in machine.led for term in function.terms)
     solvers = [bearing.model.solver for bearing in machine.bearings]
     intervals = [
-        usual_interval(one.model, found.orbit) for one, found in zip(machine.bearings, equilibria, strict=True)
+        one.model.output.interval or usual_interval(one.model, found.orbit)
+        for one, found in zip(machine.bearings, equilibria, strict=True)
     ]
     steps = [min(own.max_step, longest_step(one)) for own, one in zip(solvers, alone, strict=True)]
     motion = MotionStart(

@@ -77,11 +77,3 @@ def test_a_land_guides_the_cage_that_it_guides(changes: dict[str, Any], where: s
 def test_a_machine_without_cages() -> None:
     model = machine(depth={"cage": False})
     assert not any(bearing.model.depth.cage for bearing in model.bearings)
-
-
-@pytest.mark.parametrize("table", ["observers", "events", "output"])
-def test_what_a_machine_cannot_have_yet(table: str) -> None:
-    assert (
-        mistakes(**{table: {"interval": "1 ms"}})[table]
-        == "is not an option: so far only the case of one bearing can have it"
-    )
