@@ -6,10 +6,12 @@ a new option of a section appears on that section's node by itself.
 
 from __future__ import annotations
 
+from pydantic import BaseModel
+
 from lambda_core.api import Case
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.roles import MOTION_ROLES, ROLES
-from lambda_gui.nodes import Group, Keys, Named, Names, Node, about, form_node, plain_fields
+from lambda_gui.nodes import Group, Keys, Named, Names, Node, about, form_node, plain_fields, table_model
 
 BODIES = {"inner_ring": "Inner ring", "outer_ring": "Outer ring", "cage": "Cage"}
 ELEMENTS = {
@@ -54,7 +56,13 @@ def outline(names: Names | None = None) -> list[Node]:
     """Return the top nodes of the tree of a case with these names in its named sections."""
     names = names or {}
     return [
-        Node("case", "Case", "name, description, what its author assumed", [Group("", (), tuple(_case_fields()))]),
+        Node(
+            "case",
+            "Case",
+            "name, description, what its author assumed",
+            [Group("", (), tuple(_case_fields()))],
+            in_file=[("fit", name) for name in table_model(Case, ("fit",)).model_fields],  # the command fit writes it
+        ),
         _bearing(),
         _bodies(),
         named_node("markers", names),
@@ -64,7 +72,7 @@ def outline(names: Names | None = None) -> list[Node]:
         _form("depth", "Modelling depth", ("depth",)),
         _form("solver", "Solver", ("solver",)),
         _output(names),
-        _electric(),
+        electric_node(Case),
     ]
 
 
@@ -184,8 +192,9 @@ def _thermal() -> Node:
     return node
 
 
-def _electric() -> Node:
-    node = _form("electric", "Electric circuit", ("electric",))
+def electric_node(root: type[BaseModel]) -> Node:
+    """Return the node of the circuit of one bearing or of a machine."""
+    node = form_node(root, "electric", "Electric circuit", ("electric",))
     tables = {
         "inverter": "Inverter",
         "sine": "Sine",
@@ -196,15 +205,16 @@ def _electric() -> Node:
         "film": "Films",
         "cage": "Cage",
     }
-    node.children = [_form(f"electric.{name}", title, ("electric", name)) for name, title in tables.items()]
-    node.children += [_film_law(role, title) for role, title in (("breakdown", "Breakdown"), ("discharge", "Arcs"))]
+    node.children = [form_node(root, f"electric.{name}", title, ("electric", name)) for name, title in tables.items()]
+    laws = (("breakdown", "Breakdown"), ("discharge", "Arcs"))
+    node.children += [_film_law(root, role, title) for role, title in laws]
     return node
 
 
-def _film_law(role: str, title: str) -> Node:
+def _film_law(root: type[BaseModel], role: str, title: str) -> Node:
     """Return the node of a law in a section of its own that has further options."""
     table = ("electric", role)
-    names = tuple(name for name in plain_fields(Case, table) if name not in ("law", "parameters"))
+    names = tuple(name for name in plain_fields(root, table) if name not in ("law", "parameters"))
     return Node(
         f"electric.{role}", title, ROLES[role].summary, [Group("", table, names)] if names else [],
         kind="role", role=role, heading=f"Electric circuit · {title.lower()}",

@@ -8,7 +8,7 @@ from lambda_core.api import InlineMaterial, ShaftCase
 from lambda_core.domain.option_tree import members, model_at
 from lambda_core.domain.roles import MOTION_ROLES, ROLES
 from lambda_gui.nodes import Group, Keys, Named, Names, Node, about, form_node, is_freedom, plain_fields, table_model
-from lambda_gui.outline import SHORT, force_elements, named_node
+from lambda_gui.outline import SHORT, electric_node, force_elements, named_node
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -79,6 +79,11 @@ def shaft_outline(names: Names | None = None) -> list[Node]:
             nodes.append(_shaft(names))
         elif section == "models":
             nodes.append(_laws())
+        elif section == "electric":
+            node = electric_node(ShaftCase)
+            node.help += "; what single bearings have of their own is written in the file"
+            node.in_file = [("electric", "bearings")]
+            nodes.append(node)
         elif get_origin(info.annotation) is dict:
             nodes.append(_named(section, names.get(section, ())))
         else:
@@ -133,7 +138,7 @@ def _named(section: str, names: tuple[str, ...]) -> Node:
         node.children = _below(table, node.key, heading=f"{name} · ")
         if section == "bearings":
             node.children.append(_own_laws(table))
-            node.in_file = [(*table, "thermal", "nodes")]
+            node.in_file = [(*table, "thermal", "nodes"), (*table, "thermal", "links")]
         nodes.append(node)
     return Node(section, what.title, what.about, children=nodes, kind="named", section=what, table=(section,))
 
