@@ -24,6 +24,7 @@ from lambda_core.solver.core import Core, core
 from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.ball_paths import follow_paths
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
+from lambda_core.solver.drivers.fault_inputs import INPUTS
 from lambda_core.solver.drivers.first_state import first_frame, first_state, roll
 from lambda_core.solver.drivers.law_inputs import guides, times
 from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring, rings_of_contacts
@@ -308,6 +309,12 @@ def mean_frame(geometry: Geometry, contacts: FloatArray, before: ContactFrame) -
 _WHOLE = ("force_element", "time_function")  # roles that belong to no ball
 
 
+def _state_of(context: SolverContext, element: str) -> str:
+    """Return the name of the first state that a contact of this element keeps."""
+    states = context.model.laws[element]["contact_state"].model.states
+    return states[0].name if states else "state"
+
+
 def fault_sentence(context: SolverContext, time: float | None = None) -> str:
     """Say which kernel refused, in which bearing of several, where, and with what inputs."""
     fault = context.bundle.scratch[0].fault
@@ -329,8 +336,9 @@ def fault_sentence(context: SolverContext, time: float | None = None) -> str:
     place = element.replace("_", " - ") + (f", t = {time:.6g} s" if time is not None else "")
     if element not in LANDS and role not in _WHOLE:
         place = f"ball {ball + 1}, {place}"
-    inputs = ", ".join(f"{v:.6g}" for v in fault.inputs)
-    sentence = f"{model.label} {what} ({place}; inputs {inputs})"
+    names = [_state_of(context, element) if name == "state" else name for name in INPUTS[role]]
+    inputs = ", ".join(f"{name} {value:.6g}" for name, value in zip(names, fault.inputs, strict=False))
+    sentence = f"{model.label} {what} ({place}; {inputs})"
     return f"{bearing.name}: {sentence}" if bearing.name else sentence
 
 
