@@ -34,8 +34,8 @@ def thermal(
     """Find the temperatures of a bearing or a machine under its own losses.
 
     The section thermal of the case describes the network: bearings, shaft, housing, surroundings. Clearance, preload,
-    viscosity and films follow the temperatures. With the result file of one bearing the losses are the averages of
-    that run. Exit codes: 0 found, 3 invalid case, 4 no steady
+    viscosity and films follow the temperatures. With a result file the losses are the averages of that run.
+    Exit codes: 0 found, 3 invalid case, 4 no steady
     temperatures (a runaway is named with the gain that caused it), 5 a warm-up that passed thermal.limit.
     """
     from lambda_core import api

@@ -35,8 +35,7 @@ def thermal(
     ----------
     source : str, Path, mapping, Case, ShaftCase, BearingModel or Machine
         A case as for :func:`check`: the losses are those of its quasi-static point at t = 0, without a cage, which
-        follows the temperatures. Or the result file of a bearing's run: the losses are its averages, the cage's among
-        them.
+        follows the temperatures. Or the result file of a run: the losses are its averages, the cage's among them.
     overrides : iterable of str
         Changes ``path=value`` of a case.
     announce : callable, optional
@@ -61,8 +60,16 @@ def thermal(
 
         loop = _loop(source, overrides, announce)
         return steady_of(loop, loop.steady())
-    from lambda_core.thermal.temperatures import steady_temperatures
+    from lambda_core.thermal.temperatures import run_of, steady_temperatures
 
+    run = run_of(source)
+    if run is not None and list(overrides):
+        raise UsageError("the losses of a run take no overrides: they are those of its case")
+    if run is not None and run.is_machine:
+        from lambda_core.shaft.temperature_report import steady_of
+        from lambda_core.shaft.temperatures import of_run
+
+        return steady_of(*of_run(run, announce), f"averages of {run.path}")
     return steady_temperatures(source, overrides, announce)  # type: ignore[arg-type]
 
 

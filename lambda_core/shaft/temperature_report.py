@@ -59,6 +59,7 @@ class MachineTemperatures(Record):
     kind: Literal["steady machine"] = "steady machine"
     case: str
     speed_rpm: float
+    losses_from: str = Field(description="quasi-static points, or the averages of a run")
     conductances: str = Field(description="ready set")
     temperatures_degC: dict[str, float] = Field(description="by node")
     heat_W: dict[str, float] = Field(description="put in at each node, by losses and by the case")
@@ -112,7 +113,7 @@ class MachineTemperaturesOverTime(Record):
         return course_text(self, units)
 
 
-def steady_of(loop: MachineLoop, found: Steady) -> MachineTemperatures:
+def steady_of(loop: MachineLoop, found: Steady, losses_from: str = "quasi-static points") -> MachineTemperatures:
     """Put steady temperatures into the units of the interface."""
     machine, names, network = loop.machine, loop.nodes.names, found.network
     heat = float(network.heat.sum())
@@ -121,6 +122,7 @@ def steady_of(loop: MachineLoop, found: Steady) -> MachineTemperatures:
     return MachineTemperatures(
         case=machine.name,
         speed_rpm=machine.speed * 30.0 / math.pi,
+        losses_from=losses_from,
         conductances=loop.thermal.conductances,
         temperatures_degC=dict(zip(names, (found.temperatures - _ZERO_CELSIUS).tolist(), strict=True)),
         heat_W=dict(zip(names, network.heat.tolist(), strict=True)),

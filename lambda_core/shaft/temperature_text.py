@@ -26,7 +26,7 @@ def steady_text(found: MachineTemperatures, units: UnitSystem) -> str:
     return "\n".join(
         [
             _headline(found, [one.title for one in found.bearings.values()]),
-            line("losses", f"{loss} in {len(found.bearings)} bearings", "quasi-static points"),
+            line("losses", f"{loss} in {len(found.bearings)} bearings", found.losses_from),
             line("temperatures", units.unit("degC"), f"conductances {found.conductances}"),
             *_bearing_table(found, units),
             line("shaft", f"position {units.unit('mm')}, temperature {units.unit('degC')}, heat {units.unit('W')}"),

@@ -13,6 +13,7 @@ from lambda_core.case.case import merged
 from lambda_core.case.case_io import Source, toml_tables
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
+from lambda_core.results.reader import Result
 from lambda_core.shaft.machine_answers import machine_of
 from lambda_core.shaft.shaft_equilibrium import SharedKernels, solve_shaft
 from lambda_core.system.machine import Machine, MountedBearing
@@ -21,6 +22,7 @@ from lambda_core.system.resolve_geometry import with_clearance
 from lambda_core.system.resolve_machine import check_shaft
 from lambda_core.thermal.feedback import INLET_STEP, LENGTH_STEP, Loop, Steady, clearance_at, inlet_at
 from lambda_core.thermal.losses import Announce, Point, point_of
+from lambda_core.thermal.operating import averaged_losses
 from lambda_core.thermal.shaft_and_housing import network_of
 
 _ZERO_CELSIUS = 273.15
@@ -178,6 +180,24 @@ def ready_machine_of(
     if announce is not None:
         announce(sentence)
     return check_shaft(_with_temperatures(loop, found, sentence))
+
+
+def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Steady]:
+    """Return the steady temperatures that the averaged losses of a machine's run would give, cages and all.
+
+    Conductances are those of the equilibrium at the temperatures that the run was made with.
+    """
+    machine = check_shaft(toml_tables(result.case_toml, str(result.path)))
+    loop = MachineLoop(without_temperatures(machine), announce)
+    state = solve_shaft(machine, announce)
+    measured = tuple(
+        point_of(ring.equilibrium()).with_losses(averaged_losses(result.of_bearing(bearing.name), bearing.model))
+        for ring, bearing in zip(state.rings, machine.bearings, strict=True)
+    )
+    temperatures, network = loop.answer(measured, loop.first_guess())
+    seen = loop.seen(temperatures)
+    gain = loop.gain(*loop.slopes(seen, loop.solved(seen), temperatures))
+    return loop, Steady(temperatures, measured, network, gain, 1)
 
 
 def without_temperatures(machine: Machine) -> Machine:

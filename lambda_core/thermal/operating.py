@@ -8,6 +8,7 @@ import numpy as np
 
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import parse_case
+from lambda_core.domain.channels import LOSSES
 from lambda_core.results.convergence import window
 from lambda_core.results.reader import Result
 from lambda_core.system.bearing import BearingModel
@@ -88,12 +89,17 @@ def of_run(result: Result, model: BearingModel, announce: Announce = None) -> tu
         Its case, resolved.
     """
     loop = BearingLoop(model, parse_case(result.case_toml, str(result.path)).thermal, announce)
-    chosen = window(model.solver, result.revolutions(), result.integrals()[-1]).interval
-    time = chosen.change("time")
     point = loop.losses.at(model.oil.temperature, model.geometry.clearance)
-    losses = {name: chosen.change(f"loss.{name}") / time for name in point.losses}
+    losses = averaged_losses(result, model)
     measured = point.with_losses(losses)
     temperatures, network = loop.answer((measured,), loop.first_guess())
     seen = np.array([point.inlet, point.clearance])
     gain = loop.gain(*loop.slopes(seen, (point,), temperatures))
     return loop, Steady(temperatures, (measured,), network, gain, 1)
+
+
+def averaged_losses(result: Result, model: BearingModel) -> dict[str, float]:
+    """Return the average losses of a bearing in a run by mechanism [W]."""
+    chosen = window(model.solver, result.revolutions(), result.integrals()[-1]).interval
+    time = chosen.change("time")
+    return {name: chosen.change(f"loss.{name}") / time for name in LOSSES}

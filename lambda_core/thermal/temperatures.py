@@ -6,13 +6,13 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.errors import UsageError
 from lambda_core.system.checking import model_of, resolve
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from lambda_core.case.case import Case
+    from lambda_core.results.reader import Result
     from lambda_core.system.bearing import BearingModel
     from lambda_core.thermal.report import SteadyTemperatures, TemperaturesOverTime
 
@@ -27,15 +27,10 @@ def steady_temperatures(
     from lambda_core.thermal.operating import of_run
     from lambda_core.thermal.report import steady_of
 
-    if _is_result(source):
+    run = run_of(source)
+    if run is not None:
         from lambda_core.case.case_io import parse_case
-        from lambda_core.results.reader import Result
 
-        if list(overrides):
-            raise UsageError("the losses of a run take no overrides: they are those of its case")
-        run = Result(Path(str(source)))
-        if run.is_machine:
-            raise UsageError(f"{run.path} is the run of a machine: thermal takes its case, or a run of one bearing")
         loop, found = of_run(run, resolve(parse_case(run.case_toml, str(run.path))), announce)
         return steady_of(loop, found, f"averages of {run.path}")
     model = model_of(source, overrides)
@@ -83,8 +78,12 @@ def ready_model(
     return at_own_temperatures(model, partial(resolve, is_static=is_static), announce)
 
 
-def _is_result(source: object) -> bool:
-    return isinstance(source, str | Path) and Path(source).suffix == ".h5" and Path(source).is_file()
+def run_of(source: object) -> Result | None:
+    """Return the run whose result file this is; None for anything else."""
+    from lambda_core.results.reader import Result
+
+    is_file = isinstance(source, str | Path) and Path(source).suffix == ".h5" and Path(source).is_file()
+    return Result(Path(str(source))) if is_file else None
 
 
 def _section(model: BearingModel) -> Any:

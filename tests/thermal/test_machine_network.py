@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from warm_machines import pair
 
 from lambda_core import api
 from lambda_core.case.case import merged
-from lambda_core.domain.errors import CaseError
+from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.elastic.sections import BodyMaterial
 from lambda_core.shaft.temperature_report import MachineTemperatures, MachineTemperaturesOverTime
 from lambda_core.system.machine_heat import stretch
@@ -202,6 +203,20 @@ def test_the_case_of_a_warm_machine_needs_no_second_search() -> None:
     again = api.check_shaft(tomllib.loads(ready.case_toml))
     assert np.array_equal(again.growth, ready.growth)
     assert ready.growth.any()
+
+
+def test_the_losses_of_a_run_give_temperatures_near_its_own(tmp_path: Path) -> None:
+    case = pair(operation={"temperatures": "computed"})
+    run = api.run(case, ["solver.duration=0.3 ms"], out=tmp_path / "pair.h5")
+    assert "computed" not in run.case_toml
+    found = api.thermal(run.path)
+    assert isinstance(found, MachineTemperatures)
+    assert found.losses_from == f"averages of {run.path}"
+    expected = temperatures(pair())
+    assert found.power_loss_W == pytest.approx(expected.power_loss_W, rel=0.1)
+    assert found.temperatures_degC["housing"] == pytest.approx(expected.temperatures_degC["housing"], abs=4.0)
+    with pytest.raises(UsageError, match="take no overrides"):
+        api.thermal(run.path, ["operation.speed=1 rpm"])
 
 
 def test_a_warm_up_balances_its_heat_and_rises() -> None:
