@@ -129,7 +129,7 @@ def duty_table(found: DutyCycle, units: UnitSystem) -> list[str]:
 
 
 _ADDED = (
-    "damages of the phases add (Palmgren, Miner); all load the same place of the raceways",
+    "damages of the phases add (Palmgren, Miner), each by its L_10rh; all load the same place of the raceways",
     "every phase at its quasi-static equilibrium: no cage, nothing of what lies between two phases",
 )
 
