@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 
@@ -32,32 +30,6 @@ def kind_of(path: Path) -> str:
     except OSError:
         return ""
     return "" if stat.S_ISREG(mode) else next((name for test, name in _KINDS if test(mode)), "no file")
-
-
-@contextmanager
-def held(folder: Path) -> Iterator[None]:
-    """Keep a folder for oneself meanwhile; the system releases it when the process ends, however it does.
-
-    Raises
-    ------
-    UsageError
-        When another process holds it. Where folders cannot be locked (Windows, some networks) nobody is kept out.
-    """
-    handle = None
-    with suppress(ImportError, OSError):
-        import fcntl
-
-        handle = os.open(folder, os.O_RDONLY)
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            os.close(handle)
-            raise UsageError(f"{folder} is in use: another process writes into it") from None
-    try:
-        yield
-    finally:
-        if handle is not None:
-            os.close(handle)
 
 
 def check_target(path: Path) -> Path:
