@@ -12,11 +12,11 @@ from lambda_core.domain.units import show
 
 NAME = "bearing"  # of the one bearing
 LOCKED = 1e11  # [N/m] of what stands for a lock of the shaft: a hundred to a thousand times as stiff as a bearing
-# [Pa], [kg/m3] of a shaft that hardly bends, without a mass of its own
+# of a shaft that hardly bends, as light as a material may be
 _RIGID = {
     "youngs_modulus": "210000 GPa",
     "poisson_ratio": 0.3,
-    "density": "0.001 kg/m3",
+    "density": "1 kg/m3",
     "thermal_expansion": "0 1/K",
     "thermal_conductivity": "45 W/(m K)",
     "specific_heat": "460 J/(kg K)",
