@@ -17,6 +17,9 @@ class Limit(Record):
     read_in_the_original: bool
 
 
+# Bounds of the classes of J_b in the first limit [A/mm2]: without influence, suspicious, dangerous.
+DENSITY_CLASSES = (0.1, 0.3, 0.8)
+
 LIMITS: tuple[Limit, ...] = (
     Limit(
         quantity="apparent current density J_b, peak current over Hertzian area",

@@ -12,6 +12,7 @@ from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
+from lambda_core.electric.current_limits import DENSITY_CLASSES
 from lambda_core.electric.current_numbers import CurrentNumbers
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.text import line
@@ -127,9 +128,15 @@ class RiskMap(Record):
             values = self.grid(column)
             values = np.where(values > 0.0, values, np.nan) if log else values
             if np.isfinite(values).any():
-                field = Mesh(name, unit, x, y, values, log=log)
+                levels = DENSITY_CLASSES if column == "current_density_A_per_mm2" else ()
+                field = Mesh(name, unit, x, y, values, levels=levels, log=log)
                 panels.append(Panel(name, speed, temperature, self._empty(values), field=field))
-        notes = (f"{self.span} at each point, nothing broke down before; seed {self.seed}",)
+        low, some, high = DENSITY_CLASSES
+        notes = (
+            f"{self.span} at each point, nothing broke down before; seed {self.seed}",
+            f"lines of J_b: {low:g} A/mm2, up to which no influence on life is published; {some:g} to {high:g} A/mm2 "
+            "suspicious, above dangerous (Muetze and Binder 2007, not read in the original)",
+        )
         return ViewData("electric-map", "Bearing currents", f"{self.case}   {self.source}", tuple(panels), 2, notes)
 
     def _empty(self, values: FloatArray) -> tuple[Series, ...]:

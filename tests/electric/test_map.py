@@ -76,6 +76,9 @@ def test_picture_says_why_a_point_is_empty(alone: Path) -> None:
     points = [p.model_copy(update=kinds[kind]) for p, kind in zip(found.points, chosen, strict=True)]
     assert [p.quiet_because for p in points] == chosen
     changed = found.model_copy(update={"points": points})
+    density = [p for p in changed.picture().panels if p.title.startswith("current density")]
+    assert all(p.field is not None and p.field.levels == (0.1, 0.3, 0.8) for p in density)
+    assert any("suspicious" in note for note in changed.picture().notes)
     panel = changed.picture().panels[0]
     assert [s.name for s in panel.series] == ["films hold", "metal", "no equilibrium"]
     assert len({s.group for s in panel.series}) == 3
