@@ -12,6 +12,7 @@ from fake_engine import FakeEngine, MakeProvenance, Truth
 
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import SolverError, UsageError
+from lambda_core.results.provenance import Provenance
 from lambda_core.results.samples import ALONE
 from lambda_core.results.summary import Summary
 from lambda_core.run.loop import run
@@ -143,10 +144,11 @@ def test_limit_of_wall_time_stops_the_run(provenance: MakeProvenance, tmp_path: 
 @pytest.mark.full
 def test_own_sample_interval_does_not_move_the_averages(provenance: MakeProvenance, tmp_path: Path) -> None:
     given = provenance()
-    model = replace(given.model, output=replace(given.model.output, interval=1e-5))
+    (before,) = given.models
+    model = replace(before, output=replace(before.output, interval=1e-5))
     engine = FakeEngine()
     engine.sample_interval = 1e-5
-    summary = run(engine, replace(given, model=model), tmp_path / "r.h5").summary()
+    summary = run(engine, Provenance.alone(model, {"core": "abc"}), tmp_path / "r.h5").summary()
     assert summary.converged
     assert summary.friction_torque_Nmm == pytest.approx(1200.0, rel=1e-3)
 
