@@ -241,6 +241,10 @@ def is_machine(source: Any) -> bool:
     ----------
     source : str, Path, mapping, case or resolved model
         Whatever a function takes as a case.
+
+    Returns
+    -------
+    bool
     """
     if isinstance(source, Mapping):
         return is_shaft(source)

@@ -14,6 +14,19 @@ def gap_capacitance(gap: float, radius_x: float, radius_y: float, ball_radius: f
     form 4 pi sqrt(R_x R_y) ln{[sqrt(h_x/R_y) + sqrt(h_y/R_x)]/[sqrt(h/R_y) + sqrt(h/R_x)]}, h_x = h + R_b^2/(2 R_x).
     The edge is that of the law `gap-integral`, which this meets at vanishing load. Under load the surfaces outside the
     contact stand closer together than these paraboloids at the same distance in the middle: it is a lower bound.
+
+    Parameters
+    ----------
+    gap : float
+        Distance of the surfaces in the middle [m], greater than 0.
+    radius_x, radius_y : float
+        Reduced radii along and across rolling [m].
+    ball_radius : float
+        Radius of the ball [m], where its projection ends.
+
+    Returns
+    -------
+    float
     """
     s = 0.5 * ball_radius * ball_radius
     edge = math.sqrt((gap + s / radius_x) / radius_y) + math.sqrt((gap + s / radius_y) / radius_x)

@@ -1,4 +1,4 @@
-"""How the oil gets to the balls, in the words of bearing catalogues."""
+"""Ways in which oil gets to the balls, in the words of bearing catalogues."""
 
 from __future__ import annotations
 

@@ -20,7 +20,17 @@ _ROUND_BITS = 0x4338000000000000
 
 
 def exp(x: float) -> float:
-    """Return e^x for -700 < x < 700."""
+    """Return e^x for -700 < x < 700.
+
+    Parameters
+    ----------
+    x : float
+        Exponent.
+
+    Returns
+    -------
+    float
+    """
     shifted = np.float64(x * 1.4426950408889634 + _ROUND)
     n = shifted - _ROUND
     r = (x - n * _LN2_HIGH) - n * _LN2_LOW
@@ -56,7 +66,17 @@ def _log(z: float, k: int) -> float:
 
 
 def log(x: float) -> float:
-    """Return ln x for 1e-300 < x < 1e300, NaN for what has no logarithm."""
+    """Return ln x for 1e-300 < x < 1e300, NaN for what has no logarithm.
+
+    Parameters
+    ----------
+    x : float
+        Positive number.
+
+    Returns
+    -------
+    float
+    """
     k = _octave(x)
     mantissa = _mantissa(x, k)
     value = _log((mantissa - 1.0) / (mantissa + 1.0), k)
@@ -65,12 +85,34 @@ def log(x: float) -> float:
 
 
 def power(x: float, y: float) -> float:
-    """Return x^y for 1e-300 < x < 1e300 and |y ln x| < 700; relative error about |y ln x| times that of exp."""
+    """Return x^y for 1e-300 < x < 1e300 and |y ln x| < 700; relative error about |y ln x| times that of exp.
+
+    Parameters
+    ----------
+    x : float
+        Positive base.
+    y : float
+        Exponent.
+
+    Returns
+    -------
+    float
+    """
     return exp(y * log(x))
 
 
 def log1p(d: float) -> float:
-    """Return ln(1 + d) for 0 <= d < 1e300."""
+    """Return ln(1 + d) for 0 <= d < 1e300.
+
+    Parameters
+    ----------
+    d : float
+        Excess over 1.
+
+    Returns
+    -------
+    float
+    """
     k = _octave(1.0 + d)
     # below sqrt(2) the sum 1 + d has lost digits of d that the argument still has
     rest = d if k == 0 else _mantissa(1.0 + d, k) - 1.0
@@ -78,7 +120,17 @@ def log1p(d: float) -> float:
 
 
 def asinh_quotient(y: float) -> tuple[float, float, int]:
-    """Return (above, below, k) such that asinh(y) is :func:`asinh_of` above/below; 0 <= y < 1e150, 1 < below."""
+    """Return (above, below, k) such that asinh(y) is :func:`asinh_of` above/below; 0 <= y < 1e150, 1 < below.
+
+    Parameters
+    ----------
+    y : float
+        Argument; only its size counts, the caller keeps the sign.
+
+    Returns
+    -------
+    tuple of (float, float, int)
+    """
     root = math.sqrt(1.0 + y * y)
     k = _octave(y + root)
     mantissa = _mantissa(y + root, k)
@@ -89,11 +141,35 @@ def asinh_quotient(y: float) -> tuple[float, float, int]:
 
 
 def asinh_of(quotient: float, k: int, y: float) -> float:
-    """Return asinh(y) from the quotient of :func:`asinh_quotient`, NaN where y is not finite."""
+    """Return asinh(y) from the quotient of :func:`asinh_quotient`, NaN where y is not finite.
+
+    Parameters
+    ----------
+    quotient : float
+        ``above/below`` of :func:`asinh_quotient`.
+    k : int
+        Its power of two.
+    y : float
+        The argument that it was asked for.
+
+    Returns
+    -------
+    float
+    """
     return _log(quotient, k) + (y - y)
 
 
 def asinh(y: float) -> float:
-    """Return asinh(y) for 0 <= y < 1e150: ln(1 + d), d = y + y^2/(1 + sqrt(1 + y^2)), with one division for both."""
+    """Return asinh(y) for 0 <= y < 1e150: ln(1 + d), d = y + y^2/(1 + sqrt(1 + y^2)), with one division for both.
+
+    Parameters
+    ----------
+    y : float
+        Argument, not negative.
+
+    Returns
+    -------
+    float
+    """
     above, below, k = asinh_quotient(y)
     return asinh_of(above / below, k, y)

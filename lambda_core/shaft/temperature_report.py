@@ -56,15 +56,15 @@ class MachineTemperatures(Record):
     """Temperatures at which every node of a machine passes on the heat that it gets."""
 
     interface: int = INTERFACE
-    kind: Literal["steady machine"] = "steady machine"
+    kind: Literal["steady machine"] = Field(default="steady machine", description="which report this is")
     case: str
-    speed_rpm: float
+    speed_rpm: float = Field(description="of the shaft")
     losses_from: str = Field(description="quasi-static points, or the averages of a run")
     conductances: str = Field(description="ready set")
     temperatures_degC: dict[str, float] = Field(description="by node")
     heat_W: dict[str, float] = Field(description="put in at each node, by losses and by the case")
     shaft: list[PlaceOnShaft] = Field(description="nodes along the shaft")
-    bearings: dict[str, BearingState]
+    bearings: dict[str, BearingState] = Field(description="by name: torque, power and state of each")
     flows: list[HeatFlow] = Field(description="between nodes, the largest first")
     power_loss_W: float = Field(description="of all bearings")
     gain: LoopGain = Field(description="of the torque-temperature loop; the largest of all bearings")
@@ -85,16 +85,16 @@ class MachineTemperaturesOverTime(Record):
     """What the temperatures of a machine do from a start."""
 
     interface: int = INTERFACE
-    kind: Literal["transient machine"] = "transient machine"
+    kind: Literal["transient machine"] = Field(default="transient machine", description="which report this is")
     case: str
-    speed_rpm: float
+    speed_rpm: float = Field(description="of the shaft")
     conductances: str = Field(description="ready set")
     ended: Literal["finished", "limit"] = Field(description="limit: a node passed thermal.limit")
     reason: str = Field(description="why it ended before its time; empty when it did not")
     time_s: list[float]
     temperatures_degC: dict[str, list[float]] = Field(description="by node, one for each time")
     shaft: list[PlaceOnShaft] = Field(description="nodes along the shaft, at the end")
-    bearings: dict[str, BearingCourse]
+    bearings: dict[str, BearingCourse] = Field(description="by name: torque and power over time")
     power_loss_W: list[float] = Field(description="of all bearings")
     rise_63_s: dict[str, float | None] = Field(description="time after which 63 % of the node's rise is done")
     heat_in_J: float = Field(description="by losses and by the case")

@@ -86,7 +86,7 @@ class MachineLoop(Loop):
         return replace(self.machine, bearings=tuple(_warm(*one) for one in mounted))
 
     def solved(self, seen: FloatArray) -> tuple[Point, ...]:
-        """Solve shaft and bearings.
+        """Solve shaft and bearings, and return the point of each bearing.
 
         Raises
         ------

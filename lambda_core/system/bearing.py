@@ -319,7 +319,7 @@ class BearingModel:
     cage_material: Material
     oil: Oil  # viscosity, density, alpha_p, beta are NaN here: the physics layer derives them
     oil_level: float  # above the lowest point of the pitch circle [m]
-    lubrication: Lubrication
+    lubrication: Lubrication  # the way in which the oil gets to the balls
     oil_flow: float  # through the bearing [m3/s]
     roughness: float  # composite rms roughness sigma of ball and raceway [m]
     starvation: float  # factor on the film, 1 is fully flooded

@@ -120,7 +120,7 @@ class Loop(ABC):
 
     @abstractmethod
     def solved(self, seen: FloatArray) -> tuple[Point, ...]:
-        """Solve the quasi-static point of each bearing.
+        """Solve the quasi-static points and return one for each bearing.
 
         Raises
         ------
@@ -269,7 +269,7 @@ class BearingLoop(Loop):
         return np.array([inlet_at(self.thermal, at), clearance_at(self.model, at)])
 
     def solved(self, seen: FloatArray) -> tuple[Point, ...]:
-        """Solve the quasi-static point; see :meth:`Losses.at`."""
+        """Solve and return the quasi-static point; see :meth:`Losses.at`."""
         return (self.losses.at(*seen.tolist()),)
 
     @property

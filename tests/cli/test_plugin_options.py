@@ -1,4 +1,4 @@
-"""What a command says to go on with names the plugin files that it was given."""
+"""The command to go on with names the plugin files that it was given."""
 
 from __future__ import annotations
 

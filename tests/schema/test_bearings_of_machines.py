@@ -1,4 +1,4 @@
-"""What each bearing of a machine has of its own: oil, paths of its mistakes, laws that fit its cage."""
+"""Options of each bearing of a machine: oil, paths of its mistakes, laws that fit its cage."""
 
 from __future__ import annotations
 

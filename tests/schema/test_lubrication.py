@@ -1,4 +1,4 @@
-"""How the oil gets to the balls: what a case may say, the law of drag that it chooses, and what that takes away."""
+"""Lubrication of the balls: what a case may say, the law of drag that it chooses, and what that takes away."""
 
 from __future__ import annotations
 
