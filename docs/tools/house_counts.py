@@ -59,7 +59,7 @@ def _index_reads(tree: Tree) -> int:
 def _parameters(tree: Tree) -> int:
     rooms = ("plugins", "examples", "docs", "lambda_core")
     pages = {name: text for suffix in (".py", ".md") for name, text in tree.files(*rooms, suffix=suffix).items()}
-    return _lines({name: text for name, text in pages.items() if name != "docs/house.md"}, r"par\[[0-9]")
+    return _lines({name: text for name, text in pages.items() if name != "docs/house.md"}, r"par\[[0-9]+\]")
 
 
 def _imports(text: str) -> Iterator[str]:
@@ -143,8 +143,9 @@ FIGURES = (
         lambda tree: _with(tree.files(*_OURS, "tests", "benchmarks"), _DECLARED), 1,
     ),
     Figure(
-        "files of the core that know the role `elastic_hysteresis`", "1",
-        lambda tree: _with(tree.core, '"elastic_hysteresis"'), 1,
+        "files of the core that know the role `elastic_hysteresis`", "2",
+        lambda tree: _with(tree.core, '"elastic_hysteresis"'), 2,
+        "its declaration, and the names of what compiled code keeps of a fault",
     ),
     Figure(
         "files that start processes", "2",

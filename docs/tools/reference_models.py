@@ -103,7 +103,9 @@ def _views(models: Registry) -> list[str]:
 
 
 def _subject(view: Any) -> str:
-    return {"result": "one run", "results": "several runs", "study": "a study"}[view.subject]
+    return {"result": "one run", "results": "several runs", "study": "a study", "machine": "a machine at rest"}[
+        view.subject
+    ]
 
 
 def _options(view: Any) -> str:

@@ -37,13 +37,13 @@ QUESTIONS = ("What", "Where", "How", "Which", "Whether", "When", "Who")  # no mo
 # Words to avoid in strings and names of the code. A number can only fall: lower it with every text that you improve.
 CEILINGS = {
     "benchmarks": 28,
-    "cli": 2,
+    "cli": 1,
     "db": 2,
     "examples": 1,
     "gui": 15,
-    "lambda_core": 187,
+    "lambda_core": 117,
     "plugins": 11,
-    "tests": 185,
+    "tests": 183,
 }
 
 

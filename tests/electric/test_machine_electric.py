@@ -106,7 +106,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> api.Result:
     return api.run(MOTOR, SOFT, out=tmp_path_factory.mktemp("motor") / "motor.h5")
 
 
-def test_circuit_beside_a_run_of_a_machine(run: api.Result) -> None:
+def test_circuit_during_a_run_of_a_machine(run: api.Result) -> None:
     """What was written while it ran is what the command finds afterwards, bearing by bearing, bit for bit."""
     found = api.electric(run.path)
     both = run.whole().circuit()

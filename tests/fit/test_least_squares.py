@@ -116,7 +116,7 @@ def test_leave_one_out_agrees_with_fits_without_each_point() -> None:
     true = S.torque(S.TRUTH, at)
     errors = 0.01 * true
     values = S.normal(np.random.default_rng(2), true, errors)
-    whole = fit(lambda p: S.torque(p, at), S.PARAMETERS, Data(values, errors), limit=math.inf)
+    complete = fit(lambda p: S.torque(p, at), S.PARAMETERS, Data(values, errors), limit=math.inf)
     for index in (0, 5, 23):
         kept = np.arange(values.size) != index
         part = S.Conditions(*(column[kept] for column in at))
@@ -124,7 +124,7 @@ def test_leave_one_out_agrees_with_fits_without_each_point() -> None:
             lambda p, part=part: S.torque(p, part), S.PARAMETERS, Data(values[kept], errors[kept]), limit=math.inf
         )
         missed = S.torque(without.values, at)[index] - values[index]
-        assert whole.left_out[index] == pytest.approx(missed, rel=0.1, abs=0.1)
+        assert complete.left_out[index] == pytest.approx(missed, rel=0.1, abs=0.1)
 
 
 def test_an_outlier_is_named_and_hardly_moves_the_fit() -> None:

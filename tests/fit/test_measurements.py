@@ -1,4 +1,4 @@
-"""Files of measurements: what is read, and what is said of every mistake."""
+"""Files of measurements: columns, units, and a message for every mistake."""
 
 from __future__ import annotations
 

@@ -56,12 +56,12 @@ def test_a_contact_under_centrifugal_force_alone_has_the_capacitance_of_its_gap(
     given = light(3.6, 1.41e-6)
     R_x, R_y, radius, _, _ = groove_6208(inner=False)
     ellipse = hertz_contact(3.6, R_x, R_y, STEEL)
-    whole = given["C_hertz"] + EPS_0 * EPS_R * surroundings(ellipse, STEEL, 1.41e-6, radius)
+    total = given["C_hertz"] + EPS_0 * EPS_R * surroundings(ellipse, STEEL, 1.41e-6, radius)
     unloaded = EPS_R * gap_capacitance(1.41e-6, R_x, R_y, radius)
     found = evaluate(f"capacitance/{name}", context=CONTEXT, **given)[0]
     assert unloaded <= found * (1.0 + 1e-12)
-    assert found == pytest.approx(whole, rel=0.15)
-    assert 0.85 * whole < unloaded < whole
+    assert found == pytest.approx(total, rel=0.15)
+    assert 0.85 * total < unloaded < total
 
 
 @pytest.mark.parametrize("name", ["schneider", "constant-factor", "gap-integral"])

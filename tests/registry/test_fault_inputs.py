@@ -1,4 +1,4 @@
-"""What a law that refuses was given is told by the names of its arguments."""
+"""The message about a law that refuses names its arguments."""
 
 from __future__ import annotations
 

@@ -139,7 +139,7 @@ def test_every_mistake_at_once(folder: Path, capsys: pytest.CaptureFixture[str])
 
 
 def test_what_only_the_whole_shows(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A place beside the shaft, two bearings in one, a power at rest."""
+    """A place off the shaft, two bearings in one, a power at rest."""
     changes = ["gears.wheel.at=300 mm", "bearings.right.at=21 mm", "operation.speed=0 rpm"]
     arguments = [part for change in changes for part in ("--set", change)]
     assert main(["check", str(folder / "box.toml"), *arguments]) == 3
