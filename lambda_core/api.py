@@ -78,7 +78,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.shaft.machine_modes import MachineModes
     from lambda_core.system.bearing import BearingModel, Geometry
     from lambda_core.system.describe import ValueReport, value_reports
-    from lambda_core.system.machine import Machine, MountedBearing
+    from lambda_core.system.machine import MachineModel, MountedBearing
     from lambda_core.system.oil_table import oil_table
     from lambda_core.system.operating_limits import operating_warnings
 

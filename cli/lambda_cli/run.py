@@ -53,7 +53,7 @@ def run(
     overrides = [*(changes or ()), *limits(duration, max_wall)]
     model = api.check(case, overrides)
     with talk(progress, quiet) as speaker:
-        for line in [] if isinstance(model, api.Machine) else api.describe(model).headline:
+        for line in [] if isinstance(model, api.MachineModel) else api.describe(model).headline:
             speaker.say(units.system.sentence(line))
         result = api.run(model, out=out, force=force, progress=speaker.update, announce=speaker.say)
     finish(result, as_json, units)

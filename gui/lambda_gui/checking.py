@@ -17,7 +17,7 @@ from lambda_core.domain.option_tree import model_at
 from lambda_gui.nodes import Keys, Node
 
 if TYPE_CHECKING:
-    from lambda_core.api import BearingModel, Catalogue, Machine, ValueReport
+    from lambda_core.api import BearingModel, Catalogue, MachineModel, ValueReport
 
 
 @dataclass(frozen=True)
@@ -26,12 +26,12 @@ class Check:
 
     problems: tuple[Problem, ...] = ()
     model: BearingModel | None = None
-    shaft: Machine | None = None  # in place of the model, of a shaft in several bearings
+    shaft: MachineModel | None = None  # in place of the model, of a shaft in several bearings
     values: tuple[ValueReport, ...] = ()
     warnings: tuple[str, ...] = ()  # where a valid case leaves what bearing, oil and laws are made for
 
     @property
-    def resolved(self) -> BearingModel | Machine | None:
+    def resolved(self) -> BearingModel | MachineModel | None:
         """What the case is, resolved."""
         return self.model or self.shaft
 

@@ -15,7 +15,7 @@ from lambda_core.views.other_units import in_units
 from lambda_gui.charts import notes_text, shape_of, widget_for
 
 if TYPE_CHECKING:
-    from lambda_core.api import Machine, MachineEstimate
+    from lambda_core.api import MachineEstimate, MachineModel
     from lambda_core.domain.unit_systems import UnitSystem
 
 
@@ -41,7 +41,7 @@ class ShaftAnswerScreen(Screen[None]):
     ShaftAnswerScreen .row { width: 1fr; }
     """
 
-    def __init__(self, model: Machine, answer: MachineEstimate) -> None:
+    def __init__(self, model: MachineModel, answer: MachineEstimate) -> None:
         super().__init__()
         self._model, self._answer = model, answer
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from rich.text import Text
 
 if TYPE_CHECKING:
-    from lambda_core.api import Machine, MachineEquilibrium, MountedBearing
+    from lambda_core.api import MachineEquilibrium, MachineModel, MountedBearing
 
 _DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))  # of a braille sign: four down, two across
 _HALF = 1.4  # a half section is drawn where a whole one would be that much smaller
@@ -104,7 +104,7 @@ class _Scale:
 
 
 def drawn_shaft(
-    model: Machine, report: MachineEquilibrium | None, width: int, height: int, colours: Mapping[str, str]
+    model: MachineModel, report: MachineEquilibrium | None, width: int, height: int, colours: Mapping[str, str]
 ) -> Text:
     """Draw sections, bearings, bodies, gears, discs and loads to scale, names around them, and the bend below.
 
@@ -142,7 +142,7 @@ def drawn_shaft(
     return canvas.text(colours["background"])
 
 
-def _largest(model: Machine) -> float:
+def _largest(model: MachineModel) -> float:
     """Return the largest radius of what is drawn [m]."""
     shaft = 0.5 * max(diameter for _, _, diameter, _ in model.outline)
     found = [0.5 * max(body.extent[1:]) for body in model.bodies]
@@ -150,7 +150,9 @@ def _largest(model: Machine) -> float:
     return max(*found, *(0.5 * bearing.model.geometry.outside_diameter for bearing in model.bearings))
 
 
-def _bodies(canvas: Canvas, model: Machine, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]) -> None:
+def _bodies(
+    canvas: Canvas, model: MachineModel, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]
+) -> None:
     """Draw the other bodies that have a shape, from the outer rings in them outwards."""
     for number, body in enumerate(model.bodies, start=1):
         length, *across = body.extent
@@ -162,7 +164,9 @@ def _bodies(canvas: Canvas, model: Machine, scale: _Scale, sides: tuple[bool, ..
                 canvas.box(left, right, *scale.rows(inner, outer, below=below), colours["surface"])
 
 
-def _rotor(canvas: Canvas, model: Machine, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]) -> None:
+def _rotor(
+    canvas: Canvas, model: MachineModel, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]
+) -> None:
     """Draw gears and discs behind the sections of the shaft."""
     tall = 0.5 * max(diameter for _, _, diameter, _ in model.outline)
     for below in sides:
@@ -197,7 +201,7 @@ def _bearing(
             canvas.words(int(centre) // 2, int(middle), sign, colours["foreground" if size >= _BALL else "background"])
 
 
-def _names_above(canvas: Canvas, model: Machine, scale: _Scale, colours: Mapping[str, str]) -> None:
+def _names_above(canvas: Canvas, model: MachineModel, scale: _Scale, colours: Mapping[str, str]) -> None:
     """Name gears, discs, loads and bodies over the drawing, a load with the way it pushes."""
     bodies = [(f"[{body.name}]", body.centre[0]) for body in model.bodies]
     for name, place in (*model.load_places, *model.discs, *bodies):
@@ -221,7 +225,7 @@ def _label(canvas: Canvas, line: int, middle: float, label: str, colour: str, *,
 
 def _names_below(
     canvas: Canvas,
-    model: Machine,
+    model: MachineModel,
     report: MachineEquilibrium | None,
     scale: _Scale,
     line: int,

@@ -10,7 +10,7 @@ from lambda_gui.shaft_drawing import drawn_shaft
 from lambda_gui.sketch import Sketch
 
 if TYPE_CHECKING:
-    from lambda_core.api import Machine, MachineEquilibrium
+    from lambda_core.api import MachineEquilibrium, MachineModel
     from lambda_gui.checking import Check
     from lambda_gui.nodes import Node
 
@@ -20,7 +20,7 @@ class ShaftSketch(Sketch):
 
     def __init__(self) -> None:
         super().__init__()
-        self._shaft: Machine | None = None
+        self._shaft: MachineModel | None = None
         self._report: MachineEquilibrium | None = None
 
     def show_check(self, check: Check) -> None:

@@ -27,9 +27,9 @@ if TYPE_CHECKING:
     from lambda_core.solver.drivers.compiled_laws import Kernels
     from lambda_core.solver.drivers.equilibrium import Equilibrium
     from lambda_core.system.bearing import BearingModel
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
-_Model = TypeVar("_Model", "BearingModel", "Machine", "BearingModel | Machine")
+_Model = TypeVar("_Model", "BearingModel", "MachineModel", "BearingModel | MachineModel")
 
 RUNS = "runs"
 State = Literal["done", "partial", "failed", "stopped", "pending"]
@@ -114,7 +114,7 @@ def lost(task: Task, reason: str) -> Outcome:
     return Outcome(task.number, "failed", reason, "", {}, "", 0.0)
 
 
-def point_model(case_toml: str, changes: tuple[str, ...]) -> BearingModel | Machine:
+def point_model(case_toml: str, changes: tuple[str, ...]) -> BearingModel | MachineModel:
     """Return the model of one point, of one bearing or of a machine; CaseError with everything that is wrong."""
     tables = _machine_tables(case_toml)
     if tables is None:
@@ -148,7 +148,7 @@ def bearings_of(case_toml: str) -> tuple[str, ...]:
     return () if tables is None else tuple(tables["bearings"])
 
 
-def bearing_names(model: BearingModel | Machine) -> tuple[str, ...]:
+def bearing_names(model: BearingModel | MachineModel) -> tuple[str, ...]:
     """Return the names of a machine's bearings; none for the model of one bearing."""
     return tuple(bearing.name for bearing in getattr(model, "bearings", ()))
 
@@ -157,21 +157,21 @@ def with_temperatures(model: _Model) -> _Model:
     """Return the model of a bearing or a machine at its own temperatures, where the case wants them computed."""
     from lambda_core.discovery.manager import registry
     from lambda_core.shaft.temperatures import ready_machine_of
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
     from lambda_core.system.resolve import resolve
     from lambda_core.thermal.operating import at_own_temperatures
 
-    if isinstance(model, Machine):
+    if isinstance(model, MachineModel):
         return ready_machine_of(model)
     return at_own_temperatures(model, lambda case: resolve(case, registry(), _catalogue()))
 
 
-def point_hash(model: BearingModel | Machine) -> str:
+def point_hash(model: BearingModel | MachineModel) -> str:
     """Return the hash that a point is known by: of all that decides its numbers."""
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
     from lambda_core.system.resolve import case_hash
 
-    if not isinstance(model, Machine):
+    if not isinstance(model, MachineModel):
         return case_hash(model)
     parts = [model.case_toml, *(case_hash(bearing.model) for bearing in model.bearings)]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
@@ -218,7 +218,7 @@ def _shared_kernels() -> SharedKernels:
     return SharedKernels()
 
 
-def static_values(model: BearingModel | Machine, names: tuple[str, ...]) -> dict[str, float | None]:
+def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) -> dict[str, float | None]:
     """Return the responses of a quasi-static point.
 
     Raises
@@ -228,9 +228,9 @@ def static_values(model: BearingModel | Machine, names: tuple[str, ...]) -> dict
     """
     from lambda_core.batch.responses import StaticPoint, evaluate
     from lambda_core.results.quasistatic import quasistatic_of
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
-    if isinstance(model, Machine):
+    if isinstance(model, MachineModel):
         from lambda_core.batch.machine_responses import machine_point
 
         whole = machine_point(model, _shared_kernels())
@@ -242,7 +242,7 @@ def static_values(model: BearingModel | Machine, names: tuple[str, ...]) -> dict
 
 
 def machine_columns(
-    model: Machine, equilibria: Sequence[Equilibrium], names: tuple[str, ...]
+    model: MachineModel, equilibria: Sequence[Equilibrium], names: tuple[str, ...]
 ) -> dict[str, tuple[float | None, str, str]]:
     """Return value, unit and meaning of the rows of comparison methods of each bearing among `names`."""
     columns: dict[str, tuple[float | None, str, str]] = {}
@@ -297,7 +297,7 @@ def method_columns(found: Equilibrium, names: tuple[str, ...]) -> dict[str, tupl
 
 
 def _dynamic(
-    model: BearingModel | Machine, path: Path, names: tuple[str, ...]
+    model: BearingModel | MachineModel, path: Path, names: tuple[str, ...]
 ) -> tuple[State, str, dict[str, float | None]]:
     """Run a point, or go on with what there is of it, and read its responses."""
     from lambda_core.batch.responses import DynamicPoint, evaluate
@@ -317,7 +317,7 @@ def _dynamic(
     return ("done", "", values) if summary.converged else ("partial", "; ".join(summary.reasons), values)
 
 
-def _run(model: BearingModel | Machine, path: Path) -> Result:
+def _run(model: BearingModel | MachineModel, path: Path) -> Result:
     from lambda_core.results.opening import BeingWrittenError, ResultError
     from lambda_core.results.reader import Result
     from lambda_core.run.launch import launch, relaunch

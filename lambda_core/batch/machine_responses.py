@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lambda_core.shaft.machine_equilibrium import MachineEquilibrium
     from lambda_core.shaft.machine_modes import MachineModes
     from lambda_core.solver.drivers.equilibrium import Equilibrium
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
 # Fields of BearingEquilibrium: name, unit, meaning.
 _OF_BEARING = (
@@ -41,7 +41,7 @@ _OF_BEARING = (
 class MachinePoint:
     """A quasi-static point of a machine: what is asked of it is computed once."""
 
-    model: Machine
+    model: MachineModel
     state: ShaftState
     kernels: SharedKernels
     _points: dict[str, StaticPoint] = field(default_factory=dict)
@@ -77,7 +77,7 @@ class MachinePoint:
         return self._points[name]
 
 
-def machine_point(model: Machine, kernels: SharedKernels) -> MachinePoint:
+def machine_point(model: MachineModel, kernels: SharedKernels) -> MachinePoint:
     """Solve a machine for a point of a study."""
     return MachinePoint(model, solve_shaft(model, kernels=kernels), kernels)
 

@@ -31,7 +31,7 @@ from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageErro
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
     from lambda_core.system.bearing import BearingModel
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
 Announce = Callable[[str], None] | None
 _TRIED_VALUES = 50  # values of a list that are tried out beforehand
@@ -80,7 +80,7 @@ class Ready:
     names: tuple[str, ...]  # of the responses
     headings: tuple[Heading, ...]
     estimate: StudyEstimate
-    first: BearingModel | Machine
+    first: BearingModel | MachineModel
 
 
 def check(
@@ -154,7 +154,7 @@ def _case_toml(study: Study, folder: Path | None, case: Case | None) -> str:
     return standalone_toml(with_packages(apply_overrides(case, changes) if changes else case, registry()))
 
 
-def _first_model(study: Study, plan: Plan, case_toml: str) -> BearingModel | Machine:
+def _first_model(study: Study, plan: Plan, case_toml: str) -> BearingModel | MachineModel:
     """Resolve the first point: what is wrong there is wrong everywhere."""
     point = _corner(plan, {})
     try:
@@ -255,7 +255,7 @@ def _check_goal(study: Study, names: tuple[str, ...]) -> None:
 
 
 def _probe(
-    study: Study, model: BearingModel | Machine, names: tuple[str, ...], announce: Announce
+    study: Study, model: BearingModel | MachineModel, names: tuple[str, ...], announce: Announce
 ) -> tuple[float, dict[str, tuple[float | None, str, str]], float]:
     """Compile what the study needs and time one point.
 
@@ -270,9 +270,9 @@ def _probe(
     """
     from lambda_core.run.estimate import estimate as estimate_run
     from lambda_core.solver.drivers.equilibrium import solve
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
-    if isinstance(model, Machine):
+    if isinstance(model, MachineModel):
         return _probe_machine(study, model, names, announce)
     solve(with_temperatures(model), announce=announce)  # compiles or loads; not timed
     start = time.perf_counter()
@@ -294,7 +294,7 @@ def _probe(
 
 
 def _probe_machine(
-    study: Study, model: Machine, names: tuple[str, ...], announce: Announce
+    study: Study, model: MachineModel, names: tuple[str, ...], announce: Announce
 ) -> tuple[float, dict[str, tuple[float | None, str, str]], float]:
     """Do for a machine what :func:`_probe` does for one bearing."""
     from lambda_core.run.estimate import machine_estimate

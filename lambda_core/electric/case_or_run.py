@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
     from lambda_core.solver.drivers.compiled_laws import Announce
     from lambda_core.system.bearing import BearingModel
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
 Span = tuple[float, float]
 _SECTION = "electric."
@@ -48,7 +48,7 @@ def electric_of_model(model: BearingModel, announce: Announce = None, *, window:
 
 
 def electric_of_machine(
-    machine: Machine,
+    machine: MachineModel,
     poses: Sequence[FloatArray],
     announce: Announce = None,
     *,

@@ -19,7 +19,7 @@ from lambda_core.system.resolve_electric import resolve_electric
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
     from lambda_core.system.bearing import BearingModel
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
 _SILICON_NITRIDE = re.compile(r"si3n4|silicon.?nitride", re.IGNORECASE)
 _PERMITTIVITY = 8.0  # of it, usual value of makers' sheets: it insulates, whether or not the case says so
@@ -80,7 +80,7 @@ def of_model(model: BearingModel) -> CircuitBearing:
     return _circuit_bearing("bearing", model.name, chosen, model.geometry, materials, model.oil, model.roughness)
 
 
-def of_machine(machine: Machine) -> list[CircuitBearing]:
+def of_machine(machine: MachineModel) -> list[CircuitBearing]:
     """Return the bearings of a machine with their circuit; a case without the section gets the defaults."""
     chosen = machine.electric or electric_model(MachineElectric(), machine.name)
     found = []

@@ -21,7 +21,7 @@ from lambda_core.electric.simulation import integrated_until, network_of
 from lambda_core.electric.voltage_sources import corners, one_period, reach
 from lambda_core.laws.kernels import sources_key
 from lambda_core.results.circuit_rows import CircuitRows, circuit_channels, discharge_channels
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
@@ -38,14 +38,14 @@ class Live:
 
     Parameters
     ----------
-    model : BearingModel or Machine
+    model : BearingModel or MachineModel
         With a circuit; all bearings of a machine stand in it.
     announce : callable, optional
         Called with a sentence before something is compiled.
     """
 
-    def __init__(self, model: BearingModel | Machine, announce: Any = None) -> None:
-        if isinstance(model, Machine):
+    def __init__(self, model: BearingModel | MachineModel, announce: Any = None) -> None:
+        if isinstance(model, MachineModel):
             self._bearings, models = of_machine(model), [mounted.model for mounted in model.bearings]
         else:
             self._bearings, models = [of_model(model)], [model]

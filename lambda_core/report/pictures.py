@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
     from lambda_core.shaft.machine_equilibrium import MachineEquilibrium
     from lambda_core.shaft.machine_modes import MachineModes
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
     from lambda_core.views.chart import ViewData
     from lambda_core.views.view import Subject
 
@@ -115,13 +115,13 @@ def view_all(
 
 
 def machine_pictures(
-    model: Machine, equilibrium: MachineEquilibrium | None = None, modes: MachineModes | None = None
+    model: MachineModel, equilibrium: MachineEquilibrium | None = None, modes: MachineModes | None = None
 ) -> list[ViewData]:
     """Return what there is to see of a machine: deflection and bending moment, natural frequencies over speed.
 
     Parameters
     ----------
-    model : Machine
+    model : MachineModel
         From :func:`check_shaft`.
     equilibrium : MachineEquilibrium, optional
         From :func:`quasistatic`.

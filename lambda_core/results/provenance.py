@@ -30,7 +30,7 @@ from lambda_core.system.bearing import BearingModel
 from lambda_core.views.observer import Event, Observer
 
 if TYPE_CHECKING:
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
 _LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "pydantic")
 # Of the model these stand in datasets of their own, or follow from the case and are part of the geometry.
@@ -162,7 +162,7 @@ class Provenance:
         return datetime.now(UTC).isoformat(timespec="seconds")
 
 
-def machine_data(model: Machine) -> dict[str, Any]:
+def machine_data(model: MachineModel) -> dict[str, Any]:
     """Return a machine without its bearings as plain data, SI.
 
     Of each array there stand its shape and two sums over its numbers: enough to tell whether it has changed.

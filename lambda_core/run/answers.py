@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lambda_core.results.summary import Summary
     from lambda_core.run.comparison import Comparison
     from lambda_core.system.bearing import BearingModel
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
     from lambda_core.views.method import Method
 
 
@@ -119,7 +119,7 @@ def cite(path: str | PathLike[str]) -> Citation:
 
 
 def compare(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     methods: Sequence[str] = (),

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from lambda_core.electric.inversion import FilmOutcome
     from lambda_core.electric.simulation import CircuitSimulation, Simulation
     from lambda_core.system.bearing import BearingModel
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
-    Source = str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine
+    Source = str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel
 
 
 @one_blas_thread()

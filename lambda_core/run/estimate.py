@@ -20,7 +20,7 @@ from lambda_core.shaft.machine_motion import MachineEngine, machine_start
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.system.bearing import BearingModel, Solver
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 from lambda_core.system.time_functions import initial
 from lambda_core.views.method import Method
 
@@ -83,7 +83,7 @@ def _time(seconds: float | None) -> str:
     return "unknown" if seconds is None else f"{seconds:.2g} s" if seconds < 100.0 else f"{seconds / 60.0:.3g} min"
 
 
-def machine_estimate(model: Machine, announce: Callable[[str], None] | None = None) -> MachineEstimate:
+def machine_estimate(model: MachineModel, announce: Callable[[str], None] | None = None) -> MachineEstimate:
     """Solve the equilibrium of a machine once and say what follows from it.
 
     Raises

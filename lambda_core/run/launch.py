@@ -35,13 +35,13 @@ from lambda_core.solver.code_files import physics_sources
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.describe import headline
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 from lambda_core.system.resolve_solver import MOST_TIME
 
 if TYPE_CHECKING:
     from lambda_core.electric.live import Live
 Announce = Callable[[str], None]
-Runnable = BearingModel | Machine
+Runnable = BearingModel | MachineModel
 
 
 def launch(
@@ -95,7 +95,7 @@ def relaunch(path: Path, model: Runnable, *, report: Report | None = None, annou
 
 def _check_same(result: Result, model: Runnable) -> None:
     """Refuse a case that resolves to other values than those of the run."""
-    models = {one.name: one.model for one in model.bearings} if isinstance(model, Machine) else {}
+    models = {one.name: one.model for one in model.bearings} if isinstance(model, MachineModel) else {}
     if isinstance(model, BearingModel):
         models = dict.fromkeys(result.bearing_names[:1], model)
     if tuple(models) != result.bearing_names:
@@ -111,14 +111,14 @@ def _check_same(result: Result, model: Runnable) -> None:
                 else f"the case now resolves to other values: {of}{_some(changed)}"
             )
             raise ResultError(f"{result.path} cannot go on: {why}")
-    changed = differences(result.machine, machine_data(model)) if isinstance(model, Machine) else []
+    changed = differences(result.machine, machine_data(model)) if isinstance(model, MachineModel) else []
     if changed:
         raise ResultError(f"{result.path} cannot go on: the case now resolves to other values: {_some(changed)}")
 
 
 def _check_end(model: Runnable) -> None:
     """Refuse a run of a machine that has no end, or none that is reached."""
-    if not isinstance(model, Machine):
+    if not isinstance(model, MachineModel):
         return
     asked = model.solver.duration
     end = asked or max(bearing.model.solver.max_duration for bearing in model.bearings)
@@ -147,7 +147,7 @@ def destination(model: Runnable, out: Path | None, force: bool) -> Path:
 
 def _prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Provenance, Attachments]:
     """Return the engine at t = 0, where it comes from, and what is computed from its samples."""
-    found = _machine(model, announce) if isinstance(model, Machine) else _one(model, announce)
+    found = _machine(model, announce) if isinstance(model, MachineModel) else _one(model, announce)
     engine, provenance, live = found
     attached = Attachments.of(provenance, live)
     shared = {"core": sources_key(*physics_sources()), "code": code(), **(live.keys() if live is not None else {})}
@@ -179,7 +179,7 @@ def _one(model: BearingModel, announce: Announce | None) -> tuple[RunEngine, Pro
     return OneBearing(engine), Provenance.alone(model, engine.kernel_keys, rating), live
 
 
-def _machine(model: Machine, announce: Announce | None) -> tuple[RunEngine, Provenance, Live | None]:
+def _machine(model: MachineModel, announce: Announce | None) -> tuple[RunEngine, Provenance, Live | None]:
     """Prepare the run of a machine."""
     from lambda_core.run.machine_law_blame import BlamingMachineEngine
     from lambda_core.shaft.bearing_alone import alone_under_load

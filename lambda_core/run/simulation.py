@@ -25,12 +25,12 @@ if TYPE_CHECKING:
     from lambda_core.run.warmup import Warmup
     from lambda_core.shaft.machine_equilibrium import MachineEquilibrium
     from lambda_core.system.bearing import BearingModel
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
 
 @one_blas_thread()
 def quasistatic(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     announce: Callable[[str], None] | None = None,
@@ -75,7 +75,7 @@ def quasistatic(
 
 @one_blas_thread()
 def estimate(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     announce: Callable[[str], None] | None = None,
@@ -112,7 +112,7 @@ def estimate(
 
 @one_blas_thread()
 def run(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     out: str | Path | None = None,
@@ -148,7 +148,7 @@ def run(
     from lambda_core.run.launch import launch
 
     path = None if out is None else Path(out)
-    model: BearingModel | Machine
+    model: BearingModel | MachineModel
     if is_machine(source):
         from lambda_core.shaft.temperatures import ready_machine_of
 
@@ -252,7 +252,7 @@ def resume(
     return relaunch(found.path, model, report=progress, announce=announce)
 
 
-def _stored_model(found: Result, overrides: Iterable[str]) -> BearingModel | Machine:
+def _stored_model(found: Result, overrides: Iterable[str]) -> BearingModel | MachineModel:
     """Return the model of the case in a result, without the limit of wall time that it began with."""
     from lambda_core.case.case_io import apply_overrides, parse_case, toml_tables
     from lambda_core.system.resolve_machine import check_shaft
@@ -268,7 +268,7 @@ def _stored_model(found: Result, overrides: Iterable[str]) -> BearingModel | Mac
 
 @one_blas_thread()
 def cross_check(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     free_cage: bool = False,

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from lambda_core.case.case import Case
     from lambda_core.case.shaft import ShaftCase
     from lambda_core.system.bearing import BearingModel
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
 _RPM = np.pi / 30.0
 # Mechanisms of losses under the names that the picture shows.
@@ -74,7 +74,7 @@ class SpeedCurve(Record):
 
 @one_blas_thread()
 def stribeck(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | Machine,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | MachineModel,
     overrides: Iterable[str] = (),
     *,
     bearing: str | None = None,

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from lambda_core.shaft.temperature_report import MachineTemperatures, MachineTemperaturesOverTime
     from lambda_core.shaft.temperatures import MachineLoop
     from lambda_core.system.bearing import BearingModel
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
     from lambda_core.thermal.report import SteadyTemperatures, TemperaturesOverTime
     from lambda_core.views.chart import ViewData
 
 
 @one_blas_thread()
 def thermal(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     announce: Callable[[str], None] | None = None,
@@ -33,7 +33,7 @@ def thermal(
 
     Parameters
     ----------
-    source : str, Path, mapping, Case, ShaftCase, BearingModel or Machine
+    source : str, Path, mapping, Case, ShaftCase, BearingModel or MachineModel
         A case as for :func:`check`: the losses are those of its quasi-static point at t = 0, without a cage, which
         follows the temperatures. Or the result file of a run: the losses are its averages, the cage's among them.
     overrides : iterable of str
@@ -75,7 +75,7 @@ def thermal(
 
 @one_blas_thread()
 def warm_up(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
     duration: float,
     overrides: Iterable[str] = (),
     *,

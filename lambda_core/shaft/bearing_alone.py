@@ -11,13 +11,13 @@ from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.system.bearing import BearingModel, DofState, TimeFunction
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
 
 
-def bearing_number(machine: Machine, name: str | None) -> int:
+def bearing_number(machine: MachineModel, name: str | None) -> int:
     """Return the place of a bearing among those of a machine; no name is needed where there is one.
 
     Raises
@@ -37,14 +37,16 @@ def bearing_number(machine: Machine, name: str | None) -> int:
 
 
 def bearing_equilibrium(
-    machine: Machine, name: str | None, announce: Callable[[str], None] | None = None
+    machine: MachineModel, name: str | None, announce: Callable[[str], None] | None = None
 ) -> Equilibrium:
     """Return the equilibrium of one bearing at its pose in the machine, with the friction of its balls."""
     number = bearing_number(machine, name)
     return solve_shaft(machine, announce).rings[number].equilibrium()
 
 
-def bearing_alone(machine: Machine, name: str | None, announce: Callable[[str], None] | None = None) -> BearingModel:
+def bearing_alone(
+    machine: MachineModel, name: str | None, announce: Callable[[str], None] | None = None
+) -> BearingModel:
     """Return one bearing under the constant load and at the misalignment that it has in the machine at t = 0.
 
     Its inner ring is free along x, y and z and carries the load; its tilts are held where shaft and housing hold them.
@@ -73,7 +75,7 @@ def bearing_of_run(result: Result) -> BearingModel:
     return bearing_alone(machine, result.of_bearing().bearing)
 
 
-def alone_under_load(machine: Machine, state: ShaftState, number: int) -> BearingModel:
+def alone_under_load(machine: MachineModel, state: ShaftState, number: int) -> BearingModel:
     """Return one bearing of a solved machine as :func:`bearing_alone` does."""
     mounted, reaction, pose = machine.bearings[number], state.reactions[number], state.pose(machine, number)
     model, body = mounted.model, mounted.model.inner_ring

@@ -20,7 +20,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import ElasticBody, disc_mass
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 
 _SAME = 1e-6  # [m] places nearer than this are one
 _LONG_OVERHANG = 1.0  # diameters, from which on the end of the shaft has a lump of its own
@@ -58,7 +58,7 @@ class LumpedShaft:
         return int(np.argmin(np.abs(self.positions - position)))
 
 
-def lump(model: Machine) -> LumpedShaft:
+def lump(model: MachineModel) -> LumpedShaft:
     """Cut the shaft into lumps."""
     body = model.body
     places = _places(model)
@@ -75,7 +75,7 @@ def lump(model: Machine) -> LumpedShaft:
     return LumpedShaft(places, masses, transverse, polar, stiffness, follow, driven)
 
 
-def _places(model: Machine) -> FloatArray:
+def _places(model: MachineModel) -> FloatArray:
     """Return where lumps stand [m]: of a shaft from outside at the nodes that it names, by default at all."""
     body = model.body
     held = [*(b.position for b in model.bearings), *model.spring_places]
@@ -90,7 +90,7 @@ def _places(model: Machine) -> FloatArray:
     return places
 
 
-def unbalance_of_lumps(model: Machine, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
+def unbalance_of_lumps(model: MachineModel, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
     """Return the unbalance of every lump [kg m] and its azimuth at t = 0 [rad]."""
     total = np.zeros(shaft.positions.size, dtype=complex)
     for unbalance in model.unbalances:
@@ -104,11 +104,11 @@ def _distinct(places: Sequence[float]) -> FloatArray:
     return found
 
 
-def _diameter(model: Machine, place: float) -> float:
+def _diameter(model: MachineModel, place: float) -> float:
     return next((d for begin, end, d, _ in model.outline if begin <= place <= end), model.outline[-1][2])
 
 
-def _with_ends(model: Machine, mains: FloatArray, long: float) -> FloatArray:
+def _with_ends(model: MachineModel, mains: FloatArray, long: float) -> FloatArray:
     """Add the ends of the shaft where they stand out."""
     ends = (model.outline[0][0], model.outline[-1][1])
     apart = (mains[0] - ends[0], ends[1] - mains[-1])
@@ -118,7 +118,7 @@ def _with_ends(model: Machine, mains: FloatArray, long: float) -> FloatArray:
     return _distinct([*mains, *added])
 
 
-def _between(model: Machine, mains: FloatArray) -> FloatArray:
+def _between(model: MachineModel, mains: FloatArray) -> FloatArray:
     """Add lumps between those that are needed, at nodes of the beam."""
     nodes, found = model.body.positions, [float(mains[0])]
     for begin, end in itertools.pairwise(mains):

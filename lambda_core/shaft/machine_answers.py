@@ -12,12 +12,12 @@ if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
     from lambda_core.shaft.machine_equilibrium import MachineEquilibrium
     from lambda_core.shaft.machine_modes import MachineModes
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
 
 @one_blas_thread()
 def machine_equilibrium(
-    source: Source | Machine, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
+    source: Source | MachineModel, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
 ) -> MachineEquilibrium:
     """Solve a machine; :func:`lambda_core.api.quasistatic` for a machine of several bearings."""
     from lambda_core.shaft.machine_equilibrium import equilibrium_of
@@ -30,13 +30,13 @@ def machine_equilibrium(
 
 @one_blas_thread()
 def modes(
-    source: Source | Machine, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
+    source: Source | MachineModel, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
 ) -> MachineModes:
     """Compute critical speeds, natural frequencies and bearing matrices of a machine at its operating point.
 
     Parameters
     ----------
-    source : str, Path, mapping, ShaftCase or Machine
+    source : str, Path, mapping, ShaftCase or MachineModel
         File, plain tables as they stand in one, a case, or what :func:`check_shaft` returned.
     overrides : iterable of str
         Changes ``path=value``.
@@ -69,24 +69,24 @@ def modes(
     return modes_of(model, solve_shaft(model, announce))
 
 
-def machine_of(source: Source | Machine, overrides: Iterable[str] = ()) -> Machine:
+def machine_of(source: Source | MachineModel, overrides: Iterable[str] = ()) -> MachineModel:
     """Return the resolved machine of whatever a function of this package takes as one."""
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
     from lambda_core.system.resolve_machine import check_shaft
 
-    if not isinstance(source, Machine):
+    if not isinstance(source, MachineModel):
         return check_shaft(source, overrides)
     if list(overrides):
         raise UsageError("a resolved machine takes no overrides: change the case and resolve it")
     return source
 
 
-def describe_machine(model: Machine) -> str:
+def describe_machine(model: MachineModel) -> str:
     """Return what a resolved machine is, in lines for people: bearings, loads, mass, assumptions.
 
     Parameters
     ----------
-    model : Machine
+    model : MachineModel
         From :func:`check_shaft`.
 
     Returns

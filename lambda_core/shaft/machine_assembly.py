@@ -25,7 +25,7 @@ from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.law_inputs import Oils
 from lambda_core.system.bearing import ZERO, BearingModel, Body, DofState, TimeFunction
 from lambda_core.system.law_context import ContactFrame
-from lambda_core.system.machine import GROUND, PLACES, Machine, RigidBody
+from lambda_core.system.machine import GROUND, PLACES, MachineModel, RigidBody
 from lambda_core.system.time_functions import initial, scaled
 
 _ABOUT_X = 3  # row of a node
@@ -60,7 +60,7 @@ class MemberNumbers:
     count: int
 
 
-def member_numbers(machine: Machine, shaft: LumpedShaft) -> MemberNumbers:
+def member_numbers(machine: MachineModel, shaft: LumpedShaft) -> MemberNumbers:
     """Return the numbers of the members."""
     lumps, bearings = shaft.positions.size, len(machine.bearings)
     own = np.array([0, *range(2, lumps + 1)])
@@ -83,7 +83,7 @@ def with_free_bodies(model: BearingModel) -> BearingModel:
     return dataclasses.replace(model, **bodies, links={})
 
 
-def machine_assembly(machine: Machine, shaft: LumpedShaft, frozen: list[Frozen]) -> Assembly:
+def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Frozen]) -> Assembly:
     """Return the assembly of a machine, with the laws of each bearing as they are frozen."""
     numbers = member_numbers(machine, shaft)
     bearings = [
@@ -111,7 +111,7 @@ def machine_assembly(machine: Machine, shaft: LumpedShaft, frozen: list[Frozen])
     )
 
 
-def _lumps(machine: Machine, shaft: LumpedShaft, numbers: MemberNumbers) -> dict[int, Member]:
+def _lumps(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) -> dict[int, Member]:
     """Return the lumps of the shaft, with the inner rings that they carry."""
     unbalances, loads = unbalance_of_lumps(machine, shaft)[0], _loads_on_lumps(machine, shaft)
     found = {}
@@ -129,12 +129,12 @@ def _lumps(machine: Machine, shaft: LumpedShaft, numbers: MemberNumbers) -> dict
     return found
 
 
-def _turned(machine: Machine, others: DofState) -> dict[str, DofState]:
+def _turned(machine: MachineModel, others: DofState) -> dict[str, DofState]:
     """Return the degrees of freedom of a member that the coupling turns."""
     return {**dict.fromkeys(DOFS, others), SPIN: DofState("prescribed", machine.speed_over_time)}
 
 
-def _outer_ring(machine: Machine, i: int, model: BearingModel) -> Body:
+def _outer_ring(machine: MachineModel, i: int, model: BearingModel) -> Body:
     """Return an outer ring in its seat: springs and elastic housings tie it, and it is free between them."""
     seating, dofs = machine.bearings[i].seating, {SPIN: _LOCKED}
     is_housed = machine.housing is not None and machine.bearings[i].carrier == GROUND
@@ -165,7 +165,7 @@ def _loaded(body: Body, load: Load) -> Body:
     return dataclasses.replace(body, force=(x, y, z), moment=(about_x, about_y, about_z))
 
 
-def _loads_on_lumps(machine: Machine, shaft: LumpedShaft) -> list[Load]:
+def _loads_on_lumps(machine: MachineModel, shaft: LumpedShaft) -> list[Load]:
     """Return force and moment on each lump.
 
     Loads, weight and growth by temperature go to the lumps as the beam hands them on; of the weight the part that
@@ -189,7 +189,7 @@ def _loads_on_lumps(machine: Machine, shaft: LumpedShaft) -> list[Load]:
     return [tuple(every[k : k + NODE]) for k in range(0, len(every), NODE)]
 
 
-def _loads_on_bodies(machine: Machine) -> list[Load]:
+def _loads_on_bodies(machine: MachineModel) -> list[Load]:
     """Return force and moment on each rigid body."""
     size, changing = machine.body.mass.shape[0], dict(machine.varying)
     every = [
@@ -203,7 +203,7 @@ def _sum(one: TimeFunction, other: TimeFunction) -> TimeFunction:
     return TimeFunction((*one.terms, *other.terms))
 
 
-def _ties(machine: Machine, shaft: LumpedShaft, numbers: MemberNumbers) -> Ties:
+def _ties(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) -> Ties:
     """Return what ties members: shaft, housing, seats, springs and dampers, and what holds rigid bodies."""
     lumps, turns = numbers.lumps, np.arange(NODE)
     lead = [numbers.count - 1] if shaft.driven == lumps.size else []

@@ -26,7 +26,7 @@ from lambda_core.shaft.machine_modes import AXES, six
 from lambda_core.shaft.shaft_equilibrium import ShaftState
 from lambda_core.shaft.structure import point_on, static_rows, stretch
 from lambda_core.solver.drivers.equilibrium import Equilibrium
-from lambda_core.system.machine import Machine, MountedBearing, Place
+from lambda_core.system.machine import MachineModel, MountedBearing, Place
 from lambda_core.system.operating_limits import load_warnings, operating_warnings
 
 
@@ -126,7 +126,7 @@ class MachineEquilibrium(Record):
 
 
 def equilibrium_of(
-    model: Machine, state: ShaftState, equilibria: Sequence[Equilibrium] | None = None
+    model: MachineModel, state: ShaftState, equilibria: Sequence[Equilibrium] | None = None
 ) -> MachineEquilibrium:
     """Put the equilibrium into the units of the interface.
 
@@ -169,7 +169,7 @@ def _moved(motion: FloatArray) -> BodyMoved:
     return BodyMoved(displacement_um=_listed(1e6 * motion[:3]), tilt_mrad=_listed(1e3 * motion[3:]))
 
 
-def _at(model: Machine, state: ShaftState, place: Place) -> FloatArray:
+def _at(model: MachineModel, state: ShaftState, place: Place) -> FloatArray:
     """Return how a place moves and turns, zeros on the ground and off the nodes of the shaft."""
     own, moves = point_on(model, static_rows(model), place.body, place.point)
     return np.asarray(moves @ state.motions[own])
@@ -179,7 +179,7 @@ def _listed(values: FloatArray) -> Any:
     return values.tolist()
 
 
-def _bearing(model: Machine, state: ShaftState, index: int, found: Equilibrium) -> BearingEquilibrium:
+def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibrium) -> BearingEquilibrium:
     """Return what there is to say of one bearing."""
     bearing, reaction = model.bearings[index], state.reactions[index]
     alone = quasistatic_of(found)

@@ -22,7 +22,7 @@ from lambda_core.shaft.vibration import (
     modes_at,
     supported,
 )
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 
 _CAMPBELL = 9  # speeds
 _SHOWN = 8  # modes
@@ -101,7 +101,7 @@ class MachineModes(Record):
         return f"<MachineModes {self.case}, {self.speed_rpm:.5g} 1/min{first}>"
 
 
-def modes_of(model: Machine, state: ShaftState) -> MachineModes:
+def modes_of(model: MachineModel, state: ShaftState) -> MachineModes:
     """Return natural frequencies, critical speeds and bearing matrices at an equilibrium."""
     dampings = bearing_damping(model, [ring.equilibrium() for ring in state.rings])
     stiffness = supported(model, state)
@@ -145,7 +145,7 @@ def six(matrix: FloatArray) -> list[list[float]]:
     return rows
 
 
-def _fastest(model: Machine, critical: list[Mode]) -> float:
+def _fastest(model: MachineModel, critical: list[Mode]) -> float:
     """Return the end of the speeds at which the whirl is shown: beyond the first critical ones [rad/s]."""
     return max(2.0 * abs(model.speed), *(1.2 * mode.frequency for mode in critical[:2]), 1.0)
 

@@ -25,7 +25,7 @@ from lambda_core.solver.drivers.solver_context import SolverContext, assemble, c
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import SIGNS, STATES
 from lambda_core.system.locations import carried
-from lambda_core.system.machine import GROUND, PLACES, SHAFT, Machine
+from lambda_core.system.machine import GROUND, PLACES, SHAFT, MachineModel
 
 # State that each displacement of POSE moves, and its sign.
 RING_STATES, RING_SIGNS = STATES[np.array(PLACES)], SIGNS[np.array(PLACES)]
@@ -38,7 +38,7 @@ class MachineStart:
 
     Attributes
     ----------
-    machine : Machine
+    machine : MachineModel
     shaft : LumpedShaft
     state : ShaftState
         The quasi-static equilibrium of shaft, rings and bodies.
@@ -48,7 +48,7 @@ class MachineStart:
         What the engine begins with.
     """
 
-    machine: Machine
+    machine: MachineModel
     shaft: LumpedShaft
     state: ShaftState
     equilibria: tuple[Equilibrium, ...]
@@ -60,7 +60,7 @@ class MachineStart:
         return math.nan if self.machine.has_changing_torque else self.state.drive_torque
 
 
-def machine_start(machine: Machine, announce: Announce = None) -> MachineStart:
+def machine_start(machine: MachineModel, announce: Announce = None) -> MachineStart:
     """Return a machine at t = 0, in its quasi-static equilibrium.
 
     Raises
@@ -113,12 +113,12 @@ class MachineEngine(MotionEngine[MachineSamples, list[Sums]]):
         self.start = start
 
     @property
-    def machine(self) -> Machine:
+    def machine(self) -> MachineModel:
         """What moves."""
         return self.start.machine
 
 
-def machine_engine(machine: Machine, announce: Announce = None) -> MachineEngine:
+def machine_engine(machine: MachineModel, announce: Announce = None) -> MachineEngine:
     """Return the dynamics of a machine at t = 0.
 
     Raises
@@ -135,8 +135,8 @@ def _free(found: SolverContext) -> SolverContext:
 
 
 def _start_state(
-    machine: Machine, shaft: LumpedShaft, context: SolverContext, bearings: tuple[ReadBearing, ...], state: ShaftState,
-    equilibria: tuple[Equilibrium, ...],
+    machine: MachineModel, shaft: LumpedShaft, context: SolverContext, bearings: tuple[ReadBearing, ...],
+    state: ShaftState, equilibria: tuple[Equilibrium, ...],
 ) -> FloatArray:  # fmt: skip
     """Return the state that the motion begins with: equilibrium, every ball at its cage's speed."""
     bodies, numbers = np.zeros(context.bundle.bodies.size, R.BODY_STATE), member_numbers(machine, shaft)
@@ -186,7 +186,7 @@ def _carried(balls: np.ndarray, pose: FloatArray) -> np.ndarray:
     return balls
 
 
-def _standing(machine: Machine, shaft: LumpedShaft, context: SolverContext) -> FloatArray:
+def _standing(machine: MachineModel, shaft: LumpedShaft, context: SolverContext) -> FloatArray:
     """Return the whole shared state where nothing that is prescribed changes, but for what is free."""
     numbers = member_numbers(machine, shaft)
     flat = np.zeros(context.bundle.shared.size)
@@ -201,7 +201,7 @@ def _standing(machine: Machine, shaft: LumpedShaft, context: SolverContext) -> F
 class MemberChannels:
     """Motions of shaft, bodies and markers from the states of members."""
 
-    def __init__(self, machine: Machine, shaft: LumpedShaft) -> None:
+    def __init__(self, machine: MachineModel, shaft: LumpedShaft) -> None:
         self._machine, self._shaft = machine, shaft
         self._numbers = member_numbers(machine, shaft)
         self._azimuths = unbalance_of_lumps(machine, shaft)[1]

@@ -15,7 +15,7 @@ from lambda_core.system.operating_limits import operating_warnings
 if TYPE_CHECKING:
     from lambda_core.shaft.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
     from lambda_core.shaft.machine_modes import BearingMatrices, MachineModes
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
 _HEAD, _COLUMN = 24, 14
 _LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
@@ -202,12 +202,12 @@ def _way(direction: float) -> str:
     return "forward" if direction > 0.5 else "backward" if direction < -0.5 else "elliptic"
 
 
-def machine_warnings(model: Machine) -> list[str]:
+def machine_warnings(model: MachineModel) -> list[str]:
     """Return what does not fit on a shaft, and what of its bearings is beyond a limit, before anything is solved.
 
     Parameters
     ----------
-    model : Machine
+    model : MachineModel
         From :func:`check_shaft`.
 
     Returns
@@ -219,7 +219,7 @@ def machine_warnings(model: Machine) -> list[str]:
     return [*model.warnings, *(f"{name}: {warning}" for name, told in beyond for warning in told)]
 
 
-def model_text(model: Machine) -> str:
+def model_text(model: MachineModel) -> str:
     """Return what a resolved shaft is."""
     length = 1e3 * model.outline[-1][1]
     lines = [

@@ -18,7 +18,7 @@ from lambda_core.elastic.body import ElasticBody
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.shaft.vibration import bearing_damping, housed_damping, housed_stiffness
 from lambda_core.solver.drivers.compiled_laws import Announce
-from lambda_core.system.machine import GROUND, SHAFT, Machine
+from lambda_core.system.machine import GROUND, SHAFT, MachineModel
 
 # Ours: x, y, z, tilt_y, tilt_z; theirs: x, y, z, alpha, beta, theta about their axes.
 _THEIRS = (2, 0, 1, 3, 4)
@@ -26,12 +26,12 @@ _OURS = (1, 2, 0, 4, 5, 3)  # of six, in their order
 
 
 @one_blas_thread()
-def ross_rotor(model: Machine, state: ShaftState | None = None, announce: Announce = None) -> Any:
+def ross_rotor(model: MachineModel, state: ShaftState | None = None, announce: Announce = None) -> Any:
     """Return the shaft, its discs and its bearings at the operating point as a ``ross.Rotor``.
 
     Parameters
     ----------
-    model : Machine
+    model : MachineModel
         From :func:`check_shaft`.
     state : ShaftState, optional
         Its equilibrium; default: it is solved.

@@ -23,7 +23,7 @@ from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
 from lambda_core.solver.drivers.first_state import free_contact_angle
 from lambda_core.solver.drivers.held_ring import HeldRing
 from lambda_core.system.bearing import BearingModel
-from lambda_core.system.machine import GROUND, PLACES, Machine
+from lambda_core.system.machine import GROUND, PLACES, MachineModel
 
 _GUESS = np.array([5e7, 1e8, 1e8, 1e3, 1e3])  # [N/m, N m/rad] of a bearing before its contacts are known
 _ITERATIONS, _FRAMES, _TRIES = 100, 6, 20
@@ -74,7 +74,7 @@ class ShaftState:
         """Of shaft, outer rings and bodies, in the rows of structure.static_rows."""
         return np.concatenate([self.displacement, self.outer.ravel(), self.bodies.ravel()])
 
-    def pose(self, model: Machine, index: int) -> FloatArray:
+    def pose(self, model: MachineModel, index: int) -> FloatArray:
         """Return the pose of a bearing's inner ring against its outer one, shape (5,)."""
         rows = model.body.rows(model.bearings[index].position).start + np.array(PLACES)
         return np.asarray(self.displacement[rows] - self.outer[index])
@@ -88,7 +88,7 @@ class _Whole:
     a rigid body leaves no rounding in them.
     """
 
-    def __init__(self, model: Machine, rings: list[HeldRing]) -> None:
+    def __init__(self, model: MachineModel, rings: list[HeldRing]) -> None:
         self.model, self.rings = model, rings
         rows = static_rows(model)
         self.size, count = rows.rings, rows.size
@@ -167,7 +167,7 @@ class _Whole:
         return move
 
 
-def _carried(model: Machine, frame: NDArray[np.int64]) -> FloatArray:
+def _carried(model: MachineModel, frame: NDArray[np.int64]) -> FloatArray:
     """Return how all rows move with the unknowns: of one node its pose, of the others the way beside a rigid shaft."""
     found: FloatArray = np.eye(model.body.stiffness.shape[0])
     at = model.body.positions[frame[0] // NODE]
@@ -193,12 +193,12 @@ class SharedKernels:
         return self._known[choice]
 
 
-def solve_shaft(model: Machine, announce: Announce = None, kernels: SharedKernels | None = None) -> ShaftState:
+def solve_shaft(model: MachineModel, announce: Announce = None, kernels: SharedKernels | None = None) -> ShaftState:
     """Find the equilibrium of shaft, bearings and housing.
 
     Parameters
     ----------
-    model : Machine
+    model : MachineModel
         From :func:`lambda_core.system.resolve_machine.check_shaft`.
     announce : callable, optional
         Called with a sentence before something is compiled.
@@ -352,7 +352,7 @@ def _named(whole: _Whole, row: int) -> tuple[str, str]:
     return "one", "of the shaft's own modes"
 
 
-def _check_sides(model: Machine, reactions: FloatArray) -> None:
+def _check_sides(model: MachineModel, reactions: FloatArray) -> None:
     """Refuse a solution in which an angular contact bearing is pushed against its open side."""
     for bearing, reaction in zip(model.bearings, reactions, strict=True):
         if bearing.takes and reaction[0] * bearing.takes > 1e-6 * max(1.0, float(np.abs(reaction[:3]).max())):

@@ -12,7 +12,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE
 from lambda_core.elastic.beam import NODE
 from lambda_core.system.locations import carried
-from lambda_core.system.machine import GROUND, PLACES, SHAFT, Machine, ShaftSpring
+from lambda_core.system.machine import GROUND, PLACES, SHAFT, MachineModel, ShaftSpring
 
 _RING = np.array(PLACES)
 
@@ -39,14 +39,16 @@ class Rows:
     size: int
 
 
-def static_rows(model: Machine) -> Rows:
+def static_rows(model: MachineModel) -> Rows:
     """Return the rows of the unknowns of an equilibrium: the shaft's, five of each ring, six of each body."""
     rings = model.body.stiffness.shape[0]
     bodies = rings + len(POSE) * len(model.bearings)
     return Rows(lambda x: model.body.rows(x).start, rings, bodies, bodies + NODE * len(model.bodies))
 
 
-def point_on(model: Machine, rows: Rows, body: int, point: Sequence[float]) -> tuple[NDArray[np.int64], FloatArray]:
+def point_on(
+    model: MachineModel, rows: Rows, body: int, point: Sequence[float]
+) -> tuple[NDArray[np.int64], FloatArray]:
     """Return the rows that move a point of a body, and how the point moves and turns with them, shape (6, rows)."""
     if body == GROUND:
         return np.zeros(0, dtype=np.int64), np.zeros((NODE, 0))
@@ -57,7 +59,7 @@ def point_on(model: Machine, rows: Rows, body: int, point: Sequence[float]) -> t
     return rows.bodies + NODE * (body - 1) + np.arange(NODE), carried(at - own.centre)
 
 
-def ring_in(model: Machine, rows: Rows, index: int) -> FloatArray:
+def ring_in(model: MachineModel, rows: Rows, index: int) -> FloatArray:
     """Return how an outer ring moves against what carries it, shape (5, size)."""
     bearing = model.bearings[index]
     found: FloatArray = np.zeros((len(POSE), rows.size))
@@ -67,7 +69,7 @@ def ring_in(model: Machine, rows: Rows, index: int) -> FloatArray:
     return found
 
 
-def stretch(model: Machine, rows: Rows, spring: ShaftSpring) -> FloatArray:
+def stretch(model: MachineModel, rows: Rows, spring: ShaftSpring) -> FloatArray:
     """Return how the body of a spring moves and turns against the other one at its place, shape (6, size)."""
     found: FloatArray = np.zeros((NODE, rows.size))
     for sign, body in ((1.0, spring.place.body), (-1.0, spring.to)):
@@ -76,7 +78,7 @@ def stretch(model: Machine, rows: Rows, spring: ShaftSpring) -> FloatArray:
     return found
 
 
-def structure(model: Machine, rows: Rows) -> tuple[FloatArray, FloatArray]:
+def structure(model: MachineModel, rows: Rows) -> tuple[FloatArray, FloatArray]:
     """Return stiffness and damping of springs, seats that give way, and what holds bodies, shape (size, size)."""
     stiffness, damping = np.zeros((rows.size, rows.size)), np.zeros((rows.size, rows.size))
     for spring in model.springs:

@@ -16,7 +16,7 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.results.reader import Result
 from lambda_core.shaft.machine_answers import machine_of
 from lambda_core.shaft.shaft_equilibrium import SharedKernels, solve_shaft
-from lambda_core.system.machine import Machine, MountedBearing
+from lambda_core.system.machine import MachineModel, MountedBearing
 from lambda_core.system.machine_heat import BEARING_NODES, stretch
 from lambda_core.system.resolve_geometry import with_clearance
 from lambda_core.system.resolve_machine import check_shaft
@@ -38,13 +38,13 @@ class MachineLoop(Loop):
 
     Parameters
     ----------
-    machine : Machine
+    machine : MachineModel
         Resolved, without temperatures of its own for shaft, housing and rings.
     announce : callable, optional
         Called with a sentence before something is compiled.
     """
 
-    def __init__(self, machine: Machine, announce: Announce = None) -> None:
+    def __init__(self, machine: MachineModel, announce: Announce = None) -> None:
         oil = float(np.mean([bearing.model.oil.temperature for bearing in machine.bearings]))
         super().__init__(machine.name, network_of(machine), machine.heat.section, oil)
         self.machine = replace(machine, awaits_temperatures=False)
@@ -79,7 +79,7 @@ class MachineLoop(Loop):
         found: FloatArray = stretch(places, along, warm, heat.material) - stretch(places, ends, around, heat.housing)
         return found
 
-    def there(self, seen: FloatArray) -> Machine:
+    def there(self, seen: FloatArray) -> MachineModel:
         """Return the machine at what the contacts see; growth shifts the outer rings the other way."""
         inlets, clearances, grown = seen.reshape(3, -1).tolist()
         mounted = zip(self.machine.bearings, inlets, clearances, grown, strict=True)
@@ -129,7 +129,7 @@ class MachineLoop(Loop):
         return self._count
 
 
-def _mean(machine: Machine, at: Mapping[str, float], part: str) -> float:
+def _mean(machine: MachineModel, at: Mapping[str, float], part: str) -> float:
     return float(np.mean([at[f"{bearing.name}.{part}"] for bearing in machine.bearings]))
 
 
@@ -146,13 +146,13 @@ def _warm(mounted: MountedBearing, inlet: float, clearance: float, grown: float)
 
 
 def ready_machine_of(
-    source: Source | Machine, overrides: Iterable[str] = (), announce: Callable[[str], None] | None = None
-) -> Machine:
+    source: Source | MachineModel, overrides: Iterable[str] = (), announce: Callable[[str], None] | None = None
+) -> MachineModel:
     """Return the resolved machine of a case, at its own temperatures where it wants them computed.
 
     Parameters
     ----------
-    source : str, Path, mapping, ShaftCase or Machine
+    source : str, Path, mapping, ShaftCase or MachineModel
         As for :func:`check_shaft`, or what it returned.
     overrides : iterable of str
         Changes ``path=value``.
@@ -161,7 +161,7 @@ def ready_machine_of(
 
     Returns
     -------
-    Machine
+    MachineModel
         Its case has the temperatures written in, so that a result needs no search when it goes on or is looked at.
 
     Raises
@@ -200,7 +200,7 @@ def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Stea
     return loop, Steady(temperatures, measured, network, gain, 1)
 
 
-def without_temperatures(machine: Machine) -> Machine:
+def without_temperatures(machine: MachineModel) -> MachineModel:
     """Return the machine with all its temperatures to be computed, whatever its case gives."""
     if machine.awaits_temperatures:
         return machine

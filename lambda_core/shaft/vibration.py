@@ -17,7 +17,7 @@ from lambda_core.shaft.shaft_equilibrium import ShaftState
 from lambda_core.shaft.structure import Rows, static_rows, structure
 from lambda_core.solver.drivers.damping import damping_matrix
 from lambda_core.solver.drivers.equilibrium import Equilibrium
-from lambda_core.system.machine import GROUND, PLACES, SHAFT, Machine
+from lambda_core.system.machine import GROUND, PLACES, SHAFT, MachineModel
 
 _ABOUT_X = 3  # row of a node that turns about the shaft
 _COUNT = 16  # modes that are looked at
@@ -38,7 +38,7 @@ class Mode:
     lateral: float = 0.0  # share of the shaft's motion squared that is across its axis
 
 
-def housed_stiffness(model: Machine, state: ShaftState) -> FloatArray:
+def housed_stiffness(model: MachineModel, state: ShaftState) -> FloatArray:
     """Return the stiffness of each bearing with the housing behind it, on the shaft, shape (bearings, 5, 5).
 
     What the others add through an elastic housing is left out: it stands in :func:`supported`.
@@ -46,7 +46,7 @@ def housed_stiffness(model: Machine, state: ShaftState) -> FloatArray:
     return _of_each(_in_series(model, state.stiffness))
 
 
-def bearing_damping(model: Machine, equilibria: Sequence[Equilibrium]) -> FloatArray:
+def bearing_damping(model: MachineModel, equilibria: Sequence[Equilibrium]) -> FloatArray:
     """Return the damping of each bearing for vibrations with the shaft's speed, shape (bearings, 6, 6).
 
     Zeros at rest, and where the balls of a bearing found no steady motion.
@@ -63,7 +63,7 @@ def bearing_damping(model: Machine, equilibria: Sequence[Equilibrium]) -> FloatA
     ])  # fmt: skip
 
 
-def housed_damping(model: Machine, state: ShaftState, dampings: FloatArray) -> FloatArray:
+def housed_damping(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
     """Return the damping of each bearing with the housing behind it, on the shaft, shape (bearings, 6, 6)."""
     found = dampings.copy()
     found[:, np.ix_(PLACES, PLACES)[0], np.ix_(PLACES, PLACES)[1]] = _of_each(
@@ -78,14 +78,14 @@ def _of_each(whole: FloatArray) -> FloatArray:
     return np.array([whole[i : i + size, i : i + size] for i in range(0, whole.shape[0], size)])
 
 
-def _damping_in_series(model: Machine, state: ShaftState, dampings: FloatArray) -> FloatArray:
+def _damping_in_series(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
     """Return the damping that the shaft feels at all bearings together, shape (5 bearings, 5 bearings)."""
     speed = abs(model.speed) or 1.0
     whole = _joined(model, state.stiffness, springs=False) + 1j * speed * _resisting(model, dampings, springs=False)
     return np.asarray(_seen_by_shaft(model, whole).imag / speed)
 
 
-def _in_series(model: Machine, each: FloatArray) -> FloatArray:
+def _in_series(model: MachineModel, each: FloatArray) -> FloatArray:
     """Return the stiffness that the shaft feels at all bearings together, shape (5 bearings, 5 bearings).
 
     Rings and bodies behind the bearings follow without inertia.
@@ -93,7 +93,7 @@ def _in_series(model: Machine, each: FloatArray) -> FloatArray:
     return np.asarray(_seen_by_shaft(model, _joined(model, each, springs=False)))
 
 
-def _joined(model: Machine, each: FloatArray, *, springs: bool = True) -> FloatArray:
+def _joined(model: MachineModel, each: FloatArray, *, springs: bool = True) -> FloatArray:
     """Return the stiffness of what joins shaft, outer rings and bodies: bearings, seats, housing, holds, springs."""
     rows = static_rows(model)
     found = structure(model if springs else _without_springs_of_the_shaft(model), rows)[0]
@@ -106,11 +106,11 @@ def _joined(model: Machine, each: FloatArray, *, springs: bool = True) -> FloatA
     return found
 
 
-def _without_springs_of_the_shaft(model: Machine) -> Machine:
+def _without_springs_of_the_shaft(model: MachineModel) -> MachineModel:
     return replace(model, springs=tuple(s for s in model.springs if SHAFT not in (s.place.body, s.to)))
 
 
-def _resisting(model: Machine, dampings: FloatArray, *, springs: bool = True) -> FloatArray:
+def _resisting(model: MachineModel, dampings: FloatArray, *, springs: bool = True) -> FloatArray:
     """Return the damping likewise."""
     rows = static_rows(model)
     found = structure(model if springs else _without_springs_of_the_shaft(model), rows)[1]
@@ -123,7 +123,7 @@ def _resisting(model: Machine, dampings: FloatArray, *, springs: bool = True) ->
     return found
 
 
-def _inner_against_outer(model: Machine, rows: Rows, index: int) -> FloatArray:
+def _inner_against_outer(model: MachineModel, rows: Rows, index: int) -> FloatArray:
     """Return how an inner ring moves against its outer one, shape (5, rows)."""
     size = len(PLACES)
     found: FloatArray = np.zeros((size, rows.size))
@@ -132,7 +132,7 @@ def _inner_against_outer(model: Machine, rows: Rows, index: int) -> FloatArray:
     return found
 
 
-def _moving(model: Machine, rows: Rows) -> tuple[list[int], list[int]]:
+def _moving(model: MachineModel, rows: Rows) -> tuple[list[int], list[int]]:
     """Return the rows of outer rings and of bodies that can move."""
     rings: list[int] = []
     for i, bearing in enumerate(model.bearings):
@@ -153,7 +153,7 @@ def _seen(whole: Any, kept: Any, others: list[int]) -> Any:
     return found
 
 
-def supported(model: Machine, state: ShaftState) -> FloatArray:
+def supported(model: MachineModel, state: ShaftState) -> FloatArray:
     """Return the stiffness of the shaft on its bearings, and of the bodies beside it as they can move.
 
     Shape (rows of the shaft + free motions of bodies) squared; outer rings follow without inertia.
@@ -164,20 +164,20 @@ def supported(model: Machine, state: ShaftState) -> FloatArray:
     return np.asarray(0.5 * (found + found.T))
 
 
-def _seen_by_masses(model: Machine, whole: Any) -> Any:
+def _seen_by_masses(model: MachineModel, whole: Any) -> Any:
     """Return what is felt by the shaft and by the free motions of bodies, outer rings following."""
     rings, bodies = _moving(model, static_rows(model))
     return _seen(whole, [*range(model.body.mass.shape[0]), *bodies], rings)
 
 
-def _seen_by_shaft(model: Machine, whole: Any) -> Any:
+def _seen_by_shaft(model: MachineModel, whole: Any) -> Any:
     """Return what the shaft feels at its bearings, outer rings and bodies following."""
     rings, bodies = _moving(model, static_rows(model))
     kept = np.concatenate([model.body.rows(b.position).start + np.array(PLACES) for b in model.bearings])
     return _seen(whole, kept, [*rings, *bodies])
 
 
-def damped(model: Machine, state: ShaftState, dampings: FloatArray) -> FloatArray:
+def damped(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
     """Return the damping of the shaft by its bearings, and of springs and seats, in the rows of :func:`supported`."""
     speed = abs(model.speed) or 1.0
     whole = _joined(model, state.stiffness) + 1j * speed * _resisting(model, dampings)
@@ -188,7 +188,7 @@ def damped(model: Machine, state: ShaftState, dampings: FloatArray) -> FloatArra
     return found
 
 
-def masses(model: Machine) -> tuple[FloatArray, FloatArray]:
+def masses(model: MachineModel) -> tuple[FloatArray, FloatArray]:
     """Return mass and gyroscopic matrix in the rows of :func:`supported`."""
     rows = static_rows(model)
     own = [m for body in model.bodies for m in (*[body.mass] * 3, body.polar_inertia, *[body.transverse_inertia] * 2)]
@@ -196,7 +196,7 @@ def masses(model: Machine) -> tuple[FloatArray, FloatArray]:
     return block_diag(model.body.mass, beside), block_diag(model.body.gyroscopic, np.zeros_like(beside))
 
 
-def modes_at(model: Machine, stiffness: FloatArray, spin: float, damping: FloatArray | None = None) -> list[Mode]:
+def modes_at(model: MachineModel, stiffness: FloatArray, spin: float, damping: FloatArray | None = None) -> list[Mode]:
     """Return the lowest modes at a speed [rad/s], bearings as stiff as `stiffness` has them, damped as `damping`."""
     mass, gyroscopic = masses(model)
     nodes = model.body.positions.size
@@ -204,14 +204,14 @@ def modes_at(model: Machine, stiffness: FloatArray, spin: float, damping: FloatA
     return [_mode(model, one, mass) for one in found]
 
 
-def criticals(model: Machine, stiffness: FloatArray) -> list[Mode]:
+def criticals(model: MachineModel, stiffness: FloatArray) -> list[Mode]:
     """Return the critical speeds of the shaft across its axis, rising: bent, or swinging together with its housing."""
     mass, gyroscopic = masses(model)
     found = critical_speeds(stiffness, mass, gyroscopic, nodes=model.body.positions.size, count=_COUNT)
     return [mode for mode in (_mode(model, one, mass) for one in found) if mode.lateral > _SHAKEN]
 
 
-def _mode(model: Machine, one: Whirl, mass: FloatArray) -> Mode:
+def _mode(model: MachineModel, one: Whirl, mass: FloatArray) -> Mode:
     size = model.body.mass.shape[0]
     energy = np.real(np.conj(one.shape) * (mass @ one.shape))
     beside = float(energy[size:].sum() / energy.sum())

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from lambda_core.catalogue.protocol import Catalogue
     from lambda_core.system.bearing import BearingModel
     from lambda_core.system.describe import CaseReport
-    from lambda_core.system.machine import Machine
+    from lambda_core.system.machine import MachineModel
 
 
 def check(
@@ -25,7 +25,7 @@ def check(
     folder: Path | None = None,
     catalogue: Catalogue | None = None,
     is_static: bool = False,
-) -> BearingModel | Machine:
+) -> BearingModel | MachineModel:
     """Read and resolve a case, of one bearing or of a machine, without running it.
 
     Parameters
@@ -43,7 +43,7 @@ def check(
 
     Returns
     -------
-    BearingModel or Machine
+    BearingModel or MachineModel
         Of one bearing, or of a machine; with its assumptions and the origin of every value.
 
     Raises

@@ -113,7 +113,7 @@ class RigidBody:
 
 
 @dataclass(frozen=True)
-class Machine:
+class MachineModel:
     """Shaft, bearings and loads.
 
     Attributes

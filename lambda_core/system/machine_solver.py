@@ -9,7 +9,7 @@ from typing import Any
 from lambda_core.case.shaft import ShaftCase
 from lambda_core.domain.elements import POSE
 from lambda_core.system.ledger import Ledger
-from lambda_core.system.machine import Machine, MountedBearing
+from lambda_core.system.machine import MachineModel, MountedBearing
 from lambda_core.system.resolve_solver import (
     cage_period,
     end_in_sight,
@@ -44,14 +44,14 @@ def refuse_settings(case: ShaftCase, ledger: Ledger) -> None:
         end_in_sight(given, None, end, math.inf, ledger)
 
 
-def with_settings(case: ShaftCase, model: Machine, ledger: Ledger) -> Machine:
+def with_settings(case: ShaftCase, model: MachineModel, ledger: Ledger) -> MachineModel:
     """Return the whole with bearings that are all followed alike: vibrations where one of them asks for that.
 
     Parameters
     ----------
     case : ShaftCase
         What the engineer wrote, without mistakes.
-    model : Machine
+    model : MachineModel
         Whose bearings were resolved each by itself.
     ledger : Ledger
         Takes what was chosen.

@@ -35,7 +35,7 @@ from lambda_core.system.fitting import fitting_warnings
 from lambda_core.system.interpolation import say_overshoot
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.locations import Places, places
-from lambda_core.system.machine import GROUND, SHAFT, Machine, MountedBearing, Unbalance
+from lambda_core.system.machine import GROUND, SHAFT, MachineModel, MountedBearing, Unbalance
 from lambda_core.system.machine_heat import check_heat, resolve_heat, stretch
 from lambda_core.system.machine_solver import changing, refuse_settings, with_settings
 from lambda_core.system.mounting import mounted, refuse_motion
@@ -62,7 +62,7 @@ def check_shaft(
     *,
     folder: Path | None = None,
     catalogue: Catalogue | None = None,
-) -> Machine:
+) -> MachineModel:
     """Read and resolve the case of a shaft in bearings without solving it.
 
     Parameters
@@ -78,7 +78,7 @@ def check_shaft(
 
     Returns
     -------
-    Machine
+    MachineModel
         With the model of every bearing.
 
     Raises
@@ -149,7 +149,7 @@ def _bearings(
 
 def _shaft(
     case: ShaftCase, models: Mapping[str, BearingModel], catalogue: Catalogue, ledger: Ledger, found: Sequence[Problem]
-) -> Machine | None:
+) -> MachineModel | None:
     """Return the whole; None where something is wrong, here or as `found` before, after all else has been looked at."""
     from lambda_core.discovery.manager import registry
 
@@ -210,7 +210,7 @@ def _shaft(
     acting += [(name, gear.place) for name, gear in case.gears.items()]
     pulled = np.concatenate([body.weight(gravity), *(one.mass * np.array([*gravity, 0.0, 0.0, 0.0]) for one in bodies)])
     loads, varying = all_loads(case, stand, body, bodies, gears)
-    return Machine(
+    return MachineModel(
         name=case.name,
         body=body,
         bearings=tuple(bearings),

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 from lambda_core.thermal import surroundings as outside
 from lambda_core.thermal.bearing_nodes import BearingNodes, Pairs
 from lambda_core.thermal.conductances import rod
@@ -38,11 +38,11 @@ class ShaftAndHousing:
 
     Parameters
     ----------
-    machine : Machine
+    machine : MachineModel
         With its network.
     """
 
-    def __init__(self, machine: Machine) -> None:
+    def __init__(self, machine: MachineModel) -> None:
         self.machine, self.heat = machine, machine.heat
         self._sizes = [bearing.model.geometry.outside_diameter for bearing in machine.bearings]
         self._pieces = _pieces(machine)
@@ -105,7 +105,7 @@ class ShaftAndHousing:
         return found
 
 
-def _pieces(machine: Machine) -> tuple[_Piece, ...]:
+def _pieces(machine: MachineModel) -> tuple[_Piece, ...]:
     """Return the pieces of the shaft between its nodes, each with the diameter that it is drawn with."""
     heat, at = machine.heat, machine.body.positions
     seats = [bearing.position for bearing in machine.bearings]
@@ -119,7 +119,7 @@ def _pieces(machine: Machine) -> tuple[_Piece, ...]:
     return tuple(found)
 
 
-def network_of(machine: Machine) -> MachineNetwork:
+def network_of(machine: MachineModel) -> MachineNetwork:
     """Return the network of a machine."""
     heat = machine.heat
     bearings = [BearingNodes(b.model, heat.bearings[b.name], b.name) for b in machine.bearings]

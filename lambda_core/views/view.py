@@ -72,7 +72,7 @@ class MachineData:
 
     Attributes
     ----------
-    model : Machine
+    model : MachineModel
         The resolved machine.
     equilibrium : MachineEquilibrium or None
         Where it was solved.

@@ -21,7 +21,7 @@ from lambda_core.domain.hertz import ball_raceway_radii, stiffness_constant
 from lambda_core.shaft.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 from lambda_core.solver.drivers.held_ring import HeldRing
 from lambda_core.system.bearing import BearingModel
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 from lambda_core.system.resolve_machine import check_shaft
 
 from .statics import STEEL
@@ -104,7 +104,7 @@ def thrust(closed: float) -> float:
     return -float(reaction(pose, math.atan2(pose[0], DISTANCE * math.cos(FREE)))[0])
 
 
-def solved(case: dict[str, Any]) -> tuple[Machine, ShaftState]:
+def solved(case: dict[str, Any]) -> tuple[MachineModel, ShaftState]:
     model = check_shaft(case)
     return model, solve_shaft(model, kernels=KERNELS)
 

@@ -20,7 +20,7 @@ from lambda_core.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.elastic.whirl import craig_bampton
 from lambda_core.shaft.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 from lambda_core.shaft.vibration import supported
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 from lambda_core.system.resolve_machine import check_shaft
 
 PINNED = {"tilt_y": "free", "tilt_z": "free"}  # outer rings that follow, so that no bearing bears a moment
@@ -38,13 +38,13 @@ def bearing(position: str, designation: str = "SKF 6206", **more: Any) -> dict[s
     return {"at": position, "designation": designation, "support": PINNED, **more}
 
 
-def solved(case: dict[str, Any]) -> tuple[Machine, ShaftState]:
+def solved(case: dict[str, Any]) -> tuple[MachineModel, ShaftState]:
     model = check_shaft({"name": "shaft", **SHARED, **case})
     return model, solve_shaft(model, kernels=KERNELS)
 
 
 @cache
-def overhung() -> tuple[Machine, ShaftState]:
+def overhung() -> tuple[MachineModel, ShaftState]:
     """Bearings at 30 and 150 mm, a force beyond the second one at 200 mm; the left one locates."""
     return solved(
         {

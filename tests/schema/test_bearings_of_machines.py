@@ -9,7 +9,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.case.case import merged
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 from lambda_core.system.machine_templates import geared_shaft
 
 
@@ -18,10 +18,10 @@ def tables(**changes: Any) -> dict[str, Any]:
     return merged(tomllib.loads(geared_shaft("box")), changes)
 
 
-def machine(**changes: Any) -> Machine:
+def machine(**changes: Any) -> MachineModel:
     """Return that case resolved."""
     found = api.check(tables(**changes))
-    assert isinstance(found, api.Machine)
+    assert isinstance(found, api.MachineModel)
     return found
 
 

@@ -13,7 +13,7 @@ from lambda_core.case.case import merged
 from lambda_core.case.draft import draft_of
 from lambda_core.shaft.structure import static_rows, structure
 from lambda_core.system.checking import check_bearing
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.time_functions import initial
 
@@ -25,10 +25,10 @@ def tables(**changes: Any) -> dict[str, Any]:
     return merged(tomllib.loads(geared_shaft("box")), changes)
 
 
-def machine(**changes: Any) -> Machine:
+def machine(**changes: Any) -> MachineModel:
     """Return that case resolved."""
     found = api.check(tables(**changes))
-    assert isinstance(found, api.Machine)
+    assert isinstance(found, api.MachineModel)
     return found
 
 

@@ -33,7 +33,7 @@ def test_check_and_with_take_either(box: Path) -> None:
     machine = api.case(box).with_(operation={"speed": "900 rpm"})
     assert machine.folder == box.parent
     found = api.check(machine)
-    assert isinstance(found, api.Machine)
+    assert isinstance(found, api.MachineModel)
     assert found.speed == pytest.approx(900.0 * 3.14159265 / 30.0)
     assert isinstance(api.check("6208-axial-1300"), api.BearingModel)
     assert api.problems(tomllib.loads(box.read_text())) == ()

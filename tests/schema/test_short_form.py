@@ -35,7 +35,7 @@ def test_a_random_bearing_is_the_same_in_a_machine(part: int) -> None:
     for tables in cases()[part::4]:
         case, single = load_case(tables), check_bearing(tables, catalogue=with_catalogue)
         machine = api.check(api.long_form(tables).tables, catalogue=with_catalogue)
-        assert isinstance(machine, api.Machine)
+        assert isinstance(machine, api.MachineModel)
         (bearing,) = machine.bearings
         for name in SAME:
             assert repr(getattr(bearing.model, name)) == repr(getattr(single, name)), (tables["name"], name)
@@ -74,4 +74,4 @@ def test_what_a_machine_does_not_have_is_said() -> None:
     told = {difference.partition(":")[0] for difference in long.differences}
     assert {"bodies.outer_ring.spin", "bodies.cage.x", "markers.rim", "loads.cage"} <= told
     assert "journal" in long.tables["markers"]
-    assert isinstance(api.check(long.tables), api.Machine)
+    assert isinstance(api.check(long.tables), api.MachineModel)

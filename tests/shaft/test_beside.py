@@ -21,7 +21,7 @@ from lambda_core.shaft.vibration import criticals, damped, masses, modes_at, sup
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.tables import STATES
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
 
@@ -50,11 +50,11 @@ def tables(**changes: Any) -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def model() -> Machine:
+def model() -> MachineModel:
     return check_shaft(tables())
 
 
-def test_a_housing_on_mounts_in_equilibrium(model: Machine) -> None:
+def test_a_housing_on_mounts_in_equilibrium(model: MachineModel) -> None:
     """Mounts carry what gear and weights push, in force and moment about the housing's centre (1e-6)."""
     state, rows = solve_shaft(model, kernels=KERNELS), static_rows(model)
     (box,) = model.bodies
@@ -76,7 +76,7 @@ def test_a_housing_on_mounts_in_equilibrium(model: Machine) -> None:
     assert state.residual < 1e-9
 
 
-def test_a_stiff_housing_is_the_ground(model: Machine) -> None:
+def test_a_stiff_housing_is_the_ground(model: MachineModel) -> None:
     """On mounts 10^4 times as stiff, and held, the reactions are those of the ground, to 1e-3 of the seats' way."""
     ground = tables()
     for bearing in ground["bearings"].values():
@@ -101,7 +101,7 @@ def test_no_body_turns_heavier_about_x_than_about_y_and_z_together() -> None:
         check_shaft(case)
 
 
-def test_modes_of_a_housing_on_its_mounts(model: Machine) -> None:
+def test_modes_of_a_housing_on_its_mounts(model: MachineModel) -> None:
     """A body on mounts with a shaft a thousand times lighter: six frequencies of the textbook's rigid body (1e-2).
 
     K of the mounts about the centre of mass, M of the body; the shaft adds its mass, which is put into M.
@@ -122,7 +122,7 @@ def test_modes_of_a_housing_on_its_mounts(model: Machine) -> None:
     assert masses(heavy)[0].shape == stiffness.shape == damped(heavy, state, np.zeros((2, 6, 6))).shape
 
 
-def test_a_shaft_that_swings_with_its_housing_has_its_critical_speed(model: Machine) -> None:
+def test_a_shaft_that_swings_with_its_housing_has_its_critical_speed(model: MachineModel) -> None:
     """Mounts of 20 to 40 N/um under 16 kg: the shaft is shaken there, far below its own bending (m w^2 = k, 10 %)."""
     box = model.bodies[0]
     found = criticals(model, supported(model, solve_shaft(model, kernels=KERNELS)))
@@ -144,7 +144,7 @@ def test_what_nothing_holds_is_said() -> None:
         solve_shaft(check_shaft(alone), kernels=KERNELS)
 
 
-def test_a_housing_in_motion(model: Machine) -> None:
+def test_a_housing_in_motion(model: MachineModel) -> None:
     """It begins in equilibrium, energy is balanced to 1e-3 with what mounts and seats take, columns are right."""
     engine = machine_engine(model)
     bundle, y = engine.context.bundle, engine._memory.y
@@ -252,7 +252,7 @@ def test_names_have_paths() -> None:
     assert {"bearings.shaft", "discs.a b", "bodies.ground"} <= {problem.where for problem in found.value.problems}
 
 
-def test_markers_in_the_report(model: Machine) -> None:
+def test_markers_in_the_report(model: MachineModel) -> None:
     """A marker on the shaft moves as the shaft there, one on a body as the body carries it."""
     from lambda_core.shaft.machine_equilibrium import _at
 

@@ -16,11 +16,11 @@ from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.modes import dense
 from lambda_core.solver.drivers.stiffness import freed, stiffness_at
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
 
-Solved = tuple[Machine, ShaftState, list[Equilibrium]]
+Solved = tuple[MachineModel, ShaftState, list[Equilibrium]]
 
 
 @pytest.fixture(scope="module")

@@ -24,7 +24,7 @@ from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.tables import STATES
-from lambda_core.system.machine import PLACES, Machine
+from lambda_core.system.machine import PLACES, MachineModel
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
 
@@ -50,7 +50,7 @@ LONG = {
 }
 
 
-def frequencies(model: Machine, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
+def frequencies(model: MachineModel, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
     """Return natural frequencies of the lumps and of the beam on the same springs."""
     lumped, whole = shaft.stiffness.copy(), model.body.stiffness.copy()
     places = np.array(PLACES)

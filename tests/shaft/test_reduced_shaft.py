@@ -20,7 +20,7 @@ from lambda_core.shaft.lumps import lump
 from lambda_core.shaft.machine_motion import machine_engine
 from lambda_core.shaft.shaft_equilibrium import solve_shaft
 from lambda_core.shaft.vibration import criticals, modes_at, supported
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
 
@@ -33,13 +33,13 @@ def tables(**changes: Any) -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def beam() -> Machine:
+def beam() -> MachineModel:
     """Return the shaft of init as pieces."""
     written = tables()
     return check_shaft(tables(shaft={**written["shaft"], "temperature": "50 degC"}))
 
 
-def alone(model: Machine) -> ElasticBody:
+def alone(model: MachineModel) -> ElasticBody:
     """Return the beam without the disc, which the case has, with its lumps."""
     disc = model.body.discs[0]
     rows, mass, gyroscopic = model.body.rows(disc.position), model.body.mass.copy(), model.body.gyroscopic.copy()
@@ -53,7 +53,7 @@ def alone(model: Machine) -> ElasticBody:
     )  # fmt: skip
 
 
-def of_file(model: Machine, path: Path) -> Machine:
+def of_file(model: MachineModel, path: Path) -> MachineModel:
     """Return the case with the file as its shaft, the gear by the name of its node."""
     write_reduced(alone(model), path)
     found = tables(shaft={"reduced": path.name, "temperature": "50 degC"})
@@ -61,7 +61,7 @@ def of_file(model: Machine, path: Path) -> Machine:
     return check_shaft(found, folder=path.parent)
 
 
-def test_the_own_beam_from_a_file_stands_and_swings_as_itself(beam: Machine, tmp_path: Path) -> None:
+def test_the_own_beam_from_a_file_stands_and_swings_as_itself(beam: MachineModel, tmp_path: Path) -> None:
     """Statics, natural frequencies and critical speeds to 1e-9; section forces as far as nodes carry the weight."""
     other = of_file(beam, tmp_path / "shaft.npz")
     one, two = solve_shaft(beam), solve_shaft(other)
@@ -82,7 +82,7 @@ def test_the_own_beam_from_a_file_stands_and_swings_as_itself(beam: Machine, tmp
     assert told[at, 3:] == pytest.approx(bent[::2, 3:], abs=0.01)
 
 
-def test_the_own_beam_from_a_file_runs_as_itself(beam: Machine, tmp_path: Path) -> None:
+def test_the_own_beam_from_a_file_runs_as_itself(beam: MachineModel, tmp_path: Path) -> None:
     """Lumps, and a millisecond of the whole: forces and displacements to 1e-9 of the largest."""
     other = of_file(beam, tmp_path / "shaft.json")
     for name in ("positions", "mass", "polar_inertia", "transverse_inertia", "stiffness"):
@@ -99,7 +99,7 @@ def test_the_own_beam_from_a_file_runs_as_itself(beam: Machine, tmp_path: Path) 
         assert found[1][name] == pytest.approx(found[0][name], abs=1e-9 * np.abs(found[0][name]).max()), name
 
 
-def test_a_craig_bampton_reduction_of_the_shaft(beam: Machine, tmp_path: Path) -> None:
+def test_a_craig_bampton_reduction_of_the_shaft(beam: MachineModel, tmp_path: Path) -> None:
     """Five nodes and twelve modes: the equilibrium of the whole beam to 1e-7, its first five frequencies to 1e-3."""
     kept = [0.0, 0.021, 0.085, 0.148, 0.17]
     write_reduced(craig_bampton(alone(beam), kept, 12), tmp_path / "shaft.json")
@@ -114,7 +114,7 @@ def test_a_craig_bampton_reduction_of_the_shaft(beam: Machine, tmp_path: Path) -
     assert shaft.mass.sum() == pytest.approx(beam.body.total_mass, rel=1e-9)
 
 
-def test_every_kind_of_file_says_the_same(beam: Machine, tmp_path: Path) -> None:
+def test_every_kind_of_file_says_the_same(beam: MachineModel, tmp_path: Path) -> None:
     """JSON, npz, HDF5, TOML with CSV; millimetres and tonnes."""
     body = craig_bampton(alone(beam), [0.0, 0.085, 0.17], 2)
     data: dict[str, Any] = {"nodes": body.positions, "stiffness": body.stiffness, "mass": body.mass}
@@ -158,7 +158,7 @@ def test_every_kind_of_file_says_the_same(beam: Machine, tmp_path: Path) -> None
         (lambda d: d.__setitem__("names", ["a", "a", "b"]), "all different"),
     ],
 )
-def test_files_that_are_no_shaft(change: Any, words: str, beam: Machine, tmp_path: Path) -> None:
+def test_files_that_are_no_shaft(change: Any, words: str, beam: MachineModel, tmp_path: Path) -> None:
     body = craig_bampton(alone(beam), [0.0, 0.085, 0.17], 2)
     data: dict[str, Any] = {"nodes": body.positions, "stiffness": body.stiffness.copy(), "mass": body.mass.copy()}
     change(data)
@@ -169,7 +169,7 @@ def test_files_that_are_no_shaft(change: Any, words: str, beam: Machine, tmp_pat
     assert words in str(found.value)
 
 
-def test_what_does_not_stand_at_a_node_is_said(beam: Machine, tmp_path: Path) -> None:
+def test_what_does_not_stand_at_a_node_is_said(beam: MachineModel, tmp_path: Path) -> None:
     write_reduced(craig_bampton(alone(beam), [0.0, 0.085, 0.17], 0), tmp_path / "shaft.json")
     with pytest.raises(api.CaseError, match=r"bearings\.left\.at +there is no node at 21 mm"):
         check_shaft(tables(shaft={"reduced": "shaft.json"}), folder=tmp_path)

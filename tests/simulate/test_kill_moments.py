@@ -28,7 +28,7 @@ from lambda_core.run import loop, session
 from lambda_core.run.launch import relaunch
 from lambda_core.run.run_engine import OneBearing, SeveralBearings
 from lambda_core.system.bearing import BearingModel
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
 
@@ -58,9 +58,9 @@ class Kind:
     name: str
     source: Any
     duration: str
-    check: Callable[[Any, list[str]], BearingModel | Machine]
+    check: Callable[[Any, list[str]], BearingModel | MachineModel]
 
-    def model(self) -> BearingModel | Machine:
+    def model(self) -> BearingModel | MachineModel:
         """Return the model of the whole run, with a checkpoint behind every record."""
         found = self.check(self.source, [f"solver.duration={self.duration}"])
         if isinstance(found, BearingModel):
@@ -128,7 +128,7 @@ def copied(path: Path, moments: tuple[tuple[Any, str], ...]) -> Iterator[dict[st
         yield found
 
 
-def wrong(copies: dict[str, Path], model: BearingModel | Machine, undisturbed: Content) -> list[str]:
+def wrong(copies: dict[str, Path], model: BearingModel | MachineModel, undisturbed: Content) -> list[str]:
     """Go on with every copy; return the moments after which it is not the undisturbed run."""
     found = []
     for moment, path in copies.items():
@@ -147,7 +147,7 @@ def test_a_run_killed_at_any_moment_goes_on_as_the_undisturbed_one(
     kind: Kind, undisturbed: Content, tmp_path: Path
 ) -> None:
     model = kind.model()
-    adapter = SeveralBearings if isinstance(model, Machine) else OneBearing
+    adapter = SeveralBearings if isinstance(model, MachineModel) else OneBearing
     with copied(tmp_path / "run.h5", (*WRITES, (adapter, "integrals"), (session.Session, "_asks_for_modes"))) as copies:
         api.run(model, out=tmp_path / "run.h5")
     assert {moment.split(" ", 1)[1] for moment in copies} > {"after save", "after _put_status"}

@@ -17,7 +17,7 @@ from lambda_core.domain.channels import Channel
 from lambda_core.laws.parameter import NoParameters
 from lambda_core.run.launch import launch
 from lambda_core.system.bearing import ChosenEvent, ChosenObserver
-from lambda_core.system.machine import Machine
+from lambda_core.system.machine import MachineModel
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.views.observer import Event, Observer
 
@@ -32,10 +32,10 @@ def late(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any]) 
     return samples["time"] > 0.31e-3
 
 
-def machine(**changes: Any) -> Machine:
+def machine(**changes: Any) -> MachineModel:
     """Return the case that init writes, changed and resolved."""
     found = api.check(merged(tomllib.loads(geared_shaft("box")), changes))
-    assert isinstance(found, api.Machine)
+    assert isinstance(found, api.MachineModel)
     return found
 
 
