@@ -125,7 +125,7 @@ async def test_an_empty_model_and_what_it_asks(work_folder: Path, size: tuple[in
     found = []
     async with BuilderApp().run_test(size=size) as pilot:
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, OpenCase))
-        await wait_for(pilot, lambda: "6208-axial-1300" in screen_text(pilot.app))
+        await wait_for(pilot, lambda: "geared-shaft" in screen_text(pilot.app))
         await pilot.pause()
         found += read(pilot, "which case")
         await pilot.press("enter")
