@@ -143,8 +143,9 @@ def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem 
     ]
     notes = [f"{'assumption' if i == 0 else '':<{HEAD}}{text}" for i, text in enumerate(found.assumptions)]
     head = [f"{found.case}, {found.speed_rpm:.5g} 1/min", ""]
-    matrices = _table(_MATRICES, found.bearings, units)
-    return "\n".join([*head, *wrapped(lines, width), *table, "", *matrices, "", *wrapped(notes, width)])
+    # the builder asks for the modes alone
+    matrices = [*_table(_MATRICES, found.bearings, units), ""] if found.bearings else []
+    return "\n".join([*head, *wrapped(lines, width), *table, "", *matrices, *wrapped(notes, width)])
 
 
 def _grouped(speed: float) -> str:
