@@ -188,7 +188,7 @@ def _series(group: h5py.Group, channels: Sequence[Channel], along: str = "") -> 
     """Create one growing dataset per channel; `along` is the growing dimension, without one the samples' time."""
     root = group.file
     first = None if along else root["time"]
-    dims = {dim: group[dim] if dim in group else _nearest(group, dim) for c in channels for dim in c.dims}
+    dims = {dim: _nearest(group, dim) for c in channels for dim in c.dims}
     sizes = {dim: labels.size for dim, labels in dims.items()}
     for channel in sorted(channels, key=lambda channel: channel.name != along):
         shape = tuple(sizes[dim] for dim in channel.dims)
@@ -206,7 +206,7 @@ def _series(group: h5py.Group, channels: Sequence[Channel], along: str = "") -> 
 
 def _nearest(group: h5py.Group, dim: str) -> h5py.Dataset:
     """Return the labels of a dimension of this group, or of the nearest one above that has them."""
-    while dim not in group and group.name != "/":
+    while not isinstance(group.get(dim), h5py.Dataset) and group.name != "/":  # a bearing may have the name of one
         group = group.parent
     return group[dim]
 

@@ -24,8 +24,17 @@ def describe(item: h5py.Dataset, texts: Mapping[str, str]) -> None:
 
 
 def texts_of(item: h5py.Dataset, names: Iterable[str]) -> dict[str, str]:
-    """Return the texts among some names that a dataset has."""
-    return {name: item.attrs[name] for name in names if h5a.exists(item.id, name.encode())}
+    """Return the texts among some names that a dataset has.
+
+    Raises
+    ------
+    TypeError
+        When one is no text: HDF5 would crash where :func:`describe` writes an empty array as one.
+    """
+    found = {name: item.attrs[name] for name in names if h5a.exists(item.id, name.encode())}
+    if any(not isinstance(text, str) for text in found.values()):
+        raise TypeError(f"the {' or '.join(found)} of {item.name} is no text")
+    return found
 
 
 def attach(data: h5py.Dataset, axis: int, scale: h5py.Dataset) -> None:

@@ -110,7 +110,8 @@ def labels_of(data: h5py.Dataset) -> tuple[int, ...] | tuple[float, ...] | tuple
 
 def integral_table(group: h5py.Group, rows: int) -> FloatArray:
     """Return the running integrals in the order of INTEGRALS, shape (rows, n)."""
-    return np.concatenate([group[channel.name][:rows].reshape(rows, -1) for channel in INTEGRALS], axis=1)
+    columns = [group[channel.name][:rows].reshape(rows, -1) for channel in INTEGRALS]
+    return np.concatenate(columns, axis=1, dtype=np.float64)  # a TypeError where one holds texts
 
 
 def resolved_value(row: dict[str, str]) -> ResolvedValue:

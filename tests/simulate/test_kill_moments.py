@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import h5py
+import numpy as np
 import pytest
 
 from lambda_core import api
@@ -216,6 +217,37 @@ def summed(path: Path, bearing: str) -> None:
     """Ask a result for everything that a summary needs."""
     api.result(path, bearing).summary()
     api.result(path).summary()
+
+
+@pytest.mark.parametrize("what", ["texts for numbers", "an empty text"])
+def test_a_part_of_another_kind_is_damage(kind: Kind, what: str, tmp_path: Path) -> None:
+    """An empty array in place of a text made HDF5 crash when the run went on."""
+    path = tmp_path / "run.h5"
+    api.run(kind.source, ["solver.duration=0.1 ms"], out=path)
+    with h5py.File(path, "r+") as file:
+        first = next(iter(file["bearings"]))
+        if what == "an empty text":
+            file[f"bearings/{first}/load"].attrs["long_name"] = np.empty(0)
+        else:
+            group = file[f"bearings/{first}/revolutions"]
+            del group["time"]
+            group["time"] = ["a"]
+    with pytest.raises(api.UsageError, match=r"is damaged|is no text"):
+        asked_and_gone_on(path, first)
+
+
+def asked_and_gone_on(path: Path, bearing: str) -> None:
+    """Do what reads every part of a result."""
+    summed(path, bearing)
+    api.resume(path, ["solver.duration=0.2 ms"])
+
+
+@pytest.mark.parametrize("name", ["axis", "time"])
+def test_a_bearing_has_the_name_of_a_dimension(name: str, tmp_path: Path) -> None:
+    source = tmp_path / "box.toml"
+    source.write_text(geared_shaft("box").replace("bearings.right", f"bearings.{name}"))
+    api.run(source, ["solver.duration=0.1 ms"], out=tmp_path / "run.h5")
+    assert api.result(tmp_path / "run.h5", name)["load"].shape[1:] == (9, 2)
 
 
 def test_other_code_does_not_go_on(kind: Kind, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
