@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
-from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.system.bearing import BearingModel, DofState, TimeFunction
 from lambda_core.system.machine import MachineModel
 
@@ -34,14 +33,6 @@ def bearing_number(machine: MachineModel, name: str | None) -> int:
     if name is not None and name not in names:
         raise UsageError(unknown_name("bearing", name, names))
     return 0 if name is None else names.index(name)
-
-
-def bearing_equilibrium(
-    machine: MachineModel, name: str | None, announce: Callable[[str], None] | None = None
-) -> Equilibrium:
-    """Return the equilibrium of one bearing at its pose in the machine, with the friction of its balls."""
-    number = bearing_number(machine, name)
-    return solve_shaft(machine, announce).rings[number].equilibrium()
 
 
 def bearing_alone(
