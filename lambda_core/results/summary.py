@@ -36,6 +36,7 @@ from lambda_core.results.machine_numbers import (
     said_once,
     total,
 )
+from lambda_core.results.opening import BearingNeededError
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.rolling import ROLLING, rolling_of
@@ -52,6 +53,10 @@ _NO_COUNTS = (FOURTH_POWERS, ITERATION_WORK)  # statistics of a run that stand e
 
 LOADED_BALLS = "balls that the inner ring loads with more than 1 % of its largest contact load"
 MAX_LOAD = "largest contact load, of both rings"
+
+
+class FieldOfOneBearingError(BearingNeededError, AttributeError):
+    """A summary of several bearings was asked for a field of one; an AttributeError too, for hasattr."""
 
 
 class Contact(Record):
@@ -184,7 +189,11 @@ class Summary(Record):
             each = self.__dict__.get("bearings", {})
             if len(each) == 1:
                 return getattr(next(iter(each.values())), name)
-            raise AttributeError(f"{name} is of one bearing: summary.bearings[NAME].{name}, of {', '.join(each)}")
+            first = next(iter(each), "NAME")
+            raise FieldOfOneBearingError(
+                f"{name} is of one bearing: choose one, {' or '.join(each)} "
+                f'(--bearing {first}, in Python summary.bearings["{first}"].{name})'
+            )
         raise AttributeError(f"a summary has no {name}")
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from lambda_core.system.machine import MachineModel
 
 _HEAD, _COLUMN = 24, 14
+_FAR = 10  # times the running speed: critical speeds beyond it are counted only
 _LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
 
 
@@ -130,11 +131,15 @@ def equilibrium_text(found: MachineEquilibrium, width: int | None = None, units:
 
 def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem = SI) -> str:
     """Return critical speeds, natural frequencies and the matrices of the bearings."""
+    far = _FAR * abs(found.speed_rpm) or math.inf
+    near = [one for one in found.critical_speeds if one.speed_rpm <= far] or found.critical_speeds[:1]
     speeds = [
         f"{_grouped(one.speed_rpm)} {_way(one.direction)}{_mostly(one.kind)}{_with_bodies(one.bodies_share)}"
-        for one in found.critical_speeds
+        for one in near
     ]
-    lines = [f"{'critical speeds':<{HEAD}}{', '.join(speeds) or NONE} 1/min", ""]
+    beyond = len(found.critical_speeds) - len(near)
+    more = f"   {beyond} more beyond {_FAR} times the speed: --json" if beyond else ""
+    lines = [f"{'critical speeds':<{HEAD}}{', '.join(speeds) or NONE} 1/min{more}", ""]
     table = [f"{'frequency Hz':<{_HEAD}}{'damping %':>{_COLUMN}}   motion"]
     table += [
         f"{f'{mode.frequency_Hz:.5g}':<{_HEAD}}{f'{1e2 * mode.damping_ratio:.2g}':>{_COLUMN}}   "

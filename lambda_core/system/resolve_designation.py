@@ -26,7 +26,7 @@ def resolve_designation(case: Case, catalogue: Catalogue, ledger: Ledger) -> tup
     bearing = case.bearing
     if bearing.designation is None:
         if bearing.geometry is None:
-            ledger.problem(WHERE, "is required, or write the geometry in [bearing.geometry]")
+            ledger.problem(WHERE, f"is required, or write the geometry in [{ledger.place('bearing.geometry')}]")
         return None, "", case
     text, maker = bearing.designation, bearing.maker
     found = ledger.ask("bearing.", lambda: designated(catalogue, text, maker))
@@ -104,7 +104,7 @@ def _design(case: Case, written: str, suffix: Suffix, ledger: Ledger) -> Case:
     ledger.problem(
         WHERE,
         f'"{written}" is a {suffix.meaning}, the catalogue has the plain one: write ball_count and ball_diameter '
-        "in [bearing.geometry]",
+        f"in [{ledger.place('bearing.geometry')}]",
     )
     return case
 

@@ -85,6 +85,8 @@ def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) 
     rows = list(csv.reader(api.write_stiffness(whirl, folder / "k.csv").read_text().splitlines()))
     assert len(rows) == 1 + 2 * 36
     assert float(rows[1][4]) == left["stiffness"][0][0]
+    assert "40012 elliptic 1/min" in whirl.text(80)  # beyond ten times the speed: the first, and how many follow
+    assert f"{len(whirl.critical_speeds) - 1} more beyond 10 times the speed" in " ".join(whirl.text().split())
     assert "Q_max N" in report.text(80)
     with pytest.raises(api.UsageError, match=r"\.json or \.csv"):
         api.write_stiffness(whirl, folder / "k.txt")
@@ -109,6 +111,29 @@ def check_text(report: Any, vectors: dict[str, Callable[[Any], list[float]]]) ->
         for offset, values in enumerate(expected):
             said = [float(text) for text in lines[first + offset].split()[-len(values) :]]
             assert said == pytest.approx(list(values), rel=6e-3, abs=5e-5), lines[first + offset]
+
+
+def test_a_missing_designation_names_the_section_of_that_bearing(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", str(folder / "box.toml"), "--set", "bearings.middle.at=60 mm"]) == 3
+    assert "or write the geometry in [bearings.middle.geometry]" in capsys.readouterr().err
+
+
+def test_pictures_and_report_of_a_short_run(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Views of one bearing are left out of those of the machine; the report of a bearing draws every picture."""
+    monkeypatch.chdir(folder)
+    assert main(["run", "box.toml", "--set", "solver.duration=1 ms", "--out", "short.h5", "--quiet"]) == 5
+    capsys.readouterr()
+    assert main(["view", "short.h5", "--out", "drawn"]) == 0
+    said = capsys.readouterr()
+    assert "short-orbit.svg" in said.out
+    assert "fails" not in said.err
+    assert main(["view", "short.h5", "catalogues", "--out", "drawn"]) == 2
+    assert "--bearing left" in capsys.readouterr().err
+    assert main(["report", "short.h5", "--bearing", "left"]) == 0
 
 
 @pytest.mark.parametrize("target", ["k.txt", "/nowhere/k.json", "/proc/k.csv"])

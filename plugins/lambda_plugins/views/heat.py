@@ -20,7 +20,7 @@ def heat(run: RunData, options: Options) -> ViewData:
         (found,) = api.thermal_pictures(api.thermal(run.path))
     except LambdaError as error:
         raise NotApplicable(f"the temperatures cannot be computed: {error}") from None
-    return replace(found, source=source(run))
+    return replace(found, view="heat", source=source(run))
 
 
 VIEWS = (View("heat", "where the heat of a run goes, and the temperatures that follow", "result", heat, view_api=1),)
