@@ -198,7 +198,7 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
     count = max(math.ceil(length / pitch * phases), 1)
     if count > _MOST_SAMPLES:
         raise UsageError(
-            f"{length:.4g} s are {count} positions of the balls, at most {_MOST_SAMPLES}: shorten duration"
+            f"{length:.4g} s are {count:.6g} positions of the balls, at most {_MOST_SAMPLES}: shorten duration"
         )
     step = np.arange(count + 1)
     time = step * pitch / phases

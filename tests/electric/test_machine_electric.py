@@ -10,7 +10,7 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
-from lambda_core.domain.errors import CaseError
+from lambda_core.domain.errors import CaseError, UsageError
 
 if TYPE_CHECKING:
     from lambda_core.electric.simulation import CircuitSimulation
@@ -142,3 +142,8 @@ def test_a_longer_run_goes_on_with_its_circuit(run: api.Result, tmp_path: Path) 
         assert one.keys() == other.keys()
         for name, values in other.items():
             assert one[name].tobytes() == values.tobytes(), name
+
+
+def test_an_endless_duration_is_refused_in_few_digits() -> None:
+    with pytest.raises(UsageError, match=r"are [\d.e+]{1,12} positions of the balls, at most 500000: shorten duration"):
+        api.electric(MOTOR, ["electric.duration=1e300 s"])
