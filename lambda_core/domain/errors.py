@@ -33,6 +33,10 @@ class UsageError(LambdaError):
     exit_code = 2
 
 
+class BearingNeededError(UsageError):
+    """A question concerns one bearing of a machine, and none was named."""
+
+
 class CaseError(LambdaError):
     """A case, catalogue row or plugin choice is invalid; carries every problem at once, and prints the first ones."""
 

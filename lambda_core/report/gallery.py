@@ -11,10 +11,9 @@ from pydantic import BaseModel, ConfigDict
 
 from lambda_core.discovery.registry import Registry
 from lambda_core.discovery.shown import data_of
-from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.domain.errors import BearingNeededError, UsageError, unknown_name
 from lambda_core.domain.files import check_target
 from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without
-from lambda_core.results.opening import BearingNeededError
 from lambda_core.views.chart import ViewData
 from lambda_core.views.method import NotApplicable
 from lambda_core.views.view import Subject, View

@@ -25,10 +25,6 @@ class ResultError(UsageError):
     """A file is not a result, or is damaged."""
 
 
-class BearingNeededError(UsageError):
-    """A question concerns one bearing of a machine, and none was named."""
-
-
 class BeingWrittenError(ResultError):
     """Another process is at work on a result."""
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import CHANNELS, Channel
-from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.domain.errors import BearingNeededError, UsageError, unknown_name
 from lambda_core.domain.printable import printable
 from lambda_core.results import checkpoint
 from lambda_core.results import file_format as layout
@@ -23,7 +23,6 @@ from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP
 from lambda_core.results.event_rows import EVENTS_GROUP
 from lambda_core.results.integrity import check_machine, check_model, heaps_are_whole
 from lambda_core.results.opening import (
-    BearingNeededError,
     ResultError,
     channels_of,
     check_alone,

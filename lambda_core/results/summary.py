@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from lambda_core.domain.channels import RINGS, SHORTED
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain.errors import BearingNeededError, UsageError
 from lambda_core.domain.loading import CARRYING, Ring, carries, largest_contact, loaded_balls
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.averages import Interval, finite
@@ -36,7 +36,6 @@ from lambda_core.results.machine_numbers import (
     said_once,
     total,
 )
-from lambda_core.results.opening import BearingNeededError
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.rolling import ROLLING, rolling_of
