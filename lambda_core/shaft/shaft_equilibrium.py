@@ -158,7 +158,9 @@ class _Whole:
         move = np.zeros(unbalanced.size)
         block = tangent[np.ix_(self.free, self.free)]
         # of one unit and size: the condition is that of the structure, however stiff parts of it are
-        scale = 1.0 / np.sqrt(np.maximum(np.diag(block), np.finfo(float).tiny))
+        # (a ball that only the centrifugal force presses may give a direction a stiffness of 0 or less)
+        size = np.where(np.diag(block) > 0.0, np.diag(block), np.abs(block).max(axis=1))
+        scale = 1.0 / np.sqrt(np.maximum(size, np.finfo(float).tiny))
         scaled, pull = block * np.outer(scale, scale), scale * unbalanced[self.free]
         try:
             move[self.free] = scale * np.linalg.solve(scaled, pull)
