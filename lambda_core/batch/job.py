@@ -142,17 +142,6 @@ def _machine_tables(case_toml: str) -> dict[str, Any] | None:
     return tables if is_shaft(tables) else None
 
 
-def bearings_of(case_toml: str) -> tuple[str, ...]:
-    """Return the names of the bearings of a machine's case; none for that of one bearing."""
-    tables = _machine_tables(case_toml)
-    return () if tables is None else tuple(tables["bearings"])
-
-
-def bearing_names(model: BearingModel | MachineModel) -> tuple[str, ...]:
-    """Return the names of a machine's bearings; none for the model of one bearing."""
-    return tuple(bearing.name for bearing in getattr(model, "bearings", ()))
-
-
 def with_temperatures(model: _Model) -> _Model:
     """Return the model of a bearing or a machine at its own temperatures, where the case wants them computed."""
     from lambda_core.discovery.manager import registry
@@ -226,19 +215,20 @@ def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) ->
     SolverError
         When there is no solution.
     """
-    from lambda_core.batch.responses import StaticPoint, evaluate
+    from lambda_core.batch.responses import StaticPoint, evaluate, responses_of
     from lambda_core.results.quasistatic import quasistatic_of
     from lambda_core.system.machine import MachineModel
 
+    known = responses_of(model)
     if isinstance(model, MachineModel):
         from lambda_core.batch.machine_responses import machine_point
 
         whole = machine_point(model, _shared_kernels())
         rows = {name: value for name, (value, _, _) in machine_columns(model, whole.equilibria, names).items()}
-        return evaluate(names, whole, rows, bearing_names(model))
+        return evaluate(names, whole, rows, known)
     found = _equilibrium(model)
     point = StaticPoint(found, quasistatic_of(found), kernels_of(model))
-    return evaluate(names, point, method_rows(found, names))
+    return evaluate(names, point, method_rows(found, names), known)
 
 
 def machine_columns(
@@ -300,7 +290,7 @@ def _dynamic(
     model: BearingModel | MachineModel, path: Path, names: tuple[str, ...]
 ) -> tuple[State, str, dict[str, float | None]]:
     """Run a point, or go on with what there is of it, and read its responses."""
-    from lambda_core.batch.responses import DynamicPoint, evaluate
+    from lambda_core.batch.responses import DynamicPoint, evaluate, method_rows_among, responses_of
     from lambda_core.results.opening import BeingWrittenError
 
     try:
@@ -311,9 +301,10 @@ def _dynamic(
     if status.state == "interrupted":
         return "stopped", status.message, {}
     summary = result.summary()
-    rows = tuple(name for name in names if "/" in name)
+    known = responses_of(model)
+    rows = method_rows_among(names, known)
     methods = static_values(model, rows) if rows else {}
-    values = evaluate(names, DynamicPoint(result, summary), methods, bearing_names(model))
+    values = evaluate(names, DynamicPoint(result, summary), methods, known)
     return ("done", "", values) if summary.converged else ("partial", "; ".join(summary.reasons), values)
 
 

@@ -2,7 +2,8 @@
 
 Names are those of the machine interface (:class:`~lambda_core.results.summary.Summary` and
 :class:`~lambda_core.results.quasistatic.QuasiStatic`), where it has them. ``friction_breakdown_Nmm`` stands for
-all its parts, and ``METHOD/GROUP/ROW`` for a row of a comparison method ("skf/friction/total").
+all its parts, and ``METHOD/GROUP/ROW`` for a row of a comparison method ("skf/friction/total"). Observers, events and
+states of contacts add their own (:mod:`~lambda_core.batch.watched_responses`).
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.batch import measures
 from lambda_core.domain.channels import LOSSES
-from lambda_core.domain.errors import CaseError, Problem, nearest
+from lambda_core.domain.errors import CaseError, Problem, nearest, unknown_name
 from lambda_core.electric.current_numbers import UNITS, CurrentNumbers, meaning, run_numbers, static_numbers
 
 if TYPE_CHECKING:
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from lambda_core.results.summary import Summary
     from lambda_core.solver.drivers.compiled_laws import Kernels
     from lambda_core.solver.drivers.equilibrium import Equilibrium
+    from lambda_core.system.bearing import BearingModel
+    from lambda_core.system.machine import MachineModel
 
 Number = float | None
 BREAKDOWN = "friction_breakdown_Nmm"
@@ -184,20 +187,34 @@ def asks_currents(names: Sequence[str]) -> bool:
     return any(name in UNITS for name in names)
 
 
-def responses_of(bearings: tuple[str, ...]) -> Mapping[str, Response]:
-    """Return the responses of a case: of one bearing, or of a machine with bearings of these names."""
-    if not bearings:
-        return RESPONSES
+def bearing_names(model: BearingModel | MachineModel) -> tuple[str, ...]:
+    """Return the names of a machine's bearings; none for the model of one bearing."""
+    return tuple(bearing.name for bearing in getattr(model, "bearings", ()))
+
+
+def responses_of(model: BearingModel | MachineModel) -> Mapping[str, Response]:
+    """Return the responses of a bearing or a machine, those of its observers, events and states included."""
     from lambda_core.batch.machine_responses import machine_responses
+    from lambda_core.batch.watched_responses import watched_responses
 
-    return machine_responses(bearings)
+    bearings = bearing_names(model)
+    return {**(machine_responses(bearings) if bearings else RESPONSES), **watched_responses(model)}
 
 
-def chosen(names: Sequence[str], mode: str, source: str, bearings: tuple[str, ...] = ()) -> tuple[str, ...]:
+def method_rows_among(names: Sequence[str], known: Mapping[str, Response]) -> tuple[str, ...]:
+    """Return the names that are rows of comparison methods, which alone are not among the known responses."""
+    return tuple(name for name in names if name not in known)
+
+
+def chosen(
+    names: Sequence[str], mode: str, source: str, known: Mapping[str, Response], bearings: tuple[str, ...] = ()
+) -> tuple[str, ...]:
     """Return the names of the responses of a study, groups written out.
 
     Parameters
     ----------
+    known : mapping
+        What the case has, from :func:`responses_of`.
     bearings : tuple of str
         Names of the bearings of a machine; empty for a case of one.
 
@@ -208,12 +225,13 @@ def chosen(names: Sequence[str], mode: str, source: str, bearings: tuple[str, ..
     """
     found: list[str] = []
     wrong: list[Problem] = []
-    known = responses_of(bearings)
     for name in names or _usual(bearings, mode):
         if name.endswith(BREAKDOWN) and any(part.startswith(f"{name}.") for part in known):
             found += [part for part in known if part.startswith(f"{name}.")]
-        elif "/" in name:
-            if bearings and not any(name.startswith(f"{bearing}.") for bearing in bearings):
+        elif "/" in name and name not in known:
+            if own := [one for one in known if one.startswith(f"{name.partition('/')[0]}/")]:
+                wrong.append(Problem("responses", unknown_name("response", name, own)))
+            elif bearings and not any(name.startswith(f"{bearing}.") for bearing in bearings):
                 words = f'"{name}": name the bearing that is meant, "{bearings[0]}.{name}"'
                 wrong.append(Problem("responses", words))
             found.append(name)
@@ -245,7 +263,7 @@ def _of_mode(response: Response, mode: str) -> Callable[[Any], Number] | None:
 
 def evaluate(
     names: Sequence[str], point: StaticPoint | MachinePoint | DynamicPoint, methods: Mapping[str, Number],
-    bearings: tuple[str, ...] = (),
+    known: Mapping[str, Response],
 ) -> dict[str, Number]:  # fmt: skip
     """Return the responses of a point; a number that does not exist is None.
 
@@ -253,13 +271,13 @@ def evaluate(
     ----------
     methods : mapping
         Values of the responses that are rows of comparison methods.
-    bearings : tuple of str
-        Names of the bearings of a machine; empty for a case of one.
+    known : mapping
+        What the case has, from :func:`responses_of`.
     """
-    mode, known = "dynamic" if isinstance(point, DynamicPoint) else "quasi-static", responses_of(bearings)
+    mode = "dynamic" if isinstance(point, DynamicPoint) else "quasi-static"
     found: dict[str, Number] = {}
     for name in names:
-        if "/" in name:
+        if name not in known:
             found[name] = methods.get(name)
             continue
         read = _of_mode(known[name], mode)

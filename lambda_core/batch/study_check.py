@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice, product
 from pathlib import Path
@@ -15,7 +15,6 @@ from pydantic import BaseModel, ConfigDict, Field
 from lambda_core.batch.definition import Study
 from lambda_core.batch.design import Coordinate, Plan, Point
 from lambda_core.batch.job import (
-    bearings_of,
     kernels_of,
     machine_columns,
     method_columns,
@@ -24,7 +23,14 @@ from lambda_core.batch.job import (
     static_values,
     with_temperatures,
 )
-from lambda_core.batch.responses import asks_currents, chosen, responses_of
+from lambda_core.batch.responses import (
+    Response,
+    asks_currents,
+    bearing_names,
+    chosen,
+    method_rows_among,
+    responses_of,
+)
 from lambda_core.batch.store import Heading, parameter_headings
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError
 
@@ -104,12 +110,13 @@ def check(
     """
     plan = Plan(study)
     case_toml = _case_toml(study, folder, case)
-    bearings = bearings_of(case_toml)
-    names = chosen(study.responses, study.mode, study.name, bearings)
-    _check_goal(study, names)
     first = _first_model(study, plan, case_toml)
+    known = responses_of(first)
+    names = chosen(study.responses, study.mode, study.name, known, bearing_names(first))
+    _check_goal(study, names)
     warnings = _try_ends(study, plan, case_toml)
-    seconds, columns, size = _probe(study, first, names, announce)
+    rows = method_rows_among(names, known)
+    seconds, columns, size = _probe(study, first, names, rows, announce)
     estimate = StudyEstimate(
         name=study.name,
         title=study.title,
@@ -131,7 +138,7 @@ def check(
             f"{disk}; at most {study.max_points:,} are allowed (max_points): take fewer points, or samples "
             '(design.kind = "sobol")'
         )
-    headings = (*parameter_headings(plan.coordinates), *_response_headings(names, columns, bearings))
+    headings = (*parameter_headings(plan.coordinates), *_response_headings(names, columns, known))
     return Ready(study, plan, case_toml, names, headings, estimate, first)
 
 
@@ -255,9 +262,9 @@ def _check_goal(study: Study, names: tuple[str, ...]) -> None:
 
 
 def _probe(
-    study: Study, model: BearingModel | MachineModel, names: tuple[str, ...], announce: Announce
+    study: Study, model: BearingModel | MachineModel, names: tuple[str, ...], rows: tuple[str, ...], announce: Announce
 ) -> tuple[float, dict[str, tuple[float | None, str, str]], float]:
-    """Compile what the study needs and time one point.
+    """Compile what the study needs and time one point; `rows` of comparison methods are among the `names`.
 
     Returns
     -------
@@ -273,12 +280,12 @@ def _probe(
     from lambda_core.system.machine import MachineModel
 
     if isinstance(model, MachineModel):
-        return _probe_machine(study, model, names, announce)
+        return _probe_machine(study, model, names, rows, announce)
     solve(with_temperatures(model), announce=announce)  # compiles or loads; not timed
     start = time.perf_counter()
     resolved = with_temperatures(resolve_point(model.case_toml, ()))
     found = solve(resolved, kernels_of(resolved))
-    columns = method_columns(found, names)
+    columns = method_columns(found, rows)
     seconds = time.perf_counter() - start
     if asks_currents(names) and study.mode == "quasi-static":
         static_values(resolved, names)  # compiles or loads the circuit; not timed
@@ -294,7 +301,7 @@ def _probe(
 
 
 def _probe_machine(
-    study: Study, model: MachineModel, names: tuple[str, ...], announce: Announce
+    study: Study, model: MachineModel, names: tuple[str, ...], rows: tuple[str, ...], announce: Announce
 ) -> tuple[float, dict[str, tuple[float | None, str, str]], float]:
     """Do for a machine what :func:`_probe` does for one bearing."""
     from lambda_core.run.estimate import machine_estimate
@@ -303,7 +310,7 @@ def _probe_machine(
     warm = with_temperatures(model)
     state = solve_shaft(warm, announce)  # compiles or loads; not timed
     equilibria = [ring.equilibrium() for ring in state.rings]
-    columns = machine_columns(warm, equilibria, names)
+    columns = machine_columns(warm, equilibria, rows)
     if study.mode == "dynamic":
         run = machine_estimate(warm, announce)
         if run.processor_s is None or run.simulated_s is None:
@@ -329,9 +336,8 @@ def _file_size(model: BearingModel, simulated: float, orbit: float) -> float:
 
 
 def _response_headings(
-    names: tuple[str, ...], columns: dict[str, tuple[float | None, str, str]], bearings: tuple[str, ...]
+    names: tuple[str, ...], columns: dict[str, tuple[float | None, str, str]], known: Mapping[str, Response]
 ) -> Iterator[Heading]:
-    known = responses_of(bearings)
     for name in names:
         if name in known:
             yield Heading("response", name, known[name].unit, known[name].meaning)
