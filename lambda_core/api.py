@@ -24,7 +24,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     )
     from lambda_core.case.case_io import is_machine
     from lambda_core.discovery.manager import use_plugin
-    from lambda_core.discovery.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins, watchers
+    from lambda_core.discovery.packages import new_plugin, plugin_faults, plugin_model, plugins, watchers
     from lambda_core.domain.errors import CaseError, LambdaError, UsageError
     from lambda_core.electric.api import check_discharges_file, write_discharges
     from lambda_core.fit.band import model_band
@@ -36,6 +36,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.run.answers import cite, compare, result, side_by_side, summary
     from lambda_core.run.bearing_currents import electric, film_from_capacitance
     from lambda_core.run.duty_cycle import duty
+    from lambda_core.run.plugin_trials import check_plugins, watch_problems
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.run.speed_curve import stribeck, stribeck_picture
     from lambda_core.run.temperatures import thermal, thermal_pictures, warm_up

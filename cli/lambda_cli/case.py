@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from lambda_cli.options import CaseArgument, ForceOption, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import columns
 from lambda_core.domain.wrapping import wrapped
+
+if TYPE_CHECKING:
+    from lambda_core.api import BearingModel
+    from lambda_core.domain.errors import Problem
 
 FileOption = Annotated[
     Path | None, typer.Option("--out", metavar="FILE", help="Where to write; default: standard output.")
@@ -70,7 +74,7 @@ def check(
             return
         model = api.check(case, changes or ())
         assert isinstance(model, api.BearingModel)
-        if faults := api.law_problems(model):
+        if faults := [*api.law_problems(model), *_watch_problems(model)]:
             raise api.CaseError(model.name, faults)
         report = api.describe(model)
     except api.CaseError as error:
@@ -85,12 +89,21 @@ def check(
     typer.echo("\n".join(wrapped(units.system.sentence(report.text()).splitlines(), columns())))
 
 
+def _watch_problems(model: BearingModel) -> list[Problem]:
+    """Return the mistakes of observers and events; a case without them loads no solver."""
+    from lambda_core import api
+
+    return api.watch_problems(model) if model.observers or model.events else []
+
+
 def _check_machine(case: str, changes: list[str], units: Units, *, as_json: bool) -> None:
     """Say what a machine is."""
     from lambda_core import api
 
     model = api.check_shaft(case, changes)
     faults = dict.fromkeys(fault for bearing in model.bearings for fault in api.law_problems(bearing.model))
+    if any(bearing.model.observers or bearing.model.events for bearing in model.bearings):
+        faults |= dict.fromkeys(api.watch_problems(model))
     if faults:
         raise api.CaseError(model.name, list(faults))
     if as_json:

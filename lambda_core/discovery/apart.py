@@ -43,22 +43,38 @@ def check_apart(
     UsageError
         For a name that is none of these.
     """
-    left = list(chosen(registry, wanted))
+    labels = [f"{role}/{name}" for role, name in chosen(registry, wanted)]
+    yield from tried_apart(registry, labels, __name__, limit, announce)
+
+
+def tried_apart(
+    registry: Registry, labels: Sequence[str], module: str, limit: float, announce: Callable[[str], None] | None = None
+) -> Iterator[CheckCard]:
+    """Have a module try things out in a process of its own, each within a limit of time.
+
+    Parameters
+    ----------
+    labels : sequence of str
+        "role/name" or "kind/name" of each.
+    module : str
+        Run with the labels as its arguments; it calls :func:`answer`.
+    """
+    left = list(labels)
     while left:
-        with _Trials([f"{role}/{name}" for role, name in left]) as trials:
+        with _Trials(left, module) as trials:
             trials.begun()
             while left:
-                role, name = left[0]
+                role, _, name = left[0].partition("/")
                 answer = trials.next(min(limit, PATIENCE))
                 if answer is None and announce is not None:
-                    announce(f"{role}/{name} ({registry.origin(role, name)}) takes long: it compiles, or never ends")
+                    announce(f"{left[0]} ({registry.origin(role, name)}) takes long: it compiles, or never ends")
                 answer = answer or trials.next(max(limit - PATIENCE, 0.0)) or _endless(limit)
-                left.pop(0)
+                label = left.pop(0)
                 if isinstance(answer, CheckCard):
                     yield answer
                     continue
                 origin = registry.origin(role, name)
-                fault = f"{role}/{name} ({origin}) {answer}"
+                fault = f"{label} ({origin}) {answer}"
                 yield CheckCard(
                     role=role, name=name, distribution=origin, ok=False, faults=[fault], warnings=[], not_tried="",
                     nanoseconds=None,
@@ -73,8 +89,8 @@ def _endless(limit: float) -> str:
 class _Trials:
     """The process, and what it says."""
 
-    def __init__(self, labels: Sequence[str]) -> None:
-        command = [sys.executable, "-P", "-m", __name__, *labels]
+    def __init__(self, labels: Sequence[str], module: str) -> None:
+        command = [sys.executable, "-P", "-m", module, *labels]
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         assert self._process.stdin is not None
         with self._process.stdin as handed:
@@ -115,8 +131,8 @@ class _Trials:
         return f"ended the process that tried it ({how}): machine code checks no bounds"
 
 
-def _main(labels: Sequence[str]) -> None:
-    """Try models out and write a line for each; whatever plugins print goes to stderr."""
+def answer(trials: Callable[[Registry, Sequence[str]], Iterator[CheckCard]], labels: Sequence[str]) -> None:
+    """Try things out and write a line for each; whatever plugins print goes to stderr."""
     from lambda_core.discovery.manager import as_guests_of, registry
 
     as_guests_of(sys.stdin.buffer.read())
@@ -125,9 +141,9 @@ def _main(labels: Sequence[str]) -> None:
         installed = registry()
         importlib.import_module("numba")  # which the first law would wait for
         print("begun", file=answers, flush=True)
-        for card in check_installed(installed, labels):
+        for card in trials(installed, labels):
             print(card.model_dump_json(), file=answers, flush=True)
 
 
 if __name__ == "__main__":
-    _main(sys.argv[1:])
+    answer(check_installed, sys.argv[1:])

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Sequence
     from typing import Literal
 
-    from lambda_core.discovery.survey import CheckCard, FaultCard, Inventory, ModelCard, WatcherCard
+    from lambda_core.discovery.survey import FaultCard, Inventory, ModelCard, WatcherCard
 
 
 def plugins() -> Inventory:
@@ -67,32 +67,6 @@ def plugin_model(label: str) -> ModelCard:
     from lambda_core.discovery.survey import model_card
 
     return model_card(registry(), label)
-
-
-def check_plugins(names: Sequence[str] = (), *, announce: Callable[[str], None] | None = None) -> Iterator[CheckCard]:
-    """Try models against the contract of their role, one after the other.
-
-    Parameters
-    ----------
-    names : sequence of str
-        Distributions, roles or "role/name"; everything when empty.
-    announce : callable, optional
-        Called with a sentence about a law that takes long.
-
-    Yields
-    ------
-    CheckCard
-        One per model, in the order of the pipeline.
-
-    Raises
-    ------
-    UsageError
-        When a name is none of these.
-    """
-    from lambda_core.discovery.apart import check_apart
-    from lambda_core.discovery.manager import registry
-
-    return check_apart(registry(), names, announce=announce)
 
 
 def plugin_faults(names: Sequence[str] = ()) -> list[FaultCard]:

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import pluggy
 
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
     from lambda_core.views.scene import Scene
 
+OtherKind = Literal["method", "view", "observer", "event", "section"]
 log = logging.getLogger("lambda_core")
 
 
@@ -87,6 +88,13 @@ class Registry:
         self.events: Mapping[str, Event] = _of_kind(collection, "event")
         self.sections: Mapping[str, Section] = _of_kind(collection, "section")
         self.data_folders: tuple[tuple[str, Path], ...] = tuple(collection.folders)
+
+    def by_kind(self) -> dict[OtherKind, Mapping[str, Any]]:
+        """Return everything but the models, by name under its kind."""
+        return {
+            "method": self.methods, "view": self.views, "observer": self.observers, "event": self.events,
+            "section": self.sections,
+        }  # fmt: skip
 
     def names(self, role: str) -> tuple[str, ...]:
         """Return the names of the models for `role`, built-in ones first; imports nothing.

@@ -131,14 +131,7 @@ def inventory(registry: Registry) -> Inventory:
                 faults.append(FaultCard(distribution=origin, entry_point=f"{role}/{name}", message=str(error)))
                 continue
             items.append(Item(kind="model", role=role, name=name, distribution=origin, reference=found.reference))
-    kinds: tuple[tuple[Kind, Any], ...] = (
-        ("method", registry.methods),
-        ("view", registry.views),
-        ("observer", registry.observers),
-        ("event", registry.events),
-        ("section", registry.sections),
-    )
-    for kind, named in kinds:
+    for kind, named in registry.by_kind().items():
         for name, item in named.items():
             reference = str(getattr(item, "reference", ""))
             items.append(
@@ -273,8 +266,19 @@ def broken(registry: Registry, wanted: Sequence[str] = ()) -> list[FaultCard]:
 
 def chosen(registry: Registry, wanted: Sequence[str]) -> Iterator[tuple[str, str]]:
     """Return role and name of the models of distributions, roles or "role/name"; UsageError for anything else."""
+    return (pair for pair in _chosen(registry, wanted) if pair[0] in ROLES)
+
+
+def chosen_others(registry: Registry, wanted: Sequence[str]) -> list[tuple[str, str]]:
+    """Return kind and name of the methods, views, observers, events and sections that are wanted likewise."""
+    return [pair for pair in _chosen(registry, wanted) if pair[0] not in ROLES]
+
+
+def _chosen(registry: Registry, wanted: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Return role or kind and name of everything that distributions, roles, kinds or "role/name" choose."""
     every = [(role, name) for role in ROLES for name in registry.names(role)]
-    known: dict[str, list[tuple[str, str]]] = {}
+    every += [(kind, name) for kind, named in registry.by_kind().items() for name in named]
+    known: dict[str, list[tuple[str, str]]] = {kind: [] for kind in registry.by_kind()}
     for role, name in every:
         for word in (role, f"{role}/{name}", project_of(registry.origin(role, name))):
             known.setdefault(word, []).append((role, name))

@@ -66,7 +66,7 @@ def launch(
     """
     path = destination(model, out, force)
     _check_end(model)
-    engine, provenance, attached = _prepared(model, announce)
+    engine, provenance, attached = prepared(model, announce)
     return run(engine, provenance, path, force=force, report=report, attached=attached)
 
 
@@ -85,7 +85,7 @@ def relaunch(path: Path, model: Runnable, *, report: Report | None = None, annou
     for known in keys.values():
         if why := other_code(known.get("code", NATIVE)):
             raise ResultError(f"{path} cannot go on: {why}")
-    engine, provenance, attached = _prepared(model, announce)
+    engine, provenance, attached = prepared(model, announce)
     for name, origin in provenance.bearings.items():
         other = sorted(part for part, key in origin.kernel_keys.items() if keys[name].get(part) != key)
         if other:
@@ -145,8 +145,8 @@ def destination(model: Runnable, out: Path | None, force: bool) -> Path:
     return path
 
 
-def _prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Provenance, Attachments]:
-    """Return the engine at t = 0, where it comes from, and what is computed from its samples."""
+def prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Provenance, Attachments]:
+    """Return the engine at t = 0, its origin, and what is computed from its samples."""
     found = _machine(model, announce) if isinstance(model, MachineModel) else _one(model, announce)
     engine, provenance, live = found
     attached = Attachments.of(provenance, live)

@@ -46,9 +46,12 @@ class Watch:
     ----------
     model : BearingModel
         Whose observers and events are called.
+    is_trial : bool
+        Keep faults without a line in the log: the caller reports them.
     """
 
-    def __init__(self, model: BearingModel) -> None:
+    def __init__(self, model: BearingModel, *, is_trial: bool = False) -> None:
+        self._is_trial = is_trial
         self._model = model
         self._observers, self._events = model.observers, model.events
         self._data = model_data(model) if self.any else {}
@@ -56,7 +59,8 @@ class Watch:
         self._sizes |= {"ball": model.geometry.balls, "marker": len(model.markers)}
         self._before: dict[str, FloatArray] = {}  # time, rates and integrals at the sample before
         self._was: dict[str, bool] = {}  # event -> whether it was so at the sample before
-        self._failed: dict[str, str] = {}  # what was called -> sentence
+        self.failed: dict[str, str] = {}  # "observer/NAME" or "event/NAME" -> sentence
+        self.without_numbers: dict[str, str] = {}  # channel of an observer without a finite number -> sentence
         self.ended_by = ""  # a sentence, once an event that stops the run has happened
 
     @property
@@ -77,7 +81,7 @@ class Watch:
     @property
     def faults(self) -> tuple[str, ...]:
         """Return why observers or events are not called any more, one sentence each."""
-        return tuple(self._failed.values())
+        return tuple(self.failed.values())
 
     def keys(self) -> dict[str, str]:
         """Return "observer/NAME" or "event/NAME" -> hash of the module that the function stands in."""
@@ -133,9 +137,19 @@ class Watch:
         arrays = self._guarded(f"observer/{name}", what, observe)
         if arrays is None:
             arrays = {key: np.full(shape, np.nan) for key, shape in shapes.items()}
+        else:
+            self._report_without_numbers(what, arrays, float(samples["time"][0]))
         for integral in item.integrals:
             arrays[integral.name] = self._integrated(integral.name, integral.of, arrays[integral.of], samples["time"])
         return arrays
+
+    def _report_without_numbers(self, what: str, arrays: Mapping[str, FloatArray], time: float) -> None:
+        """Report once each channel that has no finite number in a stretch of samples."""
+        for key, values in arrays.items():
+            if key not in self.without_numbers and not np.isfinite(values).any():
+                self.without_numbers[key] = f"{what} returns no finite number as {key} from t = {time:.6g} s"
+                if not self._is_trial:
+                    log.warning("%s", self.without_numbers[key])
 
     def _integrated(self, name: str, of: str, rate: FloatArray, time: FloatArray) -> FloatArray:
         """Go on with a time integral, summed one after the other, so that it does not matter where a stretch ends."""
@@ -174,15 +188,16 @@ class Watch:
 
     def _guarded(self, key: str, what: str, call: Callable[[], Answer]) -> Answer | None:
         """Call a plugin's function; report its first error, and do not call it again."""
-        if key in self._failed:
+        if key in self.failed:
             return None
         try:
             # stdout is for data, and numpy's warnings about a plugin's arithmetic are no news of ours
             with contextlib.redirect_stdout(sys.stderr), np.errstate(all="ignore"), blamed(what):
                 return call()
         except PluginError as error:
-            self._failed[key] = str(error)
-            log.warning("%s; it is not called any more", error)
+            self.failed[key] = str(error)
+            if not self._is_trial:
+                log.warning("%s; it is not called any more", error)
             return None
 
 
