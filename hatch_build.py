@@ -62,7 +62,7 @@ class PackHook(BuildHookInterface):
         self._made = tempfile.TemporaryDirectory(prefix="lambda-bearing-pack-")
         paths = [str(ROOT / home) for home in HOMES]
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join([*paths, os.environ.get("PYTHONPATH", "")])}
-        command = [sys.executable, "-P", "-W", "ignore", "-m", "lambda_core.fmu.pack_builder", self._made.name]
+        command = [sys.executable, "-P", "-W", "ignore", "-m", "lambda_core.export.fmu.pack_builder", self._made.name]
         done = subprocess.run(command, env=environment, stdout=subprocess.DEVNULL, check=False)
         files = sorted(Path(self._made.name).iterdir())
         if done.returncode != 0:

@@ -6,7 +6,7 @@ import dataclasses
 from dataclasses import dataclass
 
 from lambda_core import api
-from lambda_core.system.bearing import BearingModel
+from lambda_core.model.bearing_model import BearingModel
 
 FINE_GRID = ("depth.strips=21", "depth.rows=11")
 DEFAULT = "6319-cp10-3000"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from benchmarks.tables import Section, Table, Target
 from benchmarks.timing import Effort, best, now
 from lambda_core import api
-from lambda_core.electric.circuit_bearing import of_model
-from lambda_core.electric.contacts import contacts_of_equilibria, equilibria
-from lambda_core.electric.simulation import simulate
+from lambda_core.analysis.electric.circuit_bearing import of_model
+from lambda_core.analysis.electric.contacts import contacts_of_equilibria, equilibria
+from lambda_core.analysis.electric.simulation import simulate
 
 CASE = "6208-axial-1300"  # 2750 1/min
 RADIAL = ("loads.axial=0 N", "loads.radial=2 kN")

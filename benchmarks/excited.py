@@ -1,6 +1,6 @@
 """The 6220 through its transition: constant speed, growing axial excitation, ball speeds by azimuth before and after.
 
-``python -m benchmarks.excited [--write]`` prints or writes the page and its figure; tests/reproduce/test_excited.py
+``python -m benchmarks.excited [--write]`` prints or writes the page and its figure; tests/syla2026/test_excited.py
 looks at the same run.
 """
 
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.kinematics import cage_speed
+from lambda_core.formulas.kinematics import cage_speed
 from lambda_core.results.reader import Result
 
 DOCS = Path(__file__).parents[1] / "docs"

@@ -19,9 +19,9 @@ from benchmarks.speed import REFERENCE
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort, best, now
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.system.bearing import BearingModel
 
 FIRST_STEP = 1e-7  # [s]
 _SMALLEST_RELATIVE = 1e-12  # errors are controlled on absolute scales; SciPy refuses 0

@@ -18,11 +18,11 @@ from benchmarks.tables import Cell, Section, Table
 from benchmarks.timing import Effort, per_call
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.run.record_times import RECORDS_PER_REVOLUTION
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.system.bearing import BearingModel
 
 GRIDS = ((1, 15), (1, 31), (11, 21), (21, 41))  # rows, strips
 DEFAULT_GRID = (1, 31)

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from benchmarks.accuracy import Outcome, engine_totals
 from benchmarks.timing import now, sum_of_minima
 from lambda_core.domain.errors import SolverError
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium
-from lambda_core.system.bearing import BearingModel
 
 PIECES_PER_TURN = 1  # of the cage: long against the millisecond that a call from Python costs
 

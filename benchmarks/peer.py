@@ -20,10 +20,10 @@ from benchmarks.speed import LADDER, REFERENCE, Run, runs_of
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort, now
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.hertz import stiffness_constant
+from lambda_core.formulas.hertz import stiffness_constant
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.system.bearing import BearingModel
 
 LOAD = 2000.0  # [N]
 POINT = Point("6208 radial 2 kN, 2750 1/min", "6208-axial-1300", ("loads.axial=0 N", "loads.radial=2 kN"))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from lambda_core import api
 from lambda_core.domain.channels import RINGS
-from lambda_core.system.bearing import BearingModel
+from lambda_core.model.bearing_model import BearingModel
 
 Samples = Mapping[str, NDArray[np.float64]]
 RADIAL, AXIAL = "6319-cp10-1500", "6208-axial-1300"

@@ -1,6 +1,6 @@
 """Hard regimes: whether each one happened, and how far its energy balance closes.
 
-``python -m benchmarks.regimes [--write]`` runs all of them and prints or writes the page; tests/physics/test_regimes.py
+``python -m benchmarks.regimes [--write]`` runs all of them and prints or writes the page; tests/solver/test_regimes.py
 runs the same table.
 """
 
@@ -68,7 +68,7 @@ _TEXT = """# Hard regimes
 
 What the dynamics go through without failing, and how far the energy balance closes: input minus dissipation minus the
 change of kinetic and elastic energy, over the energy that flowed (the larger of the external work, counted positive,
-and the dissipation). Every row is a test (`tests/physics/test_regimes.py`): the run reaches its end, what the row is
+and the dissipation). Every row is a test (`tests/solver/test_regimes.py`): the run reaches its end, what the row is
 named after is seen to happen, no mechanism gains energy, the balance closes within 1e-3. Written by
 `python -m benchmarks.regimes --write`.
 

@@ -11,8 +11,8 @@ from benchmarks.passage import Horizon, passage, wall
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort
 from lambda_core import api
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.solver.drivers.equilibrium import solve
-from lambda_core.system.bearing import BearingModel
 
 BALLS = (7, 9, 12, 16, 20, 25)
 BALLS_QUICK = (7, 25)

@@ -13,8 +13,8 @@ from benchmarks.passage import Horizon, Passage, passage, wall
 from benchmarks.tables import Section, Table, Target
 from benchmarks.timing import Effort
 from lambda_core import api
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.system.bearing import BearingModel
 
 LADDER = (10.0, 3.0, 1.0)  # times the default tolerance
 REFERENCE = 1e-5  # tolerance of the run that the others are compared with

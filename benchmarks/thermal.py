@@ -11,12 +11,12 @@ from typing import NamedTuple
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort
 from lambda_core import api
-from lambda_core.batch.job import kernels_of
+from lambda_core.analysis.thermal import iso15312
 from lambda_core.catalogue.protocol import BearingRow
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import LambdaError
 from lambda_core.solver.drivers.equilibrium import solve
-from lambda_core.thermal import iso15312
+from lambda_core.study.job import kernels_of
 
 SERIES = ("60", "62", "63", "64", "618", "619")
 OIL = "mineral-vg32"  # the standard's mineral oil, 12 mm2/s at 70 degC

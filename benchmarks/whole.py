@@ -10,11 +10,11 @@ from collections.abc import Callable, Mapping
 
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort, now, sum_of_minima
-from lambda_core.shaft.bearing_alone import alone_under_load
-from lambda_core.shaft.machine_motion import MachineEngine, machine_engine
+from lambda_core.analysis.rotor.bearing_alone import alone_under_load
+from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.resolve_machine import check_shaft
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.system.machine_templates import geared_shaft
-from lambda_core.system.resolve_machine import check_shaft
+from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_engine
 
 CHANGES = ("discs.wheel.unbalance=50 g mm",)  # of the case that `init --template geared-shaft` writes
 MOST = 1.3  # times the sum

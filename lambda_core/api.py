@@ -12,9 +12,45 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # what one calls, and what it raises
-    from lambda_core.batch.current_map import electric_map
-    from lambda_core.batch.study_files import init_study, study_examples
-    from lambda_core.batch.study_runs import (
+    from lambda_core.analysis.electric.api import check_discharges_file, write_discharges
+    from lambda_core.analysis.electric.bearing_currents import electric, film_from_capacitance
+    from lambda_core.analysis.rotor.machine_answers import describe_machine, modes
+    from lambda_core.analysis.rotor.machine_text import machine_warnings
+    from lambda_core.analysis.thermal.api import thermal, thermal_pictures, warm_up
+    from lambda_core.case.case_io import is_machine
+    from lambda_core.discovery.manager import use_plugin
+    from lambda_core.discovery.packages import new_plugin, plugin_faults, plugin_model, plugins, watchers
+    from lambda_core.domain.errors import CaseError, LambdaError, UsageError
+    from lambda_core.export.fmu.unit_file import export_fmu
+    from lambda_core.export.report.pictures import (
+        animate,
+        draw,
+        machine_pictures,
+        report,
+        view,
+        view_all,
+        view_stem,
+        views,
+    )
+    from lambda_core.export.ross import ross_rotor
+    from lambda_core.export.stiffness import stiffness_target, write_stiffness
+    from lambda_core.fit.band import model_band
+    from lambda_core.fit.fit_case import fit
+    from lambda_core.fit.fitted_case import fitted_case
+    from lambda_core.fit.measured import compare_measured, measured_series
+    from lambda_core.model.cases import builtin_cases, case, catalogue, draft, init_case, save, schema, templates
+    from lambda_core.model.checking import check, describe, problems, resolve
+    from lambda_core.model.laws.law_trials import law_problems
+    from lambda_core.model.long_form import long_form
+    from lambda_core.model.resolve_machine import check_shaft
+    from lambda_core.run.answers import cite, compare, result, side_by_side, summary
+    from lambda_core.run.plugin_trials import check_plugins, watch_problems
+    from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
+    from lambda_core.study.current_map import electric_map
+    from lambda_core.study.duty_cycle import duty
+    from lambda_core.study.speed_curve import stribeck, stribeck_picture
+    from lambda_core.study.study_files import init_study, study_examples
+    from lambda_core.study.study_runs import (
         study_check,
         study_resume,
         study_run,
@@ -22,37 +58,9 @@ if TYPE_CHECKING:  # what one calls, and what it raises
         study_status,
         study_table,
     )
-    from lambda_core.case.case_io import is_machine
-    from lambda_core.discovery.manager import use_plugin
-    from lambda_core.discovery.packages import new_plugin, plugin_faults, plugin_model, plugins, watchers
-    from lambda_core.domain.errors import CaseError, LambdaError, UsageError
-    from lambda_core.electric.api import check_discharges_file, write_discharges
-    from lambda_core.fit.band import model_band
-    from lambda_core.fit.fit_case import fit
-    from lambda_core.fit.fitted_case import fitted_case
-    from lambda_core.fit.measured import compare_measured, measured_series
-    from lambda_core.fmu.unit_file import export_fmu
-    from lambda_core.report.pictures import animate, draw, machine_pictures, report, view, view_all, view_stem, views
-    from lambda_core.run.answers import cite, compare, result, side_by_side, summary
-    from lambda_core.run.bearing_currents import electric, film_from_capacitance
-    from lambda_core.run.duty_cycle import duty
-    from lambda_core.run.plugin_trials import check_plugins, watch_problems
-    from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
-    from lambda_core.run.speed_curve import stribeck, stribeck_picture
-    from lambda_core.run.temperatures import thermal, thermal_pictures, warm_up
-    from lambda_core.shaft.export import stiffness_target, write_stiffness
-    from lambda_core.shaft.machine_answers import describe_machine, modes
-    from lambda_core.shaft.machine_text import machine_warnings
-    from lambda_core.shaft.ross import ross_rotor
-    from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, save, schema, templates
-    from lambda_core.system.checking import check, describe, problems, resolve
-    from lambda_core.system.law_trials import law_problems
-    from lambda_core.system.long_form import long_form
-    from lambda_core.system.resolve_machine import check_shaft
 if TYPE_CHECKING:  # what the faces build on, and the classes that calls take and return
-    from lambda_core.batch.run_queue import QueuedRun, RunKind, RunQueue
-    from lambda_core.batch.scheduler import StudyProgress
-    from lambda_core.batch.studies import StudyStatus
+    from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
+    from lambda_core.analysis.rotor.machine_modes import MachineModes
     from lambda_core.case.cards import FieldCard, Kind, field_card
     from lambda_core.case.case import Case
     from lambda_core.case.case_writer import save_text
@@ -67,21 +75,22 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.discovery.registry import Registry
     from lambda_core.discovery.survey import CheckCard, ModelCard, NoteCard, Verdict
     from lambda_core.fit.report import FitReport
+    from lambda_core.model.bearing_model import BearingModel, Geometry
+    from lambda_core.model.checks.describe import ValueReport, value_reports
+    from lambda_core.model.checks.oil_table import oil_table
+    from lambda_core.model.checks.operating_limits import operating_warnings
+    from lambda_core.model.machine_model import MachineModel, MountedBearing
     from lambda_core.results.reader import Result
     from lambda_core.results.run_status import Status, process_identity, this_process
     from lambda_core.results.side_by_side import SideBySide
     from lambda_core.results.summary import BearingSummary, Summary
-    from lambda_core.run.duty_cycle import DutyCycle
     from lambda_core.run.estimate import Estimate, MachineEstimate
-    from lambda_core.run.machine_duty import MachineDutyCycle
     from lambda_core.run.progress import Progress
-    from lambda_core.shaft.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
-    from lambda_core.shaft.machine_modes import MachineModes
-    from lambda_core.system.bearing import BearingModel, Geometry
-    from lambda_core.system.describe import ValueReport, value_reports
-    from lambda_core.system.machine import MachineModel, MountedBearing
-    from lambda_core.system.oil_table import oil_table
-    from lambda_core.system.operating_limits import operating_warnings
+    from lambda_core.study.duty_cycle import DutyCycle
+    from lambda_core.study.machine_duty import MachineDutyCycle
+    from lambda_core.study.run_queue import QueuedRun, RunKind, RunQueue
+    from lambda_core.study.scheduler import StudyProgress
+    from lambda_core.study.studies import StudyStatus
 
 
 def _declared() -> list[dict[str, str]]:

@@ -6,10 +6,10 @@ from lambda_core.discovery.hookspecs import hookimpl
 from lambda_core.discovery.manager import built_in
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import Channel
-from lambda_core.domain.gap_capacitance import VACUUM_PERMITTIVITY, gap_capacitance
-from lambda_core.domain.hertz import hertz_shape
 from lambda_core.domain.roles import OK, ROLE_API
 from lambda_core.domain.units import Quantity
+from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY, gap_capacitance
+from lambda_core.formulas.hertz import hertz_shape
 from lambda_core.laws.context import Context, Material, Oil
 from lambda_core.laws.law import Law, LazyLaw, law
 from lambda_core.laws.parameter import NoParameters, Parameters, parameter

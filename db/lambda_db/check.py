@@ -15,7 +15,7 @@ from pydantic import ValidationError
 
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import LambdaError
-from lambda_core.domain.ratings import dynamic_rating, static_rating
+from lambda_core.formulas.ratings import dynamic_rating, static_rating
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.derive import UPRATED, filling_angle
 from lambda_db.engine import at_one_moment

@@ -30,7 +30,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from lambda_core.domain.ratings import dynamic_factor, self_aligning_factor, static_factor
+from lambda_core.formulas.ratings import dynamic_factor, self_aligning_factor, static_factor
 from lambda_db.standards import iso76_f0, standard_balls
 
 FILLING_ANGLE = (188.0, 5.0)  # mean and standard deviation [deg]

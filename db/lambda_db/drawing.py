@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from lambda_core.catalogue.protocol import BearingRow, Value
-from lambda_core.system.bearing import SPHERICAL, Geometry
-from lambda_core.system.raceways import row_places
-from lambda_core.system.resolve_geometry import with_clearance
-from lambda_core.system.resolve_rows import sphere_edge
-from lambda_core.system.resolve_shoulders import ALIGNING_SHOULDERS, FOUR_POINT_SHOULDERS, HIGH_SHOULDERS
-from lambda_core.system.ring_profile import profiles
+from lambda_core.model.bearing_model import SPHERICAL, Geometry
+from lambda_core.model.geometry.raceways import row_places
+from lambda_core.model.geometry.resolve_geometry import with_clearance
+from lambda_core.model.geometry.resolve_rows import sphere_edge
+from lambda_core.model.geometry.resolve_shoulders import ALIGNING_SHOULDERS, FOUR_POINT_SHOULDERS, HIGH_SHOULDERS
+from lambda_core.model.geometry.ring_profile import profiles
 
 RING, BALL, AIR = "█", "░", " "
 # Shoulder height over ball diameter where no shoulder is printed: D_1 - d_1 = 1.21 D_w (lambda_db.derive)

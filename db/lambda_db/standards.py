@@ -42,7 +42,7 @@ def iso76_f0(*, both_052: bool = False) -> tuple[tuple[float, ...], tuple[float,
     """ISO 76, radial ball bearings: (D_w cos(alpha)/D_pw, f_0), N and mm.
 
     The standard's table holds for conformities 0.52/0.53, where the outer raceway limits below 0.09. `both_052`
-    gives the factor for 0.52/0.52, recomputed with Hertz theory (:func:`lambda_core.domain.ratings.static_factor`):
+    gives the factor for 0.52/0.52, recomputed with Hertz theory (:func:`lambda_core.formulas.ratings.static_factor`):
     the same within 0.05 from 0.10 on, higher below.
     """
     rows = _rows("iso76_f0.csv")

@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from lambda_syla2026.session import Chapter, Reproduction, chapters
 from tables import cell, table
 
-from lambda_core.report.page import Table
+from lambda_core.export.report.page import Table
 
 PAGE = Path(__file__).parents[1] / "validation.md"
 # In full only on the page that reproduce writes.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lambda_core.case.option import Section, option
 from lambda_core.domain.units import Length, Stiffness
-from lambda_core.elastic.ring import MOST_ORDERS
+from lambda_core.formulas.elastic.ring import MOST_ORDERS
 
 
 class BendingRing(Section):

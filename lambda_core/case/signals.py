@@ -136,7 +136,7 @@ class ByLaw(TimeTable, Generic[V]):
 
     @property
     def course(self) -> Any:
-        """What the resolution of the case has found out about it (lambda_core.system.time_laws), None before."""
+        """What the resolution of the case has found out about it (lambda_core.model.laws.time_laws), None before."""
         return self._course
 
     def set_course(self, course: Any) -> None:

@@ -152,7 +152,7 @@ def model_band(
     """
     from lambda_core.case.case_io import apply_overrides
     from lambda_core.case.case_writer import standalone_toml
-    from lambda_core.system.cases import case_of
+    from lambda_core.model.cases import case_of
 
     case = apply_overrides(case_of(source), overrides)
     text, names = standalone_toml(case), tuple(quantities)
@@ -172,7 +172,7 @@ def model_band(
 
 def _effects(case: Case, text: str, names: tuple[str, ...], base: FloatArray, left_out: list[str]) -> Iterator[_Effect]:
     """Yield the effects of all parameters and laws; what has no solution is left out and named."""
-    from lambda_core.batch.job import resolve_point
+    from lambda_core.study.job import resolve_point
 
     model = resolve_point(text, ())
     fitted = {} if case.fit is None else {row.path: row for row in case.fit.parameters}
@@ -211,7 +211,7 @@ def _fitted(fit: FitOrigin, text: str, names: tuple[str, ...], base: FloatArray)
 
     Over the range of a held value the fitted ones follow their regression on it: the data hold for each of its values.
     """
-    from lambda_core.batch.job import resolve_point
+    from lambda_core.study.job import resolve_point
 
     rows, model = fit.parameters, resolve_point(text, ())
     graded = [varied(model, f"{row.path}={_ends(row)}") for row in rows]

@@ -78,8 +78,8 @@ def fit(
     """
     from lambda_core.case.case_io import apply_overrides
     from lambda_core.case.case_writer import standalone_toml
-    from lambda_core.system.cases import case_of
-    from lambda_core.system.checking import resolve
+    from lambda_core.model.cases import case_of
+    from lambda_core.model.checking import resolve
 
     begin = time.perf_counter()
     data = measured if isinstance(measured, Measurements) else read_measurements(measured)

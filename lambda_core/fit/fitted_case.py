@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.batch.values import DIGITS
 from lambda_core.fit.report_text import compact
+from lambda_core.study.values import DIGITS
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
@@ -49,7 +49,7 @@ def fitted_case(
     from lambda_core.case.case_io import apply_overrides, case_text
     from lambda_core.case.case_writer import save_case
     from lambda_core.domain.files import check_new
-    from lambda_core.system.cases import case_of
+    from lambda_core.model.cases import case_of
 
     target = check_new(Path(path), overwrite)
     original = None

@@ -10,12 +10,12 @@ from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.batch.values import Scale, scale_of
 from lambda_core.domain.errors import UsageError, nearest
 from lambda_core.domain.units import UNITS, from_si, parse
+from lambda_core.study.values import Scale, scale_of
 
 if TYPE_CHECKING:
-    from lambda_core.system.bearing import BearingModel
+    from lambda_core.model.bearing_model import BearingModel
 
 _FILE = "graded_ranges.toml"
 _BETWEEN = ".."
@@ -253,7 +253,7 @@ def _in_unit(text: str, own: Graded) -> float:
 
 def _of_clearance(model: BearingModel) -> list[Graded]:
     """Return the clearance with the limits of its class, where the case leaves it to the class."""
-    from lambda_core.batch.job import resolve_point
+    from lambda_core.study.job import resolve_point
 
     own = _option(model, CLEARANCE)
     status = next((value.status for value in model.values if value.path == CLEARANCE), "")

@@ -6,16 +6,16 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from lambda_core.batch.job import kernels_of, resolve_point, with_temperatures
-from lambda_core.batch.values import DIGITS
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, LambdaError, SolverError, UsageError
-from lambda_core.domain.loading import CARRYING
 from lambda_core.domain.units import UNITS, from_si
 from lambda_core.fit.quantities import CONDITIONS, MEASURED
+from lambda_core.formulas.loading import CARRYING
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.records import CONTACT_CHANNELS
-from lambda_core.system.bearing import BearingModel
+from lambda_core.study.job import kernels_of, resolve_point, with_temperatures
+from lambda_core.study.values import DIGITS
 
 # Positions of the balls in pitches, equally weighted: half a pitch mirrors the other under a radial load, and two
 # midpoints leave out all but the fourth harmonic of the ball pass.

@@ -1,6 +1,6 @@
 """Machine code that came with the installation: libraries with the solver's units and the built-in laws.
 
-A wheel may hold such a pack (:mod:`lambda_core.fmu.pack_builder` builds it): one library for each system, whose
+A wheel may hold such a pack (:mod:`lambda_core.export.fmu.pack_builder` builds it): one library for each system, whose
 functions are called through ctypes, without Numba. It is used where it was made from the sources that are installed,
 where nobody damaged it, and where the processor has what it was made for. Everywhere else, and for the laws of others,
 code is compiled here (:mod:`lambda_core.laws.kernels`). Both are called and pointed at in the same way.

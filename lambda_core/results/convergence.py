@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.model.bearing_model import Solver
 from lambda_core.results.averages import Estimate, Interval, estimate, torque_by_revolution
-from lambda_core.system.bearing import Solver
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result

@@ -11,7 +11,7 @@ from lambda_core.results.record import Record
 from lambda_core.views.observer import Reduction
 
 if TYPE_CHECKING:
-    from lambda_core.system.bearing import BearingModel, ChosenEvent, ChosenObserver
+    from lambda_core.model.bearing_model import BearingModel, ChosenEvent, ChosenObserver
 
 EVENTS_GROUP = "events"
 OBSERVER_COLUMNS = ("name", "title", "distribution", "reference", "parameters", "numbers", "key")

@@ -78,7 +78,7 @@ TABLES = {  # of a bearing's inputs, and their columns
 
 def create(file: h5py.File, provenance: Provenance, channels: RunChannels) -> None:
     """Create every object and attribute of a result in an empty file."""
-    from lambda_core.system.describe import headline
+    from lambda_core.model.checks.describe import headline
 
     machine = provenance.machine
     file.attrs[LAYOUT_ATTRIBUTE] = LAYOUT
@@ -212,7 +212,7 @@ def _nearest(group: h5py.Group, dim: str) -> h5py.Dataset:
 
 
 def _inputs(group: h5py.Group, origin: BearingOrigin) -> None:
-    from lambda_core.system.operating_limits import operating_warnings
+    from lambda_core.model.checks.operating_limits import operating_warnings
 
     model = origin.model
     group.create_dataset("model_json", data=origin.model_json(), dtype=_TEXT)

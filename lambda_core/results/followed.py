@@ -9,10 +9,10 @@ import numpy as np
 from pydantic import Field
 
 from lambda_core.domain.units import show
+from lambda_core.model.bearing_model import USUAL_RESOLVE, Solver
 from lambda_core.results.record import Record
 from lambda_core.results.run_status import Status
 from lambda_core.solver.integrator.tableau import STAGES, WEIGHTS, A
-from lambda_core.system.bearing import USUAL_RESOLVE, Solver
 
 FOURTH_POWERS = "steps_to_the_fourth"  # of the statistics of a run: sum of the fourth powers of its steps [s4]
 ITERATION_WORK = "iteration_work"  # of the same: work of early ends of Newton's iteration, counted positive [J]

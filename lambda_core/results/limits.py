@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.loading import CARRYING, Ring
+from lambda_core.formulas.loading import CARRYING, Ring
+from lambda_core.model.bearing_model import kind_of
+from lambda_core.model.checks.operating_limits import tilt_warning
 from lambda_core.results.record import Record
-from lambda_core.system.bearing import kind_of
-from lambda_core.system.operating_limits import tilt_warning
 
 # Static contact pressure of ball bearings that leaves 1e-4 of the ball diameter behind (ISO 76:2006, 5.1 and 5.2).
 _HIGHEST_PRESSURE, _HIGHEST_PRESSURE_ALIGNING = 4.2e9, 4.6e9  # [Pa] of self-aligning ball bearings the latter

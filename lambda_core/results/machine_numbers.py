@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.life import system_life
+from lambda_core.formulas.life import system_life
 from lambda_core.results.averages import finite
 from lambda_core.results.record import Record
 

@@ -14,11 +14,11 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import Channel
 from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.domain.printable import printable
+from lambda_core.model.bearing_model import ResolvedValue
 from lambda_core.results import file_format as layout
 from lambda_core.results.averages import INTEGRALS
 from lambda_core.results.hdf5 import open_for_reading, reason
 from lambda_core.results.objects import scales_along, scales_in
-from lambda_core.system.bearing import ResolvedValue
 
 
 class ResultError(UsageError):

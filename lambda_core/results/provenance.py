@@ -24,13 +24,13 @@ from lambda_core import __version__
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.section_roles import FILMS
 from lambda_core.laws.law import Law
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results.rating import Rating
 from lambda_core.results.samples import ALONE
-from lambda_core.system.bearing import BearingModel
 from lambda_core.views.observer import Event, Observer
 
 if TYPE_CHECKING:
-    from lambda_core.system.machine import MachineModel
+    from lambda_core.model.machine_model import MachineModel
 
 _LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "pydantic")
 # Of the model these stand in datasets of their own, or follow from the case and are part of the geometry.

@@ -10,9 +10,11 @@ from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, RINGS
-from lambda_core.domain.loading import CARRYING, Ring, largest_contact, loaded_balls
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.elastic.ring import shape
+from lambda_core.formulas.elastic.ring import shape
+from lambda_core.formulas.loading import CARRYING, Ring, largest_contact, loaded_balls
+from lambda_core.model.checks.operating_limits import operating_warnings
+from lambda_core.model.laws.time_functions import initial
 from lambda_core.results.averages import finite
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
 from lambda_core.results.record import INTERFACE, Record
@@ -29,8 +31,6 @@ from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.wave_tables import waves_at
 from lambda_core.solver.records import CONTACT_CHANNELS
-from lambda_core.system.operating_limits import operating_warnings
-from lambda_core.system.time_functions import initial
 
 _PLACES = 720  # round a ring, where its shape is looked at
 
@@ -88,7 +88,7 @@ class QuasiStatic(Record):
 
 def quasistatic_of(found: Equilibrium) -> QuasiStatic:
     """Put an equilibrium into the units of the interface."""
-    from lambda_core.system.describe import headline
+    from lambda_core.model.checks.describe import headline
 
     model = found.context.model
     channels = {name: found.contacts[:, :, i] for i, name in enumerate(CONTACT_CHANNELS)}

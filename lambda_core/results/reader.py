@@ -17,6 +17,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import CHANNELS, Channel
 from lambda_core.domain.errors import BearingNeededError, UsageError, unknown_name
 from lambda_core.domain.printable import printable
+from lambda_core.model.bearing_model import ResolvedValue
 from lambda_core.results import checkpoint
 from lambda_core.results import file_format as layout
 from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP
@@ -33,7 +34,6 @@ from lambda_core.results.opening import (
 )
 from lambda_core.results.run_status import Status
 from lambda_core.results.samples import TIME
-from lambda_core.system.bearing import ResolvedValue
 
 if TYPE_CHECKING:
     from lambda_core.results.rating import Rating

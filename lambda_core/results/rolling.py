@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from lambda_core.domain.kinematics import rolling_ratio
+from lambda_core.formulas.kinematics import rolling_ratio
 
 ROLLING = ("load", "contact_angle", "ball_radius", "ball_spin", "ball_velocity")  # channels that it takes
 

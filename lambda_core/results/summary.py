@@ -13,8 +13,9 @@ from pydantic import Field
 
 from lambda_core.domain.channels import RINGS, SHORTED
 from lambda_core.domain.errors import BearingNeededError, UsageError
-from lambda_core.domain.loading import CARRYING, Ring, carries, largest_contact, loaded_balls
 from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.formulas.loading import CARRYING, Ring, carries, largest_contact, loaded_balls
+from lambda_core.model.bearing_model import kind_of
 from lambda_core.results.averages import Interval, finite
 from lambda_core.results.bent import Bent, bent_parts
 from lambda_core.results.convergence import (
@@ -41,7 +42,6 @@ from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.rolling import ROLLING, rolling_of
 from lambda_core.results.run_status import Status
 from lambda_core.results.watched import events_seen, observed_numbers
-from lambda_core.system.bearing import kind_of
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result

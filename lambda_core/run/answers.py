@@ -6,21 +6,21 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.domain.errors import UsageError, unknown_name
-from lambda_core.thermal.temperatures import ready_model
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from lambda_core.case.case import Case
     from lambda_core.case.shaft import ShaftCase
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.citation import Citation
     from lambda_core.results.reader import Result
     from lambda_core.results.side_by_side import SideBySide
     from lambda_core.results.summary import Summary
     from lambda_core.run.comparison import Comparison
-    from lambda_core.system.bearing import BearingModel
-    from lambda_core.system.machine import MachineModel
     from lambda_core.views.method import Method
 
 
@@ -185,11 +185,11 @@ def _compare_in_machine(
     """Compare methods on one bearing of a machine, at its pose there."""
     import dataclasses
 
+    from lambda_core.analysis.rotor.bearing_alone import alone_under_load, bearing_number
+    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
     from lambda_core.run.compare_methods import comparison_inputs
     from lambda_core.run.comparison import comparison_of
-    from lambda_core.shaft.bearing_alone import alone_under_load, bearing_number
-    from lambda_core.shaft.shaft_equilibrium import solve_shaft
-    from lambda_core.shaft.temperatures import ready_machine_of
+    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
     from lambda_core.views.method import evaluate_methods
 
     machine = ready_machine_of(source, overrides, announce)

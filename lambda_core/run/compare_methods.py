@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import SolverError
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.method_inputs import method_inputs, permittivity_over_pressure
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.laws.method_inputs import method_inputs, permittivity_over_pressure
 from lambda_core.views.method import (
     ContactLoad,
     EquilibriumState,
@@ -62,8 +62,8 @@ def comparison_inputs(
 
     The `stiffness` takes more equilibria, and can be left out.
     """
+    from lambda_core.model.laws.law_context import build_context, prepare
     from lambda_core.solver.drivers.stiffness import stiffness_matrix
-    from lambda_core.system.law_context import build_context, prepare
 
     context = equilibrium.context
     model, oil = context.model, context.oil

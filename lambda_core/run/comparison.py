@@ -11,12 +11,12 @@ from pydantic import Field
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.laws.time_functions import initial
 from lambda_core.results.averages import finite
 from lambda_core.results.provenance import differences, model_data
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Summary
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.time_functions import initial
 from lambda_core.views.method import GROUP_UNITS, MethodAnswer
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def comparison_of(model: BearingModel, answers: Iterable[MethodAnswer], result: 
     UsageError
         When the result is of another case.
     """
-    from lambda_core.system.describe import headline
+    from lambda_core.model.checks.describe import headline
 
     methods = [_compared(answer) for answer in answers]
     if result is not None:

@@ -17,14 +17,14 @@ from pydantic import Field
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, RINGS
 from lambda_core.domain.errors import SolverError
-from lambda_core.domain.loading import CARRYING
+from lambda_core.formulas.loading import CARRYING
+from lambda_core.model.bearing_model import BearingModel, DofState, TimeFunction
 from lambda_core.results.averages import estimate, finite
 from lambda_core.results.record import Record
 from lambda_core.run.cvode import integrate
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.system.bearing import BearingModel, DofState, TimeFunction
 
 _FINER = 1e-2  # tolerance of CVODE over ours where a trajectory is compared with a much finer one
 _OUTPUTS = 20

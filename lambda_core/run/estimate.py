@@ -9,19 +9,19 @@ from dataclasses import dataclass
 
 from pydantic import Field
 
+from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium, equilibrium_of
+from lambda_core.analysis.rotor.machine_modes import MachineModes, modes_of
+from lambda_core.model.bearing_model import BearingModel, Solver
+from lambda_core.model.laws.time_functions import initial
+from lambda_core.model.machine_model import MachineModel
 from lambda_core.results.convergence import AVERAGED_AT_LEAST, DISCARDED_AT_LEAST
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import Record
 from lambda_core.run.engineering import rating_of
-from lambda_core.shaft.machine_equilibrium import MachineEquilibrium, equilibrium_of
-from lambda_core.shaft.machine_modes import MachineModes, modes_of
-from lambda_core.shaft.machine_motion import MachineEngine, machine_start
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.system.bearing import BearingModel, Solver
-from lambda_core.system.machine import MachineModel
-from lambda_core.system.time_functions import initial
+from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_start
 from lambda_core.views.method import Method
 
 # Share of a cage turn that is simulated to see how fast it goes; the first steps are no slower than later ones.

@@ -14,6 +14,10 @@ from lambda_core.domain.files import check_folder, check_new, check_target
 from lambda_core.domain.units import show
 from lambda_core.laws.kernels import sources_key
 from lambda_core.laws.pack import NATIVE, code, other_code
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.checks.describe import headline
+from lambda_core.model.machine_model import MachineModel
+from lambda_core.model.settings.resolve_solver import MOST_TIME
 from lambda_core.results.opening import ResultError
 from lambda_core.results.provenance import (
     BearingOrigin,
@@ -33,13 +37,9 @@ from lambda_core.run.run_engine import OneBearing, RunEngine, SeveralBearings
 from lambda_core.run.session import Attachments
 from lambda_core.solver.code_files import physics_sources
 from lambda_core.solver.drivers.equilibrium import solve
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.describe import headline
-from lambda_core.system.machine import MachineModel
-from lambda_core.system.resolve_solver import MOST_TIME
 
 if TYPE_CHECKING:
-    from lambda_core.electric.live import Live
+    from lambda_core.analysis.electric.live import Live
 Announce = Callable[[str], None]
 Runnable = BearingModel | MachineModel
 
@@ -162,7 +162,7 @@ def _live(model: Runnable, announce: Announce | None) -> Live | None:
     """Return the electric circuit of the run, where the case has one."""
     if model.electric is None:
         return None
-    from lambda_core.electric.live import Live
+    from lambda_core.analysis.electric.live import Live
 
     return Live(model, announce)
 
@@ -181,9 +181,9 @@ def _one(model: BearingModel, announce: Announce | None) -> tuple[RunEngine, Pro
 
 def _machine(model: MachineModel, announce: Announce | None) -> tuple[RunEngine, Provenance, Live | None]:
     """Prepare the run of a machine."""
+    from lambda_core.analysis.rotor.bearing_alone import alone_under_load
     from lambda_core.run.machine_law_blame import BlamingMachineEngine
-    from lambda_core.shaft.bearing_alone import alone_under_load
-    from lambda_core.shaft.machine_motion import machine_start
+    from lambda_core.solver.drivers.machine_motion import machine_start
 
     live = _live(model, announce)
     with naming_laws(*(one.model for one in model.bearings)):

@@ -21,17 +21,17 @@ from lambda_core.laws.kernels import CHECKED_VARIABLE, is_checked
 from lambda_core.laws.law import Law
 from lambda_core.laws.runaway import FAR
 from lambda_core.laws.state import ROLE
+from lambda_core.model.geometry.raceways import raceways
+from lambda_core.model.laws.law_packages import foreign_laws
+from lambda_core.model.laws.state_channels import states_of
 from lambda_core.solver.drivers.dynamics import BearingEngine, MotionEngine
 from lambda_core.solver.drivers.engine import Advance
 from lambda_core.solver.drivers.law_inputs import RACEWAYS
 from lambda_core.solver.drivers.readings import Channels, ReadBearing, Sampled, Summed_co, Sums
 from lambda_core.solver.drivers.solver_context import SolverContext
-from lambda_core.system.law_packages import foreign_laws
-from lambda_core.system.raceways import raceways
-from lambda_core.system.state_channels import states_of
 
 if TYPE_CHECKING:
-    from lambda_core.system.bearing import BearingModel
+    from lambda_core.model.bearing_model import BearingModel
 
 _SAMPLES = 1500  # of a law under suspicion; a second at the most
 _CELLS = 64

@@ -13,6 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from lambda_core.domain.errors import UsageError
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results import hdf5
 from lambda_core.results.checkpoint import Position
 from lambda_core.results.convergence import are_converged_by
@@ -25,7 +26,6 @@ from lambda_core.results.writer import ResultWriter
 from lambda_core.run.progress import Report
 from lambda_core.run.run_engine import RunEngine
 from lambda_core.run.session import Attachments, Known, Last, Session, records_of
-from lambda_core.system.bearing import BearingModel
 
 
 class NothingLeftError(UsageError):

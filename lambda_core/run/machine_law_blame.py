@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lambda_core.run.law_blame import BlamingEngine
-from lambda_core.shaft.machine_motion import MachineEngine
+from lambda_core.solver.drivers.machine_motion import MachineEngine
 from lambda_core.solver.drivers.readings import MachineSamples, Sums
 
 

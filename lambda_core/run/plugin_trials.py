@@ -18,12 +18,12 @@ from lambda_core.discovery.apart import LIMIT, answer, check_apart, tried_apart
 from lambda_core.discovery.registry import Registry
 from lambda_core.discovery.survey import CheckCard, chosen_others
 from lambda_core.domain.errors import LambdaError, Problem, SolverError
+from lambda_core.model.bearing_model import BearingModel, ChosenEvent, ChosenObserver
 from lambda_core.run.watch import Watch
-from lambda_core.system.bearing import BearingModel, ChosenEvent, ChosenObserver
 
 if TYPE_CHECKING:
+    from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
-    from lambda_core.system.machine import MachineModel
 
 Announce = Callable[[str], None] | None
 _CASE = "6208-axial-1300"
@@ -111,7 +111,7 @@ class _Trial:
 
     @cached_property
     def model(self) -> BearingModel:
-        from lambda_core.system.checking import check_bearing
+        from lambda_core.model.checking import check_bearing
 
         return check_bearing(_CASE, _CHANGES)
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.laws.time_functions import peak
 from lambda_core.run.run_engine import RunEngine
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.time_functions import peak
 
 RECORDS_PER_REVOLUTION = 40
 

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from lambda_core.model.laws.state_channels import result_channels
 from lambda_core.results.samples import ALONE, TIME, RunChannels, Samples
 from lambda_core.run.machine_channels import MACHINE_CHANNELS
-from lambda_core.system.state_channels import result_channels
 
 if TYPE_CHECKING:
     from lambda_core.domain.channels import Channel
-    from lambda_core.shaft.machine_motion import MachineEngine
     from lambda_core.solver.drivers.dynamics import BearingEngine
     from lambda_core.solver.drivers.engine import Advance
+    from lambda_core.solver.drivers.machine_motion import MachineEngine
 
 
 class RunEngine(Protocol):

@@ -13,6 +13,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import PartialResultError, SolverError
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results.averages import COLUMNS, Interval, boundaries, finite, row
 from lambda_core.results.checkpoint import Checkpoint, Position
 from lambda_core.results.convergence import (
@@ -35,10 +36,9 @@ from lambda_core.run.record_times import RECORDS_PER_REVOLUTION, next_multiple, 
 from lambda_core.run.run_engine import RunEngine
 from lambda_core.run.watch import Watch
 from lambda_core.solver.drivers.engine import Advance
-from lambda_core.system.bearing import BearingModel
 
 if TYPE_CHECKING:
-    from lambda_core.electric.live import Live
+    from lambda_core.analysis.electric.live import Live
 
 _FLUSH_AFTER = 1.0  # wall time [s]
 _REPORT_AFTER = 0.1  # wall time [s]

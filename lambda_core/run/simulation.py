@@ -5,17 +5,20 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.model.checking import resolve
 from lambda_core.run.answers import result
-from lambda_core.system.checking import resolve
-from lambda_core.thermal.temperatures import ready_model
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
+    from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
     from lambda_core.case.case import Case
     from lambda_core.case.shaft import ShaftCase
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.results.reader import Result
     from lambda_core.run.crosscheck import CrossCheck
@@ -23,9 +26,6 @@ if TYPE_CHECKING:
     from lambda_core.run.progress import Progress
     from lambda_core.run.stepping import Stepping
     from lambda_core.run.warmup import Warmup
-    from lambda_core.shaft.machine_equilibrium import MachineEquilibrium
-    from lambda_core.system.bearing import BearingModel
-    from lambda_core.system.machine import MachineModel
 
 
 @one_blas_thread()
@@ -59,8 +59,8 @@ def quasistatic(
     from lambda_core.run.law_blame import naming_laws
 
     if is_machine(source):
-        from lambda_core.shaft.machine_answers import machine_equilibrium
-        from lambda_core.shaft.temperatures import ready_machine_of
+        from lambda_core.analysis.rotor.machine_answers import machine_equilibrium
+        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
 
         machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
         with naming_laws(*(bearing.model for bearing in machine.bearings)):
@@ -103,8 +103,8 @@ def estimate(
     from lambda_core.run.estimate import estimate as ask
 
     if is_machine(source):
+        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
         from lambda_core.run.estimate import machine_estimate
-        from lambda_core.shaft.temperatures import ready_machine_of
 
         return machine_estimate(ready_machine_of(source, overrides, announce), announce)  # type: ignore[arg-type]
     return ask(ready_model(source, overrides, announce), registry().methods, announce)  # type: ignore[arg-type]
@@ -150,7 +150,7 @@ def run(
     path = None if out is None else Path(out)
     model: BearingModel | MachineModel
     if is_machine(source):
-        from lambda_core.shaft.temperatures import ready_machine_of
+        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
 
         model = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
     else:
@@ -255,7 +255,7 @@ def resume(
 def _stored_model(found: Result, overrides: Iterable[str]) -> BearingModel | MachineModel:
     """Return the model of the case in a result, without the limit of wall time that it began with."""
     from lambda_core.case.case_io import apply_overrides, parse_case, toml_tables
-    from lambda_core.system.resolve_machine import check_shaft
+    from lambda_core.model.resolve_machine import check_shaft
 
     if not found.is_machine:
         case = parse_case(found.case_toml, str(found.path)).with_(solver={"max_wall": None})
@@ -306,8 +306,8 @@ def cross_check(
     from lambda_core.run.crosscheck import cross_check as ask
 
     if is_machine(source):
-        from lambda_core.shaft.bearing_alone import bearing_alone
-        from lambda_core.shaft.temperatures import ready_machine_of
+        from lambda_core.analysis.rotor.bearing_alone import bearing_alone
+        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
 
         machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
         model = bearing_alone(machine, bearing, announce)

@@ -29,8 +29,8 @@ from lambda_core.solver.drivers.given import (
 )
 
 if TYPE_CHECKING:
+    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.solver.drivers.compiled_laws import Announce
-    from lambda_core.system.bearing import BearingModel
 
 # What push gives, and the direction in which the ring has to be free.
 _PUSHES = {

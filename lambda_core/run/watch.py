@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import DIMENSIONS, Channel
 from lambda_core.domain.plugin_errors import PluginError, blamed
+from lambda_core.model.bearing_model import BearingModel, ChosenEvent, ChosenObserver
 from lambda_core.results.event_rows import EVENTS
 from lambda_core.results.provenance import model_data
-from lambda_core.system.bearing import BearingModel, ChosenEvent, ChosenObserver
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result

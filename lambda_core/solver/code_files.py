@@ -20,4 +20,4 @@ def compiled_sources() -> tuple[Path, ...]:
 
 def physics_sources() -> tuple[Path, ...]:
     """Return the folders that lead from a case to forces and motion."""
-    return tuple(_SOLVER.parent / room for room in ("domain", "system", "solver"))
+    return tuple(_SOLVER.parent / room for room in ("domain", "formulas", "elements", "model", "solver"))

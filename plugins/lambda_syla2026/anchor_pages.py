@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.report.key_tables import Table
+from lambda_core.export.report.key_tables import Table
 from lambda_core.views.chart import Axis, Panel, Series, ViewData
 from lambda_syla2026 import parameters as P
 from lambda_syla2026.anchors import STRIBECK, Anchors

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError
-from lambda_core.report.key_tables import Table
-from lambda_core.report.page import write_page
+from lambda_core.export.report.key_tables import Table
+from lambda_core.export.report.page import write_page
 from lambda_core.views.chart import ViewData
 from lambda_core.views.view import Figure, View
 

@@ -9,10 +9,10 @@ from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.batch.values import scale_of
+from lambda_core.study.values import scale_of
 
 if TYPE_CHECKING:
-    from lambda_core.batch.design import Plan
+    from lambda_core.study.design import Plan
 
 FILE = "blind.toml"
 ANCHORED_FILE = "anchored.toml"
@@ -120,8 +120,8 @@ def samples(count: int, seed: int = 1) -> list[dict[str, str | None]]:
 
 
 def _plan(count: int, seed: int) -> Plan:
-    from lambda_core.batch.definition import validate_study
-    from lambda_core.batch.design import Plan
+    from lambda_core.study.definition import validate_study
+    from lambda_core.study.design import Plan
 
     parameters = [
         {"path": e.path, "values": list(e.alternatives)}

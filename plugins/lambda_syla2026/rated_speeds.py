@@ -11,8 +11,8 @@ import math
 import numpy as np
 from pydantic import Field
 
+from lambda_core.analysis.thermal import iso15312
 from lambda_core.results.record import Record
-from lambda_core.thermal import iso15312
 from lambda_syla2026.job_runner import ANCHOR, Job, JobResult, JobRunner
 
 SERIES = ("60", "62", "63", "64", "618", "619")

@@ -13,11 +13,11 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, RINGS
-from lambda_core.domain.loading import CARRYING
+from lambda_core.formulas.loading import CARRYING
+from lambda_core.model.bearing_model import BearingModel, Solver
+from lambda_core.model.laws.time_functions import initial
 from lambda_core.results.convergence import window
 from lambda_core.results.reader import Result
-from lambda_core.system.bearing import BearingModel, Solver
-from lambda_core.system.time_functions import initial
 from lambda_syla2026.stability import half_zone, stability
 
 if TYPE_CHECKING:
@@ -44,9 +44,9 @@ def _grouped(losses: Mapping[str, float]) -> dict[str, float]:
 
 def friction(model: BearingModel) -> Numbers:
     """Friction torque of the quasi-static solution, averaged over the positions of the balls [N mm]; no cage."""
-    from lambda_core.batch.job import kernels_of, with_temperatures
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.solver.records import CONTACT_CHANNELS
+    from lambda_core.study.job import kernels_of, with_temperatures
 
     model = with_temperatures(model)
     kernels, total = kernels_of(model), dict.fromkeys((*MECHANISMS, "torque", "max_load_N"), 0.0)
@@ -62,10 +62,10 @@ def friction(model: BearingModel) -> Numbers:
 
 def skf(model: BearingModel) -> Numbers:
     """Friction torque of the complete SKF model on the same case [N mm]."""
-    from lambda_core.batch.job import kernels_of
     from lambda_core.discovery.manager import registry
     from lambda_core.run.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
+    from lambda_core.study.job import kernels_of
 
     table = registry().method("skf").evaluate(comparison_inputs(solve(model, kernels_of(model))))
     return {row.name: row.value for row in table.rows if row.group == "friction"}
@@ -73,10 +73,10 @@ def skf(model: BearingModel) -> Numbers:
 
 def anchor(model: BearingModel) -> Numbers:
     """Friction torque without cage and drag, mean over the positions of the balls, and SKF's [N mm]."""
-    from lambda_core.batch.job import kernels_of
     from lambda_core.discovery.manager import registry
     from lambda_core.run.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
+    from lambda_core.study.job import kernels_of
 
     kernels, total = kernels_of(model), dict.fromkeys(MECHANISMS, 0.0)
     for phase, weight in _COARSE_PHASES.items():
@@ -93,10 +93,10 @@ def anchor(model: BearingModel) -> Numbers:
 
 def axial_load(model: BearingModel) -> Numbers:
     """What :func:`anchor` finds, and the load-dependent part of Schaeffler's friction torque [N mm]."""
-    from lambda_core.batch.job import kernels_of
     from lambda_core.discovery.manager import registry
     from lambda_core.run.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
+    from lambda_core.study.job import kernels_of
 
     inputs = comparison_inputs(solve(model, kernels_of(model)), stiffness=False)
     rows = registry().method("schaeffler").evaluate(inputs).rows
@@ -106,11 +106,11 @@ def axial_load(model: BearingModel) -> Numbers:
 
 def rated(model: BearingModel) -> Numbers:
     """Return the loss of the equilibrium, SKF's, and the heat that ISO 15312 lets the bearing give up [W]."""
-    from lambda_core.batch.job import kernels_of
+    from lambda_core.analysis.thermal import iso15312
     from lambda_core.discovery.manager import registry
     from lambda_core.run.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
-    from lambda_core.thermal import iso15312
+    from lambda_core.study.job import kernels_of
 
     found, g = solve(model, kernels_of(model)), model.geometry
     losses = dict(zip(LOSSES, found.losses.tolist(), strict=True))
@@ -128,11 +128,11 @@ def rated(model: BearingModel) -> Numbers:
 
 def capacitance(model: BearingModel) -> Numbers:
     """Contacts of the quasi-static solution, means over the loaded balls, and the analytical capacitance."""
-    from lambda_core.batch.job import kernels_of
     from lambda_core.discovery.manager import registry
     from lambda_core.run.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.solver.records import CONTACT_CHANNELS
+    from lambda_core.study.job import kernels_of
 
     found = solve(model, kernels_of(model))
     channels = {name: found.contacts[:, :, i] for i, name in enumerate(CONTACT_CHANNELS)}
@@ -181,9 +181,9 @@ def axial_resonance(model: BearingModel) -> Numbers:
     outer groove: a ball that rolls across it (mass 7/5 m, as for any solid sphere), and the cage on all
     unloaded balls, without play.
     """
-    from lambda_core.batch.job import kernels_of
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.solver.drivers.stiffness import stiffness_matrix
+    from lambda_core.study.job import kernels_of
 
     found = solve(model, kernels_of(model))
     stiffness = stiffness_matrix(found)[0][0]

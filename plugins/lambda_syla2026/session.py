@@ -10,11 +10,11 @@ from typing import Literal, get_args
 
 from pydantic import Field
 
-from lambda_core.batch.pool import usable_cores
-from lambda_core.batch.scheduler import Report
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.results.record import Record
+from lambda_core.study.pool import usable_cores
+from lambda_core.study.scheduler import Report
 from lambda_syla2026 import anchor_pages, charts, text
 from lambda_syla2026.anchors import Anchors, anchors
 from lambda_syla2026.fig5 import Fig5, fig5

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
-from lambda_core.domain.kinematics import cage_speed
+from lambda_core.formulas.kinematics import cage_speed
 from lambda_core.results.reader import Result
 
 BINS = 72  # over azimuth, 5 degrees each

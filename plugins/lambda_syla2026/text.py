@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from lambda_core.report.key_tables import Table
+from lambda_core.export.report.key_tables import Table
 from lambda_syla2026.anchored_table import UNUSED, AnchoredTable
 from lambda_syla2026.calibration import TAU_GRID, Calibration
 from lambda_syla2026.fig5 import Fig5

@@ -17,8 +17,8 @@ from lambda_core import api
 from lambda_core.case.builtin import builtin_cases
 from lambda_core.case.case_io import load_case
 from lambda_core.domain.errors import PartialResultError, SolverError
-from lambda_core.system.machine_templates import MACHINES
-from lambda_core.system.operating_limits import operating_warnings
+from lambda_core.model.checks.operating_limits import operating_warnings
+from lambda_core.model.machine_templates import MACHINES
 
 HEAVY = ("numba", "h5py", "sqlalchemy", "matplotlib", "scipy", "textual", "xarray")
 Call = Callable[..., tuple[int, str, str]]
@@ -76,7 +76,7 @@ def test_help_is_broken_into_lines_by_the_terminal_and_loses_no_word() -> None:
 
 def test_a_case_and_a_study_are_told_apart(call: Call, tmp_path: Path) -> None:
     root = Path(__file__).parents[2]
-    study = root / "lambda_core" / "batch" / "examples" / "friction-map.toml"
+    study = root / "lambda_core" / "study" / "examples" / "friction-map.toml"
     code, _, err = call("check", str(study))
     assert code == 3
     assert err.splitlines()[1:] == ["  is a study, not a case: lambda-bearing study run friction-map.toml"]

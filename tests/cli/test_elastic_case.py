@@ -8,9 +8,9 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
+from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.results.reader import Result
 from lambda_core.results.text import summary_text
-from lambda_core.system.operating_limits import operating_warnings
 
 
 def test_from_init_to_a_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

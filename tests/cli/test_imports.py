@@ -31,17 +31,17 @@ HEAVY = (
     "scipy.stats",
     "lambda_core.case.case",
     "lambda_core.discovery.manager",
-    "lambda_core.system.resolve",
-    "lambda_core.system.resolve_machine",  # machines: never for one bearing
-    "lambda_core.shaft.shaft_equilibrium",
+    "lambda_core.model.resolve",
+    "lambda_core.model.resolve_machine",  # machines: never for one bearing
+    "lambda_core.solver.drivers.shaft_equilibrium",
     "lambda_core.solver.entry",
-    "lambda_core.report.page",
-    "lambda_core.batch.studies",
+    "lambda_core.export.report.page",
+    "lambda_core.study.studies",
     "lambda_db.catalogue",
 )
 CASES = {"numpy", "pydantic", "tomlkit", "lambda_core.case.case"}
 PLUGINS = {"numpy", "pydantic", "lambda_core.discovery.manager", "sqlalchemy", "lambda_db.catalogue"}
-CHECKED = CASES | PLUGINS | {"lambda_core.system.resolve"}
+CHECKED = CASES | PLUGINS | {"lambda_core.model.resolve"}
 SOLVED = CHECKED | {"numba", "lambda_core.solver.entry"}
 NEEDED = {
     "init": CASES,

@@ -9,8 +9,8 @@ from lambda_db.catalogue import SqlCatalogue
 
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import CatalogueError
-from lambda_core.domain.oil import walther
-from lambda_core.system.oil_table import OilLaw, oil_table
+from lambda_core.formulas.oil import walther
+from lambda_core.model.checks.oil_table import OilLaw, oil_table
 
 
 def test_bode_mineral(catalogue: SqlCatalogue) -> None:

@@ -25,7 +25,7 @@ FUNCTIONS: dict[str, Any] = {name: item for name, item in PUBLIC.items() if not 
     if not isinstance(vars(cls).get(key), property)
 }
 # Rooms whose records are still without words for some of their fields.
-GAPS = ("lambda_core.results", "lambda_core.run", "lambda_core.batch", "lambda_core.report", "lambda_syla2026")
+GAPS = ("lambda_core.results", "lambda_core.run", "lambda_core.study", "lambda_core.export.report", "lambda_syla2026")
 COMPLETE = ("lambda_core.results.citation", "lambda_core.run.warmup")
 NOTHING = (None, "None", inspect.Signature.empty)
 

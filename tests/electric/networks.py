@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from lambda_core.analysis.electric import circuit_integrator
+from lambda_core.analysis.electric import columns as L
+from lambda_core.analysis.electric.circuit_integrator import BearingSolution, Circuit, Films, Strength, Surroundings
+from lambda_core.analysis.electric.film_laws import FilmLaw, film_laws
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.electric import circuit_integrator
-from lambda_core.electric import columns as L
-from lambda_core.electric.circuit_integrator import BearingSolution, Circuit, Films, Strength, Surroundings
-from lambda_core.electric.film_laws import FilmLaw, film_laws
 from lambda_core.laws.probe import trial_context
-from lambda_core.system.bearing import ChosenLaw
+from lambda_core.model.bearing_model import ChosenLaw
 
 AREA = 2.7e-6  # 27 000 spots of 10 um [m2]
 

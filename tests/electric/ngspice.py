@@ -18,8 +18,8 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from electric.networks import one_bearing, switching
 
+from lambda_core.analysis.electric.circuit_integrator import Films
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.electric.circuit_integrator import Films
 
 RECORDED = Path(__file__).with_name("ngspice_nine_balls.csv")
 STOP, TURN, RISE = 1e-3, 1e-3, 5e-7  # span; in which the balls pass the load zone once; of an edge [s]

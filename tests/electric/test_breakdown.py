@@ -11,7 +11,7 @@ from electric.rough_film import breakdown_probability, breakdown_voltage
 from lambda_plugins.normal_tail import upper_quantile
 from scipy.special import ndtri
 
-from lambda_core.electric import columns as L
+from lambda_core.analysis.electric import columns as L
 
 CIRCUIT = one_bearing(50e-12, 1000e-12)
 

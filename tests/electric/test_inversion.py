@@ -9,9 +9,9 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
+from lambda_core.analysis.electric.contacts import equilibria
+from lambda_core.analysis.electric.inversion import FilmModel
 from lambda_core.domain.errors import UsageError
-from lambda_core.electric.contacts import equilibria
-from lambda_core.electric.inversion import FilmModel
 
 
 @pytest.mark.parametrize("law", ["schneider", "gap-integral"])

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from lambda_core import api
+from lambda_core.analysis.electric.contacts import CHANNELS
+from lambda_core.analysis.electric.live import Live
 from lambda_core.domain.errors import UsageError
-from lambda_core.electric.contacts import CHANNELS
-from lambda_core.electric.live import Live
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -10,11 +10,11 @@ import pytest
 from electric.networks import ROUGH, SMOOTH, residuals, steady, strength, switching, turning
 from scipy.integrate import solve_ivp
 
+from lambda_core.analysis.electric import columns as L
+from lambda_core.analysis.electric.circuit import impedance, rotor_capacitance, voltage_ratio
+from lambda_core.analysis.electric.circuit_integrator import Circuit, Films, Surroundings, integrate, joined
+from lambda_core.analysis.electric.simulation import at_common_times
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.electric import columns as L
-from lambda_core.electric.circuit import impedance, rotor_capacitance, voltage_ratio
-from lambda_core.electric.circuit_integrator import Circuit, Films, Surroundings, integrate, joined
-from lambda_core.electric.simulation import at_common_times
 
 BARE, COATED = Surroundings(5e-12), Surroundings(8e-12, coating=600e-12, bridge=1e-8)
 

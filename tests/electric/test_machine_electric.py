@@ -13,7 +13,7 @@ from lambda_core import api
 from lambda_core.domain.errors import CaseError, UsageError
 
 if TYPE_CHECKING:
-    from lambda_core.electric.simulation import CircuitSimulation
+    from lambda_core.analysis.electric.simulation import CircuitSimulation
 
 MOTOR = Path(__file__).parents[2] / "examples" / "motor-circuit" / "motor.toml"
 SHORT = ["electric.duration=4 ms"]

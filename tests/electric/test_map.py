@@ -15,9 +15,9 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
-from lambda_core.batch.current_map import map_of
+from lambda_core.analysis.electric.current_numbers import UNITS
 from lambda_core.domain.errors import UsageError
-from lambda_core.electric.current_numbers import UNITS
+from lambda_core.study.current_map import map_of
 
 if TYPE_CHECKING:
     from conftest import Warm
@@ -99,10 +99,10 @@ def test_map_in_customary_units(capsys: pytest.CaptureFixture[str], alone: Path)
 
 def test_point_is_what_the_circuit_of_its_case_gives(alone: Path) -> None:
     """The events behind a point: those of the circuit at three positions of the balls, with the map's seed."""
-    from lambda_core.electric.circuit_bearing import of_model
-    from lambda_core.electric.contacts import contacts_of_equilibria, equilibria
-    from lambda_core.electric.current_numbers import PHASES, numbers_of
-    from lambda_core.electric.simulation import simulate
+    from lambda_core.analysis.electric.circuit_bearing import of_model
+    from lambda_core.analysis.electric.contacts import contacts_of_equilibria, equilibria
+    from lambda_core.analysis.electric.current_numbers import PHASES, numbers_of
+    from lambda_core.analysis.electric.simulation import simulate
 
     model = api.check(CASE, [*CHANGES, "operation.speed=500 rpm", "lubricant.temperature=30 degC"])
     simulation = simulate(contacts_of_equilibria(equilibria(model, PHASES), 0.004), of_model(model))

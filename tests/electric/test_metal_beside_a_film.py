@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lambda_core.electric.events import Events, discharges_of
+from lambda_core.analysis.electric.events import Events, discharges_of
 from lambda_core.results.circuit_rows import DISCHARGES
 
 

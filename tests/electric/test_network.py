@@ -11,13 +11,13 @@ import pytest
 from electric.networks import ROUGH, SMOOTH, integrate, one_bearing, residuals, steady, strength, switching, turning
 
 from lambda_core import api
+from lambda_core.analysis.electric import columns as L
+from lambda_core.analysis.electric.circuit import bearing_capacitance, impedance, surroundings, voltage_ratio
+from lambda_core.analysis.electric.circuit_integrator import Circuit, Network, Surroundings
+from lambda_core.analysis.electric.contacts import ball_capacitance, contacts_of_equilibria, equilibria, films
+from lambda_core.analysis.electric.voltage_sources import corners
 from lambda_core.case.electric import Electric, Sine
 from lambda_core.domain.errors import SolverError
-from lambda_core.electric import columns as L
-from lambda_core.electric.circuit import bearing_capacitance, impedance, surroundings, voltage_ratio
-from lambda_core.electric.circuit_integrator import Circuit, Network, Surroundings
-from lambda_core.electric.contacts import ball_capacitance, contacts_of_equilibria, equilibria, films
-from lambda_core.electric.voltage_sources import corners
 
 
 @pytest.mark.parametrize(("link", "peak"), [(800.0, 16.0), (400.0, 8.0)])

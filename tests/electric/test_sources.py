@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from lambda_core import api
+from lambda_core.analysis.electric.outcome import source_words
+from lambda_core.analysis.electric.voltage_sources import corners
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import load_case
 from lambda_core.case.case_writer import standalone_toml
 from lambda_core.case.electric import Inverter, Series, Sine, Step
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError
-from lambda_core.electric.outcome import source_words
-from lambda_core.electric.voltage_sources import corners
 
 
 def case_with(electric: dict[str, object], folder: Path | None = None) -> Case:

@@ -12,9 +12,9 @@ import pytest
 from electric.networks import ROUGH, SMOOTH, integrate, one_bearing, residuals, steady, switching, turning
 
 from lambda_core import api
+from lambda_core.analysis.electric import columns as L
+from lambda_core.analysis.electric.voltage_sources import corners, one_period
 from lambda_core.case.electric import Inverter, Series, Sine, Step
-from lambda_core.electric import columns as L
-from lambda_core.electric.voltage_sources import corners, one_period
 
 STOP = 6e-3
 

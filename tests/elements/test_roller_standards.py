@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lambda_core.domain.life import RADIAL_ROLLER, life_modification_factor
 from lambda_core.elements.roller.axial_limit import axial_limit
 from lambda_core.elements.roller.roller_life import (
     lamina_equivalent_loads,
@@ -28,6 +27,7 @@ from lambda_core.elements.roller.roller_ratings import (
     roller_static_load,
     roller_static_rating,
 )
+from lambda_core.formulas.life import RADIAL_ROLLER, life_modification_factor
 
 RATING, GAMMA = 60e3, 0.17
 roller_factor = functools.partial(life_modification_factor, numbers=RADIAL_ROLLER)

@@ -35,7 +35,7 @@ def host() -> ModuleType:
 @pytest.fixture(scope="session")
 def c_compiler() -> tuple[str, ...]:
     """Return the command of a C compiler; what needs one is skipped where there is none."""
-    from lambda_core.fmu.library import compiler
+    from lambda_core.export.fmu.library import compiler
 
     if (platform.system(), platform.machine()) != ("Linux", "x86_64"):
         pytest.skip("FMUs are built on Linux x86-64 only")

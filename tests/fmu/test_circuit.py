@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.electric.circuit_bearing import of_model
-from lambda_core.electric.contacts import CHANNELS, contacts_of_samples, films
-from lambda_core.electric.simulation import network_of
+from lambda_core.analysis.electric.circuit_bearing import of_model
+from lambda_core.analysis.electric.contacts import CHANNELS, contacts_of_samples, films
+from lambda_core.analysis.electric.simulation import network_of
 
 CASE = "6208-axial-1300"
 CHANGES = ("solver.duration=0.2 s", "electric.seed=3", "electric.grounding.insulation=2 nF")

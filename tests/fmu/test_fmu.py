@@ -367,7 +367,7 @@ def test_the_compiler_of_the_extra_builds_the_same(
     host: Any, exported: Export, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("ziglang", reason="the extra fmu is not installed")
-    monkeypatch.setattr("lambda_core.fmu.library._COMPILERS", ())
+    monkeypatch.setattr("lambda_core.export.fmu.library._COMPILERS", ())
     file = api.export_fmu(CASE, CHANGES, out=tmp_path / "zig.fmu", processor="native")
     units = unit_of(host, exported, tmp_path), host.Unit(file, tmp_path / "zig")
     bearings = [host.Instance(unit).ready() for unit in units]

@@ -12,8 +12,8 @@ import pytest
 
 from lambda_core import api
 from lambda_core.domain.errors import UsageError
-from lambda_core.fmu.curves import constants, points
-from lambda_core.fmu.varied import Varied, varied
+from lambda_core.export.fmu.curves import constants, points
+from lambda_core.export.fmu.varied import Varied, varied
 
 CASE, CHANGES = "6208-axial-1300", ("solver.duration=0.2 s",)
 STEP = 1e-4  # [s]
@@ -174,7 +174,7 @@ def test_options_that_no_curve_follows_are_refused(change: Any, sentence: str) -
     ],
 )
 def test_a_range_that_is_none_is_refused(text: str, sentence: str) -> None:
-    from lambda_core.system.cases import case
+    from lambda_core.model.cases import case
 
     with pytest.raises(UsageError, match=sentence):
         varied([text], case(CASE))

@@ -18,7 +18,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.domain.errors import UsageError
-from lambda_core.fmu.library import PLATFORMS, SOURCES, compiler
+from lambda_core.export.fmu.library import PLATFORMS, SOURCES, compiler
 from lambda_core.laws.jit.portable import features
 
 HERE = Path(__file__).parent
@@ -117,7 +117,7 @@ def test_own_mathematics_at_the_edges(
 
 
 def test_a_system_without_its_compiler_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("lambda_core.fmu.library.find_spec", lambda name: None)
+    monkeypatch.setattr("lambda_core.export.fmu.library.find_spec", lambda name: None)
     with pytest.raises(UsageError, match=r"for Windows on x86-64 .* the extra fmu: pip install"):
         compiler("windows")
     with pytest.raises(UsageError, match="windows"):

@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 
 from lambda_core import api
+from lambda_core.analysis.electric.circuit_bearing import of_model
+from lambda_core.analysis.electric.film_laws import film_laws
 from lambda_core.domain.roles import ROLES
-from lambda_core.electric.circuit_bearing import of_model
-from lambda_core.electric.film_laws import film_laws
-from lambda_core.fmu.image import Image
+from lambda_core.export.fmu.image import Image
 from lambda_core.laws.jit.emission import Target, exact
 from lambda_core.laws.jit.machine_code import Pointer, role_signature
 from lambda_core.laws.jit.portable import MEMORY_SOURCE, REAL, Entry, object_codes

@@ -10,7 +10,7 @@ from lambda_gui.app import BuilderApp
 from lambda_gui.results_screen import ResultsScreen
 
 from lambda_core import api
-from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import geared_shaft
 
 
 async def test_a_machine_shows_its_bearings_one_after_the_other(tmp_path: Path, hand_written: Path) -> None:

@@ -25,7 +25,7 @@ from lambda_core.case.draft import draft_of
 from lambda_core.case.shaft import ShaftCase
 from lambda_core.domain.option_tree import option_paths
 from lambda_core.domain.roles import ROLES
-from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import geared_shaft
 
 NAMES = {
     "shaft.sections": ("0",),

@@ -18,8 +18,8 @@ from reading import cut_on
 from textual.widgets import OptionList
 
 from lambda_core import api
-from lambda_core.batch.definition import read_study, validate_study
-from lambda_core.batch.store import FILE
+from lambda_core.study.definition import read_study, validate_study
+from lambda_core.study.store import FILE
 
 if TYPE_CHECKING:
     from textual.pilot import Pilot

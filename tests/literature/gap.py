@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import roots_legendre
 
-from lambda_core.domain.hertz import HertzContact
+from lambda_core.formulas.hertz import HertzContact
 
 
 def gap(x: NDArray[np.float64], y: NDArray[np.float64], contact: HertzContact, e_eff: float) -> NDArray[np.float64]:

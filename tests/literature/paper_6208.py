@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.domain.hertz import ball_raceway_radii, reduced_modulus, stiffness_constant
-from lambda_core.domain.kinematics import cage_speed
+from lambda_core.formulas.hertz import ball_raceway_radii, reduced_modulus, stiffness_constant
+from lambda_core.formulas.kinematics import cage_speed
 
 from .reference import AxialEquilibrium, axial_equilibrium
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from lambda_core.domain.hertz import (
+from lambda_core.formulas.hertz import (
     HertzContact,
     ball_raceway_radii,
     hertz_contact,

@@ -12,10 +12,10 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from lambda_core.domain.errors import CaseError
-from lambda_core.elastic.body import Disc, shaft_body
-from lambda_core.elastic.reduced import FORMAT, read_reduced, write_reduced
-from lambda_core.elastic.sections import BodyMaterial, RoundSection
-from lambda_core.elastic.whirl import craig_bampton, natural_frequencies, whirls
+from lambda_core.formulas.elastic.body import Disc, shaft_body
+from lambda_core.formulas.elastic.reduced import FORMAT, read_reduced, write_reduced
+from lambda_core.formulas.elastic.sections import BodyMaterial, RoundSection
+from lambda_core.formulas.elastic.whirl import craig_bampton, natural_frequencies, whirls
 
 STEEL = BodyMaterial(210e9, 0.3, 7850.0)
 LENGTH = 0.4

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.domain.kinematics import rolling_ratio
+from lambda_core.formulas.kinematics import rolling_ratio
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.records import CONTACT_CHANNELS

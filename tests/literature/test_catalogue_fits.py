@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lambda_core import api
-from lambda_core.domain import fits
-from lambda_core.domain.tolerances import (
+from lambda_core.formulas import fits
+from lambda_core.formulas.tolerances import (
     HOUSING_CLASSES,
     SHAFT_CLASSES,
     Limits,

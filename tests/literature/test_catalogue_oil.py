@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from lambda_db.catalogue import SqlCatalogue
 
 from lambda_core.catalogue.protocol import LubricantRow
-from lambda_core.domain import oil
+from lambda_core.formulas import oil
 
 BAR = 1e5
 

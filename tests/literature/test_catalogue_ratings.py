@@ -6,7 +6,7 @@ import pytest
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.standards import iso76_f0, iso281_fc
 
-from lambda_core.domain.ratings import dynamic_factor, dynamic_rating, static_factor, static_rating
+from lambda_core.formulas.ratings import dynamic_factor, dynamic_rating, static_factor, static_rating
 
 
 def test_fc_table_is_reproduced() -> None:

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.domain.hertz import ball_raceway_radii, stiffness_constant
-from lambda_core.domain.ratings import dynamic_rating, static_rating
+from lambda_core.formulas.hertz import ball_raceway_radii, stiffness_constant
+from lambda_core.formulas.ratings import dynamic_rating, static_rating
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.stiffness import stiffness_matrix
 from lambda_core.solver.records import CONTACT_CHANNELS

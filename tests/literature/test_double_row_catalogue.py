@@ -10,9 +10,9 @@ from lambda_db.catalogue import SqlCatalogue
 from lambda_core import api
 from lambda_core.catalogue.designation import designated
 from lambda_core.catalogue.protocol import BearingRow
-from lambda_core.domain.kind_clearance import DOUBLE_ROW
-from lambda_core.domain.life import dynamic_equivalent_load, static_equivalent_load
-from lambda_core.domain.ratings import dynamic_rating, static_rating
+from lambda_core.formulas.kind_clearance import DOUBLE_ROW
+from lambda_core.formulas.life import dynamic_equivalent_load, static_equivalent_load
+from lambda_core.formulas.ratings import dynamic_rating, static_rating
 
 UPRATED = 1.05  # SKF Explorer over ISO 281
 # SKF, general catalogue 6000, pages 443 and 445: distance a of the pressure centres in whole mm.

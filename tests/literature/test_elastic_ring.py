@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from lambda_core.elastic.ring import ElasticRing
+from lambda_core.formulas.elastic.ring import ElasticRing
 
 # a section of 4 by 18 mm on 38 mm: about the outer ring of a 6208
 RING = ElasticRing(0.038, 4e-3 * 18e-3, 18e-3 * (4e-3) ** 3 / 12.0, 210e9, 7850.0)

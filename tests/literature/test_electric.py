@@ -10,15 +10,15 @@ import pytest
 from electric.rough_film import breakdown_voltage
 
 from lambda_core import api
-from lambda_core.batch.job import with_temperatures
+from lambda_core.analysis.electric.circuit_bearing import of_model
+from lambda_core.analysis.electric.contacts import contacts_of_equilibria, equilibria, films
+from lambda_core.analysis.electric.simulation import simulate
 from lambda_core.case.case_io import apply_overrides, parse_case
 from lambda_core.case.electric import Electric
-from lambda_core.electric.circuit_bearing import of_model
-from lambda_core.electric.contacts import contacts_of_equilibria, equilibria, films
-from lambda_core.electric.simulation import simulate
+from lambda_core.study.job import with_temperatures
 
 if TYPE_CHECKING:
-    from lambda_core.system.bearing import BearingModel
+    from lambda_core.model.bearing_model import BearingModel
 
 RADIAL = ["loads.axial=0 N"]
 

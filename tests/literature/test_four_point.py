@@ -16,16 +16,16 @@ from lambda_plugins.methods.skf_angular import angular_variables
 from scipy.optimize import root
 
 from lambda_core import api
-from lambda_core.domain.hertz import ball_raceway_radii, stiffness_constant
-from lambda_core.domain.kind_clearance import FOUR_POINT
-from lambda_core.domain.life import ball_capacities, dynamic_equivalent_load, reference_rating_life
-from lambda_core.domain.life import static_equivalent_load as static_load
-from lambda_core.domain.ratings import dynamic_rating, static_rating
+from lambda_core.formulas.hertz import ball_raceway_radii, stiffness_constant
+from lambda_core.formulas.kind_clearance import FOUR_POINT
+from lambda_core.formulas.life import ball_capacities, dynamic_equivalent_load, reference_rating_life
+from lambda_core.formulas.life import static_equivalent_load as static_load
+from lambda_core.formulas.ratings import dynamic_rating, static_rating
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.geometry.raceways import raceways
+from lambda_core.model.geometry.resolve_shoulders import FOUR_POINT_SHOULDERS
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.records import CONTACT_CHANNELS
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.raceways import raceways
-from lambda_core.system.resolve_shoulders import FOUR_POINT_SHOULDERS
 
 from .statics import STEEL
 

@@ -11,9 +11,9 @@ from lambda_plugins.methods.skf_angular import angular_variables
 from lambda_core import api
 from lambda_core.catalogue.designation import designated
 from lambda_core.catalogue.protocol import BearingRow
-from lambda_core.domain.life import dynamic_equivalent_load, static_equivalent_load
-from lambda_core.domain.ratings import dynamic_rating, static_factor, static_rating
-from lambda_core.system.resolve_shoulders import HIGH_SHOULDERS
+from lambda_core.formulas.life import dynamic_equivalent_load, static_equivalent_load
+from lambda_core.formulas.ratings import dynamic_rating, static_factor, static_rating
+from lambda_core.model.geometry.resolve_shoulders import HIGH_SHOULDERS
 
 # NSK, Rolling Bearings, CAT. No. E1102, page B51: factors of ISO 281, table 3, and ISO 76, table 2. At 15 degrees over
 # f_0 F_a/C_0r; at the others one row.

@@ -10,8 +10,8 @@ import pytest
 
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.gap_capacitance import gap_capacitance
-from lambda_core.domain.hertz import hertz_contact
+from lambda_core.formulas.gap_capacitance import gap_capacitance
+from lambda_core.formulas.hertz import hertz_contact
 from lambda_core.laws.probe import trial_context
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core

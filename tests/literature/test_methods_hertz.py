@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lambda_core.domain.hertz import (
+from lambda_core.formulas.hertz import (
     ball_raceway_radii,
     hertz_contact,
     hertz_shape,

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import root
 
-from lambda_core.domain.kinematics import (
+from lambda_core.formulas.kinematics import (
     ball_speed,
     cage_speed,
     diameter_ratio,

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lambda_core.domain.life import (
+from lambda_core.formulas.life import (
     ball_capacities,
     basic_rating_life,
     contamination_range,

@@ -10,8 +10,8 @@ import math
 import numpy as np
 import pytest
 
-from lambda_core.domain.hertz import ball_raceway_radii, reduced_modulus, stiffness_constant
-from lambda_core.domain.life import reference_rating_life
+from lambda_core.formulas.hertz import ball_raceway_radii, reduced_modulus, stiffness_constant
+from lambda_core.formulas.life import reference_rating_life
 
 from .paper_6208 import axial_6208
 from .peers import MASTA

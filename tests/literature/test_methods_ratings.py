@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from lambda_core.domain.ratings import (
+from lambda_core.formulas.ratings import (
     dynamic_factor,
     dynamic_rating,
     fatigue_load_limit,

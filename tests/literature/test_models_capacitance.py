@@ -11,8 +11,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.special import roots_legendre
 
-from lambda_core.domain.gap_capacitance import gap_capacitance
-from lambda_core.domain.hertz import hertz_contact
+from lambda_core.formulas.gap_capacitance import gap_capacitance
+from lambda_core.formulas.hertz import hertz_contact
 from lambda_core.laws.probe import trial_context
 from lambda_core.testing import evaluate
 

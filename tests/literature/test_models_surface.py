@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from lambda_core import api
 from lambda_core.laws.probe import trial_context
+from lambda_core.model.bearing_model import Geometry
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.system.bearing import Geometry
 from lambda_core.testing import evaluate
 
 # What holds for one ring holds for the other by the same formula: the costly ones of the second are run by name.

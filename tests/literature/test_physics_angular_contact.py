@@ -16,7 +16,7 @@ import pytest
 from scipy.optimize import root
 
 from lambda_core import api
-from lambda_core.domain.hertz import ball_raceway_radii, stiffness_constant
+from lambda_core.formulas.hertz import ball_raceway_radii, stiffness_constant
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.solver.records import CONTACT_CHANNELS

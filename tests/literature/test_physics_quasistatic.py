@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.domain.kinematics import cage_speed
+from lambda_core.formulas.kinematics import cage_speed
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.records import CONTACT_CHANNELS

@@ -12,8 +12,6 @@ import numpy as np
 import pytest
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.kinematics import diameter_ratio, entrainment_speed
-from lambda_core.domain.life import RADIAL_ROLLER, life_modification_factor
 from lambda_core.elements.roller import line_contact, profiles, rib, slices
 from lambda_core.elements.roller.axial_limit import axial_limit
 from lambda_core.elements.roller.load_distribution import Distribution, RollerRow, distribute
@@ -27,6 +25,8 @@ from lambda_core.elements.roller.roller_ratings import (
     roller_static_rating,
 )
 from lambda_core.elements.roller.rolling import rolling_force, rolling_torque
+from lambda_core.formulas.kinematics import diameter_ratio, entrainment_speed
+from lambda_core.formulas.life import RADIAL_ROLLER, life_modification_factor
 
 from .published import Published
 

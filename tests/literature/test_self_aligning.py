@@ -20,16 +20,16 @@ from scipy.optimize import root
 from lambda_core import api
 from lambda_core.catalogue.designation import designated
 from lambda_core.catalogue.protocol import BearingRow
-from lambda_core.domain.hertz import stiffness_constant
-from lambda_core.domain.kind_clearance import SELF_ALIGNING
-from lambda_core.domain.life import dynamic_equivalent_load, reference_rating_life, static_equivalent_load
-from lambda_core.domain.ratings import dynamic_rating, self_aligning_factor, sphere_conformity, static_factor
-from lambda_core.domain.ratings import static_rating as rated
+from lambda_core.formulas.hertz import stiffness_constant
+from lambda_core.formulas.kind_clearance import SELF_ALIGNING
+from lambda_core.formulas.life import dynamic_equivalent_load, reference_rating_life, static_equivalent_load
+from lambda_core.formulas.ratings import dynamic_rating, self_aligning_factor, sphere_conformity, static_factor
+from lambda_core.formulas.ratings import static_rating as rated
+from lambda_core.model.bearing_model import Geometry
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.stiffness import stiffness_matrix
 from lambda_core.solver.records import CONTACT_CHANNELS
-from lambda_core.system.bearing import Geometry
 
 from .statics import STEEL
 

@@ -17,12 +17,12 @@ from scipy.optimize import brentq
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
-from lambda_core.domain.hertz import ball_raceway_radii, stiffness_constant
-from lambda_core.shaft.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
+from lambda_core.formulas.hertz import ball_raceway_radii, stiffness_constant
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.machine_model import MachineModel
+from lambda_core.model.resolve_machine import check_shaft
 from lambda_core.solver.drivers.held_ring import HeldRing
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.machine import MachineModel
-from lambda_core.system.resolve_machine import check_shaft
+from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 
 from .statics import STEEL
 

@@ -11,17 +11,17 @@ from typing import Any
 import numpy as np
 import pytest
 
+from lambda_core.analysis.rotor.vibration import supported
 from lambda_core.domain.errors import CaseError, SolverError
-from lambda_core.domain.gear_forces import gear_forces
-from lambda_core.domain.life import dynamic_equivalent_load, static_equivalent_load, system_life
-from lambda_core.elastic.body import shaft_body
-from lambda_core.elastic.reduced import write_reduced
-from lambda_core.elastic.sections import BodyMaterial, RoundSection
-from lambda_core.elastic.whirl import craig_bampton
-from lambda_core.shaft.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
-from lambda_core.shaft.vibration import supported
-from lambda_core.system.machine import MachineModel
-from lambda_core.system.resolve_machine import check_shaft
+from lambda_core.formulas.elastic.body import shaft_body
+from lambda_core.formulas.elastic.reduced import write_reduced
+from lambda_core.formulas.elastic.sections import BodyMaterial, RoundSection
+from lambda_core.formulas.elastic.whirl import craig_bampton
+from lambda_core.formulas.gear_forces import gear_forces
+from lambda_core.formulas.life import dynamic_equivalent_load, static_equivalent_load, system_life
+from lambda_core.model.machine_model import MachineModel
+from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 
 PINNED = {"tilt_y": "free", "tilt_z": "free"}  # outer rings that follow, so that no bearing bears a moment
 SHARED: dict[str, Any] = {

@@ -13,8 +13,8 @@ from lambda_plugins.damping import SqueezeFilm, prepare_film
 from scipy.sparse import csr_matrix, diags_array
 from scipy.sparse.linalg import spsolve
 
-from lambda_core.fmu.curves import constants
-from lambda_core.fmu.varied import Varied
+from lambda_core.export.fmu.curves import constants
+from lambda_core.export.fmu.varied import Varied
 from lambda_core.laws.probe import trial_context
 from lambda_core.testing import evaluate
 

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from lambda_core import api
-from lambda_core.thermal import iso15312
+from lambda_core.analysis.thermal import iso15312
 
 # d, D, B [mm], C_0r [N] of SKF's catalogue; n_theta,r [1/min] of the standard's formula with f_0r, f_1r of its annex A,
 # evaluated apart from this program and rounded to 1/min.

@@ -14,9 +14,9 @@ from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import SolverError
 from lambda_core.laws.context import Context, Material, Oil
 from lambda_core.laws.law import Law, law_of
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.method_inputs import carried_load, method_inputs, permittivity_over_pressure
-from lambda_core.system.resolve import resolve
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.laws.method_inputs import carried_load, method_inputs, permittivity_over_pressure
+from lambda_core.model.resolve import resolve
 from lambda_core.views.method import ContactLoad, EquilibriumState, MethodInputs, evaluate_methods
 
 

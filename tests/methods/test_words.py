@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from lambda_core import api
-from lambda_core.domain.loading import largest_contact, loaded_balls
+from lambda_core.formulas.loading import largest_contact, loaded_balls
 from lambda_core.results.quasistatic import QuasiStatic
 
 CASE = "6319-cp10-1500"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lambda_core.domain.hertz import hertz_contact
+from lambda_core.formulas.hertz import hertz_contact
 from lambda_core.laws.probe import trial_context
 from lambda_core.testing import evaluate
 

@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lambda_core.discovery.manager import registry
-from lambda_core.domain.hertz import hertz_contact
 from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.formulas.hertz import hertz_contact
 from lambda_core.laws.par import make_par
 from lambda_core.laws.probe import trial_context
 from lambda_core.testing import assert_increasing, assert_limit, evaluate

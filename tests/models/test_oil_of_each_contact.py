@@ -6,8 +6,8 @@ import pytest
 
 from lambda_core import api
 from lambda_core.laws.context import Oil
+from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.solver.drivers.compiled_laws import Kernels, derive_oils
-from lambda_core.system.law_context import ContactFrame
 
 FRAME = ContactFrame((0.0, 0.0), (1000.0, 1000.0))
 ROELANDS = "models.rheology=roelands"

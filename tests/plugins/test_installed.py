@@ -130,7 +130,7 @@ def test_the_list_for_people_names_them_too(site: Installation) -> None:
     assert any(line.startswith("not in use: bad-import 0.3 (main): cannot be imported") for line in lines)
 
 
-# What the kernel does wrong: tests/registry/test_check.py has more of that, without an installation.
+# What the kernel does wrong: tests/discovery/test_check.py has more of that, without an installation.
 WRONG_KERNELS = {"bad-number", "bad-return", "bad-status"}
 
 

@@ -153,11 +153,11 @@ def test_a_law_is_handed_over_as_the_function_itself() -> None:
 def test_a_pickled_case_brings_its_laws(tmp_path: Path) -> None:
     """Another process, which knows neither this file nor its law, resolves the case to the same law."""
     code = (
-        "import pickle, sys; from lambda_core import api; from lambda_core.system.resolve import case_hash; "
+        "import pickle, sys; from lambda_core import api; from lambda_core.model.resolve import case_hash; "
         "print(case_hash(api.check(pickle.load(open(sys.argv[1], 'rb')))))"
     )
     source = (
-        f"import pickle, sys\nfrom lambda_core import api\nfrom lambda_core.system.resolve import case_hash\n{LAW}\n"
+        f"import pickle, sys\nfrom lambda_core import api\nfrom lambda_core.model.resolve import case_hash\n{LAW}\n"
         "case = api.case('6319-cp10-1500').with_(models={'traction': traction})\n"
         "pickle.dump(case, open(sys.argv[1], 'wb'))\nprint(case_hash(api.check(case)))\n"
     )

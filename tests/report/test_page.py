@@ -14,8 +14,8 @@ from lambda_core import api
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.number_text import plus_minus
-from lambda_core.report import pdf
-from lambda_core.report.page import APPENDICES
+from lambda_core.export.report import pdf
+from lambda_core.export.report.page import APPENDICES
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result

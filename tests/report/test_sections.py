@@ -11,7 +11,7 @@ import pytest
 
 from lambda_core.discovery.collect import Collection, Entry
 from lambda_core.discovery.manager import registry
-from lambda_core.report.page import Cover, run_report
+from lambda_core.export.report.page import Cover, run_report
 from lambda_core.results.reader import Result
 from lambda_core.views.method import NotApplicable
 from lambda_core.views.section import ReportTable, Section

@@ -13,7 +13,7 @@ import pytest
 from lambda_core import api
 
 ROOT = Path(__file__).parents[2]
-STUDIES = Path(str(resources.files("lambda_core.batch"))) / "examples"
+STUDIES = Path(str(resources.files("lambda_core.study"))) / "examples"
 FILES = sorted(STUDIES.glob("*.toml"))
 
 

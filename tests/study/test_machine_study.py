@@ -60,7 +60,7 @@ def test_mistakes_of_a_study_of_a_machine_are_named(box: Path) -> None:
 
 def test_runs_of_a_machine_are_points(box: Path, tmp_path: Path) -> None:
     """A run per point, one file each; responses are the numbers of its summary, of the machine and of a bearing."""
-    from lambda_core.batch.machine_responses import machine_responses
+    from lambda_core.study.machine_responses import machine_responses
 
     names = [name for name, one in machine_responses(("left", "right")).items() if one.dynamic is not None]
     study = {

@@ -18,12 +18,12 @@ import pytest
 from studies import RUNS
 
 from lambda_core import api
-from lambda_core.batch import job
-from lambda_core.batch.pool import HERE
-from lambda_core.batch.store import FILE
 from lambda_core.results import file_format as layout
 from lambda_core.results import hdf5
 from lambda_core.results.run_status import Status, process_identity
+from lambda_core.study import job
+from lambda_core.study.pool import HERE
+from lambda_core.study.store import FILE
 
 Folder = tuple[Path, list[dict[str, Any]]]
 HEAD = RUNS.format(duration="0.005 s", speeds=2, loads=2).partition("[[parameters]]")[0]

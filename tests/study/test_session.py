@@ -15,8 +15,8 @@ import pytest
 from studies import MAP, RUNS
 
 from lambda_core import api
-from lambda_core.batch.effects import sensitivities
 from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.study.effects import sensitivities
 from lambda_core.views.method import NotApplicable
 from lambda_core.views.table import Column, StudyTable
 
@@ -79,8 +79,8 @@ def test_dynamic_points_are_results_of_their_own(write: Write, inline: Executor,
         assert row["cage_speed_deviation"] == pytest.approx(spin.std() / abs(spin.mean()), rel=1e-9)
     # The same points are the same runs: nothing is computed again.
     before = {path.name: path.stat().st_mtime_ns for path in (folder / "runs").iterdir()}
-    from lambda_core.batch.job import Task, work
-    from lambda_core.batch.store import Manifest
+    from lambda_core.study.job import Task, work
+    from lambda_core.study.store import Manifest
 
     manifest = Manifest(folder)
     names = tuple(h.name for h in manifest.headings() if h.kind == "response")
@@ -202,7 +202,7 @@ def test_a_folder_holds_one_study(write: Write, inline: Executor, tmp_path: Path
 
 
 def test_a_study_of_other_laws_does_not_go_on(write: Write, inline: Executor, tmp_path: Path) -> None:
-    from lambda_core.batch.store import Manifest
+    from lambda_core.study.store import Manifest
 
     folder = tmp_path / "map"
     api.study_run(write(MAP.replace("points = 3", "points = 2")), folder, executor=inline)
@@ -282,7 +282,7 @@ def made_up(design: str, inputs: np.ndarray, outputs: np.ndarray) -> StudyTable:
 
 def test_sobol_indices_of_the_ishigami_function() -> None:
     """Ishigami and Homma 1990, a = 7, b = 0.1: S = 0.3139, 0.4424, 0; S_T = 0.5576, 0.4424, 0.2437."""
-    from lambda_core.batch.design import saltelli
+    from lambda_core.study.design import saltelli
 
     shares = saltelli(2048, 3, 1)
     x = math.pi * (2.0 * shares - 1.0)

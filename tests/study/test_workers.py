@@ -20,10 +20,10 @@ from studies import MAP, RUNS
 from warm import PROGRAM, Warm
 
 from lambda_core import api
-from lambda_core.batch.pool import Processes
-from lambda_core.batch.scheduler import Director
-from lambda_core.batch.store import Manifest
 from lambda_core.domain.errors import UsageError
+from lambda_core.study.pool import Processes
+from lambda_core.study.scheduler import Director
+from lambda_core.study.store import Manifest
 
 Write = Callable[..., Path]
 
@@ -82,7 +82,7 @@ def test_a_scheduler_that_does_not_answer_is_named(
     write: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("distributed")
-    monkeypatch.setattr("lambda_core.batch.pool._PATIENCE", 2.0)
+    monkeypatch.setattr("lambda_core.study.pool._PATIENCE", 2.0)
     path = write(MAP.replace("points = 3", "points = 2"))
     with pytest.raises(UsageError, match="no dask scheduler answers at"):
         api.study_run(path, tmp_path / "map", executor="tcp://127.0.0.1:9")
@@ -243,7 +243,7 @@ def test_a_lost_dask_worker_loses_no_point(write: Write, tmp_path: Path, referen
 
 def deadly(task: Any) -> Any:
     """Stand in for a point whose worker dies, whatever one does."""
-    from lambda_core.batch.job import Outcome
+    from lambda_core.study.job import Outcome
 
     if task.number == 2:
         os.kill(os.getpid(), signal.SIGKILL)
@@ -252,7 +252,7 @@ def deadly(task: Any) -> Any:
 
 @pytest.mark.full
 def test_a_point_that_kills_its_worker_fails_alone(write: Write, tmp_path: Path, inline: Executor) -> None:
-    from lambda_core.batch.job import Outcome, Task, lost
+    from lambda_core.study.job import Outcome, Task, lost
 
     folder = tmp_path / "deadly"
     api.study_run(write(MAP), folder, executor=inline)
@@ -278,7 +278,7 @@ def test_a_map_of_500_points_within_30_seconds_on_two_cores(tmp_path: Path) -> N
 
     On a machine with more to do than it has cores, the processor time of all processes stands for the wall time.
     """
-    path = Path(__file__).parents[2] / "lambda_core" / "batch" / "examples" / "friction-map.toml"
+    path = Path(__file__).parents[2] / "lambda_core" / "study" / "examples" / "friction-map.toml"
     api.study_check(path)  # compiled beforehand, as by `lambda-bearing warmup`
     begin, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
     command = [sys.executable, "-m", "lambda_cli", "study", "run", str(path), "--quiet", "--workers", "2"]

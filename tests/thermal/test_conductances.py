@@ -9,9 +9,8 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import erfc, gamma
 
-from lambda_core.laws.context import Material
-from lambda_core.thermal import surroundings
-from lambda_core.thermal.conductances import (
+from lambda_core.analysis.thermal import surroundings
+from lambda_core.analysis.thermal.conductances import (
     effusivity,
     exchanged,
     in_series,
@@ -20,7 +19,8 @@ from lambda_core.thermal.conductances import (
     rolling_contact,
     wall,
 )
-from lambda_core.thermal.heat import strain_shares, surface_shares
+from lambda_core.analysis.thermal.heat import strain_shares, surface_shares
+from lambda_core.laws.context import Material
 
 STEEL = Material("steel", 208e9, 0.3, 7850.0, 46.0, 475.0)
 CERAMIC = Material("Si3N4", 310e9, 0.26, 3200.0, 25.0, 800.0)

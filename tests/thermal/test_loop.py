@@ -10,10 +10,10 @@ import pytest
 from warm_bearings import preloaded
 
 from lambda_core import api
+from lambda_core.analysis.thermal.feedback import BearingLoop, Runaway
+from lambda_core.analysis.thermal.losses import LossMap
 from lambda_core.case.case import merged
 from lambda_core.domain.errors import CaseError, SolverError
-from lambda_core.thermal.feedback import BearingLoop, Runaway
-from lambda_core.thermal.losses import LossMap
 
 
 def loop_of(case: dict[str, Any]) -> BearingLoop:
@@ -135,7 +135,7 @@ def test_a_point_that_cannot_be_solved_says_where(ordinary: dict[str, Any], monk
     def fail(*arguments: object) -> None:
         raise SolverError("no quasi-static equilibrium")
 
-    monkeypatch.setattr("lambda_core.thermal.losses.solve", fail)
+    monkeypatch.setattr("lambda_core.analysis.thermal.losses.solve", fail)
     with pytest.raises(SolverError, match=r"at 40\.0 degC in the inlets and a clearance of 12\.0 um: no quasi-static"):
         loop_of(ordinary).losses.at(313.15, 12e-6)
 

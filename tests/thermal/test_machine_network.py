@@ -13,14 +13,14 @@ import pytest
 from warm_machines import pair
 
 from lambda_core import api
+from lambda_core.analysis.thermal.conductances import rod
+from lambda_core.analysis.thermal.machine_temperature_report import MachineTemperatures, MachineTemperaturesOverTime
+from lambda_core.analysis.thermal.network import Network
+from lambda_core.analysis.thermal.surroundings import long_fin
 from lambda_core.case.case import merged
 from lambda_core.domain.errors import CaseError, UsageError
-from lambda_core.elastic.sections import BodyMaterial
-from lambda_core.shaft.temperature_report import MachineTemperatures, MachineTemperaturesOverTime
-from lambda_core.system.machine_heat import stretch
-from lambda_core.thermal.conductances import rod
-from lambda_core.thermal.network import Network
-from lambda_core.thermal.surroundings import long_fin
+from lambda_core.formulas.elastic.sections import BodyMaterial
+from lambda_core.model.settings.machine_heat import stretch
 
 AIR = 293.15
 STEEL = 46.0  # [W/(m K)], 100Cr6
@@ -195,7 +195,7 @@ def test_computed_temperatures_reach_the_equilibrium() -> None:
 
 
 def test_the_case_of_a_warm_machine_needs_no_second_search() -> None:
-    from lambda_core.shaft.temperatures import ready_machine_of
+    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
 
     ready = ready_machine_of(pair(operation={"temperatures": "computed"}))
     assert not ready.awaits_temperatures
@@ -242,7 +242,7 @@ def test_a_machine_warms_up_to_its_steady_state() -> None:
 
 
 def test_a_machine_that_gets_too_hot_is_refused_in_words() -> None:
-    from lambda_core.thermal.feedback import Runaway
+    from lambda_core.analysis.thermal.feedback import Runaway
 
     hot = pair(thermal={"limit": "100 degC", "nodes": {"left.inner_ring": {"heat": "400 W"}}})
     with pytest.raises(Runaway, match=r"pair: .*left\.inner ring at .* is beyond thermal.limit = 100 degC"):

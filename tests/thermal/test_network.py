@@ -8,10 +8,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from lambda_core.analysis.thermal.losses import Point
+from lambda_core.analysis.thermal.network import Network
+from lambda_core.analysis.thermal.transient import rise_time, warm_up
 from lambda_core.domain.channels import LOSSES
-from lambda_core.thermal.losses import Point
-from lambda_core.thermal.network import Network
-from lambda_core.thermal.transient import rise_time, warm_up
 
 G = (3.0, 0.7, 12.0, 1.9)  # of a chain of four nodes and the surroundings [W/K]
 HEAT = (11.0, 0.0, 4.0, 2.5)  # [W]

@@ -13,8 +13,8 @@ from matplotlib.text import Text
 
 from lambda_core import api
 from lambda_core.discovery.manager import registry
+from lambda_core.export.report.run_scene import scene_of
 from lambda_core.plugins import Axis, Mark, Panel, Series, ViewData
-from lambda_core.report.run_scene import scene_of
 
 CASE = "6208-axial-1300"
 HOSTILE = r"$\frac{ $"

@@ -19,7 +19,6 @@ from lambda_cli.main import main
 from pydantic import field_validator
 
 from lambda_core import api
-from lambda_core.batch import job
 from lambda_core.discovery import manager, survey
 from lambda_core.discovery.manager import discover, registry
 from lambda_core.discovery.shown import data_of
@@ -29,6 +28,7 @@ from lambda_core.laws.check import check_model
 from lambda_core.laws.jit.reach import UnreachableError, reach
 from lambda_core.laws.law import Law
 from lambda_core.plugins import Axis, NoParameters, Options, Panel, Parameters, ViewData, hookimpl, parameter
+from lambda_core.study import job
 from lambda_core.views.method import Method, MethodRow, MethodTable, NotApplicable, evaluate_methods
 from lambda_core.views.view import View
 

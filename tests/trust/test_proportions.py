@@ -7,7 +7,7 @@ import math
 import pytest
 
 from lambda_core import api
-from lambda_core.system import proportions
+from lambda_core.model.geometry import proportions
 
 CASE = "6208-axial-1300"
 

@@ -13,10 +13,10 @@ from lambda_core.discovery import local_files, manager, survey
 from lambda_core.domain.installed import ON_VARIABLE
 from lambda_core.laws import check
 from lambda_core.laws.state import State, state_fault
+from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.resolve_machine import check_shaft
 from lambda_core.run.machine_law_blame import BlamingMachineEngine
-from lambda_core.shaft.machine_motion import machine_start
-from lambda_core.system.machine_templates import geared_shaft
-from lambda_core.system.resolve_machine import check_shaft
+from lambda_core.solver.drivers.machine_motion import machine_start
 
 LAWS = """
 from lambda_core.plugins import OK, State, law

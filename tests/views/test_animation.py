@@ -16,7 +16,7 @@ from PIL import Image
 from lambda_core import api
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
-from lambda_core.report.run_scene import scene_of
+from lambda_core.export.report.run_scene import scene_of
 from lambda_core.views.scene import Scene
 
 if TYPE_CHECKING:

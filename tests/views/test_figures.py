@@ -15,8 +15,8 @@ from collisions import collisions
 from lambda_core import api
 from lambda_core.discovery.manager import discover, registry
 from lambda_core.domain.installed import Source
+from lambda_core.export.report.gallery import data_of
 from lambda_core.plugins import Axis, Field, Mark, Options, Panel, RunData, Series, View, ViewData, hookimpl
-from lambda_core.report.gallery import data_of
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result

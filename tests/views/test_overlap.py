@@ -8,7 +8,7 @@ import pytest
 from collisions import collisions, no_collision
 
 from lambda_core.discovery.manager import registry
-from lambda_core.report.gallery import data_of
+from lambda_core.export.report.gallery import data_of
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result

@@ -11,7 +11,7 @@ from collisions import no_collision
 
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
-from lambda_core.report.gallery import data_of
+from lambda_core.export.report.gallery import data_of
 from lambda_core.views.chart import Panel, Series, ViewData
 from lambda_core.views.method import NotApplicable
 from lambda_core.views.table import Column, PointState, StudyTable

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.life import RADIAL_ROLLER, life_modification_factor
 from lambda_core.elements.roller.roller_ratings import REDUCTION_FACTOR, LaminaRatings
+from lambda_core.formulas.life import RADIAL_ROLLER, life_modification_factor
 
 LIFE_EXPONENT = 10.0 / 3.0
 _LAMINA_EXPONENT = 4.5
@@ -105,7 +105,7 @@ def modified_lamina_life(
 
     {sum_k a_ISO,k^(-9/8) X_k}^(-8/9): each lamina has the factor a_ISO of its own equivalent load
     (:func:`lamina_equivalent_loads`). Parameters as for
-    :func:`lambda_core.domain.life.life_modification_factor`.
+    :func:`lambda_core.formulas.life.life_modification_factor`.
     """
     loads = lamina_equivalent_loads(life, dynamic_rating)
     factors = np.array(

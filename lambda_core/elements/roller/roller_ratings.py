@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from lambda_core.domain.life import EquivalentLoad
+from lambda_core.formulas.life import EquivalentLoad
 
 MATERIAL_FACTOR = 1.1  # b_m of ISO 281: cylindrical, tapered and needle bearings with machined rings
 REDUCTION_FACTOR = 0.83  # lambda nu of ISO/TR 1281-1: edge loads and uneven load along the roller

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.domain.gap_capacitance import VACUUM_PERMITTIVITY, gap_capacitance
+from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY, gap_capacitance
 from lambda_core.solver.arrays.fault_roles import CAPACITANCE, PERMITTIVITY
 from lambda_core.solver.contact.contact_kinematics import contact_wrench
 from lambda_core.solver.faults import report

@@ -12,13 +12,13 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, CAGE, INNER, OUTER
+from lambda_core.model.bearing_model import BearingModel, Body
+from lambda_core.model.geometry.raceways import raceways
+from lambda_core.model.laws.law_context import ContactFrame
+from lambda_core.model.laws.state_channels import states_of
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.law_inputs import Oils, links
 from lambda_core.solver.drivers.wave_tables import waves_of
-from lambda_core.system.bearing import BearingModel, Body
-from lambda_core.system.law_context import ContactFrame
-from lambda_core.system.raceways import raceways
-from lambda_core.system.state_channels import states_of
 
 GROUND = -1  # number of the ground among the bodies that a link connects
 

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import EquilibriumError
+from lambda_core.model.bearing_model import Geometry
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.warmer_oil import StaticReport
-from lambda_core.system.bearing import Geometry
 
 PATH_ITERATIONS = 20
 PATH_SHARE = 0.5  # of the way to the velocities that the paths have

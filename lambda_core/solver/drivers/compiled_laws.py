@@ -14,12 +14,12 @@ from lambda_core.laws.context import Oil
 from lambda_core.laws.jit.words import addresses
 from lambda_core.laws.kernels import compile_kernel
 from lambda_core.laws.tried import Choice, try_out
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.laws.law_context import ContactFrame, build_context, prepare
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import begin
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of, times
 from lambda_core.solver.records import RACEWAY_ROLES
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.law_context import ContactFrame, build_context, prepare
 
 Announce = Callable[[str], None] | None
 # Hash of a law's code, force element and parameters of what was tried out and found in order.

@@ -16,13 +16,13 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError
+from lambda_core.model.geometry.raceways import raceways
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.contact_grid import cell_blocks, unit_grid
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.solver_context import SolverContext
-from lambda_core.system.raceways import raceways
 
 
 @dataclass(frozen=True)

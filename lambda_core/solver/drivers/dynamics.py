@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import CAGE
 from lambda_core.domain.errors import SolverError
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.laws.state_channels import result_channels
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.integrator_memory import Memory, make_memory
@@ -44,8 +46,6 @@ from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.solver.records import CONTACT_CHANNELS
 from lambda_core.solver.status import Status
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.state_channels import result_channels
 
 CAPACITY = 512  # samples that the buffer holds
 _COUNTERS = (

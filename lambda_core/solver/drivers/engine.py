@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.law_context import max_speed
-from lambda_core.system.resolve_solver import SAMPLES_PER_PERIOD
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.laws.law_context import max_speed
+from lambda_core.model.settings.resolve_solver import SAMPLES_PER_PERIOD
 
 # Enough for ball passes and pocket impacts; each sample costs about three right-hand sides.
 SAMPLES_PER_REVOLUTION = 100.0

@@ -18,6 +18,10 @@ from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import INNER, LANDS, OUTER
 from lambda_core.domain.errors import EquilibriumError, SolverError
 from lambda_core.laws.shear_limit import SHEAR_LIMIT, limitless_sentence, stress_ratio
+from lambda_core.model.bearing_model import BearingModel, Geometry
+from lambda_core.model.checks.operating_limits import operating_point, operating_warnings
+from lambda_core.model.geometry.raceways import raceways, raceways_of_a_ball
+from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.fault_roles import OUTSIDE, ROLES
 from lambda_core.solver.core import Core, core
@@ -33,10 +37,6 @@ from lambda_core.solver.drivers.tables import bearing_of_land
 from lambda_core.solver.drivers.warmer_oil import StaticReport, from_warmer_oil
 from lambda_core.solver.records import CONTACT_CHANNELS, STATIC_REPORT
 from lambda_core.solver.status import Status
-from lambda_core.system.bearing import BearingModel, Geometry
-from lambda_core.system.law_context import ContactFrame
-from lambda_core.system.operating_limits import operating_point, operating_warnings
-from lambda_core.system.raceways import raceways, raceways_of_a_ball
 
 _FRAME_ITERATIONS = 4
 _FRAME_TOLERANCE = 1e-4  # [rad] change of the frozen contact angle that ends the iteration

@@ -11,14 +11,14 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import DOFS, INNER, OUTER
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.geometry.raceways import row_places
+from lambda_core.model.laws.law_context import ContactFrame
+from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.records import CONTACT_CHANNELS
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.law_context import ContactFrame
-from lambda_core.system.raceways import row_places
-from lambda_core.system.time_functions import initial
 
 _LOAD, _ANGLE = CONTACT_CHANNELS.index("load"), CONTACT_CHANNELS.index("contact_angle")
 

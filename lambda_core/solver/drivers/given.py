@@ -16,12 +16,12 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, DOFS, SPIN
 from lambda_core.domain.errors import UsageError
+from lambda_core.model.bearing_model import BearingModel, Body, DofState, TimeFunction
+from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.time_tables import FORCE, MOMENT, MOTION, PER_BODY
-from lambda_core.system.bearing import BearingModel, Body, DofState, TimeFunction
-from lambda_core.system.time_functions import initial
 
 Coupling = Literal["force", "motion"]
 COUPLINGS: tuple[Coupling, ...] = ("force", "motion")

@@ -9,6 +9,8 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE
+from lambda_core.model.bearing_model import BearingModel, DofState, TimeFunction
+from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
@@ -22,8 +24,6 @@ from lambda_core.solver.drivers.equilibrium import (
 from lambda_core.solver.drivers.first_state import first_state
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.stiffness import freed, stiffness_at
-from lambda_core.system.bearing import BearingModel, DofState, TimeFunction
-from lambda_core.system.law_context import ContactFrame
 
 _SAME_ANGLE = 1e-4  # [rad] change of the frozen contact angle that asks for another frame
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lambda_core.laws.context import Oil
-from lambda_core.system.bearing import ELEMENT_PREFIX, TIME_PREFIX, BearingModel
+from lambda_core.model.bearing_model import ELEMENT_PREFIX, TIME_PREFIX, BearingModel
 
 RACEWAYS = ("ball_inner", "ball_outer")  # in the order of the table of raceways
 Oils = tuple[Oil, Oil]  # the oil as the rheology of each of these contacts has it

@@ -10,6 +10,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import BODIES
 from lambda_core.domain.errors import SolverError
+from lambda_core.model.laws.state_channels import arc_channels
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import Core
@@ -20,7 +21,6 @@ from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.drivers.wave_tables import wave_values
 from lambda_core.solver.records import CONTACT_CHANNELS
-from lambda_core.system.state_channels import arc_channels
 
 
 class Scratch(NamedTuple):

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, RINGS
+from lambda_core.model.bearing_model import Geometry
+from lambda_core.model.geometry.raceways import raceways, raceways_of_a_ball
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.records import CONTACT_CHANNELS
-from lambda_core.system.bearing import Geometry
-from lambda_core.system.raceways import raceways, raceways_of_a_ball
 
 _LOAD = CONTACT_CHANNELS.index("load")
 # Of both contacts together; all else is that of the one which carries more.

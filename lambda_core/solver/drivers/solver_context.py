@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, OUTER
 from lambda_core.laws.context import Oil
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.geometry.raceways import raceways
+from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.factors import make_factors
@@ -23,9 +26,6 @@ from lambda_core.solver.drivers.contact_grid import cell_blocks, unit_grid
 from lambda_core.solver.drivers.contact_memory import state_arrays, state_tail
 from lambda_core.solver.drivers.law_inputs import Oils
 from lambda_core.solver.drivers.tables import build
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.law_context import ContactFrame
-from lambda_core.system.raceways import raceways
 
 
 def state_scales(assembly: Assembly, active: NDArray[np.int64]) -> FloatArray:

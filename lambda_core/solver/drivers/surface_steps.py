@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
+from lambda_core.model.laws.law_context import max_speed
 from lambda_core.solver.drivers.law_inputs import RACEWAYS
 from lambda_core.solver.drivers.solver_context import SolverContext
-from lambda_core.system.law_context import max_speed
 
 _PLACES = 20_000  # azimuths at which a surface is looked at: 20 um apart on a raceway of 130 mm
 _STEPS = 4.0  # per length over which the surface changes, 25 per wave

@@ -15,21 +15,21 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import CAGE, DOFS, INNER, OUTER
 from lambda_core.domain.errors import SolverError
-from lambda_core.domain.hertz import ball_raceway_radii
+from lambda_core.formulas.hertz import ball_raceway_radii
 from lambda_core.laws.context import Oil
 from lambda_core.laws.par import number_in
 from lambda_core.laws.state import names_behind
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.geometry.raceways import raceways as raceways_of
+from lambda_core.model.geometry.raceways import raceways_of_a_ball, row_places
+from lambda_core.model.laws.law_context import build_context, effective_modulus, prepare
+from lambda_core.model.laws.state_channels import states_of
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.assembly import AssembledBearing, Assembly, BearingSpan
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, guides, oil_of, times
 from lambda_core.solver.drivers.time_tables import build_times
 from lambda_core.solver.drivers.wave_tables import give_waves, wave_bodies, wave_rows
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.law_context import build_context, effective_modulus, prepare
-from lambda_core.system.raceways import raceways as raceways_of
-from lambda_core.system.raceways import raceways_of_a_ball, row_places
-from lambda_core.system.state_channels import states_of
 
 # Below this mean surface velocity the rolling losses change sign smoothly: far below any running speed, wide
 # enough for the integrator to cross when a bearing starts, stops or reverses.

@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, CAGE, DOFS
+from lambda_core.model.bearing_model import BearingModel, LawTerm, TableTerm, TimeFunction
+from lambda_core.model.laws.interpolation import curve
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.law_inputs import times
 from lambda_core.solver.drivers.wave_tables import AMPLITUDES, waves_of
-from lambda_core.system.bearing import BearingModel, LawTerm, TableTerm, TimeFunction
-from lambda_core.system.interpolation import curve
 
 _KINDS = {"constant": R.CONSTANT, "ramp": R.RAMP, "harmonic": R.HARMONIC, "table": R.TABLE, "law": R.LAW}
 # Fields of a term that take the values of each kind.

@@ -13,10 +13,10 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, BodyName
-from lambda_core.elastic.ring import RingWaves, ovality
+from lambda_core.formulas.elastic.ring import RingWaves, ovality
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
-from lambda_core.system.bearing import BearingModel
 
 AMPLITUDES = (L.SY, L.SZ)
 _CAGE = list(BODIES).index("cage")

@@ -11,9 +11,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from lambda_core.domain.gap_capacitance import VACUUM_PERMITTIVITY
-from lambda_core.domain.hertz import ball_raceway_radii, reduced_modulus
-from lambda_core.domain.kinematics import entrainment_speed
+from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY
+from lambda_core.formulas.hertz import ball_raceway_radii, reduced_modulus
+from lambda_core.formulas.kinematics import entrainment_speed
 from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.domain.kinematics import ball_speed, cage_speed, diameter_ratio, frequency_orders
+from lambda_core.formulas.kinematics import ball_speed, cage_speed, diameter_ratio, frequency_orders
 from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable
 
 

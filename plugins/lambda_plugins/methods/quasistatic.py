@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.domain.loading import loaded_balls
+from lambda_core.formulas.loading import loaded_balls
 from lambda_core.views.method import (
     EquilibriumState,
     Method,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from lambda_core.domain.life import (
+from lambda_core.formulas.life import (
     basic_rating_life,
     contamination_range,
     dynamic_equivalent_load,
@@ -15,7 +15,7 @@ from lambda_core.domain.life import (
     reference_viscosity,
     static_equivalent_load,
 )
-from lambda_core.domain.ratings import dynamic_rating, fatigue_load_limit, static_factor, static_rating
+from lambda_core.formulas.ratings import dynamic_rating, fatigue_load_limit, static_factor, static_rating
 from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 
 

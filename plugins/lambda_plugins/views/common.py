@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.channels import RINGS
-from lambda_core.domain.kinematics import FrequencyOrders, cage_speed, frequency_orders
+from lambda_core.formulas.kinematics import FrequencyOrders, cage_speed, frequency_orders
+from lambda_core.model.bearing_model import Solver
 from lambda_core.plugins import FloatArray, NotApplicable, RunData, Series
 from lambda_core.results.convergence import window
-from lambda_core.system.bearing import Solver
 
 BINS = 72  # over azimuth: 5 degrees each
 BODY = {"inner": 0, "outer": 1, "cage": 2}

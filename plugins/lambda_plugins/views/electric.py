@@ -10,7 +10,7 @@ from pydantic import Field
 from lambda_core.plugins import Axis, NotApplicable, Options, Panel, Series, View, ViewData
 
 if TYPE_CHECKING:
-    from lambda_core.electric.simulation import Simulation
+    from lambda_core.analysis.electric.simulation import Simulation
 
 _SHOWN = 3e-4  # of the bearing voltage, edge by edge [s]
 _FREQUENCIES = np.geomspace(1e2, 1e7, 51)
@@ -24,7 +24,7 @@ class Seed(Options):
 
 def _simulation(run: Any, *overrides: str, window: bool = False) -> Simulation:
     """Compute the circuit of a run whose case has one."""
-    from lambda_core.electric.case_or_run import electric_of_run, options_of_run, settled_from
+    from lambda_core.analysis.electric.case_or_run import electric_of_run, options_of_run, settled_from
 
     if options_of_run(run) is None:
         raise NotApplicable("the case has no section electric: --set electric.seed=1 puts the defaults in")
@@ -34,7 +34,7 @@ def _simulation(run: Any, *overrides: str, window: bool = False) -> Simulation:
 
 def _in_a_machine(run: Any) -> bool:
     """Tell whether the case of a run has a circuit."""
-    from lambda_core.electric.case_or_run import options_of_run
+    from lambda_core.analysis.electric.case_or_run import options_of_run
 
     return options_of_run(run) is not None
 
@@ -96,7 +96,7 @@ def discharges(run: Any, options: Seed) -> ViewData:
 
 def impedance(run: Any, options: Options) -> ViewData:
     """Impedance between the rings over frequency, as a meter sees it while the bearing turns."""
-    from lambda_core.electric.circuit import impedance as meter
+    from lambda_core.analysis.electric.circuit import impedance as meter
 
     found = _simulation(run)
     values = meter(found.films, found.circuit.bearings[found.number], _FREQUENCIES)

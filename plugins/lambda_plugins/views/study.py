@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from lambda_core.batch.effects import Sensitivity, sensitivities
 from lambda_core.plugins import (
     Axis,
     Column,
@@ -21,6 +20,7 @@ from lambda_core.plugins import (
     View,
     ViewData,
 )
+from lambda_core.study.effects import Sensitivity, sensitivities
 from lambda_plugins.views.friction import PER_RING, REST
 from lambda_plugins.views.study_curves import study_curves
 from lambda_plugins.views.study_table import (

@@ -1,0 +1,1 @@
+"""Analyses of a machine: rotor, temperatures, bearing currents."""

@@ -1,0 +1,144 @@
+"""Select the source of a circuit computation.
+
+It is a run's samples or a case with quasi-static equilibria, with their options.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lambda_core.analysis.electric.circuit_bearing import of_machine, of_model, of_run, own_options
+from lambda_core.analysis.electric.contacts import contacts_of_equilibria, contacts_of_run, default_duration, equilibria
+from lambda_core.analysis.electric.simulation import CircuitSimulation, Simulation, simulate, simulate_circuit
+from lambda_core.analysis.electric.voltage_sources import reach
+from lambda_core.case.case_io import read_case, toml_tables
+from lambda_core.case.electric import Electric, MachineElectric
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import UsageError
+from lambda_core.model.bearing_model import Solver
+from lambda_core.results.convergence import window as averaged
+from lambda_core.solver.drivers.held_ring import held
+
+if TYPE_CHECKING:
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.results.reader import Result
+    from lambda_core.solver.drivers.compiled_laws import Announce
+
+Span = tuple[float, float]
+_SECTION = "electric."
+
+
+def electric_of_model(model: BearingModel, announce: Announce = None, *, window: Span | None = None) -> Simulation:
+    """Compute a case on the films of its quasi-static equilibria; the circuit is the section electric of the case.
+
+    Raises
+    ------
+    SolverError
+        When there is no equilibrium, or the circuit cannot be solved.
+    """
+    bearing = of_model(model)
+    contacts = contacts_of_equilibria(equilibria(model, announce=announce), bearing.options.duration)
+    return simulate(contacts, bearing, announce=announce, window=window)
+
+
+def electric_of_machine(
+    machine: MachineModel,
+    poses: Sequence[FloatArray],
+    announce: Announce = None,
+    *,
+    window: Span | None = None,
+) -> CircuitSimulation:
+    """Compute all bearings of a machine in one circuit, on the films of their quasi-static equilibria.
+
+    Parameters
+    ----------
+    poses : sequence of float64[:], shape (5,)
+        Of each inner ring against its outer ring, in the equilibrium of the machine. Balls pass while the rings keep
+        their place.
+
+    Raises
+    ------
+    SolverError
+        When a bearing has no equilibrium, or the circuit cannot be solved.
+    """
+    bearings = of_machine(machine)
+    found = [
+        equilibria(held(mounted.model, pose.tolist()), announce=announce)
+        for mounted, pose in zip(machine.bearings, poses, strict=True)
+    ]
+    duration = bearings[0].options.duration or max(map(default_duration, found))
+    contacts = [contacts_of_equilibria(each, duration) for each in found]
+    return simulate_circuit(contacts, bearings, announce=announce, window=window)
+
+
+def options_of_run(result: Result, overrides: Iterable[str] = ()) -> Electric | None:
+    """Return the circuit in the case of a run, with other options where they are given.
+
+    Raises
+    ------
+    UsageError
+        When an override is of anything but the section electric: the run is over.
+    """
+    changes = list(overrides)
+    for text in changes:
+        if not text.strip().startswith(_SECTION):
+            raise UsageError(f'"{text}": the run is over, only options of the section electric can be changed')
+    return read_case(toml_tables(result.case_toml, str(result.path)), changes).electric
+
+
+def circuit_of_run(
+    result: Result, overrides: Iterable[str] = (), announce: Announce = None, *, window: Span | None = None
+) -> CircuitSimulation:
+    """Compute the circuit on the samples of a run, after the revolutions that its averages discard.
+
+    Raises
+    ------
+    UsageError
+        When there are too few samples, or an override does not belong here.
+    SolverError
+        When the circuit cannot be solved.
+    """
+    options, results = options_of_run(result, overrides), result.bearings
+    if len(results) > 1:
+        options = options or MachineElectric()
+        bearings = [
+            replace(of_run(one, own_options(options, name)), name=name, case=result.case)
+            for name, one in results.items()
+        ]
+    else:
+        bearings = [of_run(one, options) for one in results.values()]
+    settled = max(settled_from(one) for one in results.values())
+    contacts = [contacts_of_run(one) for one in results.values()]
+    first = bearings[0].options
+    if first.duration is not None:
+        stop = settled + first.duration + reach(first.source)
+        rows = slice(0, int(np.searchsorted(contacts[0].time, stop, side="right")))
+        contacts = [each.part(rows) for each in contacts]
+    return simulate_circuit(contacts, bearings, settled=settled, announce=announce, window=window)
+
+
+def electric_of_run(
+    result: Result, overrides: Iterable[str] = (), announce: Announce = None, *, window: Span | None = None
+) -> Simulation:
+    """Compute the circuit of a run as the bearing sees it that the result is of; see :func:`circuit_of_run`."""
+    found = circuit_of_run(result, overrides, announce, window=window)
+    return found.bearings[result.bearing] if len(found.bearings) > 1 else found.first
+
+
+def settled_from(result: Result) -> float:
+    """Return the time from which a run counts [s]."""
+    settings = Solver(**{name: float(value) for name, value in result.model["solver"].items()})
+    return float(averaged(settings, result.revolutions(), result.integrals()[-1]).interval.first[0])
+
+
+def is_result(source: object) -> bool:
+    """Tell whether a source is a result file."""
+    import h5py
+
+    return isinstance(source, str | Path) and Path(source).is_file() and bool(h5py.is_hdf5(source))

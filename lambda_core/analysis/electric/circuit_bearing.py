@@ -1,0 +1,155 @@
+"""Provide the circuit with the data of a bearing.
+
+These are dimensions, materials, oil and the laws of its films.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.case.electric import Electric, MachineElectric
+from lambda_core.laws.context import Context, Material, Oil
+from lambda_core.model.bearing_model import ChosenLaw, ElectricModel, Geometry
+from lambda_core.model.ledger import Ledger
+from lambda_core.model.settings.resolve_electric import resolve_electric
+
+if TYPE_CHECKING:
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.results.reader import Result
+
+_SILICON_NITRIDE = re.compile(r"si3n4|silicon.?nitride", re.IGNORECASE)
+_PERMITTIVITY = 8.0  # of it, usual value of makers' sheets: it insulates, whether or not the case says so
+_SIDES = (("film_inner", "inner"), ("film_outer", "outer"))
+
+
+@dataclasses.dataclass(frozen=True)
+class CircuitBearing:
+    """A bearing with its circuit.
+
+    Attributes
+    ----------
+    name : str
+        Of the bearing in its machine.
+    case : str
+        Name of the case.
+    options : Electric
+        The section of the case.
+    laws : mapping of str to ChosenLaw
+        Role to law.
+    geometry : mapping of str to float
+        By name, SI.
+    contexts : tuple of Context
+        What laws may look at, of the inner and the outer contact; lengths that change with the load are NaN.
+    roughness : float
+        Composite rms roughness [m].
+    """
+
+    name: str
+    case: str
+    options: Electric
+    laws: Mapping[str, ChosenLaw]
+    geometry: Mapping[str, float]
+    contexts: tuple[Context, Context]
+    roughness: float
+
+
+def electric_model(options: Electric | None, name: str) -> ElectricModel:
+    """Return a circuit with its laws; without options one of defaults.
+
+    Raises
+    ------
+    CaseError
+        With everything that is wrong with it.
+    """
+    from lambda_core.discovery.manager import registry
+
+    ledger = Ledger()
+    found = resolve_electric(options or Electric(), registry(), ledger)
+    ledger.check(name)
+    return found
+
+
+def of_model(model: BearingModel) -> CircuitBearing:
+    """Return a resolved model with its circuit; a case without the section gets the defaults."""
+    chosen = model.electric or electric_model(None, model.name)
+    materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
+    return _circuit_bearing("bearing", model.name, chosen, model.geometry, materials, model.oil, model.roughness)
+
+
+def of_machine(machine: MachineModel) -> list[CircuitBearing]:
+    """Return the bearings of a machine with their circuit; a case without the section gets the defaults."""
+    chosen = machine.electric or electric_model(MachineElectric(), machine.name)
+    found = []
+    for mounted in machine.bearings:
+        model = mounted.model
+        own = dataclasses.replace(chosen, options=own_options(chosen.options, mounted.name))
+        materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
+        found.append(
+            _circuit_bearing(mounted.name, machine.name, own, model.geometry, materials, model.oil, model.roughness)
+        )
+    return found
+
+
+def own_options(options: Electric, name: str) -> Electric:
+    """Return the options of one bearing of a machine."""
+    return options.of_bearing(name) if isinstance(options, MachineElectric) else options
+
+
+def of_run(result: Result, options: Electric | None) -> CircuitBearing:
+    """Return the bearing of a run with a circuit.
+
+    Raises
+    ------
+    CaseError
+        With everything that is wrong with the circuit.
+    """
+    model = result.model
+    geometry = Geometry(**model["geometry"])
+    materials = {part: Material(**model[f"{part}_material"]) for part in ("ball", "inner", "outer")}
+    oil: dict[str, Any] = {
+        name: value if name in ("name", "base_type") else float(value) for name, value in model["oil"].items()
+    }
+    chosen = electric_model(options, str(result.path))
+    return _circuit_bearing("bearing", result.case, chosen, geometry, materials, Oil(**oil), float(model["roughness"]))
+
+
+def _circuit_bearing(
+    name: str,
+    case: str,
+    chosen: ElectricModel,
+    geometry: Geometry,
+    materials: Mapping[str, Material],
+    oil: Oil,
+    roughness: float,
+) -> CircuitBearing:
+    plain: dict[str, Any] = {
+        name: float(value) for name, value in dataclasses.asdict(geometry).items() if not isinstance(value, str)
+    }
+    inner, outer = (
+        Context(
+            element=element,
+            ball_count=geometry.ball_count,
+            ball_diameter=geometry.ball_diameter,
+            pitch_diameter=geometry.pitch_diameter,
+            bore_diameter=geometry.bore_diameter,
+            outside_diameter=geometry.outside_diameter,
+            width=geometry.width,
+            series=geometry.series,
+            speed=float("nan"),
+            mean_load=float("nan"),
+            ball=materials["ball"],
+            partner=materials[ring],
+            oil=oil,
+            groove_radius=plain[f"groove_radius_{ring}"],
+            race_diameter=plain[f"race_diameter_{ring}"],
+        )
+        for element, ring in _SIDES
+    )
+    options, film = chosen.options, chosen.options.film
+    if film.ball_permittivity is None and _SILICON_NITRIDE.search(materials["ball"].name):
+        options = options.model_copy(update={"film": film.model_copy(update={"ball_permittivity": _PERMITTIVITY})})
+    return CircuitBearing(name, case, options, chosen.laws, plain, (inner, outer), roughness)

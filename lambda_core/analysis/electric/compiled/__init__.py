@@ -1,0 +1,5 @@
+"""Compiled code of the electric network. Nothing here is imported before a network is integrated through time.
+
+The folder's sources are hashed into the name of the compiled-code cache; only the entry point of
+:mod:`lambda_core.analysis.electric.compiled.switching` is cached.
+"""

@@ -1,0 +1,121 @@
+"""Bearing currents of one operating point in a dozen numbers: what maps and studies ask of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.results.record import Record
+
+if TYPE_CHECKING:
+    from lambda_core.analysis.electric.simulation import Simulation
+    from lambda_core.results.reader import Result
+    from lambda_core.solver.drivers.equilibrium import Equilibrium
+
+PHASES = 3  # equilibria per ball pitch: a map has many points
+
+
+class CurrentNumbers(Record):
+    """Films, voltages and discharges; None where nothing discharges."""
+
+    film_um: float | None = Field(description="smallest central film of a loaded contact")
+    film_parameter: float | None = Field(description="Lambda of the smallest central film")
+    bearing_capacitance_pF: float | None = Field(description="capacitance of the balls, touching films by their area")
+    bearing_voltage_ratio: float | None = Field(description="bearing over common-mode voltage")
+    bearing_voltage_V: float | None = Field(description="largest bearing voltage, either sign")
+    metal_share: float | None = Field(description="share of contacts and time in which asperities touch")
+    discharges_per_s: float | None = Field(description="discharges through the bearing")
+    breakdown_voltage_V: float | None = Field(description="bearing voltage at discharges, median")
+    peak_current_A: float | None = Field(description="peak current of discharges, median")
+    current_density_A_per_mm2: float | None = Field(description="median peak current over the Hertzian area, J_b")
+    arc_power_mW: float | None = Field(description="power of arcs")
+
+
+UNITS: Mapping[str, str] = {
+    "film_um": "um",
+    "film_parameter": "",
+    "bearing_capacitance_pF": "pF",
+    "bearing_voltage_ratio": "",
+    "bearing_voltage_V": "V",
+    "metal_share": "",
+    "discharges_per_s": "1/s",
+    "breakdown_voltage_V": "V",
+    "peak_current_A": "A",
+    "current_density_A_per_mm2": "A/mm2",
+    "arc_power_mW": "mW",
+}
+
+
+def meaning(name: str) -> str:
+    """Return one line about a number."""
+    return CurrentNumbers.model_fields[name].description or ""
+
+
+def code_folder() -> Path:
+    """Return where the compiled circuit stands: other code makes other numbers."""
+    return Path(__file__).parent / "compiled"
+
+
+def numbers_of(simulation: Simulation) -> CurrentNumbers:
+    """Return the numbers of a circuit that was computed."""
+    outcome, contacts = simulation.outcome, simulation.contacts
+    film = np.where(contacts.loaded, contacts.film, np.inf)
+    thinnest = np.unravel_index(int(np.argmin(film)), film.shape)
+    low, high = outcome.bearing_voltage_V
+
+    def middle(values: Sequence[float] | None) -> float | None:
+        return None if values is None else values[1]
+
+    return CurrentNumbers(
+        film_um=1e6 * float(film[thinnest]),
+        film_parameter=float(contacts.film_parameter[thinnest]),
+        bearing_capacitance_pF=outcome.bearing_capacitance_pF[1],
+        bearing_voltage_ratio=outcome.bearing_voltage_ratio,
+        bearing_voltage_V=max(abs(low), abs(high)),
+        metal_share=outcome.shorted_share,
+        discharges_per_s=outcome.discharges_per_s,
+        breakdown_voltage_V=middle(outcome.breakdown_voltage_V),
+        peak_current_A=middle(outcome.peak_current_A),
+        current_density_A_per_mm2=outcome.current_density_A_per_mm2,
+        arc_power_mW=outcome.arc_power_mW,
+    )
+
+
+def static_numbers(found: Equilibrium, kernels: Any) -> CurrentNumbers:
+    """Compute a circuit on quasi-static films, at three positions of the balls; `found` is the first of them.
+
+    A case without the section electric gets its defaults, and ten turns of the cage without a duration.
+
+    Raises
+    ------
+    SolverError
+        When there is no equilibrium at another position, or the circuit cannot be solved.
+    """
+    from lambda_core.analysis.electric.circuit_bearing import of_model
+    from lambda_core.analysis.electric.contacts import contacts_of_equilibria
+    from lambda_core.analysis.electric.simulation import simulate
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    model = found.context.model
+    bearing = of_model(model)
+    others = [solve(model, kernels, phase=k / PHASES) for k in range(1, PHASES)]
+    return numbers_of(simulate(contacts_of_equilibria([found, *others], bearing.options.duration), bearing))
+
+
+def run_numbers(result: Result) -> CurrentNumbers:
+    """Compute the circuit of a run on its samples, from where averages begin.
+
+    Raises
+    ------
+    UsageError
+        When there are too few samples.
+    SolverError
+        When the circuit cannot be solved.
+    """
+    from lambda_core.analysis.electric.case_or_run import electric_of_run
+
+    return numbers_of(electric_of_run(result))

@@ -1,0 +1,1 @@
+"""Equilibrium, modes and critical speeds of machines, and their text."""

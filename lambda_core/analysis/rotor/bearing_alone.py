@@ -1,0 +1,98 @@
+"""Take one bearing of a machine by itself, under the load that it carries there."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from lambda_core.domain.elements import POSE
+from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.model.bearing_model import BearingModel, DofState, TimeFunction
+from lambda_core.model.machine_model import MachineModel
+from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, solve_shaft
+
+if TYPE_CHECKING:
+    from lambda_core.results.reader import Result
+
+
+def bearing_number(machine: MachineModel, name: str | None) -> int:
+    """Return the place of a bearing among those of a machine; no name is needed where there is one.
+
+    Raises
+    ------
+    UsageError
+        When a name is needed, or there is no bearing of that name.
+    """
+    names = [bearing.name for bearing in machine.bearings]
+    if name is None and len(names) > 1:
+        raise UsageError(
+            f"{machine.name} has {len(names)} bearings, and this question is about one: "
+            f"name it with --bearing ({', '.join(names)})"
+        )
+    if name is not None and name not in names:
+        raise UsageError(unknown_name("bearing", name, names))
+    return 0 if name is None else names.index(name)
+
+
+def bearing_alone(
+    machine: MachineModel, name: str | None, announce: Callable[[str], None] | None = None
+) -> BearingModel:
+    """Return one bearing under the constant load and at the misalignment that it has in the machine at t = 0.
+
+    Its inner ring is free along x, y and z and carries the load; its tilts are held where shaft and housing hold them.
+    """
+    number = bearing_number(machine, name)
+    return alone_under_load(machine, solve_shaft(machine, announce), number)
+
+
+def bearing_of_run(result: Result) -> BearingModel:
+    """Return the model of the bearing that a result looks at, from the case in its file.
+
+    Of a machine it is alone under the load that it carries at the start, see :func:`bearing_alone`.
+
+    Raises
+    ------
+    CaseError, SolverError
+        When the case does not resolve any more, or the machine has no equilibrium.
+    """
+    from lambda_core.case.case_io import parse_case, toml_tables
+    from lambda_core.model.checking import resolve
+    from lambda_core.model.resolve_machine import check_shaft
+
+    if not result.is_machine:
+        return resolve(parse_case(result.case_toml, str(result.path)))
+    machine = check_shaft(toml_tables(result.case_toml, str(result.path)))
+    return bearing_alone(machine, result.of_bearing().bearing)
+
+
+def alone_under_load(machine: MachineModel, state: ShaftState, number: int) -> BearingModel:
+    """Return one bearing of a solved machine as :func:`bearing_alone` does."""
+    mounted, reaction, pose = machine.bearings[number], state.reactions[number], state.pose(machine, number)
+    model, body = mounted.model, mounted.model.inner_ring
+    free = dict.fromkeys(POSE[:3], DofState("free"))
+    tilts = {
+        axis: DofState("prescribed", TimeFunction.constant(float(value)))
+        for axis, value in zip(POSE[3:], pose[3:], strict=True)
+    }
+    # what the shaft puts on the ring is all that it carries: its own weight is among the shaft's
+    force = tuple(
+        TimeFunction.constant(-float(carried) - body.mass * pull)
+        for carried, pull in zip(reaction[:3], model.gravity, strict=True)
+    )
+    inner = dataclasses.replace(body, force=force, dofs={**body.dofs, **free, **tilts})  # type: ignore[arg-type]
+    outer = dataclasses.replace(
+        model.outer_ring, dofs={**model.outer_ring.dofs, **dict.fromkeys(POSE, DofState("locked"))}
+    )
+    note = "load and misalignment are those of the machine's equilibrium at t = 0, constant"
+    return dataclasses.replace(
+        model, name=f"{machine.name}-{mounted.name}", title=f"{model.title}, {mounted.name} of {machine.name}",
+        inner_ring=inner, outer_ring=outer, links={}, assumptions=(*model.assumptions, note),
+    )  # fmt: skip
+
+
+def at_speed(model: BearingModel, speed: float) -> BearingModel:
+    """Return a bearing whose inner ring turns at another constant speed [rad/s]."""
+    spin = dataclasses.replace(model.inner_ring.dofs["spin"], motion=TimeFunction.constant(speed))
+    inner = dataclasses.replace(model.inner_ring, dofs={**model.inner_ring.dofs, "spin": spin})
+    return dataclasses.replace(model, inner_ring=inner)

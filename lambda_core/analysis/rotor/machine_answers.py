@@ -1,0 +1,98 @@
+"""Answer questions about a machine at its operating point: equilibrium, modes, pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
+
+from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.domain.errors import UsageError
+
+if TYPE_CHECKING:
+    from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
+    from lambda_core.analysis.rotor.machine_modes import MachineModes
+    from lambda_core.case.case_io import Source
+    from lambda_core.model.machine_model import MachineModel
+
+
+@one_blas_thread()
+def machine_equilibrium(
+    source: Source | MachineModel, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
+) -> MachineEquilibrium:
+    """Solve a machine; :func:`lambda_core.api.quasistatic` for a machine of several bearings."""
+    from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
+    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+
+    model = ready_machine_of(source, overrides, announce)
+    return equilibrium_of(model, solve_shaft(model, announce))
+
+
+@one_blas_thread()
+def modes(
+    source: Source | MachineModel, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
+) -> MachineModes:
+    """Compute critical speeds, natural frequencies and bearing matrices of a machine at its operating point.
+
+    Parameters
+    ----------
+    source : str, Path, mapping, ShaftCase or MachineModel
+        File, plain tables as they stand in one, a case, or what :func:`check_shaft` returned.
+    overrides : iterable of str
+        Changes ``path=value``.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    MachineModes
+        Bearings as stiff as at the operating point; damped by them at the speed of the case.
+
+    Raises
+    ------
+    UsageError
+        For the case of one bearing, which has no shaft that could whirl.
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.analysis.rotor.machine_modes import modes_of
+    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+    from lambda_core.case.case_io import is_machine
+    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+
+    if not is_machine(source):
+        raise UsageError(
+            "modes are those of a shaft in its bearings, and this case has one bearing without a shaft: "
+            "lambda-bearing init NAME --template geared-shaft writes a machine to start from"
+        )
+    model = ready_machine_of(source, overrides, announce)
+    return modes_of(model, solve_shaft(model, announce))
+
+
+def machine_of(source: Source | MachineModel, overrides: Iterable[str] = ()) -> MachineModel:
+    """Return the resolved machine of whatever a function of this package takes as one."""
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.model.resolve_machine import check_shaft
+
+    if not isinstance(source, MachineModel):
+        return check_shaft(source, overrides)
+    if list(overrides):
+        raise UsageError("a resolved machine takes no overrides: change the case and resolve it")
+    return source
+
+
+def describe_machine(model: MachineModel) -> str:
+    """Return what a resolved machine is, in lines for people: bearings, loads, mass, assumptions.
+
+    Parameters
+    ----------
+    model : MachineModel
+        From :func:`check_shaft`.
+
+    Returns
+    -------
+    str
+    """
+    from lambda_core.analysis.rotor.machine_text import model_text
+
+    return model_text(model)

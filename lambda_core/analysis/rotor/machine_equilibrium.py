@@ -1,0 +1,239 @@
+"""Report the quasi-static equilibrium of a machine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.analysis.rotor.bearing_life import bearing_life
+from lambda_core.analysis.rotor.machine_modes import AXES, six
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.formulas.elastic.beam import NODE
+from lambda_core.formulas.elastic.body import internal_forces
+from lambda_core.formulas.life import system_life
+from lambda_core.formulas.loading import Ring
+from lambda_core.model.checks.operating_limits import load_warnings, operating_warnings
+from lambda_core.model.machine_model import MachineModel, MountedBearing, Place
+from lambda_core.results.averages import finite
+from lambda_core.results.limits import warnings
+from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
+from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.summary import LOADED_BALLS, MAX_LOAD, Contact
+from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
+from lambda_core.solver.drivers.structure import point_on, static_rows, stretch
+
+
+class BearingEquilibrium(Record):
+    """One bearing of a machine at its operating point."""
+
+    name: str
+    title: str
+    position_mm: float = Field(description="of its middle, from the shaft's left end")
+    force_N: list[float] = Field(description="of the bearing on the shaft: x, y, z")
+    moment_Nm: list[float] = Field(description="of the bearing on the shaft about y and z")
+    radial_load_N: float
+    axial_load_N: float = Field(description="along x on the bearing, with its sign")
+    displacement_um: list[float] = Field(description="of the inner ring against the outer ring: x, y, z")
+    misalignment_mrad: list[float] = Field(description="of the inner ring against the outer ring about y and z")
+    outer_ring_um: list[float] = Field(description="of the outer ring in the housing: x, y, z")
+    clearance_um: float = Field(description="in operation")
+    loaded_balls: int = Field(description=LOADED_BALLS)
+    max_load_N: float = Field(description=MAX_LOAD)
+    max_load_ring: Ring = Field(description="the ring that the largest contact load stands at")
+    max_pressure_GPa: float
+    contact_angle_deg: list[float] = Field(description="smallest and largest of the loaded contacts, sizes")
+    equivalent_load_N: float = Field(description="P of ISO 281")
+    basic_rating_life_h: float | None = Field(description="L_10h of ISO 281; null at rest or without load")
+    reference_rating_life_h: float | None = Field(description="L_10rh of ISO/TS 16281, from the load of every ball")
+    modified_rating_life_h: float | None = Field(description="L_nmrh; needs life.contamination")
+    viscosity_ratio: float | None = Field(description="kappa")
+    static_safety: float | None = Field(description="C_0 over P_0")
+    friction_torque_Nmm: float | None
+    power_loss_W: float | None = Field(description="of the friction; null where the balls found no steady motion")
+    film_um: list[float] = Field(description="smallest and largest central film under load")
+    stiffness: list[list[float]] = Field(
+        description="6 x 6, inner ring against outer ring, order of `axes` [N/m, N/rad, N m/rad]; no row turns about x"
+    )
+    contacts: list[Contact] = Field(description="of every ball with each ring")
+    warnings: list[str] = Field(description="what is beyond a limit: ratings, pressure, shoulders, tilt, speed, oil")
+
+
+class BodyMoved(Record):
+    """How a body or a place moves from where it is drawn."""
+
+    displacement_um: list[float] = Field(description="x, y, z")
+    tilt_mrad: list[float] = Field(description="about x, y and z")
+
+
+class MachineEquilibrium(Record):
+    """Quasi-static equilibrium of a machine: loads, deflection, lives and friction of its bearings."""
+
+    interface: int = INTERFACE
+    case: str = Field(description="name of the case")
+    speed_rpm: float = Field(description="of the shaft")
+    axes: tuple[str, ...] = Field(default=AXES, description="order of rows and columns of the stiffness matrices")
+    bearings: list[BearingEquilibrium] = Field(description="from left to right")
+    gears: dict[str, list[float]] = Field(description="tangential, radial and axial force [N]")
+    springs: dict[str, list[float]] = Field(
+        default={}, description="force of each spring on the body of its place: x, y, z [N]"
+    )
+    bodies: dict[str, BodyMoved] = Field(default={}, description="bodies other than the shaft")
+    markers: dict[str, BodyMoved] = Field(default={}, description="named places")
+    system_life_h: float | None = Field(description="of all bearings by their reference rating lives, 90 %")
+    friction_torque_Nmm: float | None = Field(description="of all bearings")
+    drive_torque_Nm: float = Field(description="of the coupling on the shaft, friction left out")
+    shaft_mass_kg: float = Field(description="with its discs")
+    positions_mm: list[float] = Field(description="of the nodes along the shaft")
+    deflection_um: list[list[float]] = Field(description="x, y, z at each position")
+    slope_mrad: list[list[float]] = Field(description="tilts about y and z at each position")
+    cut_positions_mm: list[float] = Field(description="where section forces stand, both sides of every node")
+    shear_N: list[list[float]] = Field(description="along y and z")
+    bending_moment_Nm: list[list[float]] = Field(description="about y and z, of the right side on the left")
+    torque_Nm: list[float] = Field(description="about x, of the right side on the left")
+    iterations: int = Field(description="of Newton's method")
+    residual: float = Field(description="largest unbalanced force over the loads")
+    warnings: list[str] = Field(default=[], description="what cannot stand on the shaft as it is drawn")
+    assumptions: list[str] = Field(description="values that nobody gave, and simplifications")
+
+    def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
+        """Return the lines for people in some units, none longer than `width` where one is given."""
+        from lambda_core.analysis.rotor.machine_text import equilibrium_text
+
+        return equilibrium_text(self, width, units)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data, ready for JSON."""
+        return self.model_dump(mode="json")
+
+    def bearing(self, name: str) -> BearingEquilibrium:
+        """Return one bearing by its name; UsageError with the nearest name where there is none."""
+        found = {bearing.name: bearing for bearing in self.bearings}
+        if name not in found:
+            raise UsageError(unknown_name("bearing", name, found))
+        return found[name]
+
+    def __repr__(self) -> str:
+        """Return case, speed and the loads of the bearings."""
+        loads = ", ".join(f"{one.name} {one.radial_load_N:.4g} N" for one in self.bearings)
+        return f"<MachineEquilibrium {self.case}, {self.speed_rpm:.5g} 1/min, radial loads {loads}>"
+
+
+def equilibrium_of(
+    model: MachineModel, state: ShaftState, equilibria: Sequence[Equilibrium] | None = None
+) -> MachineEquilibrium:
+    """Put the equilibrium into the units of the interface.
+
+    `equilibria` are those of the bearings with the friction of their balls; by default they are solved.
+    """
+    solved = equilibria or [ring.equilibrium() for ring in state.rings]
+    bearings = [_bearing(model, state, i, found) for i, found in enumerate(solved)]
+    moved = state.displacement[: NODE * model.body.positions.size].reshape(-1, NODE)
+    cuts, forces = internal_forces(model.body, state.displacement, model.gravity)
+    lives = [b.reference_rating_life_h for b in bearings if b.reference_rating_life_h is not None]
+    torques = [b.friction_torque_Nmm for b in bearings]
+    rpm, rows = 30.0 / math.pi * model.speed, static_rows(model)
+    return MachineEquilibrium(
+        case=model.name,
+        speed_rpm=rpm,
+        bearings=bearings,
+        gears={name: [g.tangential, g.radial, g.axial] for name, g in model.gears.items()},
+        springs={s.name: _listed(-(s.stiffness @ stretch(model, rows, s) @ state.motions)[:3]) for s in model.springs},
+        bodies={body.name: _moved(moves) for body, moves in zip(model.bodies, state.bodies, strict=True)},
+        markers={name: _moved(_at(model, state, place)) for name, place in model.markers},
+        system_life_h=finite(system_life(lives)) if lives else None,
+        friction_torque_Nmm=None if None in torques else sum(t for t in torques if t is not None),
+        drive_torque_Nm=state.drive_torque,
+        shaft_mass_kg=model.body.total_mass,
+        positions_mm=_listed(1e3 * model.body.positions),
+        deflection_um=_listed(1e6 * moved[:, :3]),
+        slope_mrad=_listed(1e3 * moved[:, 4:]),
+        cut_positions_mm=_listed(1e3 * cuts),
+        shear_N=_listed(forces[:, 1:3]),
+        bending_moment_Nm=_listed(forces[:, 4:]),
+        torque_Nm=_listed(forces[:, 3]),
+        iterations=state.iterations,
+        residual=state.residual,
+        warnings=list(model.warnings),
+        assumptions=list(model.assumptions),
+    )
+
+
+def _moved(motion: FloatArray) -> BodyMoved:
+    return BodyMoved(displacement_um=_listed(1e6 * motion[:3]), tilt_mrad=_listed(1e3 * motion[3:]))
+
+
+def _at(model: MachineModel, state: ShaftState, place: Place) -> FloatArray:
+    """Return how a place moves and turns, zeros on the ground and off the nodes of the shaft."""
+    own, moves = point_on(model, static_rows(model), place.body, place.point)
+    return np.asarray(moves @ state.motions[own])
+
+
+def _listed(values: FloatArray) -> Any:
+    return values.tolist()
+
+
+def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibrium) -> BearingEquilibrium:
+    """Return what there is to say of one bearing."""
+    bearing, reaction = model.bearings[index], state.reactions[index]
+    alone = quasistatic_of(found)
+    radial, axial = float(np.hypot(*reaction[1:3])), float(-reaction[0])
+    life = bearing_life(bearing, found, radial, abs(axial), model.contamination)
+    pose = state.pose(model, index)
+    return BearingEquilibrium(
+        name=bearing.name,
+        title=bearing.model.title,
+        position_mm=1e3 * bearing.position,
+        force_N=_listed(reaction[:3]),
+        moment_Nm=_listed(reaction[3:]),
+        radial_load_N=radial,
+        axial_load_N=axial,
+        displacement_um=_listed(1e6 * pose[:3]),
+        misalignment_mrad=_listed(1e3 * pose[3:]),
+        outer_ring_um=_listed(1e6 * state.outer[index, :3]),
+        clearance_um=1e6 * bearing.model.geometry.clearance,
+        loaded_balls=alone.loaded_balls,
+        max_load_N=alone.max_load_N,
+        max_load_ring=alone.max_load_ring,
+        max_pressure_GPa=alone.max_pressure_GPa,
+        contact_angle_deg=_angles(alone),
+        equivalent_load_N=life.equivalent_load,
+        basic_rating_life_h=finite(life.basic),
+        reference_rating_life_h=finite(life.reference),
+        modified_rating_life_h=None if life.modified is None else finite(life.modified),
+        viscosity_ratio=life.viscosity_ratio,
+        static_safety=finite(life.static_safety),
+        friction_torque_Nmm=alone.friction_torque_Nmm if found.converged else None,
+        power_loss_W=finite(float(found.losses.sum())) if found.converged else None,
+        film_um=alone.film_um,
+        stiffness=six(state.stiffness[index]),
+        contacts=alone.contacts,
+        warnings=_warnings(bearing, found, alone, (radial, abs(axial)), float(np.hypot(*pose[3:]))),
+    )
+
+
+def _angles(alone: QuasiStatic) -> list[float]:
+    """Return the smallest and the largest contact angle, in size, of contacts that carry 1 % of the largest load."""
+    angles = [abs(c.contact_angle_deg) for c in alone.contacts if c.load_N > 0.01 * alone.max_load_N]
+    return [min(angles), max(angles)] if angles else []
+
+
+def _warnings(
+    bearing: MountedBearing, found: Equilibrium, alone: QuasiStatic, loads: tuple[float, float], tilt: float
+) -> list[str]:
+    """Return what is beyond a limit, ratings first; the load is radial and axial [N]."""
+    model = bearing.model
+    told = [
+        *load_warnings(model, *loads),
+        *warnings(1e9 * alone.max_pressure_GPa, alone.shoulders, tilt, model.geometry.kind, on_shaft=True),
+        *operating_warnings(model, on_shaft=True),
+    ]
+    if not found.converged:
+        told.append("the balls found no steady motion at this load: no friction torque")
+    return told

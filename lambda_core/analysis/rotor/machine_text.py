@@ -1,0 +1,248 @@
+"""Write the equilibrium and the modes of a machine for people."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.number_text import NONE
+from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.domain.wrapping import HEAD, wrapped
+from lambda_core.model.checks.operating_limits import operating_warnings
+
+if TYPE_CHECKING:
+    from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
+    from lambda_core.analysis.rotor.machine_modes import BearingMatrices, MachineModes
+    from lambda_core.model.machine_model import MachineModel
+
+_HEAD, _COLUMN = 24, 14
+_FAR = 10  # times the running speed: critical speeds beyond it are counted only
+_LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
+
+
+def _digits(value: float | None, digits: int = 4) -> str:
+    if value is None:
+        return NONE
+    return f"{0.0 if abs(value) < 5e-5 else value:.{digits}g}"
+
+
+def _span(values: list[float], digits: int = 3) -> str:
+    return "..".join(f"{value:.{digits}g}" for value in dict.fromkeys(values)) or NONE
+
+
+def hours(value: float | None) -> str:
+    """Write a life."""
+    if value is None:
+        return NONE
+    return f"> {_LONG_LIFE:.0f}" if value > _LONG_LIFE else f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"
+
+
+@dataclass(frozen=True)
+class _Row:
+    """One line of a table over bearings; a number in `unit`, or text that is ready."""
+
+    label: str
+    unit: str
+    value: Callable[[Any], float | list[float] | str | None]
+    digits: int = 4
+
+    def head(self, units: UnitSystem) -> str:
+        """Return what stands before the numbers."""
+        return f"{self.label} {units.unit(self.unit)}" if self.unit else self.label
+
+    def cell(self, bearing: object, units: UnitSystem) -> str:
+        """Return the number of one bearing."""
+        found = self.value(bearing)
+        if isinstance(found, str):
+            return found
+        if isinstance(found, list):
+            return _span([units.value(one, self.unit) for one in found], self.digits)
+        return _digits(None if found is None else units.value(found, self.unit), self.digits)
+
+
+# The unit of a direction that stands below the first one is that of the first.
+_ROWS = (
+    _Row("bearing", "", lambda b: str(b.title.split(" (")[0])),
+    _Row("position", "mm", lambda b: b.position_mm, 5),
+    _Row("radial load", "N", lambda b: b.radial_load_N),
+    _Row("axial load", "N", lambda b: b.axial_load_N),
+    _Row("force on shaft x", "N", lambda b: b.force_N[0]),
+    _Row("  y", "N", lambda b: b.force_N[1]),
+    _Row("  z", "N", lambda b: b.force_N[2]),
+    _Row("moment about y", "N m", lambda b: b.moment_Nm[0], 3),
+    _Row("  about z", "N m", lambda b: b.moment_Nm[1], 3),
+    _Row("displacement x", "um", lambda b: b.displacement_um[0], 3),
+    _Row("  y", "um", lambda b: b.displacement_um[1], 3),
+    _Row("  z", "um", lambda b: b.displacement_um[2], 3),
+    _Row("misalignment y", "mrad", lambda b: b.misalignment_mrad[0], 3),
+    _Row("  z", "mrad", lambda b: b.misalignment_mrad[1], 3),
+    _Row("clearance", "um", lambda b: b.clearance_um, 3),
+    _Row("loaded balls", "", lambda b: str(b.loaded_balls)),
+    _Row("Q_max", "N", lambda b: b.max_load_N),
+    _Row("p_max", "GPa", lambda b: b.max_pressure_GPa, 3),
+    _Row("contact angles", "deg", lambda b: list(b.contact_angle_deg), 3),
+    _Row("L_10h", "h", lambda b: hours(b.basic_rating_life_h)),
+    _Row("L_10rh", "h", lambda b: hours(b.reference_rating_life_h)),
+    _Row("L_nmrh", "h", lambda b: hours(b.modified_rating_life_h)),
+    _Row("static safety", "", lambda b: b.static_safety, 3),
+    _Row("friction torque", "N mm", lambda b: b.friction_torque_Nmm, 3),
+    _Row("power loss", "W", lambda b: b.power_loss_W, 3),
+    _Row("film", "um", lambda b: list(b.film_um), 2),
+    _Row("stiffness x", "N/um", lambda b: 1e-6 * b.stiffness[0][0], 3),
+    _Row("  y", "N/um", lambda b: 1e-6 * b.stiffness[1][1], 3),
+    _Row("  z", "N/um", lambda b: 1e-6 * b.stiffness[2][2], 3),
+)
+_MATRICES = (
+    *_ROWS[-3:],
+    _Row("with housing x", "N/um", lambda b: 1e-6 * b.housed_stiffness[0][0], 3),
+    _Row("  y", "N/um", lambda b: 1e-6 * b.housed_stiffness[1][1], 3),
+    _Row("  z", "N/um", lambda b: 1e-6 * b.housed_stiffness[2][2], 3),
+    _Row("damping x", "N s/m", lambda b: b.damping[0][0], 3),
+    _Row("  y", "N s/m", lambda b: b.damping[1][1], 3),
+    _Row("  z", "N s/m", lambda b: b.damping[2][2], 3),
+)
+
+
+def _table(
+    rows: tuple[_Row, ...], bearings: Sequence[BearingEquilibrium | BearingMatrices], units: UnitSystem
+) -> list[str]:
+    """Return a table with a column for each bearing."""
+    names = [bearing.name for bearing in bearings]
+    cells = [
+        (
+            row.label if row.label.startswith(" ") else row.head(units),
+            [row.cell(bearing, units) for bearing in bearings],
+        )
+        for row in rows
+    ]
+    wide = max(_COLUMN, 1 + max(len(text) for row in (names, *(row for _, row in cells)) for text in row))
+    table = [f"{head:<{_HEAD}}" + "".join(f"{text:>{wide}}" for text in row) for head, row in cells]
+    return [f"{'':<{_HEAD}}" + "".join(f"{name:>{wide}}" for name in names), *table]
+
+
+def equilibrium_text(found: MachineEquilibrium, width: int | None = None, units: UnitSystem = SI) -> str:
+    """Return what one equilibrium says: the bearings side by side, then the shaft."""
+    own = [units.sentence(line) for line in _shaft_lines(found)]
+    head = [f"{found.case}, {found.speed_rpm:.5g} 1/min", ""]
+    return "\n".join([*head, *_table(_ROWS, found.bearings, units), "", *wrapped(own, width)])
+
+
+def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem = SI) -> str:
+    """Return critical speeds, natural frequencies and the matrices of the bearings."""
+    far = _FAR * abs(found.speed_rpm) or math.inf
+    near = [one for one in found.critical_speeds if one.speed_rpm <= far] or found.critical_speeds[:1]
+    speeds = [
+        f"{_grouped(one.speed_rpm)} {_way(one.direction)}{_mostly(one.kind)}{_with_bodies(one.bodies_share)}"
+        for one in near
+    ]
+    beyond = len(found.critical_speeds) - len(near)
+    more = f"   {beyond} more beyond {_FAR} times the speed: --json" if beyond else ""
+    lines = [f"{'critical speeds':<{HEAD}}{', '.join(speeds) or NONE} 1/min{more}", ""]
+    table = [f"{'frequency Hz':<{_HEAD}}{'damping %':>{_COLUMN}}   motion"]
+    table += [
+        f"{f'{mode.frequency_Hz:.5g}':<{_HEAD}}{f'{1e2 * mode.damping_ratio:.2g}':>{_COLUMN}}   "
+        f"{mode.kind}{f', {_way(mode.direction)}' if mode.kind == 'bending' else ''}{_with_bodies(mode.bodies_share)}"
+        for mode in found.modes
+    ]
+    notes = [f"{'assumption' if i == 0 else '':<{HEAD}}{text}" for i, text in enumerate(found.assumptions)]
+    head = [f"{found.case}, {found.speed_rpm:.5g} 1/min", ""]
+    # the builder asks for the modes alone
+    matrices = [*_table(_MATRICES, found.bearings, units), ""] if found.bearings else []
+    return "\n".join([*head, *wrapped(lines, width), *table, "", *matrices, *wrapped(notes, width)])
+
+
+def _grouped(speed: float) -> str:
+    """Write a speed to five digits, without an exponent."""
+    return f"{float(f'{speed:.5g}'):.0f}" if speed >= 1e5 else f"{speed:.5g}"
+
+
+def _shaft_lines(report: MachineEquilibrium) -> list[str]:
+    """Return what there is to say of the shaft and of the whole."""
+    largest = max(
+        ((y * y + z * z) ** 0.5, place)
+        for (_, y, z), place in zip(report.deflection_um, report.positions_mm, strict=True)
+    )
+    moment = max(
+        ((y * y + z * z) ** 0.5, place)
+        for (y, z), place in zip(report.bending_moment_Nm, report.cut_positions_mm, strict=True)
+    )
+    lines = [
+        f"{'deflection':<{HEAD}}{largest[0]:.3g} um at {largest[1]:.4g} mm",
+        f"{'bending moment':<{HEAD}}{moment[0]:.4g} N m at {moment[1]:.4g} mm",
+        f"{'system life':<{HEAD}}{hours(report.system_life_h)} h (L_10rh of all bearings)",
+        f"{'friction torque':<{HEAD}}{_digits(report.friction_torque_Nmm)} N mm of all bearings",
+        f"{'drive torque':<{HEAD}}{_digits(report.drive_torque_Nm)} N m",
+    ]
+    for name, (tangential, radial, axial) in report.gears.items():
+        lines.append(f"{'gear ' + name:<{HEAD}}F_t {tangential:.4g} N   F_r {radial:.4g} N   F_a {axial:.4g} N")
+    for name, (x, y, z) in report.springs.items():
+        lines.append(f"{'spring ' + name:<{HEAD}}force x {_digits(x)} N   y {_digits(y)} N   z {_digits(z)} N")
+    for name, moved in (*report.bodies.items(), *report.markers.items()):
+        each = zip("xyz", moved.displacement_um, strict=True)
+        lines.append(f"{name:<{HEAD}}moves " + "   ".join(f"{axis} {_digits(um, 3)} um" for axis, um in each))
+    told = [*report.warnings, *(f"{one.name}: {warning}" for one in report.bearings for warning in one.warnings)]
+    lines += [f"{'WARNING':<{HEAD}}{warning}" for warning in told]
+    own = [text for text in report.assumptions if not text.startswith(_of_bearings(report))]
+    rest = f"and {len(report.assumptions) - len(own)} of the bearings and their laws: lambda-bearing check, --json"
+    return lines + [f"{'assumption' if i == 0 else '':<{HEAD}}{text}" for i, text in enumerate([*own, rest])]
+
+
+def _of_bearings(report: MachineEquilibrium) -> tuple[str, ...]:
+    """Return how an assumption of bearings begins: with a name, or with several."""
+    return tuple(f"{bearing.name}{mark}" for bearing in report.bearings for mark in (":", ","))
+
+
+def _mostly(kind: str) -> str:
+    """Return a mark for a mode in which the shaft moves across its axis among other things."""
+    return "" if kind == "bending" else f" mostly {kind}"
+
+
+def _with_bodies(share: float) -> str:
+    """Return a mark for a mode whose kinetic energy is mostly in the bodies beside the shaft."""
+    return " with bodies" if share > 0.5 else ""
+
+
+def _way(direction: float) -> str:
+    return "forward" if direction > 0.5 else "backward" if direction < -0.5 else "elliptic"
+
+
+def machine_warnings(model: MachineModel) -> list[str]:
+    """Return what does not fit on a shaft, and what of its bearings is beyond a limit, before anything is solved.
+
+    Parameters
+    ----------
+    model : MachineModel
+        From :func:`check_shaft`.
+
+    Returns
+    -------
+    list of str
+        Sentences with the names of what they are about.
+    """
+    beyond = [(one.name, operating_warnings(one.model, on_shaft=True)) for one in model.bearings]
+    return [*model.warnings, *(f"{name}: {warning}" for name, told in beyond for warning in told)]
+
+
+def model_text(model: MachineModel) -> str:
+    """Return what a resolved shaft is."""
+    length = 1e3 * model.outline[-1][1]
+    lines = [
+        f"{model.name}: shaft of {length:.6g} mm, {model.body.total_mass:.4g} kg, "
+        f"{30.0 / math.pi * model.speed:.5g} 1/min, {len(model.bearings)} bearings",
+    ]
+    for bearing in model.bearings:
+        side = {1: ", takes +x", -1: ", takes -x", 0: ""}[bearing.takes]
+        lines.append(
+            f"{bearing.name:<{HEAD}}{bearing.model.title} at {1e3 * bearing.position:.6g} mm, clearance "
+            f"{1e6 * bearing.model.geometry.clearance:.4g} um, C {1e-3 * bearing.dynamic_rating:.4g} kN, "
+            f"C_0 {1e-3 * bearing.static_rating:.4g} kN{side}"
+        )
+    for body in model.bodies:
+        lines.append(f"{body.name:<{HEAD}}body of {body.mass:.4g} kg at {1e3 * body.centre[0]:.6g} mm")
+    for name, forces in model.gears.items():
+        x, y, z = forces.force
+        lines.append(f"{'gear ' + name:<{HEAD}}force x {x:.4g} N, y {y:.4g} N, z {z:.4g} N")
+    lines += [f"{'assumption' if i == 0 else '':<{HEAD}}{text}" for i, text in enumerate(model.assumptions)]
+    return "\n".join(lines + [f"{'WARNING':<{HEAD}}{text}" for text in machine_warnings(model)])

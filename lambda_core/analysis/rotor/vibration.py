@@ -1,0 +1,225 @@
+"""Stiffness and damping of housed bearings, natural frequencies and critical speeds at the operating point."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from scipy.linalg import block_diag
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.formulas.elastic.beam import NODE
+from lambda_core.formulas.elastic.whirl import Whirl, critical_speeds, whirls
+from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel
+from lambda_core.solver.drivers.damping import damping_matrix
+from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
+from lambda_core.solver.drivers.structure import Rows, static_rows, structure
+
+_ABOUT_X = 3  # row of a node that turns about the shaft
+_COUNT = 16  # modes that are looked at
+_LATERAL = 0.5  # of the motion squared, from which on a mode counts as bending
+_SHAKEN = 0.1  # of the motion squared across the axis: from here on unbalance shakes a mode of another kind too
+_FELT = 0.01  # of the kinetic energy in the shaft: below it a mode of the bodies beside it is theirs alone
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A mode of the turning shaft: frequency [rad/s], direction (+1 forward, -1 backward), how the shaft moves."""
+
+    frequency: float
+    direction: float
+    kind: str  # bending, axial, torsion; body: of the bodies beside the shaft alone
+    damping: float = 0.0  # share of critical
+    beside: float = 0.0  # share of the kinetic energy in the bodies beside the shaft
+    lateral: float = 0.0  # share of the shaft's motion squared that is across its axis
+
+
+def housed_stiffness(model: MachineModel, state: ShaftState) -> FloatArray:
+    """Return the stiffness of each bearing with the housing behind it, on the shaft, shape (bearings, 5, 5).
+
+    What the others add through an elastic housing is left out: it stands in :func:`supported`.
+    """
+    return _of_each(_in_series(model, state.stiffness))
+
+
+def bearing_damping(model: MachineModel, equilibria: Sequence[Equilibrium]) -> FloatArray:
+    """Return the damping of each bearing for vibrations with the shaft's speed, shape (bearings, 6, 6).
+
+    Zeros at rest, and where the balls of a bearing found no steady motion.
+
+    Parameters
+    ----------
+    equilibria : sequence of Equilibrium
+        Of the bearings, with the friction of their balls.
+    """
+    turns = model.speed != 0.0
+    return np.array([
+        damping_matrix(found, model.speed) if turns and found.converged else np.zeros((NODE, NODE))
+        for found in equilibria
+    ])  # fmt: skip
+
+
+def housed_damping(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
+    """Return the damping of each bearing with the housing behind it, on the shaft, shape (bearings, 6, 6)."""
+    found = dampings.copy()
+    found[:, np.ix_(PLACES, PLACES)[0], np.ix_(PLACES, PLACES)[1]] = _of_each(
+        _damping_in_series(model, state, dampings)
+    )
+    return found
+
+
+def _of_each(whole: FloatArray) -> FloatArray:
+    """Return the blocks of the bearings, shape (bearings, 5, 5)."""
+    size = len(PLACES)
+    return np.array([whole[i : i + size, i : i + size] for i in range(0, whole.shape[0], size)])
+
+
+def _damping_in_series(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
+    """Return the damping that the shaft feels at all bearings together, shape (5 bearings, 5 bearings)."""
+    speed = abs(model.speed) or 1.0
+    whole = _joined(model, state.stiffness, springs=False) + 1j * speed * _resisting(model, dampings, springs=False)
+    return np.asarray(_seen_by_shaft(model, whole).imag / speed)
+
+
+def _in_series(model: MachineModel, each: FloatArray) -> FloatArray:
+    """Return the stiffness that the shaft feels at all bearings together, shape (5 bearings, 5 bearings).
+
+    Rings and bodies behind the bearings follow without inertia.
+    """
+    return np.asarray(_seen_by_shaft(model, _joined(model, each, springs=False)))
+
+
+def _joined(model: MachineModel, each: FloatArray, *, springs: bool = True) -> FloatArray:
+    """Return the stiffness of what joins shaft, outer rings and bodies: bearings, seats, housing, holds, springs."""
+    rows = static_rows(model)
+    found = structure(model if springs else _without_springs_of_the_shaft(model), rows)[0]
+    if model.housing is not None:
+        own = slice(rows.rings, rows.bodies)
+        found[own, own] += model.housing
+    for i, k in enumerate(each):
+        reach = _inner_against_outer(model, rows, i)
+        found += reach.T @ k @ reach
+    return found
+
+
+def _without_springs_of_the_shaft(model: MachineModel) -> MachineModel:
+    return replace(model, springs=tuple(s for s in model.springs if SHAFT not in (s.place.body, s.to)))
+
+
+def _resisting(model: MachineModel, dampings: FloatArray, *, springs: bool = True) -> FloatArray:
+    """Return the damping likewise."""
+    rows = static_rows(model)
+    found = structure(model if springs else _without_springs_of_the_shaft(model), rows)[1]
+    if model.housing_damping is not None:
+        own = slice(rows.rings, rows.bodies)
+        found[own, own] += model.housing_damping
+    for i, c in enumerate(dampings):
+        reach = _inner_against_outer(model, rows, i)
+        found += reach.T @ c[np.ix_(PLACES, PLACES)] @ reach
+    return found
+
+
+def _inner_against_outer(model: MachineModel, rows: Rows, index: int) -> FloatArray:
+    """Return how an inner ring moves against its outer one, shape (5, rows)."""
+    size = len(PLACES)
+    found: FloatArray = np.zeros((size, rows.size))
+    found[range(size), rows.node(model.bearings[index].position) + np.array(PLACES)] = 1.0
+    found[range(size), rows.rings + size * index + np.arange(size)] = -1.0
+    return found
+
+
+def _moving(model: MachineModel, rows: Rows) -> tuple[list[int], list[int]]:
+    """Return the rows of outer rings and of bodies that can move."""
+    rings: list[int] = []
+    for i, bearing in enumerate(model.bearings):
+        is_tied = model.housing is not None and bearing.carrier == GROUND
+        own = rows.rings + len(PLACES) * i
+        rings += [own + d for d, k in enumerate(bearing.seating.stiffness) if math.isfinite(k) or is_tied]
+    holds = [k for body in model.bodies for k in body.hold]
+    return rings, [rows.bodies + i for i, k in enumerate(holds) if math.isfinite(k)]
+
+
+def _seen(whole: Any, kept: Any, others: list[int]) -> Any:
+    """Return what is felt at the rows `kept` of a stiffness, the others following: K_kk - K_ko K_oo^-1 K_ok."""
+    found = np.array(whole[np.ix_(kept, kept)])
+    others = [row for row in others if abs(whole[row, row]) > 0.0]
+    if others:  # a motion that nothing holds moves nothing: the shortest solution leaves it out
+        inner = whole[np.ix_(others, others)]
+        found -= whole[np.ix_(kept, others)] @ np.linalg.lstsq(inner, whole[np.ix_(others, kept)], rcond=1e-13)[0]
+    return found
+
+
+def supported(model: MachineModel, state: ShaftState) -> FloatArray:
+    """Return the stiffness of the shaft on its bearings, and of the bodies beside it as they can move.
+
+    Shape (rows of the shaft + free motions of bodies) squared; outer rings follow without inertia.
+    """
+    found = _seen_by_masses(model, _joined(model, state.stiffness))
+    size = model.body.stiffness.shape[0]
+    found[:size, :size] += model.body.stiffness
+    return np.asarray(0.5 * (found + found.T))
+
+
+def _seen_by_masses(model: MachineModel, whole: Any) -> Any:
+    """Return what is felt by the shaft and by the free motions of bodies, outer rings following."""
+    rings, bodies = _moving(model, static_rows(model))
+    return _seen(whole, [*range(model.body.mass.shape[0]), *bodies], rings)
+
+
+def _seen_by_shaft(model: MachineModel, whole: Any) -> Any:
+    """Return what the shaft feels at its bearings, outer rings and bodies following."""
+    rings, bodies = _moving(model, static_rows(model))
+    kept = np.concatenate([model.body.rows(b.position).start + np.array(PLACES) for b in model.bearings])
+    return _seen(whole, kept, [*rings, *bodies])
+
+
+def damped(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
+    """Return the damping of the shaft by its bearings, and of springs and seats, in the rows of :func:`supported`."""
+    speed = abs(model.speed) or 1.0
+    whole = _joined(model, state.stiffness) + 1j * speed * _resisting(model, dampings)
+    found: FloatArray = _seen_by_masses(model, whole).imag / speed
+    for bearing, own in zip(model.bearings, dampings, strict=True):
+        turning = model.body.rows(bearing.position).start + _ABOUT_X
+        found[turning, turning] += own[_ABOUT_X, _ABOUT_X]
+    return found
+
+
+def masses(model: MachineModel) -> tuple[FloatArray, FloatArray]:
+    """Return mass and gyroscopic matrix in the rows of :func:`supported`."""
+    rows = static_rows(model)
+    own = [m for body in model.bodies for m in (*[body.mass] * 3, body.polar_inertia, *[body.transverse_inertia] * 2)]
+    beside = np.diag([own[row - rows.bodies] for row in _moving(model, rows)[1]])
+    return block_diag(model.body.mass, beside), block_diag(model.body.gyroscopic, np.zeros_like(beside))
+
+
+def modes_at(model: MachineModel, stiffness: FloatArray, spin: float, damping: FloatArray | None = None) -> list[Mode]:
+    """Return the lowest modes at a speed [rad/s], bearings as stiff as `stiffness` has them, damped as `damping`."""
+    mass, gyroscopic = masses(model)
+    nodes = model.body.positions.size
+    found = whirls(stiffness, mass, gyroscopic, spin, damping=damping, nodes=nodes, count=_COUNT)
+    return [_mode(model, one, mass) for one in found]
+
+
+def criticals(model: MachineModel, stiffness: FloatArray) -> list[Mode]:
+    """Return the critical speeds of the shaft across its axis, rising: bent, or swinging together with its housing."""
+    mass, gyroscopic = masses(model)
+    found = critical_speeds(stiffness, mass, gyroscopic, nodes=model.body.positions.size, count=_COUNT)
+    return [mode for mode in (_mode(model, one, mass) for one in found) if mode.lateral > _SHAKEN]
+
+
+def _mode(model: MachineModel, one: Whirl, mass: FloatArray) -> Mode:
+    size = model.body.mass.shape[0]
+    energy = np.real(np.conj(one.shape) * (mass @ one.shape))
+    beside = float(energy[size:].sum() / energy.sum())
+    if beside > 1.0 - _FELT:
+        return Mode(one.frequency, one.direction, "body", one.damping, beside)
+    square = np.abs(one.shape[: NODE * model.body.positions.size].reshape(-1, NODE)) ** 2
+    lateral, axial = square[:, 1:3].sum(), square[:, 0].sum()
+    turning = square[:, 3].sum() * 1e-4  # at a radius of a centimetre
+    share = float(lateral / (lateral + axial + turning))
+    kind = "bending" if share > _LATERAL else "axial" if axial > turning else "torsion"
+    return Mode(one.frequency, one.direction, kind, one.damping, beside, share)

@@ -1,0 +1,152 @@
+"""Answer what temperatures a bearing's or a machine's own losses give it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.case.case_io import is_machine
+from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.domain.errors import UsageError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from lambda_core.analysis.thermal.machine_temperature_report import MachineTemperatures, MachineTemperaturesOverTime
+    from lambda_core.analysis.thermal.machine_temperatures import MachineLoop
+    from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
+    from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.views.chart import ViewData
+
+
+@one_blas_thread()
+def thermal(
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    overrides: Iterable[str] = (),
+    *,
+    announce: Callable[[str], None] | None = None,
+) -> SteadyTemperatures | MachineTemperatures:
+    """Find the steady temperatures of a bearing or a machine under its own losses.
+
+    Parameters
+    ----------
+    source : str, Path, mapping, Case, ShaftCase, BearingModel or MachineModel
+        A case as for :func:`check`: the losses are those of its quasi-static point at t = 0, without a cage, which
+        follows the temperatures. Or the result file of a run: the losses are its averages, the cage's among them.
+    overrides : iterable of str
+        Changes ``path=value`` of a case.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    SteadyTemperatures or MachineTemperatures
+        Temperatures, heat flows, the gain of the torque-temperature loop.
+
+    Raises
+    ------
+    UsageError
+        For overrides of a run, whose losses are what they are.
+    CaseError
+        With every mistake of the case.
+    SolverError
+        When there are no steady temperatures: a runaway is named with the gain that caused it.
+    """
+    if is_machine(source):
+        from lambda_core.analysis.thermal.machine_temperature_report import steady_of
+
+        loop = _loop(source, overrides, announce)
+        return steady_of(loop, loop.steady())
+    from lambda_core.analysis.thermal.temperatures import run_of, steady_temperatures
+
+    run = run_of(source)
+    if run is not None and list(overrides):
+        raise UsageError("the losses of a run take no overrides: they are those of its case")
+    if run is not None and run.is_machine:
+        from lambda_core.analysis.thermal.machine_temperature_report import steady_of
+        from lambda_core.analysis.thermal.machine_temperatures import of_run
+
+        return steady_of(*of_run(run, announce), f"averages of {run.path}")
+    return steady_temperatures(source, overrides, announce)  # type: ignore[arg-type]
+
+
+@one_blas_thread()
+def warm_up(
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    duration: float,
+    overrides: Iterable[str] = (),
+    *,
+    announce: Callable[[str], None] | None = None,
+) -> TemperaturesOverTime | MachineTemperaturesOverTime:
+    """Follow the temperatures of a bearing or a machine from the start of its case, at the operation of t = 0.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`thermal`, but for results.
+    duration : float
+        How long [s].
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    TemperaturesOverTime or MachineTemperaturesOverTime
+        Also where a temperature passed ``thermal.limit``: then it ends there and says why.
+
+    Raises
+    ------
+    UsageError
+        When `duration` is not above zero.
+    CaseError
+        With every mistake of the case; a further node without a heat capacity is one.
+    SolverError
+        When a point on the way has no equilibrium, with the time reached.
+    """
+    if not duration > 0.0:
+        raise UsageError(f"a warm-up takes more than 0 s, not {duration:g} s")
+    if is_machine(source):
+        from lambda_core.analysis.thermal.machine_temperature_report import course_of
+        from lambda_core.analysis.thermal.transient import warm_up_machine
+
+        loop = _loop(source, overrides, announce)
+        return course_of(loop, warm_up_machine(loop, duration))
+    from lambda_core.analysis.thermal.temperatures import temperatures_over_time
+
+    return temperatures_over_time(source, duration, overrides, announce)  # type: ignore[arg-type]
+
+
+def thermal_pictures(
+    found: SteadyTemperatures | TemperaturesOverTime | MachineTemperatures | MachineTemperaturesOverTime,
+) -> list[ViewData]:
+    """Return what there is to see of temperatures: over time, or where the heat goes.
+
+    Parameters
+    ----------
+    found : SteadyTemperatures, TemperaturesOverTime, MachineTemperatures or MachineTemperaturesOverTime
+        From :func:`thermal` or :func:`warm_up`.
+
+    Returns
+    -------
+    list of ViewData
+        For :func:`draw`.
+    """
+    from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
+
+    if isinstance(found, SteadyTemperatures | TemperaturesOverTime):
+        from lambda_core.analysis.thermal.charts import pictures
+
+        return pictures(found)
+    from lambda_core.analysis.thermal.machine_temperature_charts import pictures as pictures_of_machine
+
+    return pictures_of_machine(found)
+
+
+def _loop(source: Any, overrides: Iterable[str], announce: Callable[[str], None] | None) -> MachineLoop:
+    from lambda_core.analysis.rotor.machine_answers import machine_of
+    from lambda_core.analysis.thermal.machine_temperatures import MachineLoop, without_temperatures
+
+    return MachineLoop(without_temperatures(machine_of(source, overrides)), announce)

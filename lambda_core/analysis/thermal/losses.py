@@ -1,0 +1,192 @@
+"""The quasi-static point as the network sees it: heat and inner conductances over inlet temperature and clearance.
+
+Of everything that the temperatures change, the laws of the contacts see two numbers: the temperature of the oil at
+their inlets and the clearance in operation.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from lambda_core.analysis.thermal.conductances import effusivity, resting_contact, rolling_contact
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import LOSSES
+from lambda_core.domain.errors import SolverError
+from lambda_core.formulas.loading import CARRYING
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.geometry.resolve_geometry import with_clearance
+from lambda_core.solver.drivers.compiled_laws import Kernels
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.records import CONTACT_CHANNELS
+
+Announce = Callable[[str], None] | None
+_ZERO_CELSIUS = 273.15
+# What a point carries behind its losses by mechanism.
+_EXTRAS = ("contact_inner", "contact_outer", "viscosity", "density", "orbit", "torque", "pressure", "film", "parameter")
+
+
+@dataclass(frozen=True)
+class Point:
+    """One quasi-static point.
+
+    Attributes
+    ----------
+    inlet, clearance : float
+        Where it is: temperature of the oil at the inlets [K], radial internal clearance [m].
+    values : float64[:], shape (25,)
+        Losses by mechanism [W]; conductance of all contacts of a ring [W/K], inner, outer; kinematic viscosity [m2/s]
+        and density [kg/m3] of the oil; orbital speed [rad/s]; friction torque [N m], largest pressure [Pa], smallest
+        central film under load [m] and smallest Lambda.
+    """
+
+    inlet: float
+    clearance: float
+    values: FloatArray
+
+    def __getitem__(self, name: str) -> float:
+        """Return one number by its name."""
+        return float(self.values[len(LOSSES) + _EXTRAS.index(name)])
+
+    def with_losses(self, losses: Mapping[str, float]) -> Point:
+        """Return the point with other losses by mechanism [W]: averages of a run."""
+        values = self.values.copy()
+        values[: len(LOSSES)] = [losses[name] for name in LOSSES]
+        torque = len(LOSSES) + _EXTRAS.index("torque")
+        values[torque] *= values[: len(LOSSES)].sum() / self.power
+        return Point(self.inlet, self.clearance, values)
+
+    def towards(self, other: Point, share: float) -> Point:
+        """Return the point at a share of the way to another one."""
+        return Point(
+            self.inlet + share * (other.inlet - self.inlet),
+            self.clearance + share * (other.clearance - self.clearance),
+            self.values + share * (other.values - self.values),
+        )
+
+    @property
+    def losses(self) -> dict[str, float]:
+        """Power by mechanism [W]."""
+        return dict(zip(LOSSES, self.values.tolist(), strict=False))
+
+    @property
+    def power(self) -> float:
+        """Dissipated power [W]."""
+        return float(self.values[: len(LOSSES)].sum())
+
+
+class Losses:
+    """The quasi-static points of one model.
+
+    Parameters
+    ----------
+    model : BearingModel
+        Resolved; its temperatures may still have to be found.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+    """
+
+    def __init__(self, model: BearingModel, announce: Announce = None) -> None:
+        self.model = dataclasses.replace(model, thermal=None)
+        self.count = 0  # points that were solved
+        self._kernels = Kernels(self.model, announce)
+        self._announce = announce
+
+    def at(self, inlet: float, clearance: float) -> Point:
+        """Solve the point at an inlet temperature [K] and a clearance [m].
+
+        Raises
+        ------
+        SolverError
+            When there is no equilibrium there, with the place.
+        """
+        self.count += 1
+        try:
+            return point_of(solve(self.there(inlet, clearance), self._kernels, self._announce))
+        except SolverError as error:
+            place = f"at {inlet - _ZERO_CELSIUS:.1f} degC in the inlets and a clearance of {1e6 * clearance:.1f} um"
+            raise SolverError(f"{place}: {error}") from error
+
+    def there(self, inlet: float, clearance: float) -> BearingModel:
+        """Return the model at an inlet temperature [K] and a clearance [m]."""
+        model = self.model
+        return dataclasses.replace(
+            model,
+            geometry=with_clearance(model.geometry, clearance),
+            oil=dataclasses.replace(model.oil, temperature=inlet),
+        )
+
+
+def point_of(found: Equilibrium) -> Point:
+    """Return the point of an equilibrium."""
+    model, oil = found.context.model, found.context.oil
+    channel = {name: found.contacts[:, :, i] for i, name in enumerate(CONTACT_CHANNELS)}
+    carrying = channel["load"] > CARRYING * channel["load"].max()
+    films, parameters = channel["film_central"][carrying], channel["film_parameter"][carrying]
+    power, speed = float(found.losses.sum()), found.relative_speed
+    extras = (
+        *contact_conductances(found),
+        oil.viscosity / oil.density,
+        oil.density,
+        found.orbit,
+        power / speed if speed > 0.0 else math.nan,
+        float(channel["max_pressure"].max()),
+        float(films.min()) if films.size else math.nan,
+        float(parameters.min()) if parameters.size else math.nan,
+    )
+    return Point(oil.temperature, model.geometry.clearance, np.array([*found.losses, *extras]))
+
+
+def contact_conductances(found: Equilibrium) -> tuple[float, float]:
+    """Return the conductance between the balls and each ring through all contacts, inner and outer [W/K]."""
+    model = found.context.model
+    ball, oil = model.ball_material, found.context.oil
+    total = [0.0, 0.0]
+    for i, ring in enumerate((model.inner_material, model.outer_material)):
+        mean = 2.0 / (1.0 / ball.thermal_conductivity + 1.0 / ring.thermal_conductivity)
+        for contact in found.contacts[:, i]:
+            value = dict(zip(CONTACT_CHANNELS, contact.tolist(), strict=True))
+            if value["load"] <= 0.0:
+                continue
+            a, b, film = value["semi_axis_a"], value["semi_axis_b"], max(value["film_central"], 1e-9)
+            passing = rolling_contact(
+                a, b, abs(value["entrainment"]), oil.thermal_conductivity / film, effusivity(ball), effusivity(ring)
+            )
+            total[i] += max(passing, resting_contact(a, b, mean))
+    return total[0], total[1]
+
+
+class LossMap:
+    """Points between solved ones: a grid that is solved where it is needed, linear in each of its cells.
+
+    A cell is 2 K by 1 um: the loss of an oil whose viscosity halves in 20 K is met to 1.5e-3 in the middle of a cell.
+    Continuous, so that an integrator can step over it.
+    """
+
+    INLET = 2.0  # [K]
+    CLEARANCE = 1e-6  # [m]
+
+    def __init__(self, losses: Losses, inlet: float, clearance: float) -> None:
+        self._losses = losses
+        self._origin = (inlet, clearance)
+        self._known: dict[tuple[int, int], FloatArray] = {}
+
+    def at(self, inlet: float, clearance: float) -> Point:
+        """Return the point at an inlet temperature [K] and a clearance [m]; see :meth:`Losses.at`."""
+        x = (inlet - self._origin[0]) / self.INLET
+        y = (clearance - self._origin[1]) / self.CLEARANCE
+        i, j = math.floor(x), math.floor(y)
+        u, v = x - i, y - j
+        corners = ((i, j, (1 - u) * (1 - v)), (i + 1, j, u * (1 - v)), (i, j + 1, (1 - u) * v), (i + 1, j + 1, u * v))
+        values = sum(weight * self._corner(k, m) for k, m, weight in corners if weight > 0.0)
+        return Point(inlet, clearance, np.asarray(values))
+
+    def _corner(self, i: int, j: int) -> FloatArray:
+        if (i, j) not in self._known:
+            inlet, clearance = self._origin[0] + i * self.INLET, self._origin[1] + j * self.CLEARANCE
+            self._known[i, j] = self._losses.at(inlet, clearance).values
+        return self._known[i, j]

@@ -1,0 +1,257 @@
+"""Find the temperatures of a machine: the equilibrium of the shaft and the losses of all bearings follow them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from lambda_core.analysis.rotor.machine_answers import machine_of
+from lambda_core.analysis.thermal.feedback import INLET_STEP, LENGTH_STEP, Loop, Steady, clearance_at, inlet_at
+from lambda_core.analysis.thermal.losses import Announce, Point, point_of
+from lambda_core.analysis.thermal.operating import averaged_losses
+from lambda_core.analysis.thermal.shaft_and_housing import network_of
+from lambda_core.case.case import merged
+from lambda_core.case.case_io import Source, toml_tables
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import SolverError
+from lambda_core.model.geometry.resolve_geometry import with_clearance
+from lambda_core.model.machine_model import MachineModel, MountedBearing
+from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.settings.machine_heat import BEARING_NODES, stretch
+from lambda_core.results.reader import Result
+from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels, solve_shaft
+
+_ZERO_CELSIUS = 273.15
+_NEAR = (2.0, 1e-6)  # inlet temperatures [K] and lengths [m] this near to others have their slopes
+_PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
+
+
+class MachineLoop(Loop):
+    """Torque and temperature of all bearings of a machine.
+
+    The contacts of each bearing see the temperature of their oil, the clearance in operation, and how far shaft and
+    housing have grown apart at its place.
+
+    Parameters
+    ----------
+    machine : MachineModel
+        Resolved, without temperatures of its own for shaft, housing and rings.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+    """
+
+    def __init__(self, machine: MachineModel, announce: Announce = None) -> None:
+        oil = float(np.mean([bearing.model.oil.temperature for bearing in machine.bearings]))
+        super().__init__(machine.name, network_of(machine), machine.heat.section, oil)
+        self.machine = replace(machine, awaits_temperatures=False)
+        count = len(machine.bearings)
+        self.steps = np.array([INLET_STEP] * count + [LENGTH_STEP] * (2 * count))
+        self._cells = np.array([_NEAR[0]] * count + [_NEAR[1]] * (2 * count))
+        self._known: tuple[FloatArray, FloatArray] | None = None  # what was seen, and the slopes there
+        self._announce, self._kernels, self._count = announce, SharedKernels(announce), 0
+
+    def seen(self, temperatures: FloatArray) -> FloatArray:
+        """Return inlet temperatures [K], clearances [m], and growth of the shaft beyond the housing's [m]."""
+        at, heat = self.nodes.named(temperatures), self.machine.heat
+        inlets, clearances = [], []
+        for bearing in self.machine.bearings:
+            own = {node: at[name] for node in BEARING_NODES if (name := f"{bearing.name}.{node}") in at}
+            own |= {"housing": at["housing"]} if "housing" in at else {}
+            inlets.append(inlet_at(heat.bearings[bearing.name], own))
+            clearances.append(clearance_at(bearing.model, own))
+        return np.array([*inlets, *clearances, *self.grown(at)])
+
+    def grown(self, at: Mapping[str, float]) -> FloatArray:
+        """Return how far the shaft at each bearing has grown beyond the housing [m].
+
+        Where the network has no shaft or no housing, they have the mean temperature of the inner or outer rings.
+        """
+        machine, heat = self.machine, self.machine.heat
+        places = np.array([bearing.position for bearing in machine.bearings])
+        along = machine.body.positions
+        warm = np.array([at.get(name, _mean(machine, at, "inner_ring")) for name in heat.shaft])
+        around = np.full(2, at.get("housing", _mean(machine, at, "outer_ring")))
+        ends = np.array([along.min(), along.max()])
+        found: FloatArray = stretch(places, along, warm, heat.material) - stretch(places, ends, around, heat.housing)
+        return found
+
+    def there(self, seen: FloatArray) -> MachineModel:
+        """Return the machine at what the contacts see; growth shifts the outer rings the other way."""
+        inlets, clearances, grown = seen.reshape(3, -1).tolist()
+        mounted = zip(self.machine.bearings, inlets, clearances, grown, strict=True)
+        return replace(self.machine, bearings=tuple(_warm(*one) for one in mounted))
+
+    def solved(self, seen: FloatArray) -> tuple[Point, ...]:
+        """Solve shaft and bearings, and return the point of each bearing.
+
+        Raises
+        ------
+        SolverError
+            When there is no equilibrium, with the temperatures.
+        """
+        self._count += 1
+        try:
+            state = solve_shaft(self.there(seen), self._announce, self._kernels)
+            found = [ring.equilibrium() for ring in state.rings]
+            for bearing, one in zip(self.machine.bearings, found, strict=True):
+                if not one.converged:
+                    raise SolverError(f"the balls of {bearing.name} found no steady motion")
+        except SolverError as error:
+            raise SolverError(f"{self._place(seen)}: {error}") from error
+        return tuple(map(point_of, found))
+
+    def slopes(
+        self, seen: FloatArray, points: Sequence[Point], temperatures: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the slopes; d(steady temperatures)/d(seen) is that of a near place where one is known."""
+        known = self._known
+        if known is not None and float((np.abs(seen - known[0]) / self._cells).max()) <= 1.0:
+            return known[1], self.inward(temperatures)
+        outward, inward = super().slopes(seen, points, temperatures)
+        self._known = (seen, outward)
+        return outward, inward
+
+    def _place(self, seen: FloatArray) -> str:
+        inlets, clearances, _ = seen.reshape(3, -1).tolist()
+        parts = [
+            f"{bearing.name} {inlet - _ZERO_CELSIUS:.1f} degC and {1e6 * clearance:.1f} um"
+            for bearing, inlet, clearance in zip(self.machine.bearings, inlets, clearances, strict=True)
+        ]
+        return f"at inlets and clearances of {', '.join(parts)}"
+
+    @property
+    def count(self) -> int:
+        """Quasi-static points that were solved."""
+        return self._count
+
+
+def _mean(machine: MachineModel, at: Mapping[str, float], part: str) -> float:
+    return float(np.mean([at[f"{bearing.name}.{part}"] for bearing in machine.bearings]))
+
+
+def _warm(mounted: MountedBearing, inlet: float, clearance: float, grown: float) -> MountedBearing:
+    """Return a bearing at a temperature of its oil and a clearance, its outer ring moved against the shaft's growth."""
+    model, seating = mounted.model, mounted.seating
+    model = replace(
+        model,
+        geometry=with_clearance(model.geometry, clearance),
+        oil=replace(model.oil, temperature=inlet),
+    )
+    shift = (seating.shift[0] - grown, *seating.shift[1:])
+    return replace(mounted, model=model, seating=replace(seating, shift=shift))
+
+
+def ready_machine_of(
+    source: Source | MachineModel, overrides: Iterable[str] = (), announce: Callable[[str], None] | None = None
+) -> MachineModel:
+    """Return the resolved machine of a case, at its own temperatures where it wants them computed.
+
+    Parameters
+    ----------
+    source : str, Path, mapping, ShaftCase or MachineModel
+        As for :func:`check_shaft`, or what it returned.
+    overrides : iterable of str
+        Changes ``path=value``.
+    announce : callable, optional
+        Called with a sentence before something is compiled, and with the temperatures found.
+
+    Returns
+    -------
+    MachineModel
+        Its case has the temperatures written in, so that a result needs no search when it goes on or is looked at.
+
+    Raises
+    ------
+    UsageError
+        For overrides of a resolved machine.
+    CaseError, SolverError
+        With a sentence about the case, or about why there are no steady temperatures.
+    """
+    machine = machine_of(source, overrides)
+    if not machine.awaits_temperatures:
+        return machine
+    loop = MachineLoop(machine, announce)
+    found = loop.steady()
+    sentence = _sentence(loop, found)
+    if announce is not None:
+        announce(sentence)
+    return check_shaft(_with_temperatures(loop, found, sentence))
+
+
+def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Steady]:
+    """Return the steady temperatures that the averaged losses of a machine's run would give, cages and all.
+
+    Conductances are those of the equilibrium at the temperatures that the run was made with.
+    """
+    machine = check_shaft(toml_tables(result.case_toml, str(result.path)))
+    loop = MachineLoop(without_temperatures(machine), announce)
+    state = solve_shaft(machine, announce)
+    measured = tuple(
+        point_of(ring.equilibrium()).with_losses(averaged_losses(result.of_bearing(bearing.name), bearing.model))
+        for ring, bearing in zip(state.rings, machine.bearings, strict=True)
+    )
+    temperatures, network = loop.answer(measured, loop.first_guess())
+    seen = loop.seen(temperatures)
+    gain = loop.gain(*loop.slopes(seen, loop.solved(seen), temperatures))
+    return loop, Steady(temperatures, measured, network, gain, 1)
+
+
+def without_temperatures(machine: MachineModel) -> MachineModel:
+    """Return the machine with all its temperatures to be computed, whatever its case gives."""
+    if machine.awaits_temperatures:
+        return machine
+    tables = toml_tables(machine.case_toml, machine.name)
+    for name in ("shaft", "housing"):
+        kept = {key: value for key, value in tables.get(name, {}).items() if not key.startswith("temperature")}
+        tables |= {name: kept} if name in tables else {}
+    bearings = {}
+    for name, given in tables["bearings"].items():
+        parts = {key: value for key, value in given.get("temperatures", {}).items() if key not in _PARTS}
+        bearings[name] = {key: value for key, value in given.items() if key != "temperatures"}
+        bearings[name] |= {"temperatures": parts} if parts else {}
+    tables |= {"bearings": bearings, "operation": {**tables["operation"], "temperatures": "computed"}}
+    return check_shaft(tables)
+
+
+def _with_temperatures(loop: MachineLoop, found: Steady, sentence: str) -> dict[str, Any]:
+    """Return the tables of the case with the temperatures that were found."""
+    machine, at = loop.machine, loop.nodes.named(found.temperatures)
+    tables = toml_tables(machine.case_toml, machine.name)
+    bearings = {}
+    for bearing, point in zip(machine.bearings, found.points, strict=True):
+        own = {part: at.get(f"{bearing.name}.{part}", at.get(part, math.nan)) for part in _PARTS}
+        parts = {part: _degrees(value) for part, value in own.items() if math.isfinite(value)}
+        bearings[bearing.name] = {"temperatures": parts, "lubricant": {"temperature": _degrees(point.inlet)}}
+    nodes = zip(machine.heat.shaft, machine.body.positions.tolist(), strict=True)
+    warm = {x: at.get(name, _mean(machine, at, "inner_ring")) for name, x in nodes}
+    along = [{"at": f"{1e3 * x:.9g} mm", "temperature": _degrees(value)} for x, value in warm.items()]
+    changed = merged(
+        tables,
+        {
+            "assumptions": [*tables.get("assumptions", []), sentence],
+            "bearings": bearings,
+            "shaft": {"temperatures": along},
+            "housing": {"temperature": _degrees(at.get("housing", _mean(machine, at, "outer_ring")))},
+        },
+    )
+    changed["operation"] = {key: value for key, value in changed["operation"].items() if key != "temperatures"}
+    return changed
+
+
+def _degrees(temperature: float) -> str:
+    return f"{temperature - _ZERO_CELSIUS:.4f} degC"
+
+
+def _sentence(loop: MachineLoop, found: Steady) -> str:
+    at = loop.nodes.named(found.temperatures)
+    each = [
+        f"{bearing.name} inner ring {at[f'{bearing.name}.inner_ring'] - _ZERO_CELSIUS:.1f}, "
+        f"outer ring {at[f'{bearing.name}.outer_ring'] - _ZERO_CELSIUS:.1f}, oil {point.inlet - _ZERO_CELSIUS:.1f}"
+        for bearing, point in zip(loop.machine.bearings, found.points, strict=True)
+    ]
+    housing = f"; housing {at['housing'] - _ZERO_CELSIUS:.1f}" if "housing" in at else ""
+    return f"temperatures found by the thermal network ({loop.thermal.conductances}): {'; '.join(each)}{housing} degC"

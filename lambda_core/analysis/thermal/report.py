@@ -1,0 +1,254 @@
+"""Temperatures in the words of the machine interface: steady, and over time."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.analysis.thermal.feedback import BearingLoop, Gain, Loop, Steady, runaway_sentence
+from lambda_core.analysis.thermal.losses import Point
+from lambda_core.analysis.thermal.network import Network
+from lambda_core.analysis.thermal.transient import Course, rise_time
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.model.checks.describe import headline
+from lambda_core.model.geometry.resolve_clearance import CLEARANCE_HOLDS
+from lambda_core.model.settings.resolve_thermal import network_assumptions
+from lambda_core.results.averages import finite
+from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.summary import merged_cage
+
+_ZERO_CELSIUS = 273.15
+
+
+class LoopGain(Record):
+    """Gain of the torque-temperature loop: from 1 on it feeds itself."""
+
+    loop: float = Field(description="largest real part of the eigenvalues of the loop")
+    clearance: float = Field(description="of the clearance on itself: temperatures take clearance, preload heats")
+    viscosity: float = Field(description="of the inlet temperature on itself: negative where thinner oil loses less")
+
+    @classmethod
+    def of(cls, gain: Gain) -> LoopGain:
+        """Take it over."""
+        return cls(loop=gain.loop, clearance=gain.clearance, viscosity=gain.viscosity)
+
+
+class HeatFlow(Record):
+    """Heat between two nodes, in the direction in which it flows."""
+
+    source: str
+    target: str
+    heat_W: float
+    conductance_W_per_K: float
+
+
+class State(Record):
+    """What belongs to the temperatures at one moment."""
+
+    friction_torque_Nmm: float | None
+    power_loss_W: float = Field(description="dissipated in the bearing")
+    viscosity_mm2_per_s: float = Field(description="kinematic, at the inlets of the contacts")
+    inlet_degC: float = Field(description="temperature of the oil at the inlets of the contacts")
+    clearance_um: float = Field(description="radial internal clearance in operation; negative is preload")
+    max_pressure_GPa: float
+    film_um: float | None = Field(description="smallest central film under load")
+    film_parameter: float | None = Field(description="smallest Lambda under load")
+
+
+class SteadyTemperatures(Record):
+    """Temperatures at which every node passes on the heat that it gets.
+
+    Attributes
+    ----------
+    kind : str
+        Tells the two answers about temperatures apart.
+    """
+
+    interface: int = INTERFACE
+    kind: Literal["steady"] = "steady"
+    case: str
+    title: str
+    headline: str
+    losses_from: str = Field(description="quasi-static point, or the averages of a run")
+    conductances: str = Field(description="ready set")
+    temperatures_degC: dict[str, float] = Field(description="by node")
+    heat_W: dict[str, float] = Field(description="put in at each node, by losses and by the case")
+    losses_W: dict[str, float | None] = Field(description="by mechanism; the cage's contacts as one")
+    flows: list[HeatFlow] = Field(description="between nodes, the largest first")
+    state: State = Field(description="what the contacts make of the temperatures")
+    gain: LoopGain = Field(description="of the torque-temperature loop")
+    energy_residual: float = Field(description="(heat put in - heat that leaves)/heat put in")
+    iterations: int = Field(description="of Newton's method")
+    network_assumptions: list[str] = Field(description="of the thermal network, and what it fills in")
+    assumptions: list[str] = Field(description="other assumptions of the case")
+
+    def text(self, units: UnitSystem = SI) -> str:
+        """Return the lines for people."""
+        from lambda_core.analysis.thermal.temperature_lines import steady_text
+
+        return units.sentence(steady_text(self))
+
+
+class TemperaturesOverTime(Record):
+    """What the temperatures do from a start.
+
+    Attributes
+    ----------
+    kind : str
+        Tells the two answers about temperatures apart.
+    """
+
+    interface: int = INTERFACE
+    kind: Literal["transient"] = "transient"
+    case: str
+    title: str
+    headline: str
+    conductances: str = Field(description="ready set")
+    ended: Literal["finished", "limit"] = Field(description="limit: a node passed thermal.limit")
+    reason: str = Field(description="why it ended before its time; empty when it did not")
+    time_s: list[float]
+    temperatures_degC: dict[str, list[float]] = Field(description="by node, one for each time")
+    friction_torque_Nmm: list[float | None]
+    power_loss_W: list[float] = Field(description="dissipated in the bearing")
+    clearance_um: list[float]
+    viscosity_mm2_per_s: list[float]
+    film_um: list[float | None]
+    rise_63_s: dict[str, float | None] = Field(description="time after which 63 % of the node's rise is done")
+    smallest_clearance_um: float
+    heat_in_J: float = Field(description="by losses and by the case")
+    heat_out_J: float = Field(description="through the nodes that are held")
+    heat_stored_J: float = Field(description="in the others")
+    energy_residual: float = Field(description="(in - out - stored)/in")
+    points_solved: int = Field(description="quasi-static points; those between are interpolated")
+    gain: LoopGain | None = Field(description="at the end, where the limit was passed")
+    network_assumptions: list[str] = Field(description="of the thermal network, and what it fills in")
+    assumptions: list[str] = Field(description="other assumptions of the case")
+
+    def text(self, units: UnitSystem = SI) -> str:
+        """Return the lines for people."""
+        from lambda_core.analysis.thermal.temperature_lines import course_text
+
+        return units.sentence(course_text(self))
+
+
+def _assumptions(loop: BearingLoop) -> tuple[list[str], list[str]]:
+    """Return the assumptions of the network and those of the case."""
+    found = network_assumptions(loop.thermal)
+    if loop.model.mounting is not None and not loop.model.mounting.shaft:
+        found.append("the stated clearance is that of the mounted bearing at the reference temperature")
+    # What the case assumes of the clearance holds for temperatures that are not those found here.
+    passed = ("clearance in operation", CLEARANCE_HOLDS)
+    return found, [text for text in loop.model.assumptions if text not in found and not text.startswith(passed)]
+
+
+def _headline(loop: BearingLoop, point: Point) -> str:
+    """Return the lines that say what the bearing is, at the temperatures found."""
+    return "\n".join(headline(loop.losses.there(point.inlet, point.clearance)))
+
+
+def steady_of(loop: BearingLoop, found: Steady, losses_from: str = "quasi-static point") -> SteadyTemperatures:
+    """Put steady temperatures into the units of the interface."""
+    model, network = loop.model, found.network
+    of_network, of_case = _assumptions(loop)
+    names = loop.nodes.names
+    heat = float(network.heat.sum())
+    return SteadyTemperatures(
+        case=model.name,
+        title=model.title,
+        headline=_headline(loop, found.points[0]),
+        losses_from=losses_from,
+        conductances=loop.thermal.conductances,
+        temperatures_degC=dict(zip(names, (found.temperatures - _ZERO_CELSIUS).tolist(), strict=True)),
+        heat_W=dict(zip(names, network.heat.tolist(), strict=True)),
+        losses_W=in_watts(found.points[0].losses),
+        flows=flows_of(network, found.temperatures),
+        state=state_of(found.points[0]),
+        gain=LoopGain.of(found.gain),
+        energy_residual=(heat - network.leaving(found.temperatures)) / heat if heat > 0.0 else 0.0,
+        iterations=found.iterations,
+        network_assumptions=of_network,
+        assumptions=of_case,
+    )
+
+
+def flows_of(network: Network, temperatures: FloatArray) -> list[HeatFlow]:
+    """Return the heat between all nodes of a network, the largest first."""
+    names, flows = network.names, network.flows(temperatures)
+    pairs = [(i, j) for i in range(len(names)) for j in range(len(names)) if flows[i, j] > 0.0]
+    return [
+        HeatFlow(
+            source=names[i],
+            target=names[j],
+            heat_W=float(flows[i, j]),
+            conductance_W_per_K=float(network.conductance[i, j]),
+        )
+        for i, j in sorted(pairs, key=lambda pair: -flows[pair])
+    ]
+
+
+def in_watts(losses: dict[str, float]) -> dict[str, float | None]:
+    """Return losses by mechanism, the contacts of the cage as one [W]."""
+    return {name: None if value is None else 1e-3 * value for name, value in merged_cage(losses).items()}
+
+
+def state_of(point: Point) -> State:
+    """Put a quasi-static point into the units of the interface."""
+    return State(
+        friction_torque_Nmm=finite(1e3 * point["torque"]),
+        power_loss_W=point.power,
+        viscosity_mm2_per_s=1e6 * point["viscosity"],
+        inlet_degC=point.inlet - _ZERO_CELSIUS,
+        clearance_um=1e6 * point.clearance,
+        max_pressure_GPa=1e-9 * point["pressure"],
+        film_um=finite(1e6 * point["film"]),
+        film_parameter=finite(point["parameter"]),
+    )
+
+
+def course_of(loop: BearingLoop, course: Course) -> TemperaturesOverTime:
+    """Put temperatures over time into the units of the interface."""
+    model, names = loop.model, loop.nodes.names
+    points = [point for (point,) in course.points]
+    of_network, of_case = _assumptions(loop)
+    celsius = course.temperatures - _ZERO_CELSIUS
+    return TemperaturesOverTime(
+        case=model.name,
+        title=model.title,
+        headline=_headline(loop, points[-1]),
+        conductances=loop.thermal.conductances,
+        ended="limit" if course.beyond_limit else "finished",
+        reason=reason_of(loop, course),
+        time_s=course.time.tolist(),
+        temperatures_degC={name: celsius[:, i].tolist() for i, name in enumerate(names)},
+        friction_torque_Nmm=[finite(1e3 * point["torque"]) for point in points],
+        power_loss_W=[point.power for point in points],
+        clearance_um=[1e6 * point.clearance for point in points],
+        viscosity_mm2_per_s=[1e6 * point["viscosity"] for point in points],
+        film_um=[finite(1e6 * point["film"]) for point in points],
+        rise_63_s={name: finite(rise_time(course, i, 1.0 - math.exp(-1.0))) for i, name in enumerate(names)},
+        smallest_clearance_um=1e6 * min(point.clearance for point in points),
+        heat_in_J=course.put_in,
+        heat_out_J=course.taken_out,
+        heat_stored_J=course.stored,
+        energy_residual=course.residual,
+        points_solved=course.solved,
+        gain=LoopGain.of(course.gain) if course.gain else None,
+        network_assumptions=of_network,
+        assumptions=of_case,
+    )
+
+
+def reason_of(loop: Loop, course: Course) -> str:
+    """Say why a course ended before its time; empty when it did not."""
+    if not course.beyond_limit:
+        return ""
+    last = np.where(np.isnan(loop.nodes.held), course.temperatures[-1], -math.inf)
+    hottest = loop.nodes.names[int(np.argmax(last))]
+    what = f"{hottest.replace('_', ' ')} passed thermal.limit = {loop.thermal.limit - _ZERO_CELSIUS:g} degC"
+    feeding = course.gain is not None and course.gain.loop >= 1.0
+    cause = f"{runaway_sentence(course.gain)}; " if feeding and course.gain else ""
+    return f"{cause}{what} after {course.time[-1]:.4g} s"

@@ -1,0 +1,99 @@
+"""Temperatures in lines for people."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lambda_core.domain.number_text import number
+from lambda_core.results.text import assumption_lines, line
+
+if TYPE_CHECKING:
+    from lambda_core.analysis.thermal.report import LoopGain, SteadyTemperatures, TemperaturesOverTime
+
+_ROWS = 12  # of the table over time
+
+
+def steady_text(found: SteadyTemperatures) -> str:
+    """Return what steady temperatures say: nodes, flows, what the contacts make of them."""
+    state = found.state
+    nodes = [
+        f"  {name.replace('_', ' '):<14}{number(value):>9} degC{number(found.heat_W[name], 2):>11} W"
+        for name, value in found.temperatures_degC.items()
+    ]
+    flows = [
+        f"  {flow.source.replace('_', ' '):>14} -> {flow.target.replace('_', ' '):<14}{number(flow.heat_W, 2):>9} W"
+        f"{number(flow.conductance_W_per_K, 2):>11} W/K"
+        for flow in found.flows
+    ]
+    return "\n".join(
+        [
+            found.headline,
+            line("losses", found.losses_from, f"{number(state.power_loss_W)} W"),
+            line("temperatures", f"conductances {found.conductances}", "(heat input in the last column)"),
+            *nodes,
+            line("heat flows"),
+            *flows,
+            line("friction torque", f"{number(state.friction_torque_Nmm)} N mm"),
+            line(
+                "contacts",
+                f"inlets {number(state.inlet_degC)} degC",
+                f"{number(state.viscosity_mm2_per_s, 2)} mm2/s",
+                f"film {number(state.film_um, 3)} um",
+                f"Lambda {number(state.film_parameter, 2)}",
+                f"p_max {number(state.max_pressure_GPa, 3)} GPa",
+            ),
+            line("clearance", f"{number(state.clearance_um)} um in operation"),
+            line("loop gain", gain_text(found.gain)),
+            line("energy residual", f"{found.energy_residual:.1e} of input"),
+            *_assumed(found),
+        ]
+    )
+
+
+def course_text(found: TemperaturesOverTime) -> str:
+    """Return what temperatures over time say: a table, times of rise, the balance."""
+    names = list(found.temperatures_degC)
+    last = len(found.time_s) - 1
+    rows = sorted({round(k * last / (_ROWS - 1)) for k in range(_ROWS)})
+    head = "".join(f"{name.replace('_', ' '):>12}" for name in names)
+    table = [f"{'time s':>9}{head}{'loss W':>10}{'clear. um':>11}"]
+    for k in rows:
+        values = "".join(f"{found.temperatures_degC[name][k]:>12.1f}" for name in names)
+        table.append(f"{found.time_s[k]:>9.0f}{values}{found.power_loss_W[k]:>10.1f}{found.clearance_um[k]:>11.1f}")
+    rises = [f"{name.replace('_', ' ')} {number(value, 0)} s" for name, value in found.rise_63_s.items() if value]
+    lines = [
+        found.headline,
+        line("temperatures", f"degC, conductances {found.conductances}"),
+        *table,
+        line("63 % of the rise", *rises),
+        line("clearance", f"smallest {number(found.smallest_clearance_um)} um"),
+        line(
+            "heat",
+            f"in {number(found.heat_in_J / 1e3)} kJ",
+            f"out {number(found.heat_out_J / 1e3)} kJ",
+            f"stored {number(found.heat_stored_J / 1e3)} kJ",
+            f"residual {found.energy_residual:.1e}",
+        ),
+        line("points", f"{found.points_solved} quasi-static points solved"),
+    ]
+    if found.gain is not None:
+        lines.append(line("loop gain", gain_text(found.gain)))
+    lines += _assumed(found)
+    if found.reason:
+        lines.append(line("ENDED EARLY", found.reason))
+    return "\n".join(lines)
+
+
+def _assumed(found: SteadyTemperatures | TemperaturesOverTime) -> list[str]:
+    """Return what the network assumes in full, and where the rest stands."""
+    return [
+        *(line("network" if i == 0 else "", text) for i, text in enumerate(found.network_assumptions)),
+        *assumption_lines(found.assumptions),
+    ]
+
+
+def gain_text(gain: LoopGain) -> str:
+    """Return the gain of the torque-temperature loop with its two parts."""
+    # what rounds to nothing has no sign; a format of numbers would say -0.00
+    clearance, viscosity, loop = (round(part, 2) + 0.0 for part in (gain.clearance, gain.viscosity, gain.loop))
+    return f"{loop:.2f}   (clearance {clearance:+.2f}, viscosity {viscosity:+.2f}; from 1 on: runaway)"

@@ -1,0 +1,92 @@
+"""Find the temperatures of one bearing under its own losses, steady and over time."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.model.checking import model_of, resolve
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
+    from lambda_core.case.case import Case
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.results.reader import Result
+
+
+def steady_temperatures(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    announce: Callable[[str], None] | None = None,
+) -> SteadyTemperatures:
+    """Find the steady temperatures of one bearing; see :func:`lambda_core.api.thermal`."""
+    from lambda_core.analysis.thermal.feedback import BearingLoop
+    from lambda_core.analysis.thermal.operating import of_run
+    from lambda_core.analysis.thermal.report import steady_of
+
+    run = run_of(source)
+    if run is not None:
+        from lambda_core.case.case_io import parse_case
+
+        loop, found = of_run(run, resolve(parse_case(run.case_toml, str(run.path))), announce)
+        return steady_of(loop, found, f"averages of {run.path}")
+    model = model_of(source, overrides)
+    loop = BearingLoop(model, _section(model), announce)
+    return steady_of(loop, loop.steady())
+
+
+def temperatures_over_time(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    duration: float,
+    overrides: Iterable[str] = (),
+    announce: Callable[[str], None] | None = None,
+) -> TemperaturesOverTime:
+    """Follow the temperatures of one bearing; see :func:`lambda_core.api.warm_up`."""
+    from lambda_core.analysis.thermal.feedback import BearingLoop
+    from lambda_core.analysis.thermal.report import course_of
+    from lambda_core.analysis.thermal.transient import warm_up
+
+    model = model_of(source, overrides)
+    loop = BearingLoop(model, _section(model), announce)
+    return course_of(loop, warm_up(loop, duration))
+
+
+def ready_model(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    announce: Callable[[str], None] | None = None,
+    *,
+    is_static: bool = False,
+) -> BearingModel:
+    """Return the resolved model of a case as it runs: at its own temperatures, where it wants them computed.
+
+    With `is_static` it is for an equilibrium, which needs no end in time.
+
+    Raises
+    ------
+    CaseError, SolverError
+        With a sentence about the case, or about why there are no steady temperatures.
+    """
+    model = model_of(source, overrides, is_static=is_static)
+    if model.thermal is None:
+        return model
+    from lambda_core.analysis.thermal.operating import at_own_temperatures
+
+    return at_own_temperatures(model, partial(resolve, is_static=is_static), announce)
+
+
+def run_of(source: object) -> Result | None:
+    """Return the run whose result file this is; None for anything else."""
+    from lambda_core.results.reader import Result
+
+    is_file = isinstance(source, str | Path) and Path(source).suffix == ".h5" and Path(source).is_file()
+    return Result(Path(str(source))) if is_file else None
+
+
+def _section(model: BearingModel) -> Any:
+    from lambda_core.case.case_io import parse_case
+
+    return model.thermal or parse_case(model.case_toml, model.name).thermal

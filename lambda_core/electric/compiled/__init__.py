@@ -1,5 +1,0 @@
-"""Compiled code of the electric network. Nothing here is imported before a network is integrated through time.
-
-The folder's sources are hashed into the name of the compiled-code cache; only the entry point of
-:mod:`lambda_core.electric.compiled.switching` is cached.
-"""

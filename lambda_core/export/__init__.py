@@ -1,0 +1,1 @@
+"""Machines for other programs and documents: FMU, ROSS, stiffness, report."""

@@ -1,0 +1,302 @@
+"""The header that is written for each case: what the library's C has to know of it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from lambda_core.analysis.electric import columns as circuit_columns
+from lambda_core.domain.channels import RINGS, SHORTED
+from lambda_core.export.fmu.circuit_image import NUMBERS
+from lambda_core.export.fmu.frozen import Frozen
+from lambda_core.export.fmu.variables import Variable, control
+from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY
+from lambda_core.formulas.loading import CARRYING
+from lambda_core.laws.jit.portable import features, known_processor
+from lambda_core.results.limits import THINNEST_FILM, Grooves, highest_pressure
+from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.fault_roles import ROLES
+from lambda_core.solver.arrays.integrator_memory import COUNT
+from lambda_core.solver.drivers.ball_paths import NO_PATH, PATH_ITERATIONS, PATH_SHARE, PATH_TOLERANCE
+from lambda_core.solver.drivers.equilibrium import MAX_ITERATIONS
+from lambda_core.solver.drivers.given import MOST_ITERATIONS, MOST_ITERATIONS_PER_SECOND
+from lambda_core.solver.drivers.ring_values import rings_of_contacts
+from lambda_core.solver.records import STATIC_REPORT
+from lambda_core.solver.status import Status
+
+# What a processor must have that is called so.
+_NAMED = {
+    "x86-64-v2": ("sse4.2", "popcnt"),
+    "x86-64-v3": ("avx2", "fma", "bmi", "bmi2"),
+    "x86-64-v4": ("avx2", "fma", "bmi", "bmi2", "avx512f", "avx512vl", "avx512dq", "avx512bw", "avx512cd"),
+}
+# Where the processor says that it has them: leaf of the instruction cpuid, register (1: ebx, 2: ecx), bit.
+_CPUID = {
+    "sse4.2": (1, 2, 20),
+    "popcnt": (1, 2, 23),
+    "avx": (1, 2, 28),
+    "fma": (1, 2, 12),
+    "bmi": (7, 1, 3),
+    "avx2": (7, 1, 5),
+    "bmi2": (7, 1, 8),
+    "avx512f": (7, 1, 16),
+    "avx512dq": (7, 1, 17),
+    "avx512cd": (7, 1, 28),
+    "avx512bw": (7, 1, 30),
+    "avx512vl": (7, 1, 31),
+}
+_WIDE = {"avx512": 0xE6, "avx": 0x6}  # registers that the system must keep for features that begin so
+_LOST_STEP = 1e-30  # [s] beside t = 0 shorter ones are numbers still, whose inverse squares are none
+_LONGEST_STEP = 1e3  # [s] an hour or so of computing
+_CALM = 0.1  # [s] after which a limit that is passed again is told again
+# What it looks at in a contact, to tell limits.
+_LOOKED_AT = (
+    "load", "contact_angle", "max_pressure", "semi_axis_a", "film_parameter", "asperity_share", "semi_axis_b",
+    "film_central", "film_minimum", "entrainment", "capacitance_hertz", "capacitance",
+)  # fmt: skip
+
+
+def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
+    """Return what the library's C has to know of a case."""
+    image, fault = frozen.image, frozen.image.place(frozen.fault) + _at(R.SCRATCH, "fault")
+    numbers = {
+        "IMAGE_SIZE": image.size,
+        "KEPT_SIZE": image.kept,
+        "HOST": image.place(frozen.host),
+        "CONTROL_TIME": control(frozen, "time"),
+        "CONTROL_STOP": control(frozen, "stop"),
+        "SAMPLES_WAITING": image.place(frozen.memory.count) + _at(COUNT, "samples_waiting"),
+        "ITERATIONS": image.place(frozen.memory.count) + _at(COUNT, "newton_iterations"),
+        "LOST_STEP": _LOST_STEP,
+        "LONGEST_STEP": _LONGEST_STEP,
+        "MOST_ITERATIONS": MOST_ITERATIONS,
+        "MOST_ITERATIONS_PER_SECOND": MOST_ITERATIONS_PER_SECOND,
+        "PRESSURE": next(i for i, v in enumerate(variables) if v.name == "bearing.max_pressure"),
+        "FAULT_ROLE": fault + _at(R.FAULT, "role"),
+        "FAULT_STATUS": fault + _at(R.FAULT, "status"),
+        "FAULT_BALL": fault + _at(R.FAULT, "ball"),
+        "FAULT_INPUTS": fault + _at(R.FAULT, "inputs"),
+        "LOSSES": image.place(frozen.scratch.rates),
+        "INTEGRALS": image.place(frozen.memory.integrals),
+        "LOSS_COUNT": frozen.losses,
+        "RELATIVE_SPEED": frozen.rate("relative_speed"),
+        "RELATIVE_ANGLE": frozen.integral("relative_speed"),
+        "STATUS_OK": int(Status.OK),
+        "STATUS_REFUSED": int(Status.REFUSED),
+        "STATUS_STEP_TOO_SMALL": int(Status.STEP_TOO_SMALL),
+        "VARIABLES": len(variables),
+        **{f"TERM_{name.upper()}": _at(R.TERM, name) for name in ("value", "rate", "acceleration", "begin")},
+        **_limit_numbers(frozen),
+        **_start_numbers(frozen),
+        **_circuit_numbers(frozen),
+        **_slope_numbers(frozen),
+    }
+    needed = _needed()
+    lines = ['#include "token.h"']
+    lines += [f"#define LB_{name} {number}" for name, number in numbers.items()]
+    lines += [f'#define LB_PROCESSOR "{known_processor()} ({", ".join(needed)})"']
+    kept = next((mask for head, mask in _WIDE.items() if any(name.startswith(head) for name in needed)), 0)
+    lines += [f"#define LB_REGISTERS {kept}"]
+    places = ", ".join(f"{{{leaf}, {register}, {bit}}}" for leaf, register, bit in map(_CPUID.__getitem__, needed))
+    lines += [f"static const unsigned lb_needs[][3] = {{{places}}};"]
+    lines += [f"static const uint32_t lb_relocations[][2] = {{{_pairs(image.relocations)}}};"]
+    lines += [f"static const uint32_t lb_fixes[][2] = {{{_pairs(image.fixes)}}};"]
+    lines += [f"static const char *const lb_roles[] = {{{', '.join(map(_quoted, ROLES))}}};"]
+    lines += [*_limit_tables(frozen), *_start_tables(frozen), *_slope_table(frozen), *_curves(frozen)]
+    rows = (
+        f"{{{v.kind:d},{v.place},{v.count},{v.stride},{v.scale!r},{v.begin},{_real(v.limits[0])},{_real(v.limits[1])},"
+        f"{v.axis},{v.turn!r}}}"
+        for v in variables
+    )
+    lines += [f"static const lb_variable lb_variables[] = {{{', '.join(rows)}}};"]
+    units = [f" {v.unit}" if v.unit not in ("", "1") else "" for v in variables]  # behind a number
+    for name, texts in (("names", [v.name for v in variables]), ("units", units)):
+        lines += [f"static const char *const lb_{name}[] = {{{', '.join(map(_quoted, texts))}}};"]
+    return "\n".join(lines) + "\n"
+
+
+def _limit_numbers(frozen: Frozen) -> dict[str, object]:
+    """Return the numbers of the warnings at the limits of laws: :mod:`lambda_core.results.limits`."""
+    contacts, grooves = frozen.scratch.contacts, Grooves.of(dataclasses.asdict(frozen.model.geometry))
+    places = {f"CONTACT_{name.upper()}": _at(R.CONTACT_SAMPLE, name) for name in _LOOKED_AT}
+    return {
+        "CONTACTS": frozen.image.place(contacts),
+        "CONTACT_SIZE": R.CONTACT_SAMPLE.itemsize,
+        "CONTACTS_OF_A_BALL": contacts.shape[-2],
+        **places,
+        "HIGHEST_PRESSURE": highest_pressure(grooves.kind),
+        "THINNEST_FILM": THINNEST_FILM,
+        "SHORTED_BELOW": SHORTED,
+        "CALM": _CALM,
+        "CARRYING": CARRYING,
+        "LEAST_SHARE": grooves.least_share,
+        "ONE_SIDED": int(grooves.one_sided),
+        "RIDGE": int(grooves.ridge is not None),
+    }
+
+
+def _limit_tables(frozen: Frozen) -> list[str]:
+    """Return the ring of each contact of a ball, and of both rings the groove: radius, edge, edge between two arcs."""
+    grooves = Grooves.of(dataclasses.asdict(frozen.model.geometry))
+    ridge = np.zeros(len(RINGS)) if grooves.ridge is None else grooves.ridge
+    rows = ("{" + _reals(row) + "}" for row in np.column_stack([grooves.radius, grooves.edge, ridge]).tolist())
+    rings = ", ".join(map(str, rings_of_contacts(frozen.model.geometry)))
+    return [
+        f"static const unsigned lb_contact_ring[] = {{{rings}}};",
+        f"static const double lb_grooves[][3] = {{{', '.join(rows)}}};",
+    ]
+
+
+def _start_numbers(frozen: Frozen) -> dict[str, object]:
+    """Return the numbers of a start elsewhere than at the case's equilibrium."""
+    image, start = frozen.image, frozen.start
+    system = image.place(frozen.system)
+    places = {f"START_{name[6:].upper()}": image.place(array) for name, _, array in start.sections()}
+    fields = {f"BALL_{name.upper()}": _at(R.BALL, name) for name in ("x", "radius", "azimuth", "velocity", "spin")}
+    spin = [place for name, place in _given_places(frozen) if name == "inner_ring.spin"]
+    return {
+        **places,
+        **fields,
+        "STATE": image.place(frozen.memory.y),
+        "STATES": start.state.size,
+        "BALLS": start.trust.size,
+        "BALLS_OF_A_ROW": start.slope.size,
+        "BALL_SIZE": R.BALL.itemsize,
+        "REPORT_SIZE": start.report.nbytes,
+        "REPORT_ORBIT": image.place(start.report) + _at(STATIC_REPORT, "orbit"),
+        "FRICTION_ON": system + _at(R.SYSTEM, "friction_on"),
+        "GUIDES_ON": system + _at(R.SYSTEM, "guides_on"),
+        "SPIN": spin[0] if spin else -1,
+        "SPEED": repr(start.speed),
+        "SMOOTH_WORK": MAX_ITERATIONS[False],
+        "FRICTION_WORK": MAX_ITERATIONS[True],
+        "PATH_ITERATIONS": 0 if frozen.model.geometry.self_aligning else PATH_ITERATIONS,
+        "PATH_SHARE": PATH_SHARE,
+        "PATH_TOLERANCE": PATH_TOLERANCE,
+        "NO_PATH": NO_PATH,
+        "CAGE_ENTRIES": len(start.cage),
+        "CAGE_X": L.SX,
+        "CAGE_ANGLE": L.STHETA,
+        "CAGE_SPEED": L.SSIGMA,
+        "STALE": image.place(frozen.memory.count) + _at(COUNT, "stale"),
+        "VALUES": image.place(frozen.host, frozen.host.size - len(frozen.varied)),
+        "CONSTANTS": len(frozen.constants),
+    }
+
+
+def _circuit_numbers(frozen: Frozen) -> dict[str, object]:
+    """Return the numbers of the circuit, where there is one."""
+    found, image = frozen.circuit, frozen.image
+    if found is None:
+        return {"CIRCUIT": 0}
+    arguments, film = found.arguments, found.film
+    tables, nodes = arguments["tables"], arguments["nodes"]
+    places = {f"TABLE_{name.upper()}": image.place(getattr(tables, name)) for name in tables._fields}
+    places |= {f"CIRCUIT_{name.upper()}": found.place(image, name) for name in NUMBERS}
+    arrays = {"SOURCE_T": "source_t", "SOURCE_V": "source_v", "TIMES": "t", "TOTAL": "total", "PLACE": "place"}
+    places |= {f"CIRCUIT_{name}": image.place(arguments[key]) for name, key in arrays.items()}
+    places |= {f"CIRCUIT_{name.upper()}": image.place(arguments[name]) for name in ("extremes", "events")}
+    columns = ("T_EVENTS", "T_TRACE", "T_TIME", "T_BEGAN", "T_STATUS", "E_CHARGE", "E_PEAK", "N_EVENT")
+    return {
+        "CIRCUIT": 1,
+        **places,
+        **{f"CIRCUIT_{name}": getattr(circuit_columns, name) for name in columns},
+        "CIRCUIT_FIRST": image.place(found.words),
+        "CIRCUIT_INSULATED": int(bool(arguments["wiring"].ring[0] > 0)),
+        "CIRCUIT_PATCHES": image.place(found.rate),
+        "CIRCUIT_CHARGE": image.place(nodes.charge),
+        "CIRCUIT_POTENTIAL": image.place(nodes.potential),
+        "CIRCUIT_WINDING": image.place(found.sizes),
+        "CIRCUIT_FULL": circuit_columns.EVENTS_FULL,
+        "CIRCUIT_OK": circuit_columns.OK,
+        "ROUGH": int(film.roughness != "smooth"),
+        "CONDUCTIVITY": repr(film.conductivity),
+        "METAL": repr(film.metal_resistance),
+        "BALL_PERMITTIVITY": repr(film.ball_permittivity or 0.0),
+        "VACUUM_PERMITTIVITY": repr(VACUUM_PERMITTIVITY),
+    }
+
+
+def _slope_numbers(frozen: Frozen) -> dict[str, object]:
+    """Return the numbers of slopes of reactions by the solver's Jacobian, where the host leads the rings."""
+    led, image = frozen.led, frozen.image
+    if led is None:
+        return {"SLOPES": 0}
+    kept = led.bundle.states
+    return {
+        "SLOPES": 1,
+        "SLOPE_STATE": image.place(led.state),
+        "SLOPE_MATRIX": image.place(led.blocks.shared),
+        "SLOPE_WIDTH": led.blocks.shared.shape[-1],
+        "SHARED": image.place(frozen.scratch.shared),
+        "CONTACT_STATES": image.place(frozen.memory.y, frozen.memory.y.size - kept.size),
+        "CONTACT_STATES_SIZE": kept.nbytes,
+    }
+
+
+def _slope_table(frozen: Frozen) -> list[str]:
+    """Return the shared states that the Jacobian of a bearing with prescribed motion counts as free."""
+    states = ", ".join(map(str, frozen.led.bundle.active)) if frozen.led else ""
+    return [f"static const unsigned lb_slope_states[] = {{{states}}};"] if states else []
+
+
+def _given_places(frozen: Frozen) -> Iterable[tuple[str, int]]:
+    return ((name, frozen.of_row(frozen.terms, row, "value")) for row, name in enumerate(frozen.given))
+
+
+def _start_tables(frozen: Frozen) -> list[str]:
+    start = frozen.start
+    rolling = ", ".join(_reals(row) for row in start.rolling.reshape(-1, 4).tolist())
+    return [
+        f"static const double lb_rolling[] = {{{rolling}}};",
+        f"static const double lb_path[] = {{{_reals(start.slope.tolist())}}};",
+        f"static const unsigned lb_cage[][2] = {{{_pairs(start.cage or ((0, 0),))}}};",
+    ]
+
+
+def _curves(frozen: Frozen) -> list[str]:
+    """Return what constants follow: points of every option, values of every curve."""
+    rows: list[str] = []
+    curves: list[str] = []
+    values: list[float] = []
+    for constant in frozen.constants:
+        rows.append(f"{{{constant.word},{constant.base!r},{constant.scales:d},{len(curves)},{len(constant.curves)}}}")
+        for curve in constant.curves:
+            curves.append(f"{{{curve.option},{len(values)},{curve.values.size - 1}}}")
+            values += curve.values.tolist()
+    options = (f"{{{each.lowest!r},{each.start!r},{each.highest!r}}}" for each in frozen.varied)
+    return [
+        f"static const lb_option lb_options[] = {{{', '.join(options) or '{0}'}}};",
+        f"static const lb_constant lb_constants[] = {{{', '.join(rows) or '{0}'}}};",
+        f"static const lb_curve lb_curves[] = {{{', '.join(curves) or '{0}'}}};",
+        f"static const double lb_values[] = {{{_reals(values) or '0'}}};",
+    ]
+
+
+def _needed() -> tuple[str, ...]:
+    """Return what a processor must have for code of this process."""
+    name = known_processor()
+    return _NAMED[name] if name in _NAMED else tuple(each for each in _CPUID if each in features())
+
+
+def _at(kind: object, name: str) -> int:
+    return int(kind.fields[name][1])  # type: ignore[attr-defined]
+
+
+def _pairs(pairs: Sequence[tuple[int, int]]) -> str:
+    return ",".join(f"{{{a},{b}}}" for a, b in pairs)
+
+
+def _quoted(text: str) -> str:
+    return f'"{text}"'
+
+
+def _real(value: float) -> str:
+    return repr(value).replace("inf", "INFINITY")
+
+
+def _reals(values: Iterable[float]) -> str:
+    return ",".join(map(_real, values))

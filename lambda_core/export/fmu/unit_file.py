@@ -1,0 +1,229 @@
+"""From a case to a co-simulation unit (FMU): one file that other programs load, without Python inside."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import re
+import subprocess
+import sys
+import tempfile
+import zipfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.errors import SolverError, UsageError, unknown_name
+from lambda_core.laws.pack import compiled_here
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from lambda_core.case.case import Case
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.solver.drivers.given import Coupling
+
+PROCESSORS = {
+    "x86-64-v3": "of Intel since 2013 and AMD since 2015",
+    "x86-64-v4": "with AVX-512",
+    "x86-64-v2": "of Intel since 2008 and AMD since 2011",
+    "native": "of this machine",
+}
+_CPU, _FEATURES = "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"
+_VERSIONS = (2, 3)
+_STEP = 1e-4  # [s] between communication points, as a proposal
+_STAYS = "the contact angles that radii are taken at, and mean loads that laws ask for, stay those of the exported case"
+_END = 0.1  # [s]
+_FIXED_TIME = (1980, 1, 1, 0, 0, 0)  # of files in the archive: the same case makes the same bytes
+
+
+def export_fmu(
+    source: str | Path | Mapping[str, Any] | Case,
+    overrides: Iterable[str] = (),
+    *,
+    out: str | Path | None = None,
+    fmi: int = 2,
+    couple: Coupling = "force",
+    vary: Iterable[str] = (),
+    platforms: Iterable[str] = ("linux",),
+    processor: str = "x86-64-v3",
+    force: bool = False,
+    announce: Callable[[str], None] | None = None,
+) -> Path:
+    """Write a bearing as a co-simulation FMU.
+
+    Its library holds the compiled solver, the laws of the case and its data at the equilibrium of t = 0; it needs the C
+    library and nothing else.
+
+    Parameters
+    ----------
+    source, overrides
+        A case as for :func:`check`.
+    out : path-like, optional
+        The file; default: the name of the case with ``.fmu`` in this folder.
+    fmi : int
+        Version of the standard: 2 or 3.
+    couple : "force" or "motion"
+        What the host gives: loads on the inner ring, which the bearing moves; or the poses of both rings, on which the
+        bearing puts reactions.
+    vary : iterable of str
+        Options ``path=low..high`` that the host may change: temperatures as inputs, all others as tunable parameters.
+    platforms : iterable of str
+        Systems that the FMU has a library for: "linux", "windows", "linux-arm", "mac-arm", "mac-intel". All but Linux
+        are built by the compiler of the extra ``fmu``; with one of them functions of mathematics are the program's
+        own, and which products and sums are rounded as one is the same for all: all have the same bits.
+    processor : str
+        The least processor of x86-64 that runs it: "x86-64-v3" (default), "x86-64-v2", "x86-64-v4", or "native".
+    force : bool
+        Overwrite a file that stands there.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    UsageError
+        For an unknown version, coupling, platform or processor, a file that exists, a folder that takes none, on
+        another system, or without a C compiler.
+    CaseError, SolverError
+        With a sentence about the case or its equilibrium.
+    """
+    from lambda_core.case.case_io import load_case
+    from lambda_core.case.case_writer import standalone_toml
+    from lambda_core.domain.files import check_folder, check_new, check_target
+    from lambda_core.export.fmu.varied import varied
+    from lambda_core.model.checking import resolve
+    from lambda_core.solver.drivers.given import COUPLINGS
+
+    wanted = tuple(dict.fromkeys(platforms))
+    if fmi not in _VERSIONS:
+        raise UsageError(f"FMI {fmi} is not written: 2 or 3")
+    if couple not in COUPLINGS:
+        raise UsageError(unknown_name("coupling", couple, COUPLINGS))
+    if processor not in PROCESSORS:
+        raise UsageError(unknown_name("processor", processor, PROCESSORS))
+    if (platform.system(), platform.machine()) != ("Linux", "x86_64"):
+        raise UsageError(f"FMUs are built on Linux x86-64 only, not on {platform.system()} {platform.machine()}")
+    from lambda_core.export.fmu.library import PLATFORMS, compiler
+
+    if not wanted:
+        raise UsageError(f"for which system: {', '.join(PLATFORMS)}?")
+    for name in wanted:
+        if name not in PLATFORMS:
+            raise UsageError(unknown_name("platform", name, PLATFORMS))
+        compiler(name)
+    loaded = load_case(source, overrides)
+    options = tuple(vary)
+    varied(options, loaded)
+    resolve(loaded)
+    target = check_target(Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu"))
+    check_folder(check_new(target, force).parent, target)
+    task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}
+    task |= {"vary": options, "platforms": wanted}
+    if processor == os.environ.get(_CPU, "native"):
+        write(task, announce)
+    else:
+        if announce is not None:
+            announce(f"exporting for {processor} (the first time what is compiled takes about a minute)")
+        _write_apart(task, processor)
+    return target
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[^\w.-]+", "-", name).strip("-.") or "bearing"
+
+
+def write(task: Mapping[str, Any], announce: Callable[[str], None] | None = None) -> None:
+    """Write an FMU with the code of this process's processor."""
+    with compiled_here():
+        _write(task, announce)
+
+
+def _write(task: Mapping[str, Any], announce: Callable[[str], None] | None) -> None:
+    from importlib.metadata import version
+
+    from lambda_core.analysis.thermal.temperatures import ready_model
+    from lambda_core.case.case_io import apply_overrides, parse_case
+    from lambda_core.export.fmu.description import About, description
+    from lambda_core.export.fmu.frozen import freeze
+    from lambda_core.export.fmu.library import PLATFORMS, build, library_parts
+    from lambda_core.export.fmu.variables import variables
+    from lambda_core.export.fmu.varied import varied
+
+    fmi, text = task["fmi"], task["case"]
+    case = parse_case(text)
+    options = {option.path: option for option in varied(task["vary"], case)}
+
+    def changed(values: Mapping[str, float]) -> BearingModel:
+        return ready_model(apply_overrides(case, (options[path].change(value) for path, value in values.items())))
+
+    frozen = freeze(ready_model(case, (), announce), task["couple"], announce, tuple(options.values()), changed)
+    model = frozen.model
+    seen = variables(frozen)
+    parts = library_parts(frozen, seen, task["platforms"])
+    about = About(
+        name=model.name,
+        text=f"rolling bearing, coupled by {task['couple']}, started at its equilibrium; {_STAYS}",
+        identifier="bearing_" + re.sub(r"\W", "_", model.name, flags=re.ASCII),
+        token=parts.token,
+        tool=f"lambda-bearing {version('lambda-bearing')}",
+        end=model.solver.duration or _END,
+        step=_STEP,
+    )
+    with tempfile.TemporaryDirectory(prefix="lambda-bearing-") as made:
+        files = {"modelDescription.xml": description(about, seen, fmi), "resources/case.toml": text.encode()}
+        names = task["platforms"]
+        with ThreadPoolExecutor() as compilers:
+            built = list(
+                compilers.map(lambda each: build(parts, f"fmi{fmi}", Path(made), about.identifier, each), names)
+            )
+        for platform, library in zip(names, built, strict=True):
+            files[f"binaries/{PLATFORMS[platform].folders[fmi]}/{library.name}"] = library.read_bytes()
+    _zip(files, Path(task["out"]))
+
+
+def _zip(parts: Mapping[str, bytes], target: Path) -> None:
+    """Write an archive to a temporary name in its folder, and move it to its place."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    beside = target.with_name(f".{target.name}.part")
+    try:
+        with zipfile.ZipFile(beside, "w", zipfile.ZIP_DEFLATED) as archive:
+            for name, content in parts.items():
+                about = zipfile.ZipInfo(name, _FIXED_TIME)
+                about.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
+                archive.writestr(about, content, zipfile.ZIP_DEFLATED)
+        beside.replace(target)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def _write_apart(task: Mapping[str, Any], processor: str) -> None:
+    """Write an FMU in a process of its own: for which processor Numba compiles is settled when it is imported."""
+    code = "from lambda_core.export.fmu.unit_file import serve; serve()"
+    # A named processor has its own features and no others.
+    settings = {_CPU: processor, _FEATURES: ""} if processor != "native" else {}
+    clean = {name: value for name, value in os.environ.items() if name not in (_CPU, _FEATURES)}
+    done = subprocess.run(
+        [sys.executable, "-P", "-W", "ignore", "-c", code],
+        input=json.dumps(task), capture_output=True, text=True, env=clean | settings, check=False,
+    )  # fmt: skip
+    if done.returncode == 0:
+        return
+    said = done.stderr.strip() or f"the process that writes it ended with {done.returncode}"
+    raise (UsageError if done.returncode == UsageError.exit_code else SolverError)(said)
+
+
+def serve() -> None:
+    """Do one task from standard input; the whole work of a process."""
+    from lambda_core.domain.errors import LambdaError
+
+    try:
+        write(json.load(sys.stdin))
+    except LambdaError as error:
+        print(error, file=sys.stderr)
+        raise SystemExit(error.exit_code) from None

@@ -1,0 +1,361 @@
+"""Produce views, figures, and pages about runs and studies."""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
+from lambda_core.domain.files import check_folder, check_new, check_target
+from lambda_core.model.checking import resolve
+from lambda_core.run.answers import result
+from lambda_core.study.study_runs import study_status
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+    from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
+    from lambda_core.analysis.rotor.machine_modes import MachineModes
+    from lambda_core.export.report.gallery import ViewCard
+    from lambda_core.export.report.page import Cover
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.results.reader import Result
+    from lambda_core.views.chart import ViewData
+    from lambda_core.views.view import Subject
+
+_PAGES = (".html", ".htm")
+
+
+def views(subject: Subject | None = None) -> list[ViewCard]:
+    """Return the installed views with their options.
+
+    Parameters
+    ----------
+    subject : str, optional
+        Only those of ``result``, ``results`` (two or more) or ``study``.
+
+    Returns
+    -------
+    list of ViewCard
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.export.report.gallery import cards
+
+    return cards(registry(), subject)
+
+
+def view(
+    source: str | PathLike[str] | Sequence[str | PathLike[str]],
+    name: str,
+    options: Mapping[str, Any] | None = None,
+    *,
+    bearing: str | None = None,
+) -> ViewData:
+    """Return what one view shows, as data with units.
+
+    Parameters
+    ----------
+    source : path-like or sequence of them
+        A result or its file, the folder of a study, or several results.
+    name : str
+        View (:func:`views`).
+    options : mapping, optional
+        Options of the view by name.
+    bearing : str, optional
+        Which bearing of a machine; may be left out where there is one, and for views of the machine.
+
+    Returns
+    -------
+    ViewData
+        Panels of series and fields; ``as_dict()`` is ready for JSON.
+
+    Raises
+    ------
+    UsageError
+        For a file, view or option that does not exist.
+    NotApplicable
+        When there is nothing to show; the sentence says why.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.shown import data_of, view_of
+
+    subject, kind = subject_of(source, bearing)
+    return data_of(view_of(registry(), name, kind), subject, options or {})
+
+
+def view_all(
+    source: str | PathLike[str] | Sequence[str | PathLike[str]],
+    *,
+    bearing: str | None = None,
+) -> Iterator[tuple[str, ViewData | LambdaError]]:
+    """Show every view of a source, one after the other.
+
+    Parameters
+    ----------
+    source, bearing
+        As for :func:`view`; of a machine without `bearing` only the views of the machine.
+
+    Yields
+    ------
+    tuple of str and (ViewData or LambdaError)
+        Name of the view; its data, or the reason why it shows nothing.
+
+    Raises
+    ------
+    UsageError
+        For a file that does not exist or is no result.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.export.report.gallery import every
+
+    subject, kind = subject_of(source, bearing)
+    for found, data in every(registry(), subject, kind):
+        yield found.name, data
+
+
+def machine_pictures(
+    model: MachineModel, equilibrium: MachineEquilibrium | None = None, modes: MachineModes | None = None
+) -> list[ViewData]:
+    """Return what there is to see of a machine: deflection and bending moment, natural frequencies over speed.
+
+    Parameters
+    ----------
+    model : MachineModel
+        From :func:`check_shaft`.
+    equilibrium : MachineEquilibrium, optional
+        From :func:`quasistatic`.
+    modes : MachineModes, optional
+        From :func:`modes`.
+
+    Returns
+    -------
+    list of ViewData
+        For :func:`draw`: every installed view of a machine that has something to show.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.export.report.gallery import every
+    from lambda_core.views.chart import ViewData
+    from lambda_core.views.view import MachineData
+
+    shown = every(registry(), MachineData(model, equilibrium, modes), "machine")
+    return [data for _, data in shown if isinstance(data, ViewData)]
+
+
+def draw(data: ViewData, folder: str | Path, stem: str, formats: Sequence[str] = ("svg", "png")) -> list[Path]:
+    """Draw a view into files ``stem-view.format`` of a folder.
+
+    Parameters
+    ----------
+    data : ViewData
+        From :func:`view`.
+    folder : path-like
+        Where the files go; made if it does not exist.
+    stem : str
+        Beginning of their names (:func:`view_stem`).
+    formats : sequence of str
+        What matplotlib can write: ``svg``, ``png``, ``pdf``.
+
+    Returns
+    -------
+    list of pathlib.Path
+        One per format.
+
+    Raises
+    ------
+    UsageError
+        When a file cannot be written or the format is unknown.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.export.report.gallery import write
+
+    return write(registry(), data, Path(folder), stem, formats)
+
+
+def view_stem(source: Sequence[str | PathLike[str]], bearing: str | None = None) -> str:
+    """Return the beginning of file names for pictures of these results.
+
+    Parameters
+    ----------
+    source : sequence of path-like
+        Results or their files, or the folder of one study.
+    bearing : str, optional
+        Which bearing of machines.
+
+    Returns
+    -------
+    str
+    """
+    from lambda_core.export.report.gallery import stem_of
+
+    stem = stem_of([Path(path) for path in source])
+    return f"{stem}-{bearing}" if bearing else stem
+
+
+def animate(
+    source: str | PathLike[str],
+    out: str | Path | None = None,
+    *,
+    bearing: str | None = None,
+    turns: float = 1.0,
+    start: float | None = None,
+    frames: int = 120,
+    fps: float = 25.0,
+    overwrite: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+) -> Path:
+    """Show a run in motion: balls, cage and load vectors as GIF, MP4 or binary glTF.
+
+    Parameters
+    ----------
+    source : path-like
+        A result or its file.
+    out : path-like, optional
+        File whose ending says the format: ``.gif``, ``.mp4`` (with the extra ``animation``) or ``.glb``; default: the
+        name of the source with ``.gif`` in the working directory.
+    bearing : str, optional
+        Which bearing of a machine; may be left out where there is one.
+    turns : float
+        Revolutions of the cage to show.
+    start : float, optional
+        First moment [s]; default: the last `turns` of the run.
+    frames : int
+        Number of frames, evenly spaced in time.
+    fps : float
+        Frames per second when played.
+    overwrite : bool
+        Replace a file that stands there.
+    progress : callable, optional
+        Called with the number of frames drawn and of all.
+
+    Returns
+    -------
+    pathlib.Path
+        The file.
+
+    Raises
+    ------
+    UsageError
+        When the source is no result or has no such moment, the format is unknown or has no encoder, or the file exists
+        or cannot be written.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.export.report.animation import check_format, check_pace, write_animation
+    from lambda_core.export.report.run_scene import scene_of
+
+    path = Path(out) if out is not None else Path(f"{view_stem([source], bearing)}.gif")
+    check_format(path)
+    check_pace(turns, frames, fps)
+    _refuse_existing(path, overwrite)
+    scene = scene_of(result(source, bearing).of_bearing(), start=start, turns=turns, frames=frames)
+    return write_animation(registry(), scene, path, fps, progress)
+
+
+def report(
+    source: str | PathLike[str],
+    out: str | Path | None = None,
+    *,
+    overwrite: bool = False,
+    project: str = "",
+    author: str = "",
+    appendices: Sequence[str] | None = None,
+    units: str = "si",
+    bearing: str | None = None,
+) -> Path:
+    """Write one self-contained page about a run or a study, as HTML or PDF.
+
+    Parameters
+    ----------
+    source : path-like
+        A result or its file, or the folder of a study.
+    out : path-like, optional
+        File whose ending says the format: ``.html``, or ``.pdf`` where a browser or WeasyPrint (extra ``pdf``) is
+        installed; default: the name of the source with ``.html`` in the working directory.
+    overwrite : bool
+        Replace a page that stands there.
+    project, author : str
+        What the head of the page says, except for the day.
+    appendices : sequence of str, optional
+        What follows the first page: ``tables``, ``views``, ``trust``, ``inputs``, ``assumptions``, ``laws``,
+        ``references``, ``origin``; default: all of it.
+    units : str
+        ``si`` or ``us``: in which numbers are shown; the case stands as it was written.
+    bearing : str, optional
+        Which bearing of a machine; may be left out where there is one.
+
+    Returns
+    -------
+    pathlib.Path
+        The page.
+
+    Raises
+    ------
+    UsageError
+        When the source is neither, an appendix is unknown, nothing can print a PDF, or the page exists or cannot be
+        written.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.export.report.page import case_inputs, run_report, study_report, write_page
+    from lambda_core.export.report.pdf import check_printer, write_pdf
+
+    path = Path(out) if out is not None else Path(f"{view_stem([source], bearing)}.html")
+    cover = _cover(project, author, appendices, units)
+    _refuse_existing(path, overwrite)
+    is_pdf = path.suffix.lower() == ".pdf"
+    if not is_pdf and path.suffix.lower() not in _PAGES:
+        raise UsageError(f"{path}: a report is written as {', '.join(_PAGES)} or .pdf")
+    if is_pdf:
+        check_printer()
+    subject, kind = subject_of(source, bearing)
+    if kind == "study":
+        from lambda_core.case.case_io import parse_case
+        from lambda_core.study.studies import files
+
+        definition, case_toml = files(Path(source))
+        inputs = case_inputs(resolve(parse_case(case_toml, str(source))), cover.units)
+        text = study_report(registry(), subject, study_status(Path(source)), inputs, definition, cover)
+    else:
+        text = run_report(registry(), subject.of_bearing(), cover)
+    return write_pdf(text, path) if is_pdf else write_page(text, path)
+
+
+def _cover(project: str, author: str, appendices: Sequence[str] | None, units: str) -> Cover:
+    """Return the parts of the page other than the results; the day only where somebody signs."""
+    from datetime import date
+
+    from lambda_core.domain.unit_systems import unit_system
+    from lambda_core.export.report.page import APPENDICES, Cover
+
+    chosen = tuple(APPENDICES if appendices is None else appendices)
+    for name in chosen:
+        if name not in APPENDICES:
+            raise UsageError(unknown_name("appendix", name, APPENDICES))
+    return Cover(project, author, date.today().isoformat() if project or author else "", chosen, unit_system(units))
+
+
+def _refuse_existing(path: Path, overwrite: bool) -> None:
+    """Say before the work what would stop it at its end."""
+    if not check_target(check_new(path, overwrite)).exists():
+        check_folder(path.absolute().parent, path)
+
+
+def subject_of(
+    source: str | PathLike[str] | Sequence[str | PathLike[str]], bearing: str | None = None
+) -> tuple[Any, Subject]:
+    """Return what a view looks at, and what kind of thing it is."""
+    from lambda_core.study.studies import is_study, table
+
+    if not isinstance(source, str | PathLike):
+        if len(source) != 1:
+            return [_begun(result(one, bearing)) for one in source], "results"
+        source = source[0]
+    if is_study(Path(source)):
+        return table(Path(source)), "study"
+    return _begun(result(source, bearing)), "result"
+
+
+def _begun(found: Result) -> Result:
+    """Return a result that there is something to see of; UsageError before the first sample."""
+    if not found.status().rows.samples:
+        raise UsageError(f"{found.path} holds no samples yet")
+    return found

@@ -1,0 +1,1 @@
+"""Formulas of the literature: Hertz, fits, tolerances, ratings, lives, oils."""

@@ -1,0 +1,212 @@
+"""An elastic body: its matrices, where its nodes are, and a shaft of round sections as one."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.formulas.elastic.beam import NODE, NODES, SPOTS, element_matrices
+from lambda_core.formulas.elastic.sections import RoundSection
+
+_SAME = 1e-7  # [m] nodes nearer than this are one
+
+
+@dataclass(frozen=True)
+class Disc:
+    """A rigid, axisymmetric body at one place of a shaft, SI."""
+
+    position: float  # [m]
+    mass: float  # [kg]
+    transverse_inertia: float  # about a diameter [kg m2]
+    polar_inertia: float  # about the axis [kg m2]
+
+
+@dataclass(frozen=True)
+class ElasticBody:
+    """Matrices of a body with nodes of six degrees of freedom, and further coordinates behind them.
+
+    Attributes
+    ----------
+    positions : float64[:], shape (n,)
+        Of the nodes along x [m].
+    stiffness, mass : float64[:, :], shape (6 n + m, 6 n + m)
+        x, y, z and tilts about x, y, z of each node; then m coordinates that no node shows (modes).
+    gyroscopic : float64[:, :]
+        Times the spin about x.
+    """
+
+    positions: FloatArray
+    stiffness: FloatArray
+    mass: FloatArray
+    gyroscopic: FloatArray
+    elements: tuple[RoundSection, ...] = ()  # of a shaft, each over four nodes, the last one the next one's first
+    discs: tuple[Disc, ...] = ()  # of a shaft, counted in the matrices
+    names: tuple[str, ...] = ()  # of the nodes, where they have some
+    lumps: tuple[int, ...] = ()  # nodes that carry the mass in motion, of a reduced model that says so
+    damping: FloatArray | None = None  # where a reduced model has it [N s/m, N s, N m s]
+
+    def node(self, position: float) -> int:
+        """Return the number of the node at a place [m]; ValueError where there is none."""
+        if not self.has_node(position):
+            raise ValueError(f"there is no node at {position:g} m")
+        return int(np.argmin(np.abs(self.positions - position)))
+
+    def has_node(self, position: float) -> bool:
+        """Tell whether there is a node at a place [m]."""
+        return bool(np.abs(self.positions - position).min() <= 10.0 * _SAME)
+
+    def rows(self, position: float) -> slice:
+        """Return the six rows of the node at a place [m]."""
+        node = self.node(position)
+        return slice(NODE * node, NODE * (node + 1))
+
+    def weight(self, gravity: Sequence[float]) -> FloatArray:
+        """Return the nodal forces of an acceleration of gravity [m/s2] by the consistent mass, shape (6 n + m,)."""
+        pull = np.zeros(self.mass.shape[0])
+        for axis in range(3):
+            pull[axis : NODE * self.positions.size : NODE] = gravity[axis]
+        return self.mass @ pull
+
+    @property
+    def total_mass(self) -> float:
+        """[kg]"""
+        return float(self.weight((1.0, 0.0, 0.0))[: NODE * self.positions.size : NODE].sum())
+
+
+def mesh(ends: Sequence[float], places: Sequence[float], longest: Sequence[float]) -> FloatArray:
+    """Return ends of elements [m]: at the ends of every section and at every place, none longer than wanted.
+
+    Parameters
+    ----------
+    ends : sequence of float, length k + 1
+        Where sections begin and end, rising [m].
+    places : sequence of float
+        Where an element has to end [m].
+    longest : sequence of float, length k
+        Longest element of each section [m].
+    """
+    wanted = np.unique(np.concatenate([ends, places]))
+    fixed = wanted[np.concatenate([[True], np.diff(wanted) > _SAME])]
+    nodes = [float(fixed[0])]
+    for begin, end in itertools.pairwise(fixed):
+        section = min(int(np.searchsorted(ends, 0.5 * (begin + end))) - 1, len(longest) - 1)
+        parts = max(1, math.ceil((end - begin) / longest[section] - 1e-9))
+        nodes += [float(begin + (end - begin) * (i + 1) / parts) for i in range(parts)]
+    return np.array(nodes)
+
+
+def shaft_body(
+    sections: Sequence[tuple[float, RoundSection]],
+    *,
+    places: Sequence[float] = (),
+    discs: Sequence[Disc] = (),
+    fineness: float = 1.0,
+) -> ElasticBody:
+    """Return a shaft of round sections, one behind the other from x = 0.
+
+    Parameters
+    ----------
+    sections : sequence of (float, RoundSection)
+        Length [m] and section of each.
+    places : sequence of float
+        Where nodes are needed: bearings, loads [m].
+    discs : sequence of Disc
+        Rigid bodies on it.
+    fineness : float
+        Longest element over the outside diameter of its section. Deflections do not depend on it; at 1 the first five
+        bending modes of a shaft eight diameters long are good to 0.1 %.
+    """
+    ends = [0.0, *np.cumsum([length for length, _ in sections]).tolist()]
+    longest = [fineness * section.outside_diameter for _, section in sections]
+    marks = mesh(ends, [*places, *(disc.position for disc in discs)], longest)
+    inside = [begin + (end - begin) * SPOTS[:-1] for begin, end in itertools.pairwise(marks)]
+    nodes = np.concatenate([*inside, marks[-1:]])
+    size = NODE * nodes.size
+    stiffness, mass, gyroscopic = (np.zeros((size, size)) for _ in range(3))
+    elements = []
+    for i, (begin, end) in enumerate(itertools.pairwise(marks)):
+        section = sections[min(int(np.searchsorted(ends, 0.5 * (begin + end))) - 1, len(sections) - 1)][1]
+        elements.append(section)
+        first = NODE * (NODES - 1) * i
+        one, rows = element_matrices(section, end - begin), slice(first, first + NODE * NODES)
+        stiffness[rows, rows] += one.stiffness
+        mass[rows, rows] += one.mass
+        gyroscopic[rows, rows] += one.gyroscopic
+    return with_discs(ElasticBody(nodes, stiffness, mass, gyroscopic, tuple(elements)), discs)
+
+
+def with_discs(body: ElasticBody, discs: Sequence[Disc]) -> ElasticBody:
+    """Return a body with rigid discs at some of its nodes."""
+    mass, gyroscopic = body.mass.copy(), body.gyroscopic.copy()
+    for disc in discs:
+        rows = body.rows(disc.position)
+        mass[rows, rows] += disc_mass(disc)
+        gyroscopic[rows.start + 4, rows.start + 5] += disc.polar_inertia
+        gyroscopic[rows.start + 5, rows.start + 4] -= disc.polar_inertia
+    return replace(body, mass=mass, gyroscopic=gyroscopic, discs=(*body.discs, *discs))
+
+
+def disc_mass(disc: Disc) -> FloatArray:
+    """Return what a disc adds to the mass matrix at its node, shape (6, 6)."""
+    transverse = disc.transverse_inertia
+    found: FloatArray = np.diag([disc.mass] * 3 + [disc.polar_inertia, transverse, transverse])
+    return found
+
+
+def internal_forces(
+    body: ElasticBody, displacement: FloatArray, gravity: Sequence[float]
+) -> tuple[FloatArray, FloatArray]:
+    """Return what the right-hand side of a cut does to the left-hand side, at both ends of every element.
+
+    Parameters
+    ----------
+    body : ElasticBody
+        A shaft, with its elements; one from outside has none, and the forces between its nodes are those of the nodes
+        left of them.
+    displacement : float64[:], shape (6 n,)
+        Of its nodes [m, rad].
+    gravity : sequence of float
+        [m/s2]
+
+    Returns
+    -------
+    float64[:], shape (2 k,)
+        Places [m]; the end of one element is the beginning of the next.
+    float64[:, :], shape (2 k, 6)
+        Normal and shear forces [N], torque and bending moments about y and z [N m].
+    """
+    if not body.elements:
+        return _forces_between_nodes(body, displacement)
+    places, forces = [], []
+    for i, section in enumerate(body.elements):
+        first = (NODES - 1) * i
+        nodes = slice(first, first + NODES)
+        ends = body.positions[nodes][[0, -1]]
+        one = element_matrices(section, float(ends[1] - ends[0]))
+        pull = np.tile([*gravity, 0.0, 0.0, 0.0], NODES)
+        wrench = one.stiffness @ displacement[NODE * first : NODE * (first + NODES)] - one.mass @ pull
+        places += ends.tolist()
+        forces += [-wrench[:NODE], wrench[-NODE:]]
+    return np.array(places), np.array(forces)
+
+
+def _forces_between_nodes(body: ElasticBody, displacement: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the same from the balance of the nodes on the left, each with its share of the weight."""
+    count = NODE * body.positions.size
+    at = (body.stiffness @ displacement)[:count].reshape(-1, NODE)
+    places, forces = [], []
+    for k, ends in enumerate(itertools.pairwise(body.positions)):
+        left = -at[: k + 1].sum(axis=0)
+        arms = body.positions[: k + 1, None]
+        for end in ends:
+            cut = left.copy()  # a force F_y at x turns about z by F_y (x - end)
+            cut[4] -= ((end - arms[:, 0]) * at[: k + 1, 2]).sum()
+            cut[5] += ((end - arms[:, 0]) * at[: k + 1, 1]).sum()
+            places.append(float(end))
+            forces.append(cut)
+    return np.array(places), np.array(forces)

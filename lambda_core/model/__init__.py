@@ -1,0 +1,1 @@
+"""The resolved model of a machine: every value with its origin."""

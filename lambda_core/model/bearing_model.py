@@ -1,0 +1,347 @@
+"""The resolved model: frozen SI values, the chosen laws, and where every number came from.
+
+Frames: x is the shaft axis, y horizontal, z up; gravity acts along -z; azimuth runs from
++y towards +z. A body's six degrees of freedom are ``x, y, z`` (position of its centre),
+``tilt_y, tilt_z`` (rotation about y and z) and ``spin`` (rotation about its own axis).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, Literal
+
+from lambda_core.domain.elements import SPIN
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+    from lambda_core.case.electric import Electric
+    from lambda_core.case.thermal import Thermal
+    from lambda_core.domain.elements import BodyName
+    from lambda_core.domain.lubrication import Lubrication
+    from lambda_core.formulas.elastic.ring import RingWaves
+    from lambda_core.formulas.fits import Mounting
+    from lambda_core.laws.context import Material, Oil
+    from lambda_core.laws.law import Law
+    from lambda_core.views.observer import Action, Event, Observer
+
+
+@dataclass(frozen=True)
+class Term:
+    """One summand of a time function, SI.
+
+    kind and values: constant (v,) | ramp (v_0, v_1, t_0, t_1) | harmonic (amplitude, frequency [Hz],
+    phase [rad]): amplitude * sin(2 pi f t + phase) | table (t_0, v_0, t_1, v_1, ...), cubics
+    through the points (held constant outside).
+    """
+
+    kind: Literal["constant", "ramp", "harmonic", "table", "law"]
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class TableTerm(Term):
+    """Points of a table, and the curve that joins them (lambda_core.model.laws.interpolation)."""
+
+    interpolation: Literal["monotone", "spline"] = "monotone"
+
+
+@dataclass(frozen=True)
+class LawTerm(Term):
+    """amplitude * f(t) with f by a law: values (amplitude, f at t = 0, largest |f|, its highest frequency [Hz])."""
+
+    law: str = ""  # the element of it among the laws of a model, "time.loads.radial"
+
+
+@dataclass(frozen=True)
+class TimeFunction:
+    """Sum of terms; no terms means zero."""
+
+    terms: tuple[Term, ...] = ()
+
+    @staticmethod
+    def constant(value: float) -> TimeFunction:
+        """Return the function that is `value` at all times."""
+        return TimeFunction((Term("constant", (value,)),))
+
+
+ZERO = TimeFunction()
+USUAL_RESOLVE = 2000.0  # [Hz]; modes of a ring between the raceways of bearings of usual size lie below
+SPHERICAL = "spherical"  # arrangement of two rows on one sphere
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """Inner geometry of the bearing at operating clearance, SI."""
+
+    ball_count: int
+    ball_diameter: float  # [m]
+    pitch_diameter: float  # [m]
+    race_diameter_inner: float  # at the groove's bottom, after clearance was set [m]
+    race_diameter_outer: float  # [m]
+    groove_radius_inner: float  # [m]
+    groove_radius_outer: float  # [m]
+    shoulder_diameter_inner: float  # [m]
+    shoulder_diameter_outer: float  # [m]
+    clearance: float  # operating radial internal clearance, diametral measure [m]
+    bore_diameter: float  # [m]
+    outside_diameter: float  # [m]
+    width: float  # [m]
+    series: str
+    contact_angle: float = 0.0  # free one of an angular contact bearing, which ratings go by; 0: radial contact [rad]
+    # Contact angle of a ball that touches without clearance while the rings are centred: of four-point contact, which
+    # one row has with it, and of the rows of a double row bearing; 0: the grooves of both rings face each other [rad]
+    resting_angle: float = 0.0
+    rows: int = 1  # of balls; ball_count is that of one row
+    row_distance: float = 0.0  # between the planes of the balls' centres [m]
+    # Of two rows: "O" back to back, "X" face to face, "spherical" on one sphere of the outer ring, whose raceway
+    # diameter is the sphere's
+    arrangement: str = ""
+
+    @property
+    def balls(self) -> int:
+        """Number of balls of all rows."""
+        return self.rows * self.ball_count
+
+    @property
+    def rated_rows(self) -> int:
+        """Rows by which the standards rate the bearing: of four-point contact each pair of arcs counts as one."""
+        return 2 if self.four_point else self.rows
+
+    @property
+    def self_aligning(self) -> bool:
+        """Whether both rows run on one sphere of the outer ring about the bearing's centre."""
+        return self.arrangement == SPHERICAL
+
+    @property
+    def kind(self) -> str:
+        """What the bearing is called, as rows of the catalogue are."""
+        return kind_of(vars(self))
+
+    @property
+    def four_point(self) -> bool:
+        """Whether each ring has two arcs for one row of balls."""
+        return self.rows == 1 and self.resting_angle > 0.0
+
+
+def kind_of(geometry: Mapping[str, Any]) -> str:
+    """Return what a bearing is called, from the fields of its :class:`Geometry`; results of old have fewer of them."""
+    if int(geometry.get("rows", 1)) == 2:
+        return "self-aligning" if geometry.get("arrangement") == SPHERICAL else "double row"
+    if float(geometry.get("resting_angle", 0.0)) > 0.0:
+        return "four-point"
+    return "angular contact" if float(geometry.get("contact_angle", 0.0)) > 0.0 else "deep groove"
+
+
+@dataclass(frozen=True)
+class DofState:
+    """How one degree of freedom of a body moves."""
+
+    mode: Literal["free", "locked", "prescribed"]
+    # prescribed: position [m] or angle [rad] over time; for spin: angular speed [rad/s] over time. A free spin:
+    # its value at t = 0 is the initial speed
+    motion: TimeFunction = ZERO
+    stiffness: float = 0.0  # elastic support to ground, [N/m] or [N m/rad]
+    damping: float = 0.0  # [N s/m] or [N m s/rad]
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid, axisymmetric body: inner ring with shaft, outer ring with housing, or cage."""
+
+    mass: float  # [kg]
+    transverse_inertia: float  # about a diameter [kg m2]
+    polar_inertia: float  # about its axis [kg m2]
+    dofs: Mapping[str, DofState]  # by name in DOFS
+    force: tuple[TimeFunction, TimeFunction, TimeFunction] = (ZERO, ZERO, ZERO)  # inertial frame [N]
+    # about x, y, z through the body's centre; about x it drives a free spin [N m]
+    moment: tuple[TimeFunction, TimeFunction, TimeFunction] = (ZERO, ZERO, ZERO)
+    unbalance: float = 0.0  # mass times eccentricity [kg m]
+
+    def freed(self, names: Iterable[str]) -> Body:
+        """Return the body free in some directions, its spin with the speed planned for it: laws are set up for that."""
+        free = {name: DofState("free", self.dofs[name].motion if name == SPIN else ZERO) for name in names}
+        return replace(self, dofs={**self.dofs, **free})
+
+
+@dataclass(frozen=True)
+class Cage:
+    """Geometry of the cage, SI."""
+
+    type: str
+    pocket_clearance: float  # diametral [m]
+    land_clearance: float  # diametral; NaN when guided by the balls [m]
+    width: float  # [m]
+    radial_thickness: float  # [m]
+    guidance: Literal["ball", "inner ring", "outer ring"]
+
+
+@dataclass(frozen=True)
+class ChosenLaw:
+    """The model chosen for one role of one force element, with validated parameters."""
+
+    model: Law
+    parameters: BaseModel  # instance of model.parameters, SI
+    origins: Mapping[str, str]  # parameter -> "case" | "lubricant NAME (source, grade)" | "default"
+
+
+@dataclass(frozen=True)
+class ElectricModel:
+    """The electric circuit that the bearing stands in, and the laws of its films."""
+
+    options: Electric  # the section of the case
+    laws: Mapping[str, ChosenLaw]  # role -> law
+
+
+@dataclass(frozen=True)
+class ChosenObserver:
+    """An observer of a plugin, with validated parameters."""
+
+    item: Observer
+    parameters: BaseModel  # instance of item.parameters, SI
+
+
+@dataclass(frozen=True)
+class ChosenEvent:
+    """An event of a plugin, with validated parameters, and what the run does at it."""
+
+    item: Event
+    parameters: BaseModel  # instance of item.parameters, SI
+    action: Action
+
+
+@dataclass(frozen=True)
+class Depth:
+    """Modelling depth: which parts and how finely a contact is divided."""
+
+    cage: bool
+    strips: int  # strips across the ellipse (along the major axis)
+    rows: int  # cells along rolling in each strip; 1 is the slice model of the paper
+
+
+@dataclass(frozen=True)
+class Solver:
+    """Settings of the integrator and of the averages."""
+
+    tolerance: float  # dimensionless; multiplies the absolute scales of the states
+    duration: float  # simulated time; 0 means "until converged or max_duration" [s]
+    max_duration: float  # [s]
+    discard_revolutions: float  # cage revolutions before averaging starts
+    average_revolutions: float  # cage revolutions that the averages need at least
+    max_step: float  # [s]
+    max_wall: float  # wall time after which the run stops with a partial result [s], inf for none
+    resolve: float = 0.0  # highest frequency that vibrations are followed to [Hz]; 0: averages are the answer
+
+
+@dataclass(frozen=True)
+class Output:
+    """What is written, how often."""
+
+    interval: float  # simulated time between samples; 0 means 1/100 of a cage revolution [s]
+    checkpoint_interval: float  # wall time between checkpoints [s]
+
+
+@dataclass(frozen=True)
+class ResolvedValue:
+    """One frozen number with its origin: what a result needs to be re-run and believed."""
+
+    path: str  # e.g. "bearing.ball_diameter"
+    value: float | str
+    quantity: str  # key of schema.units.UNITS, or "" for plain numbers and names
+    source: str
+    grade: str
+    status: Literal["given", "published", "derived", "assumed", "default"]
+
+
+@dataclass(frozen=True)
+class Marker:
+    """A named point on a body whose motion is written to the result."""
+
+    body: BodyName
+    position: tuple[float, float, float]  # in the body's frame, that of the inertial axes at t = 0 [m]
+
+
+TIME_PREFIX = "time."  # of loads and motions over time by a law, likewise
+ELEMENT_PREFIX = "elements."  # of force elements between bodies, where the laws of a model name them
+
+
+@dataclass(frozen=True)
+class Link:
+    """A force element between two points on two bodies; its law stands among the model's laws as "elements.NAME"."""
+
+    first: BodyName | None  # None: the ground
+    first_place: tuple[float, float, float]  # in the body's frame, that of the inertial axes at t = 0 [m]
+    second: BodyName
+    second_place: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class BearingModel:
+    """Everything that a run needs, SI, immutable.
+
+    Attributes
+    ----------
+    geometry : Geometry
+        Inner geometry at the clearance in operation.
+    ball_material, inner_material, outer_material, cage_material : Material
+        Solid properties of the parts.
+    inner_ring, outer_ring, cage_body : Body
+        Masses, boundary conditions and loads; the shaft counts to the inner ring.
+    cage : Cage
+        Its geometry.
+    depth, solver, output : Depth, Solver, Output
+        Settings.
+    thermal : Thermal or None
+        The network by which the temperatures are still to be found, before anything runs; None: they are given.
+    mounting : Mounting or None
+        What the clearance follows from as the temperatures change.
+    contradictions : tuple of str
+        Where the case says two things, and which of them counts.
+    electric : ElectricModel or None
+        The circuit that a run computes together with the motion; it does not act on the motion.
+    observers, events : mapping of str to ChosenObserver, ChosenEvent
+        What plugins write of a run, and what they look out for, by name.
+    links : mapping of str to Link
+        Force elements between bodies, in addition to those of the bearing, by name.
+    elastic : mapping of str to RingWaves
+        Rings and cage that bend, in the order of BODIES.
+    values : tuple of ResolvedValue
+        Every frozen number with its origin.
+    """
+
+    name: str
+    title: str  # one line for people: "6319 (Syla2026)"
+    geometry: Geometry
+    ball_material: Material
+    inner_material: Material
+    outer_material: Material
+    cage_material: Material
+    oil: Oil  # viscosity, density, alpha_p, beta are NaN here: the physics layer derives them
+    oil_level: float  # above the lowest point of the pitch circle [m]
+    lubrication: Lubrication  # the way in which the oil gets to the balls
+    oil_flow: float  # through the bearing [m3/s]
+    roughness: float  # composite rms roughness sigma of ball and raceway [m]
+    starvation: float  # factor on the film, 1 is fully flooded
+    gravity: tuple[float, float, float]  # [m/s2]
+    inner_ring: Body
+    outer_ring: Body
+    cage: Cage
+    cage_body: Body
+    laws: Mapping[str, Mapping[str, ChosenLaw]]  # element -> role -> law
+    depth: Depth
+    solver: Solver
+    output: Output
+    values: tuple[ResolvedValue, ...] = ()
+    assumptions: tuple[str, ...] = ()
+    case_toml: str = ""  # the case as written, for re-running
+    plugins: tuple[str, ...] = field(default=())  # "distribution version" of each plugin that was loaded
+    markers: Mapping[str, Marker] = field(default_factory=dict)  # by name
+    thermal: Thermal | None = None
+    mounting: Mounting | None = None
+    contradictions: tuple[str, ...] = ()
+    electric: ElectricModel | None = None
+    observers: Mapping[str, ChosenObserver] = field(default_factory=dict)
+    events: Mapping[str, ChosenEvent] = field(default_factory=dict)
+    links: Mapping[str, Link] = field(default_factory=dict)
+    elastic: Mapping[BodyName, RingWaves] = field(default_factory=dict)

@@ -1,0 +1,1 @@
+"""Bodies of a machine: rings, cage, shaft, housing, materials, places."""

@@ -1,0 +1,149 @@
+"""Resolve body, point and axes of a case's parts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lambda_core.case.shaft import ShaftCase
+from lambda_core.case.shaft_parts import ShaftMarker
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import unknown_name
+from lambda_core.domain.units import show
+from lambda_core.formulas.elastic.beam import NODE
+from lambda_core.formulas.elastic.body import ElasticBody
+from lambda_core.model.ledger import Ledger
+from lambda_core.model.machine_model import GROUND, SHAFT, Place
+
+_PLACED = ("bearings", "discs", "gears", "loads", "connections")
+_ON_AXIS = ("bearings", "discs", "gears")  # stand on the shaft itself
+_SAME = 1e-6  # [m]
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where everything stands.
+
+    Attributes
+    ----------
+    of : dict of str to Place
+        By path: "loads.belt".
+    carriers : dict of str to int
+        Number of every body by its name.
+    markers : dict of str to Place
+        Those of the case, and the nodes of a reduced shaft by their names.
+    """
+
+    of: Mapping[str, Place]
+    carriers: Mapping[str, int]
+    markers: Mapping[str, Place]
+
+    def on_shaft(self, table: str, name: str) -> bool:
+        """Tell whether a part stands on the shaft."""
+        return self.of[f"{table}.{name}"].body == SHAFT
+
+    def carrier(self, name: str) -> int:
+        """Return the number of a body, given by its name or by a marker on it; the ground where nobody knows it."""
+        if name in self.carriers:
+            return self.carriers[name]
+        return self.markers[name].body if name in self.markers else GROUND
+
+
+def places(case: ShaftCase, outside: ElasticBody | None, ledger: Ledger) -> Places:
+    """Return where everything stands; what is wrong with it is noted.
+
+    Where the shaft comes from a file that cannot be read, names that nobody knows may be those of its nodes.
+    """
+    is_blind = outside is None and case.shaft.reduced is not None
+    carriers = {"ground": GROUND, "shaft": SHAFT, **{name: i + 1 for i, name in enumerate(case.bodies)}}
+    nodes: dict[str, float] = {}
+    if outside is not None and outside.names:
+        nodes = dict(zip(outside.names, outside.positions.tolist(), strict=True))
+    markers = {name: Place(SHAFT, (float(x), 0.0, 0.0), np.eye(3)) for name, x in nodes.items()}
+    for name, marker in case.markers.items():
+        if name in nodes:
+            ledger.problem(f"markers.{name}", "is the name of a node of the shaft already: choose another one")
+        if marker.body not in carriers:
+            ledger.problem(f"markers.{name}.body", unknown_name("body", marker.body, carriers))
+        point = (marker.x, marker.y, marker.z)
+        markers[name] = Place(carriers.get(marker.body, GROUND), point, _axes(marker))
+    found: dict[str, Place] = {}
+    for table in _PLACED:
+        for name, part in getattr(case, table).items():
+            where = f"{table}.{name}"
+            if part.along is not None:
+                found[where] = Place(SHAFT, (part.along, 0.0, 0.0), np.eye(3))
+            elif part.at in markers:
+                found[where] = markers[part.at]
+                _fits(table, where, part.at, found[where], ledger)
+            elif table != "bearings" and part.at in case.bearings:
+                if f"bearings.{part.at}" in found:  # else that is what is wrong
+                    found[where] = Place(SHAFT, found[f"bearings.{part.at}"].point, np.eye(3))
+            elif not is_blind:
+                what, known = (
+                    ("marker", markers) if table == "bearings" else ("marker or bearing", [*markers, *case.bearings])
+                )
+                ledger.problem(f"{where}.at", _unknown(what, part.at, known))
+    _ends(case, carriers, markers, found, ledger)
+    return Places(found, carriers, markers)
+
+
+def carried(arm: Sequence[float] | FloatArray) -> FloatArray:
+    """Return how a point moves and turns with a body, `arm` from its centre [m], shape (6, 6): u + theta x arm."""
+    x, y, z = (float(a) for a in arm)
+    found: FloatArray = np.eye(NODE)
+    found[:3, 3:] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
+    return found
+
+
+def _unknown(what: str, name: str, known: Iterable[str]) -> str:
+    """Say what may stand in place of a name that nobody knows."""
+    names = list(known)
+    words = unknown_name(what, name, names) if names else f'there is no marker "{name}"; there are no [markers]'
+    return f'{words}; or a length with its unit, "85 mm"' if name[:1].isdigit() else words
+
+
+def _fits(table: str, where: str, marker: str, place: Place, ledger: Ledger) -> None:
+    """Note a marker that this part cannot stand at."""
+    beside = max(abs(place.point[1]), abs(place.point[2])) > _SAME
+    if table in _ON_AXIS and (place.body != SHAFT or beside):
+        ledger.problem(f"{where}.at", f'"{marker}" is not on the axis of the shaft, where this has to stand')
+    elif table == "connections" and place.body == SHAFT and beside:
+        ledger.problem(f"{where}.at", f'"{marker}" turns with the shaft off its axis, where no spring can be attached')
+
+
+def _ends(
+    case: ShaftCase, carriers: Mapping[str, int], markers: Mapping[str, Place], found: Mapping[str, Place],
+    ledger: Ledger,
+) -> None:  # fmt: skip
+    """Check what carries outer rings, and the other ends of springs."""
+    others = [(f"bearings.{name}", "outer", part.outer) for name, part in case.bearings.items()]
+    others += [(f"connections.{name}", "to", part.to) for name, part in case.connections.items()]
+    for where, option, other in others:
+        if other not in carriers and other not in markers:
+            ledger.problem(f"{where}.{option}", unknown_name("body or marker", other, [*carriers, *markers]))
+            continue
+        if where not in found:
+            continue
+        body = carriers[other] if other in carriers else markers[other].body
+        if other not in carriers and math.dist(markers[other].point, found[where].point) > _SAME:
+            at = ", ".join(show(x, "length", 6) for x in found[where].point)
+            ledger.problem(f"{where}.{option}", f'"{other}" stands elsewhere: both ends have to be at {at}')
+        if option == "outer" and body == SHAFT:
+            ledger.problem(f"{where}.outer", "the outer ring sits in the ground or in a body, not on the shaft")
+        elif body == found[where].body:
+            ledger.problem(f"{where}.{option}", "both ends are on the same body")
+
+
+def _axes(marker: ShaftMarker) -> FloatArray:
+    """Return the axes of a marker as columns: turned about x, then about y and z as they were."""
+    found: FloatArray = np.eye(3)
+    for angle, (i, k) in ((marker.about_x, (1, 2)), (marker.about_y, (2, 0)), (marker.about_z, (0, 1))):
+        turn = np.eye(3)
+        turn[i, i] = turn[k, k] = math.cos(angle)
+        turn[k, i], turn[i, k] = math.sin(angle), -math.sin(angle)
+        found = turn @ found
+    return found

@@ -1,0 +1,130 @@
+"""Resolve preload, support and ratings of a seated bearing."""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.case.holding import Dof
+from lambda_core.case.shaft import ShaftBearing
+from lambda_core.domain.elements import POSE
+from lambda_core.formulas.ratings import dynamic_rating, fatigue_load_limit, static_rating
+from lambda_core.model.bearing_model import BearingModel, TimeFunction
+from lambda_core.model.bodies.rigid_bodies import refuse_far
+from lambda_core.model.geometry.resolve_clearance import picked
+from lambda_core.model.laws.time_functions import added, initial, time_function
+from lambda_core.model.ledger import Ledger
+from lambda_core.model.machine_model import GROUND, LOCKED, MountedBearing, Seating
+
+_SIGN = {"+x": 1, "-x": -1, None: 0}
+
+
+def mounted(
+    name: str, given: ShaftBearing, model: BearingModel, carrier: int, growth: float, ledger: Ledger
+) -> MountedBearing:
+    """Return a bearing at its place, its outer ring where preload and the housing's growth put it.
+
+    Parameters
+    ----------
+    carrier : int
+        Body that the outer ring sits in.
+    growth : float
+        How far the warm housing carries the outer ring along x [m].
+    """
+    takes, angle = _SIGN[given.takes], model.geometry.contact_angle
+    if angle and not takes and model.geometry.rated_rows == 1:
+        ledger.problem(f"bearings.{name}.takes", 'is required: an angular contact bearing needs "+x" or "-x"')
+    if takes and model.geometry.rated_rows > 1:
+        ledger.problem(f"bearings.{name}.takes", "leave it out: this bearing takes thrust from both sides")
+    if model.geometry.self_aligning:
+        ledger.assume(f"{name}: a self-aligning bearing follows every tilt of the shaft without resistance")
+    play = axial_play(given, model) if takes else 0.0
+    drawn = TimeFunction.constant(growth - takes * (play + (given.preload or 0.0)))
+    motions = [time_function(getattr(given.support, dof).motion) for dof in POSE]
+    lead = (added(drawn, motions[0]), *motions[1:])
+    dynamic, static, fatigue = _ratings(name, angle, model, ledger)
+    return MountedBearing(
+        name=name,
+        position=given.place,
+        model=model,
+        carrier=carrier,
+        seating=Seating(
+            stiffness=_seat(name, given, model, carrier, ledger),
+            shift=tuple(map(initial, lead)),
+            force=-takes * (given.preload_force or 0.0),
+            damping=tuple(getattr(given.support, dof).damping for dof in POSE),
+            lead=lead,
+        ),
+        takes=takes,
+        nominal_angle=angle,
+        dynamic_rating=dynamic,
+        static_rating=static,
+        fatigue_limit=fatigue,
+    )
+
+
+def refuse_motion(name: str, given: ShaftBearing, is_carried: bool, ledger: Ledger) -> None:
+    """Note motions of a ring that something else decides; `is_carried`: by a body or an elastic housing."""
+    for dof in POSE:
+        where, motion = f"bearings.{name}.support.{dof}.motion", getattr(given.support, dof).motion
+        if motion is None:
+            continue
+        refuse_far(where, dof, time_function(motion), ledger)
+        if is_carried:
+            ledger.problem(
+                where,
+                "only a ring whose `outer` is the ground, without an elastic housing, can have a prescribed motion",
+            )
+        elif dof == "x" and given.preload_force is not None:
+            ledger.problem(where, "`preload_force` makes the ring slide along x; give either it or this motion")
+
+
+def axial_play(given: ShaftBearing, model: BearingModel) -> float:
+    """Return how far the inner ring moves from the middle until balls touch, as bought, without load [m].
+
+    A sin(alpha_0) with cos(alpha_0) = 1 - G_r/(2 A), A = r_i + r_o - D_w (Harris and Kotzalas 2006, eq. 2.9). What fits
+    and temperatures take of the clearance afterwards adds to the preload.
+    """
+    g = model.geometry
+    distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
+    bought = g.clearance if model.mounting is None else picked(model.mounting.bought, given.clearance_pick)
+    cosine = 1.0 - 0.5 * max(bought, 0.0) / distance
+    return distance * math.sqrt(max(0.0, 1.0 - cosine**2))
+
+
+def _seat(name: str, given: ShaftBearing, model: BearingModel, carrier: int, ledger: Ledger) -> tuple[float, ...]:
+    """Return the stiffness of the seat; one that is locked in a body that moves is very stiff, tilts at its radius."""
+    found = [_stiffness(given, dof) for dof in POSE]
+    if carrier == GROUND or not any(map(math.isinf, found)):
+        return tuple(found)
+    radius = 0.5 * model.geometry.outside_diameter
+    ledger.assume(f"{name}: its seat, locked in a body that moves, gives way by 1 um under {LOCKED * 1e-9:.0f} kN")
+    return tuple(
+        k if math.isfinite(k) else LOCKED * (radius**2 if dof.startswith("tilt") else 1.0)
+        for dof, k in zip(POSE, found, strict=True)
+    )
+
+
+def _stiffness(given: ShaftBearing, dof: str) -> float:
+    """Return the housing's stiffness in a degree of freedom; inf where locked, 0 where free."""
+    held: Dof = getattr(given.support, dof)
+    return 0.0 if dof == "x" and given.preload_force is not None and held.mode == "locked" else held.hold
+
+
+def _ratings(name: str, angle: float, model: BearingModel, ledger: Ledger) -> tuple[float, float, float]:
+    """Return C, C_0 and C_u [N]: the catalogue's or the case's where they are known, else of the inner geometry."""
+    known = {value.path: value.value for value in model.values if isinstance(value.value, float)}
+    g = model.geometry
+    dynamic, static, fatigue = (
+        known.get(f"bearing.{key}") for key in ("dynamic_rating", "static_rating", "fatigue_limit")
+    )
+    size = (g.ball_count, g.ball_diameter, g.pitch_diameter)
+    if dynamic is None:
+        dynamic = dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows, self_aligning=g.self_aligning)
+        ledger.assume(f"{name}: C = {dynamic * 1e-3:.1f} kN from the inner geometry (ISO 281)")
+    if static is None:
+        static = static_rating(*size, contact_angle=angle, rows=g.rated_rows, self_aligning=g.self_aligning)
+        ledger.assume(f"{name}: C_0 = {static * 1e-3:.1f} kN from the inner geometry (ISO 76)")
+    if fatigue is None:
+        fatigue = fatigue_load_limit(static, g.pitch_diameter)
+        ledger.assume(f"{name}: C_u = {fatigue * 1e-3:.2f} kN from C_0 (ISO 281, simplified)")
+    return dynamic, static, fatigue

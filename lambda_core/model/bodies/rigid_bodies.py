@@ -1,0 +1,158 @@
+"""Define rigid bodies, springs and point loads, in SI."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from lambda_core.case.holding import Dof
+from lambda_core.case.shaft import ShaftCase
+from lambda_core.case.shaft_parts import ShaftBody
+from lambda_core.catalogue.protocol import Catalogue
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import POSE
+from lambda_core.domain.units import show
+from lambda_core.formulas.elastic.beam import NODE
+from lambda_core.formulas.elastic.body import ElasticBody
+from lambda_core.formulas.gear_forces import GearForces
+from lambda_core.model.bearing_model import TimeFunction
+from lambda_core.model.bodies.locations import Places, carried
+from lambda_core.model.bodies.resolve_materials import body_material
+from lambda_core.model.laws.time_functions import added, initial, peak, scaled, time_function
+from lambda_core.model.ledger import Ledger
+from lambda_core.model.machine_model import GROUND, SHAFT, MountedBearing, Place, RigidBody, ShaftSpring
+
+COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
+_DOFS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
+_ROUNDING = 1e-9
+_FARTHEST = 0.1  # [m, rad] that anything is led: seats and housings move by micrometres, milliradians
+_FAR_BEYOND = 1000.0  # times the static ratings: pressures ten times those that dent it
+
+
+def rigid_bodies(case: ShaftCase, catalogue: Catalogue, ledger: Ledger) -> tuple[RigidBody, ...]:
+    """Return the bodies beside the shaft, masses given or from their shapes."""
+    return tuple(_rigid(name, given, catalogue, ledger) for name, given in case.bodies.items())
+
+
+def _rigid(name: str, given: ShaftBody, catalogue: Catalogue, ledger: Ledger) -> RigidBody:
+    mass, polar, transverse, extent = 0.0, 0.0, 0.0, (0.0, 0.0, 0.0)
+    if given.length is not None:
+        material = body_material(given.material, f"bodies.{name}.material", catalogue, ledger)
+        density = material.density if material else 0.0
+        if given.diameter is not None:
+            squares = given.diameter**2 + given.bore**2
+            mass = density * 0.25 * math.pi * (given.diameter**2 - given.bore**2) * given.length
+            polar, transverse = mass * squares / 8.0, mass * (squares / 16.0 + given.length**2 / 12.0)
+            extent = (given.length, given.diameter, given.diameter)
+        elif given.width is not None and given.height is not None:
+            mass = density * given.length * given.width * given.height
+            polar = mass * (given.width**2 + given.height**2) / 12.0
+            transverse = mass * (given.length**2 / 12.0 + (given.width**2 + given.height**2) / 24.0)
+            extent = (given.length, given.width, given.height)
+    mass, polar = given.mass or mass, given.polar_inertia or polar
+    transverse = given.transverse_inertia or transverse
+    if polar > 2.0 * transverse * (1.0 + _ROUNDING):  # of any masses I_x <= I_y + I_z
+        ledger.problem(
+            f"bodies.{name}.{'polar' if given.polar_inertia else 'transverse'}_inertia",
+            f"no body has a polar inertia, {show(polar, 'inertia', 4)}, of more than twice its transverse one, "
+            f"{show(transverse, 'inertia', 4)}",
+        )
+    held: list[Dof] = [getattr(given.support, dof) for dof in _DOFS]
+    lead = tuple(time_function(getattr(one, "motion", None)) for one in held)  # nothing is led about x
+    for dof, motion in zip(_DOFS, lead, strict=True):
+        refuse_far(f"bodies.{name}.support.{dof}.motion", dof, motion, ledger)
+    return RigidBody(
+        name, (given.x, given.y, given.z), mass, polar, transverse, tuple(one.hold for one in held), extent, lead,
+        tuple(float(getattr(one, "damping", 0.0)) for one in held),
+    )  # fmt: skip
+
+
+def refuse_far(where: str, dof: str, motion: TimeFunction, ledger: Ledger) -> None:
+    """Note a motion of a seat or a body that goes farther than any does."""
+    if not peak(motion) <= _FARTHEST:
+        quantity = "angle" if dof.startswith("tilt") else "length"
+        far, most = show(peak(motion), quantity, 3), show(_FARTHEST, quantity)
+        ledger.problem(where, f"goes to {far}, at most {most}: is the unit right?")
+
+
+def connections(case: ShaftCase, stand: Places, ledger: Ledger) -> tuple[ShaftSpring, ...]:
+    """Return springs, dampers and bushings, along the axes of the case."""
+    found = []
+    for name, given in case.connections.items():
+        if f"connections.{name}" not in stand.of:
+            continue  # said where places are sought
+        place, to = stand.of[f"connections.{name}"], stand.carrier(given.to)
+        matrices = []
+        for kind in ("stiffness", "damping"):
+            own = np.diag([getattr(getattr(given, dof), kind) for dof in _DOFS])
+            matrices.append(_along(place).T @ own @ _along(place))
+        if SHAFT in (place.body, to) and max(np.abs(matrix[3]).max() for matrix in matrices) > _ROUNDING:
+            ledger.problem(f"connections.{name}.tilt_x", "would prevent rotation of the shaft; remove it")
+        found.append(ShaftSpring(name, place, to, *matrices))
+    return tuple(found)
+
+
+def _along(place: Place) -> FloatArray:
+    """Return how motions along the axes of the case are motions along those of a place, shape (6, 6)."""
+    return np.asarray(np.kron(np.eye(2), place.axes.T))
+
+
+def all_loads(
+    case: ShaftCase, stand: Places, body: ElasticBody, bodies: Sequence[RigidBody], gears: Mapping[str, GearForces]
+) -> tuple[FloatArray, tuple[tuple[int, TimeFunction], ...]]:
+    """Return forces and moments at t = 0 on shaft nodes and bodies, and those that change with their rows."""
+    size = body.mass.shape[0]
+    found: FloatArray = np.zeros(size + NODE * len(bodies))
+    varying: dict[int, list[TimeFunction]] = {}
+    for name, load in case.loads.items():
+        place = stand.of[f"loads.{name}"]
+        if place.body == GROUND:
+            continue
+        if place.body == SHAFT:
+            first, arm = body.rows(place.point[0]).start, np.array([0.0, *place.point[1:]])
+        else:
+            own = bodies[place.body - 1]
+            first, arm = size + NODE * (place.body - 1), np.subtract(place.point, own.centre)
+        share = carried(arm).T @ _along(place).T  # of each component at the place in each row of its body
+        functions = [time_function(getattr(load, component)) for component in COMPONENTS]
+        for i in range(NODE):
+            total = added(*(scaled(f, float(c)) for f, c in zip(functions, share[i], strict=True)))
+            found[first + i] += initial(total)
+            if any(term.kind != "constant" for term in total.terms):
+                varying.setdefault(first + i, []).append(total)
+    for name, forces in gears.items():
+        found[body.rows(case.gears[name].place)] += [*forces.force, *forces.moment]
+    return found, tuple((row, added(*functions)) for row, functions in varying.items())
+
+
+def refuse_far_beyond(
+    case: ShaftCase, gears: Mapping[str, GearForces], bearings: Sequence[MountedBearing], ledger: Ledger
+) -> None:
+    """Note gears and loads that no contact law was made for, before balls are pressed through rings."""
+    static = sum(bearing.static_rating for bearing in bearings)
+    sizes = {
+        f"gears.{name}.{'torque' if case.gears[name].power is None else 'power'}": (max(map(abs, forces.force)), "N")
+        for name, forces in gears.items()
+    }
+    for name, load in case.loads.items():
+        for component in COMPONENTS:
+            unit = "N" if component.startswith("force") else "N m"
+            sizes[f"loads.{name}.{component}"] = (peak(time_function(getattr(load, component))), unit)
+    for where, (size, unit) in sizes.items():
+        if not size <= _FAR_BEYOND * static:
+            ledger.problem(
+                where,
+                f"acts with {size:.3g} {unit}, more than {_FAR_BEYOND:.0f} times the {1e-3 * static:.3g} kN that all "
+                "bearings together bear at rest (C_0): is the unit right?",
+            )
+
+
+def refuse_idle_dampers(bearings: Sequence[MountedBearing], housing: FloatArray | None, ledger: Ledger) -> None:
+    """Note dampers of seats in which no ring can move."""
+    for bearing in bearings:
+        for dof, k, c in zip(POSE, bearing.seating.stiffness, bearing.seating.damping, strict=True):
+            if c and math.isinf(k) and housing is None:
+                where = f"bearings.{bearing.name}.support.{dof}.damping"
+                ledger.problem(where, "does nothing: the outer ring is locked in the ground")

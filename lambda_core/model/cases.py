@@ -1,0 +1,259 @@
+"""Cases: reading, editing, checking and writing what an engineer says about a bearing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.errors import UsageError, unknown_name
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from lambda_core.case.case import Case
+    from lambda_core.case.draft import Draft
+    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.catalogue.protocol import Catalogue
+
+
+GEARED_SHAFT = "geared-shaft"  # template of a shaft in two bearings
+
+
+def case(source: str | Path | Mapping[str, Any], overrides: Iterable[str] = ()) -> Case | ShaftCase:
+    """Read a case, of one bearing or of a machine, from a TOML file, plain tables or by the name of a built-in one.
+
+    Parameters
+    ----------
+    source : str, Path or mapping
+        File, built-in name such as "6319-cp10-1500", or plain tables as they stand in a file.
+    overrides : iterable of str
+        Changes ``path=value``, as ``--set`` takes them.
+
+    Returns
+    -------
+    Case or ShaftCase
+        Of one bearing, or of a machine. Values in SI; what the file leaves open has its default.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file or name, or an override has no ``=``.
+    CaseError
+        With every problem of the case.
+    """
+    from lambda_core.case.case_io import read_case
+
+    return read_case(source, overrides)
+
+
+def builtin_cases() -> dict[str, str]:
+    """Return the names of the built-in cases and what each is.
+
+    Returns
+    -------
+    dict of str to str
+    """
+    from lambda_core.case.builtin import builtin_cases
+
+    return builtin_cases()
+
+
+def save(case: Case | ShaftCase, path: str | Path) -> None:
+    """Write a case as TOML; comments of the file that stands there are kept.
+
+    Parameters
+    ----------
+    case : Case or ShaftCase
+        What to write: options at their default are left out.
+    path : path-like
+        The file.
+
+    Raises
+    ------
+    UsageError
+        When the file cannot be written; what stood there is untouched.
+    """
+    from lambda_core.case.case_writer import save_case
+
+    save_case(case, path)
+
+
+def init_case(
+    name: str,
+    start: str | None = None,
+    path: str | Path | None = None,
+    overwrite: bool = False,
+    *,
+    bearing: str | None = None,
+    template: str | None = None,
+) -> Path:
+    """Write a commented case called `name` that starts from another, or from a bearing of the catalogue.
+
+    Parameters
+    ----------
+    name : str
+        Letters, digits, dot, dash and underscore.
+    start : str, optional
+        Built-in case or case file to start from; default: 6319-cp10-1500.
+    path : path-like, optional
+        Default: NAME.toml in the working directory.
+    overwrite : bool
+        Replace a file that stands there.
+    bearing : str, optional
+        Instead of `start`: a bearing of the catalogue, "6319", "SKF 6208" or "SKF 6208-2RS1/C3".
+    template : str, optional
+        Instead of `start`: one of :func:`templates`. ``geared-shaft`` is a shaft in two bearings; the others are one
+        bearing with what is usual in such a machine, with `bearing` for another one.
+
+    Returns
+    -------
+    pathlib.Path
+        The file.
+
+    Raises
+    ------
+    UsageError
+        When the file exists, cannot be written, there is no such case or template to start from, or both a case and
+        a bearing are given.
+    CatalogueError
+        When the bearing is unknown, or several makers have one of that name.
+    CaseError
+        When `name` cannot be a case's name.
+    """
+    from lambda_core.case.case_writer import new_case, write_new
+
+    target = Path(path) if path is not None else Path(f"{name}.toml")
+    if bearing is None and template is None:
+        return new_case(name, start or "6319-cp10-1500", target, overwrite)
+    if start is not None:
+        other = "a bearing" if template is None else "a template"
+        raise UsageError(f"a new case starts from a case or from {other}, not from both")
+    text = _template_text(name, template, bearing)
+    if template == GEARED_SHAFT:
+        import tomllib
+
+        from lambda_core.case.case_io import validate
+        from lambda_core.case.case_writer import save_text
+        from lambda_core.case.shaft import ShaftCase
+        from lambda_core.domain.files import check_new
+
+        validate(ShaftCase, tomllib.loads(text), f'new machine "{name}"')
+        save_text(text, check_new(target, overwrite))
+        return target
+    from lambda_core.case.case_io import parse_case
+
+    return write_new(parse_case(text, f"case {name}"), text, target, overwrite)
+
+
+def _template_text(name: str, template: str | None, bearing: str | None) -> str:
+    """Return the commented case of a template, or of a bearing in any machine."""
+    from contextlib import closing
+
+    from lambda_core.catalogue.designation import designated
+    from lambda_core.model.fresh_case import fresh_case
+    from lambda_core.model.machine_templates import GENERAL, MACHINES, geared_shaft
+
+    if template == GEARED_SHAFT:
+        if bearing is not None:
+            raise UsageError(f"{GEARED_SHAFT} has two bearings: leave out --bearing and change them in its file")
+        return geared_shaft(name)
+    if template is not None and template not in MACHINES:
+        raise UsageError(unknown_name("template", template, [*MACHINES, GEARED_SHAFT]))
+    kind = GENERAL if template is None else MACHINES[template]
+    with closing(catalogue()) as opened:
+        return fresh_case(name, *designated(opened, bearing or kind.bearing), kind)
+
+
+def templates() -> dict[str, str]:
+    """Return the machines that a new case can start from, each with a few words.
+
+    Returns
+    -------
+    dict of str to str
+        Names for :func:`init_case` and :func:`draft`.
+    """
+    from lambda_core.model.machine_templates import MACHINES
+
+    found = {name: f"{kind.words}: {kind.bearing} {kind.clearance}" for name, kind in MACHINES.items()}
+    return {**found, GEARED_SHAFT: "shaft in two bearings with a helical gear: SKF 6208, SKF 6206"}
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON schema of case files: of one bearing, or of a machine of several.
+
+    Returns
+    -------
+    dict
+        JSON Schema, draft 2020-12.
+    """
+    from pydantic.json_schema import models_json_schema
+
+    from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
+
+    kinds, parts = models_json_schema([(Case, "validation"), (ShaftCase, "validation")], title="lambda-bearing case")
+    one, several = kinds[Case, "validation"], kinds[ShaftCase, "validation"]
+    head = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
+    return {**head, "if": {"required": ["bearing"]}, "then": one, "else": several, **parts}
+
+
+def draft(source: str | Path | None = None, *, template: str | None = None, shaft: bool = False) -> Draft:
+    """Open a case for editing: a file, a copy of a built-in case, what is usual in a machine, or nothing yet.
+
+    Parameters
+    ----------
+    source : str or Path, optional
+        File or built-in name; None for an empty draft.
+    template : str, optional
+        Instead of `source`: one of :func:`templates`.
+    shaft : bool
+        An empty draft is that of a shaft in several bearings; what a file holds decides for itself.
+
+    Returns
+    -------
+    Draft
+        Plain tables that may be wrong, with undo.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file or built-in case.
+    CaseError
+        When the file is not TOML; any other mistake may stand in a draft.
+    """
+    from lambda_core.case.draft import draft_of, new_draft, open_draft
+
+    if template is not None:
+        return draft_of(_template_text(template, template, None), None)
+    return new_draft(shaft=shaft) if source is None else open_draft(source)
+
+
+def catalogue() -> Catalogue:
+    """Open the catalogue of bearings, lubricants, materials and cages.
+
+    Returns
+    -------
+    Catalogue
+        The caller closes it.
+
+    Raises
+    ------
+    PluginError
+        When no installed plugin provides one.
+    """
+    from lambda_core.discovery.manager import registry
+
+    return registry().catalogue()
+
+
+def case_of(source: str | Path | Mapping[str, Any] | Case) -> Case:
+    """Return the case of one bearing of whatever a function of this package takes as one.
+
+    Raises
+    ------
+    UsageError, CaseError
+        When there is no such case, or it has mistakes.
+    """
+    from lambda_core.case.case_io import load_case
+
+    return load_case(source)

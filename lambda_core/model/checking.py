@@ -1,0 +1,181 @@
+"""From a case to the model of a run: checking, resolving and describing it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lambda_core.domain.errors import CaseError, Problem, UsageError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from lambda_core.case.case import Case
+    from lambda_core.case.case_io import Source
+    from lambda_core.catalogue.protocol import Catalogue
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.checks.describe import CaseReport
+    from lambda_core.model.machine_model import MachineModel
+
+
+def check(
+    source: Source,
+    overrides: Iterable[str] = (),
+    *,
+    folder: Path | None = None,
+    catalogue: Catalogue | None = None,
+    is_static: bool = False,
+) -> BearingModel | MachineModel:
+    """Read and resolve a case, of one bearing or of a machine, without running it.
+
+    Parameters
+    ----------
+    source : str, Path, mapping or case
+        File, built-in name, plain tables as they stand in a file, or a case.
+    overrides : iterable of str
+        Changes ``path=value``.
+    folder : pathlib.Path, optional
+        Where file names in plain tables are looked up; default: the working directory.
+    catalogue : Catalogue, optional
+        An open catalogue to look things up in; default: one is opened for this call.
+    is_static : bool
+        Whether only an equilibrium is wanted: a case in which nothing turns then needs no duration.
+
+    Returns
+    -------
+    BearingModel or MachineModel
+        Of one bearing, or of a machine; with its assumptions and the origin of every value.
+
+    Raises
+    ------
+    CaseError
+        With every mistake at once: those of the file itself and those that only the catalogue, the
+        registry and the geometry can show.
+    """
+    from lambda_core.case.case_io import is_machine
+
+    if is_machine(source):
+        from lambda_core.model.resolve_machine import check_shaft
+
+        return check_shaft(source, overrides, folder=folder, catalogue=catalogue)
+    return check_bearing(source, overrides, folder=folder, catalogue=catalogue, is_static=is_static)
+
+
+def check_bearing(
+    source: Source,
+    overrides: Iterable[str] = (),
+    *,
+    folder: Path | None = None,
+    catalogue: Catalogue | None = None,
+    is_static: bool = False,
+) -> BearingModel:
+    """Read and resolve the case of one bearing; as :func:`check`, which takes machines, too."""
+    from lambda_core.case.case_io import load_case
+    from lambda_core.case.salvage import InvalidCase
+
+    try:
+        return resolve(load_case(source, overrides, folder), catalogue, is_static=is_static)
+    except InvalidCase as error:
+        if error.remainder is None:
+            raise
+        try:
+            resolve(error.remainder, catalogue, is_static=is_static)
+        except CaseError as more:
+            raise error.joined(more.problems) from None
+        raise
+
+
+def resolve(
+    case: Case,
+    catalogue: Catalogue | None = None,
+    *,
+    is_static: bool = False,
+    place: Callable[[str], str] = str,
+) -> BearingModel:
+    """Freeze a case into the model of a run: every value in SI with its origin.
+
+    Parameters
+    ----------
+    case : Case
+        What the engineer wrote.
+    catalogue : Catalogue, optional
+        An open catalogue to look things up in; default: one is opened for this call.
+    is_static : bool
+        Whether only an equilibrium is wanted: a case in which nothing turns then needs no duration.
+    place : callable
+        Where in the file stands what stands at a path of the case: a machine has several bearings.
+
+    Returns
+    -------
+    BearingModel
+        Immutable: values, laws, assumptions.
+
+    Raises
+    ------
+    CaseError
+        With everything that is unknown, missing, contradictory or impossible.
+    """
+    from contextlib import closing
+
+    from lambda_core.discovery.manager import registry
+    from lambda_core.model.resolve import resolve as freeze
+
+    models = registry()
+    if catalogue is not None:
+        return freeze(case, models, catalogue, is_static=is_static, place=place)
+    with closing(models.catalogue()) as opened:
+        return freeze(case, models, opened, is_static=is_static, place=place)
+
+
+def problems(source: Source) -> tuple[Problem, ...]:
+    """Return every mistake of a case or of plain tables; for forms that check while one types.
+
+    Parameters
+    ----------
+    source : mapping or case
+        Plain tables as they stand in a file, or a case; of one bearing or of a machine.
+
+    Returns
+    -------
+    tuple of Problem
+        Place and sentence of each; empty when the case is fine.
+    """
+    try:
+        check(source)
+    except CaseError as error:
+        return error.problems
+    return ()
+
+
+def describe(model: BearingModel) -> CaseReport:
+    """Say what a resolved model is: headline, bodies, models, assumptions, every value with its origin.
+
+    Parameters
+    ----------
+    model : BearingModel
+        From :func:`check` or :func:`resolve`.
+
+    Returns
+    -------
+    CaseReport
+        ``text()`` are the lines for people.
+    """
+    from lambda_core.model.checks.describe import describe as report
+
+    return report(model)
+
+
+def model_of(
+    source: Source | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    is_static: bool = False,
+) -> BearingModel:
+    """Return the resolved model of whatever a function of this package takes as the case of one bearing."""
+    from lambda_core.model.bearing_model import BearingModel
+
+    if not isinstance(source, BearingModel):
+        return check_bearing(source, overrides, is_static=is_static)
+    if list(overrides):
+        raise UsageError("a resolved model takes no overrides: change the case and resolve it")
+    return source

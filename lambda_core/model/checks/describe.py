@@ -1,0 +1,256 @@
+"""Describe a resolved model as text and as data."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+from pydantic import BaseModel
+
+from lambda_core.domain.elements import DOFS
+from lambda_core.domain.units import from_si, show
+from lambda_core.model.bearing_model import BearingModel, Body, TableTerm, Term, TimeFunction
+from lambda_core.model.checks.operating_limits import operating_warnings
+from lambda_core.model.laws.law_packages import laws_line
+from lambda_core.model.laws.time_functions import scaled
+from lambda_core.model.resolve import case_hash
+
+_BODY_NAMES = {"inner_ring": "inner ring", "outer_ring": "outer ring", "cage": "cage"}
+
+
+class ValueReport(BaseModel):
+    """One frozen value with its origin; `text` is the value with its unit."""
+
+    path: str
+    text: str
+    source: str
+    grade: str
+    status: str
+
+
+class CaseReport(BaseModel):
+    """What ``check`` says of a valid case; its dump is the machine interface (version 1).
+
+    Attributes
+    ----------
+    valid : bool
+        Always true: an invalid case is an error.
+    hash : str
+        Of all that decides the numbers of a run.
+    bodies : dict of str to str
+        Mass and boundary conditions of each body.
+    models : dict of str to dict
+        Force element to role to the name of the law.
+    warnings : list of str
+        Where the case leaves what bearing, oil and laws are made for, as far as that is known before solving.
+    values : list of ValueReport
+        Every frozen value with its origin.
+    """
+
+    version: Literal[1] = 1
+    valid: Literal[True] = True
+    name: str
+    title: str
+    hash: str
+    headline: list[str]
+    bodies: dict[str, str]
+    models: dict[str, dict[str, str]]
+    warnings: list[str]
+    assumptions: list[str]
+    values: list[ValueReport]
+
+    def text(self) -> str:
+        """Return the lines for people."""
+        lines = [*self.headline, ""]
+        lines += _block("bodies", [f"{_BODY_NAMES[name]}: {text}" for name, text in self.bodies.items()])
+        lines += _block("models", _model_lines(self.models))
+        lines += _block("assumed", self.assumptions)
+        lines += _block("WARNING", self.warnings)
+        counts = [(self.warnings, "warning"), (self.assumptions, "assumption")]
+        told = ", ".join(f"{len(some)} {name}{'s' * (len(some) != 1)}" for some, name in counts if some)
+        return "\n".join([*lines, "", f"{self.name}: " + ", ".join(filter(None, ("no errors", told)))])
+
+
+def describe(model: BearingModel) -> CaseReport:
+    """Return what a resolved model is and assumes."""
+    return CaseReport(
+        name=model.name,
+        title=model.title,
+        hash=case_hash(model),
+        headline=headline(model),
+        bodies=_bodies(model),
+        models={
+            element: {role: law.model.name for role, law in roles.items()} for element, roles in model.laws.items()
+        },
+        warnings=operating_warnings(model),
+        assumptions=list(model.assumptions),
+        values=value_reports(model),
+    )
+
+
+def value_reports(model: BearingModel) -> list[ValueReport]:
+    """Return every value with its unit and origin."""
+    return [
+        ValueReport(
+            path=value.path,
+            text=_value_text(value.value, value.quantity),
+            source=value.source,
+            grade=value.grade,
+            status=value.status,
+        )
+        for value in model.values
+    ]
+
+
+def headline(model: BearingModel) -> list[str]:
+    """Return the lines that say what the model is: bearing and oil; loads, speed and depth; laws of plugins."""
+    g = model.geometry
+    temperature = f"{from_si(model.oil.temperature, 'temperature'):.4g} degC"
+    first = [
+        model.title,
+        f"{'2 x ' if g.rows == 2 else ''}{g.ball_count} x {g.ball_diameter * 1e3:.3f} mm",
+        f"pitch {g.pitch_diameter * 1e3:.6g} mm",
+        _clearance(model),
+        f"{model.oil.name} at {temperature}",
+    ]
+    speed = model.inner_ring.dofs["spin"]
+    turning = f"inner ring {function_text(speed.motion, 'rotational_speed')}"
+    if speed.mode == "free":
+        turning += " at the start, driven by a torque"
+    depth = f"strips {model.depth.rows}x{model.depth.strips}"
+    second = [*_loads(model.inner_ring), turning, depth, f"cage {'on' if model.depth.cage else 'off'}"]
+    return ["  ".join(first), "   ".join(second), *filter(None, [laws_line(model)])]
+
+
+def _clearance(model: BearingModel) -> str:
+    """Write the clearance in operation, and where it started from."""
+    angle, g = model.geometry.contact_angle, model.geometry
+    free = f"contact angle {show(angle, 'angle', 3)}, " if angle else ""
+    if g.rows == 2:
+        apart = show(g.row_distance, "length", 4)
+        free = f"two rows {g.arrangement}, {apart} apart, {free}"
+    elif g.four_point:
+        free = f"four-point {free}shims {show(g.resting_angle, 'angle', 3)}, "
+    text = f"{free}clearance {show(model.geometry.clearance, 'small_length', 4)}"
+    bought = next((v for v in model.values if v.path == "bearing.clearance"), None)
+    if bought is None:
+        return text
+    origin = f"{bought.source.split(':')[0]}, assumed" if bought.status == "assumed" else ""
+    if bought.value != model.geometry.clearance:
+        unmounted = show(float(bought.value), "small_length", 4)
+        return f"{text} mounted ({unmounted} before: {origin or bought.source})"
+    return f"{text} ({origin})" if origin else text
+
+
+def function_text(function: TimeFunction, quantity: str) -> str:
+    """Write a time function in a few words, for example "harmonic 0.1 mm at 100 Hz"."""
+    if not function.terms:
+        return _value_text(0.0, quantity)
+    return " + ".join(_term_text(term, quantity) for term in function.terms)
+
+
+def _term_text(term: Term, quantity: str) -> str:
+    kind, values = term.kind, term.values
+    if kind == "law":
+        return f"{_value_text(values[0], quantity)} times a law's course, up to {_value_text(values[3], 'frequency')}"
+    if kind == "ramp":
+        start, end = (_value_text(value, quantity) for value in values[:2])
+        return f"ramp {start} to {end} in {_value_text(values[3] - values[2], 'time')}"
+    if kind == "harmonic":
+        return f"harmonic {_value_text(values[0], quantity)} at {_value_text(values[1], 'frequency')}"
+    if isinstance(term, TableTerm):
+        return f"{'spline' if term.interpolation == 'spline' else 'table'} of {len(values) // 2} points"
+    return _value_text(values[0], quantity)
+
+
+def _loads(body: Body) -> list[str]:
+    x, y, z = body.force
+    found = []
+    if _constant(y) and _constant(z):
+        radial = math.hypot(_level(y), _level(z))
+        if radial:
+            # down is the direction of gravity and of a positive radial load
+            direction = " upwards" if _level(z) > 0.0 and not _level(y) else ""
+            found.append(f"radial {_value_text(radial, 'force')}{direction}")
+    else:
+        down = TimeFunction(tuple(term for term in z.terms if not y.terms and _acts_downwards(term)))
+        rest = TimeFunction(tuple(term for term in z.terms if term not in down.terms))
+        if down.terms:
+            found.append(f"radial {function_text(scaled(down, -1.0), 'force')}")
+        found += [f"force {axis} {function_text(f, 'force')}" for axis, f in (("y", y), ("z", rest)) if f.terms]
+    if x.terms:
+        found.append(f"axial {function_text(x, 'force')}")
+    names = ("torque", "moment y", "moment z")
+    found += [f"{name} {function_text(m, 'moment')}" for name, m in zip(names, body.moment, strict=True) if m.terms]
+    return found or ["no load"]
+
+
+def _acts_downwards(term: Term) -> bool:
+    """Say whether a term of the force along z is a radial load as cases write it: positive downwards."""
+    numbers = {"ramp": term.values[:2], "table": term.values[1::2]}.get(term.kind, term.values[:1])
+    return math.fsum(numbers) < 0.0
+
+
+def _constant(function: TimeFunction) -> bool:
+    return all(term.kind == "constant" for term in function.terms)
+
+
+def _level(function: TimeFunction) -> float:
+    return math.fsum(term.values[0] for term in function.terms)
+
+
+def _bodies(model: BearingModel) -> dict[str, str]:
+    bodies = {"inner_ring": model.inner_ring, "outer_ring": model.outer_ring}
+    if model.depth.cage:
+        bodies["cage"] = model.cage_body
+    return {name: _body_text(body) + _bending_text(model, name) for name, body in bodies.items()}
+
+
+def _bending_text(model: BearingModel, name: str) -> str:
+    """Say with how many waves a ring bends, and how fast; nothing of a rigid body."""
+    waves = next((waves for body, waves in model.elastic.items() if body == name), None)
+    if waves is None:
+        return ""
+    lowest = show(waves.ring.frequency(waves.counts[0]) / (2.0 * math.pi), "frequency", 4)
+    return f"; bends with 2 to {waves.orders} waves, two of them at {lowest}"
+
+
+def _body_text(body: Body) -> str:
+    by_mode: dict[str, list[str]] = {}
+    for dof in DOFS:
+        state = body.dofs[dof]
+        quantity = {"spin": "rotational_speed", "tilt_y": "angle", "tilt_z": "angle"}.get(dof, "length")
+        text = dof.replace("_", " ")
+        if state.mode == "prescribed":
+            text += f" {function_text(state.motion, quantity)}"
+        if state.stiffness or state.damping:
+            text += " on a support"
+        by_mode.setdefault(state.mode, []).append(text)
+    parts = [f"{mode} {', '.join(texts)}" for mode, texts in by_mode.items()]
+    return f"{show(body.mass, 'mass', 4)}; {'; '.join(parts)}"
+
+
+def _value_text(value: float | str, quantity: str) -> str:
+    if isinstance(value, str):
+        return value
+    return f"{value:.6g}" if not quantity or math.isnan(value) else show(value, quantity, 6)
+
+
+def _model_lines(models: dict[str, dict[str, str]]) -> list[str]:
+    """Return one line per role; elements that share a model are not repeated."""
+    by_role: dict[str, dict[str, list[str]]] = {}
+    for element, roles in models.items():
+        for role, name in roles.items():
+            by_role.setdefault(role, {}).setdefault(name, []).append(element)
+    lines = []
+    for role, names in by_role.items():
+        if len(names) == 1:
+            lines.append(f"{role:<20} {next(iter(names))}")
+        else:
+            shown = "; ".join(f"{name} ({', '.join(elements)})" for name, elements in names.items())
+            lines.append(f"{role:<20} {shown}")
+    return lines
+
+
+def _block(head: str, lines: list[str]) -> list[str]:
+    return [f"{head if index == 0 else '':<9} {line}" for index, line in enumerate(lines)]

@@ -1,0 +1,1 @@
+"""Geometry of a bearing: designation, clearance, rows, shoulders."""

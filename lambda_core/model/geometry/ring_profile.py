@@ -1,0 +1,58 @@
+"""The section of the rings: how far from the axis their surface lies under the balls, with high and low shoulders."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import fields
+from typing import Any
+
+from lambda_core.domain.elements import INNER, OUTER
+from lambda_core.model.bearing_model import Geometry
+from lambda_core.model.geometry.raceways import Raceway, raceways, row_places
+
+ONE_SIDED = ("angular contact", "double row")  # kinds whose grooves have a shoulder on the loaded side alone
+
+
+def geometry_of(known: dict[str, Any]) -> Geometry:
+    """Return the geometry that a result holds; results of old have fewer fields."""
+    return Geometry(**{field.name: known[field.name] for field in fields(Geometry) if field.name in known})
+
+
+def ring_profile(geometry: Geometry, ring: int) -> Callable[[float], float]:
+    """Return the distance of a ring's surface from its axis [m] over the place along the shaft [m].
+
+    Parameters
+    ----------
+    ring : int
+        raceways.INNER or raceways.OUTER. A single row angular contact bearing is shown for a thrust of the shaft to +x.
+    """
+    g, places = geometry, row_places(geometry)
+    by_row = [[way for way in raceways(g) if way.ring == ring and way.row == row] for row in range(g.rows)]
+    toward = -1.0 if ring == INNER else 1.0  # from the ball to the ring
+    high, bottom = (
+        (0.5 * g.shoulder_diameter_inner, 0.5 * g.race_diameter_inner)
+        if ring == INNER
+        else (0.5 * g.shoulder_diameter_outer, 0.5 * g.race_diameter_outer)
+    )
+
+    def surface(way: Raceway, x: float) -> float:
+        """Return the groove's surface; where it does not reach, a place far beyond the ball."""
+        square = way.groove_radius**2 - (x - way.axial_offset) ** 2
+        return way.groove_circle + toward * math.sqrt(square) if square > 0.0 else -toward * math.inf
+
+    def profile(x: float) -> float:
+        row = min(range(len(places)), key=lambda i: abs(x - places[i]))
+        thrust = by_row[row][0].thrust or 1
+        low = (x - places[row]) * thrust * toward < 0.0
+        land = bottom if low and g.kind in ONE_SIDED else high
+        # A Gothic arch ends at the arc that is nearer to the ball; the grooves of both rows are cut into one ring.
+        cut = [toward * min(toward * surface(way, x) for way in arcs) for arcs in by_row]
+        return toward * max(toward * land, *(toward * depth for depth in cut))
+
+    return profile
+
+
+def profiles(geometry: Geometry) -> tuple[Callable[[float], float], Callable[[float], float]]:
+    """Return the profiles of the inner and the outer ring."""
+    return ring_profile(geometry, INNER), ring_profile(geometry, OUTER)

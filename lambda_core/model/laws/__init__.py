@@ -1,0 +1,1 @@
+"""Laws of a machine: choice, parameters, context, functions of time."""

@@ -1,0 +1,39 @@
+"""Describe the default parameters of laws.
+
+Each has a value, a source, a published range and a grade.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from lambda_core.model.bearing_model import ChosenLaw
+
+
+def default_sentences(role: str, law: ChosenLaw, written: Mapping[str, Any]) -> list[str]:
+    """Return a sentence for each parameter that neither the case nor the oil gives.
+
+    `written` is what its parameters are in a file. The last word is the grade: published, unconfirmed, assumed, or
+    numerical (a regularisation without physical meaning). A default that is absent stands for what the law computes,
+    and is left out.
+    """
+    return [
+        f"{role} {law.model.name}: {key} {short(written[key])}, {_origin(law, key)}"
+        for key, origin in law.origins.items()
+        if origin == "default" and written[key] is not None
+    ]
+
+
+def _origin(law: ChosenLaw, key: str) -> str:
+    info = type(law.parameters).model_fields[key]
+    extra = info.json_schema_extra if isinstance(info.json_schema_extra, dict) else {}
+    source = extra.get("source") or info.description or "no source is named"
+    ends = extra.get("published_range")
+    span = f"; published {ends[0]} to {ends[1]}" if isinstance(ends, list) else ""
+    return f"default ({source}{span}; {extra.get('status', 'assumed')})"
+
+
+def short(value: object) -> str:
+    """Write a value of a parameter briefly."""
+    return f"{value:g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,95 @@
+"""Trying out the laws that a case chose from others before anything is solved, as a run does before it starts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from lambda_core.domain.errors import Problem
+from lambda_core.domain.installed import OWN, project_of
+from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.domain.roles import RACEWAYS
+from lambda_core.laws.check import check_choice, check_model
+from lambda_core.laws.context import Oil
+from lambda_core.laws.par import flat_kernel
+from lambda_core.model.bearing_model import BearingModel, ChosenLaw
+from lambda_core.model.laws.law_context import ContactFrame, build_context, prepare
+
+_STEP_P, _STEP_T = 1e6, 0.5  # for the slopes of the viscosity [Pa], [K]
+
+
+def law_problems(model: BearingModel) -> tuple[Problem, ...]:
+    """Try the laws of plugins with the parameters of a case, and return what is wrong with each.
+
+    The contacts stand at the angle 0 under an equal share of the load: what a law is asked is of the order of a run,
+    not the same.
+
+    Parameters
+    ----------
+    model : BearingModel
+        From :func:`lambda_core.api.check`.
+
+    Returns
+    -------
+    tuple of Problem
+        Place in the case and sentence, one for each law; empty when all keep the rules of their roles.
+    """
+    foreign = [
+        (element, role, law)
+        for element, roles in model.laws.items()
+        for role, law in roles.items()
+        if project_of(law.model.distribution) != OWN
+    ]
+    circuit = model.electric.laws if model.electric is not None else {}
+    films = [(role, law) for role, law in circuit.items() if project_of(law.model.distribution) != OWN]
+    found: dict[str, Problem] = {}
+    if foreign:
+        frame = _frame(model)
+        for element, role, law in foreign:
+            message = _fault(model, element, law, frame)
+            if message:
+                found.setdefault(message.partition(" at ")[0], Problem(f"models.{role}", message))
+    for role, law in films:
+        for message in check_model(law.model, law.parameters).faults[:1]:
+            found[message] = Problem(f"electric.{role}.law", message)
+    return tuple(found.values())
+
+
+def _fault(model: BearingModel, element: str, law: ChosenLaw, frame: ContactFrame) -> str:
+    """Say what a law does wrong in one force element, or nothing."""
+    oil = model.oil
+    try:
+        if law.model.role != "rheology":
+            oil = _with_viscosity(model, element if element in RACEWAYS else RACEWAYS[0], frame)
+        check_choice(law.model, prepare(law, build_context(model, element, frame, oil)))
+    except PluginError as error:
+        return str(error)
+    return ""
+
+
+def _frame(model: BearingModel) -> ContactFrame:
+    """Return contacts at the angle 0, with the loads of the case over the balls."""
+    forces = [term.values[0] for f in model.inner_ring.force for term in f.terms if term.kind == "constant"]
+    load = max(math.hypot(*forces) if forces else 0.0, 1.0) / model.geometry.ball_count
+    return ContactFrame((0.0, 0.0), (load, load))
+
+
+def _with_viscosity(model: BearingModel, element: str, frame: ContactFrame) -> Oil:
+    """Return the oil with what its rheology gives at the bulk temperature, called in plain Python."""
+    law = model.laws[element]["rheology"]
+    par = prepare(law, build_context(model, element, frame, model.oil))
+    t = model.oil.temperature
+    ln_eta, rho = np.full(4, np.nan), np.full(4, np.nan)
+    pressures, temperatures = np.array([0.0, _STEP_P, 0.0, 0.0]), np.array([t, t, t - _STEP_T, t + _STEP_T])
+    status = flat_kernel(law.model)(pressures, temperatures, par, ln_eta, rho)
+    if status != 1 or not np.isfinite(ln_eta).all():
+        raise PluginError(f"{law.model.label}: no finite viscosity and density at {t:.2f} K (status {status})")
+    return replace(
+        model.oil,
+        viscosity=math.exp(ln_eta[0]),
+        density=float(rho[0]),
+        alpha_p=float((ln_eta[1] - ln_eta[0]) / _STEP_P),
+        beta=float((ln_eta[2] - ln_eta[3]) / (2.0 * _STEP_T)),
+    )

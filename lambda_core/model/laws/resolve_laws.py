@@ -1,0 +1,332 @@
+"""Resolve the model and parameters of each role."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from pydantic import ValidationError
+
+from lambda_core.case.case import Case
+from lambda_core.case.problems import problems
+from lambda_core.catalogue.protocol import LubricantRow
+from lambda_core.domain.elements import ELEMENTS
+from lambda_core.domain.errors import LambdaError, unknown_name
+from lambda_core.domain.installed import OWN
+from lambda_core.domain.lubrication import MIXTURES
+from lambda_core.domain.plugin_errors import describe
+from lambda_core.domain.roles import CAGE, DEFAULT_MODELS, MOTION_ROLES
+from lambda_core.laws.law import Law
+from lambda_core.laws.parameter import kind_defaults
+from lambda_core.model.bearing_model import ChosenLaw
+from lambda_core.model.laws.law_defaults import default_sentences, short
+from lambda_core.model.laws.law_packages import law_called
+from lambda_core.model.ledger import Ledger, Status
+
+NONE = "none"
+_WEAK = ("grade C)", "grade D)")  # how the origin of an estimate ends
+BALL_BALL = "ball-ball"  # takes the place of the pockets when there is no cage
+CONSTANT = "constant"  # permittivity law that needs no data
+CAVITY_DRAG = "cavity-mixture"  # default law of drag where the balls run in a mixture of oil and air
+SHARE_OF_OIL = "oil_share"  # its parameter that otherwise follows from the flow of oil
+PRESCRIBED = "film_factor"  # parameter of the supply laws that take lubricant.starvation
+# Element -> default model where the role's own default does not fit it.
+LAND = "land-guidance"  # contact of the cage with the ring that guides it
+LANDS = {"cage_inner": "inner ring", "cage_outer": "outer ring"}
+
+
+class ModelSource(Protocol):
+    """What the resolution needs of the registry."""
+
+    def names(self, role: str) -> tuple[str, ...]:
+        """Return the names of the models for `role`."""
+
+    def model(self, role: str, name: str) -> Law:
+        """Return one model; LambdaError when there is none."""
+
+
+@dataclass
+class LawResolver:
+    """Fills every role of every force element; problems go to the ledger."""
+
+    case: Case
+    registry: ModelSource
+    lubricant: LubricantRow | None
+    guidance: str
+    ledger: Ledger
+    kind: str = "deep groove"  # of the bearing
+    _used: dict[str, set[str]] = field(default_factory=dict)  # role -> parameters some model took
+
+    def resolve(self) -> dict[str, dict[str, ChosenLaw]]:
+        """Return element -> role -> law, complete unless the ledger holds problems."""
+        self._check_names()
+        laws: dict[str, dict[str, ChosenLaw]] = {}
+        for element in self._elements():
+            laws[element] = {}
+            for role in (role for role in MOTION_ROLES.values() if element in role.elements):
+                law = self._law(element, role.name)
+                if law is not None:
+                    laws[element][role.name] = law
+        self._check_unused()
+        self._explain(laws)
+        return laws
+
+    def _elements(self) -> tuple[str, ...]:
+        """Return the force elements that there are: balls have pockets or, without a cage, each other."""
+        absent = "ball_ball" if self.case.depth.cage else "ball_cage"
+        return tuple(element for element in ELEMENTS if element != absent)
+
+    def _check_names(self) -> None:
+        """Note roles that an element does not have, in [forces.ELEMENT] and [parameters]."""
+        for role in self.case.parameters:
+            if role not in MOTION_ROLES:
+                self.ledger.problem(f"parameters.{role}", unknown_name("role", role, MOTION_ROLES))
+        for element in ELEMENTS:
+            own = getattr(self.case.forces, element)
+            roles = [role.name for role in MOTION_ROLES.values() if element in role.elements]
+            for role in (name for name in type(own.models).model_fields if getattr(own.models, name) is not None):
+                if role not in roles:
+                    self.ledger.problem(
+                        f"forces.{element}.models.{role}", f"{element} has no such role; its roles: {', '.join(roles)}"
+                    )
+            for role in own.parameters:
+                if role not in roles:
+                    where = f"forces.{element}.parameters.{role}"
+                    self.ledger.problem(where, f"{element} has no such role; its roles: {', '.join(roles)}")
+
+    def _law(self, element: str, role: str) -> ChosenLaw | None:
+        name, where = self._choice(element, role)
+        plain = name.removeprefix(f"{OWN}:")
+        if plain == BALL_BALL and self.case.depth.cage:
+            self.ledger.problem(where, f'"{name}" is the contact without a cage: it needs depth.cage = false')
+            return None
+        if plain == LAND and self.guidance != LANDS.get(element):
+            self.ledger.problem(where, self._not_guided(element))
+            return None
+        try:
+            chosen = law_called(self.registry, role, name, given=self._chosen_by(element, role) == "given")
+        except LambdaError as error:
+            self.ledger.problem(where, str(error))
+            return None
+        rows = self._lubricant_rows(role, chosen)
+        case_texts = self._case_texts(element, role, chosen)
+        if role == "supply" and self.case.lubricant.starvation < 1.0 and not self._prescribes(chosen, case_texts):
+            return None
+        texts: dict[str, Any] = kind_defaults(chosen.parameters, self.kind)
+        texts |= {key: row.text() for key, row in rows.items()}
+        texts.update({key: text for key, (text, _) in case_texts.items()})
+        foreign = [key for key in texts if key not in chosen.parameters.model_fields]
+        for key in foreign:
+            # A plugin's parameters may be declared to ignore what they do not know; a typing slip is no less one.
+            self._foreign_parameter(key, role, chosen, case_texts)
+        if foreign:
+            return None
+        try:
+            parameters = chosen.parameters.model_validate(texts)
+        except ValidationError as error:
+            self._parameter_problems(error, element, role, chosen, texts, case_texts)
+            return None
+        except (Exception, SystemExit) as error:  # a check of the plugin's own
+            self.ledger.problem(where, f"{chosen.label}: its parameters cannot be read: {describe(error)}")
+            return None
+        if getattr(parameters, SHARE_OF_OIL, 0.0) is None and not self.case.thermal.oil_flow > 0.0:
+            self.ledger.problem(
+                "thermal.oil_flow",
+                f"{role} {chosen.name} needs the flow of oil through the bearing, or its share of the cavity: "
+                f"parameters.{role}.{SHARE_OF_OIL}",
+            )
+            return None
+        origins = {}
+        for key in type(parameters).model_fields:
+            if key in case_texts:
+                origins[key] = "case"
+            elif key in rows and self.lubricant:
+                origins[key] = f"lubricant {self.lubricant.name} ({rows[key].source}, grade {rows[key].grade})"
+            else:
+                origins[key] = "default"
+        return ChosenLaw(chosen, parameters, origins)
+
+    def _not_guided(self, element: str) -> str:
+        """Say why no land guides the cage in a force element."""
+        if element in LANDS:
+            ring = LANDS[element]
+            return f'"{LAND}" needs a cage that the {ring} guides, not the {self.guidance}: bodies.cage.guidance'
+        lands = " or ".join(f"forces.{name}.models.cage_contact" for name in LANDS)
+        return f'"{LAND}" is a contact of cage and ring, not of ball and pocket: choose it under {lands}'
+
+    def _prescribes(self, chosen: Law, case_texts: Mapping[str, tuple[Any, str]]) -> bool:
+        """Say whether a supply law takes the film that the case prescribes, and what follows from it."""
+        share, where = self.case.lubricant.starvation, "lubricant.starvation"
+        if PRESCRIBED not in chosen.parameters.model_fields:
+            self.ledger.problem(
+                where, f'the supply law "{chosen.name}" finds the film itself: leave it out, or take "constant"'
+            )
+            return False
+        if PRESCRIBED in case_texts:
+            self.ledger.problem(where, f"{case_texts[PRESCRIBED][1]} gives the film, too: leave one out")
+            return False
+        self.ledger.assume(
+            f"starved contacts: the films are {short(share)} of the flooded ones at every speed and load, as given; "
+            "the rolling resistance is that of the inlet which leaves this film (Wolveridge et al. 1971; Biboulet and "
+            "Houpert 2010, eq. 44; assumed: line contacts)"
+        )
+        return True
+
+    def _choice(self, element: str, role: str) -> tuple[str, str]:
+        """Return the model's name and the path where it was, or would be, chosen."""
+        own = getattr(getattr(self.case.forces, element).models, role)
+        general = getattr(self.case.models, role)
+        where = f"forces.{element}.models.{role}" if own else f"models.{role}"
+        if not self.case.depth.cage and element in CAGE:
+            return NONE, where
+        if element == "ball_ball":
+            return own or BALL_BALL, f"forces.{element}.models.{role}"
+        if own is None and element in LANDS:
+            # A general choice of the pocket's model says nothing about the lands.
+            guided = self.guidance == LANDS[element]
+            return (LAND if guided else NONE), f"forces.{element}.models.{role}"
+        name = own or general
+        if name is None:
+            return self._default(role), where
+        return (self._automatic(role) if name == "auto" and role == "rheology" else name), where
+
+    def _chosen_by(self, element: str, role: str) -> Status:
+        """Say whether the case names this model, or names none and gets the one that fits."""
+        own = getattr(getattr(self.case.forces, element).models, role)
+        general = None if element in LANDS or element == "ball_ball" else getattr(self.case.models, role)
+        return "default" if (own or general) in (None, "auto") else "given"
+
+    def _default(self, role: str) -> str:
+        """Return the built-in default; for a law of the oil, the one that the oil has data for."""
+        if role == "fluid_drag" and self.case.lubricant.lubrication in MIXTURES:
+            return CAVITY_DRAG
+        name = DEFAULT_MODELS[role]
+        if name == "auto":
+            return self._automatic(role)
+        if role != "permittivity" or self.lubricant is None or role in self.case.parameters:
+            return name
+        known = self.lubricant.parameters.get(role, {})
+        if name not in known:
+            other = next(iter(known), CONSTANT)
+            self.ledger.assume(f"{role} model {other}: {self.lubricant.name} has no data for {name}")
+            return other
+        return name
+
+    def _automatic(self, role: str) -> str:
+        return self.lubricant.rheology if self.lubricant else NONE
+
+    def _lubricant_rows(self, role: str, chosen: Law) -> Mapping[str, Any]:
+        """Return what the oil's data has for a law; data of one of ours is not for another's of the same name."""
+        known = self.lubricant.parameters.get(role, {}) if self.lubricant else {}
+        if chosen.qualified in known or chosen.name not in known:
+            return known.get(chosen.qualified, {})
+        try:
+            ours = self.registry.model(role, f"{OWN}:{chosen.name}")
+        except LambdaError:
+            return known[chosen.name]
+        return known[chosen.name] if ours.qualified == chosen.qualified else {}
+
+    def _case_texts(self, element: str, role: str, chosen: Law) -> dict[str, tuple[Any, str]]:
+        """Return parameter -> (text, path) of the case: the element's own before the general ones."""
+        texts: dict[str, tuple[Any, str]] = {}
+        known = chosen.parameters.model_fields
+        for key, text in self.case.parameters.get(role, {}).items():
+            if key in known:
+                texts[key] = (text, f"parameters.{role}.{key}")
+                self._used.setdefault(role, set()).add(key)
+        own = getattr(self.case.forces, element).parameters.get(role, {})
+        for key, text in own.items():
+            texts[key] = (text, f"forces.{element}.parameters.{role}.{key}")
+        return texts
+
+    def _parameter_problems(
+        self,
+        error: ValidationError,
+        element: str,
+        role: str,
+        chosen: Law,
+        texts: Mapping[str, Any],
+        case_texts: Mapping[str, tuple[Any, str]],
+    ) -> None:
+        fields = chosen.parameters.model_fields
+        missing = [key for key, info in fields.items() if info.is_required() and key not in texts]
+        if len(missing) > 1 and self.lubricant is not None:
+            self.ledger.problem(self._choice(element, role)[1], self._lacking(role, chosen, missing))
+        for problem in problems(error, chosen.parameters, dict(texts)):
+            if len(missing) > 1 and problem.where in missing and self.lubricant is not None:
+                continue
+            key, _, inside = problem.where.partition(".")
+            where = (
+                ".".join(filter(None, (case_texts[key][1], inside)))
+                if key in case_texts
+                else f"parameters.{role}.{problem.where}".rstrip(".")
+            )
+            message = f"{role} {chosen.name}: {problem.message}"
+            if key not in texts and self.lubricant is not None:
+                message = f"{role} {chosen.name} needs it, and the lubricant {self.lubricant.name} has no data for it"
+            self.ledger.problem(where, message)
+
+    def _lacking(self, role: str, chosen: Law, missing: list[str]) -> str:
+        """Say in one sentence what a law needs, and which laws the oil has data for."""
+        assert self.lubricant is not None
+        known = [name for name in self.lubricant.parameters.get(role, {}) if name != chosen.name]
+        others = f"; it has data for {', '.join(known)}" if known else ""
+        return (
+            f"{role} {chosen.name} needs {', '.join(missing)}, and the lubricant {self.lubricant.name} has no data for "
+            f"them{others}; give them under parameters.{role}, or choose another law"
+        )
+
+    def _foreign_parameter(self, key: str, role: str, chosen: Law, case_texts: Mapping[str, tuple[Any, str]]) -> None:
+        known = ", ".join(chosen.parameters.model_fields) or "none"
+        if key in case_texts:
+            where, whose = case_texts[key][1], ""
+        else:
+            where, whose = "lubricant.name", f'data of {self.lubricant.name if self.lubricant else ""}: "{key}" '
+        self.ledger.problem(where, f"{whose}is not a parameter of {role} {chosen.name}; it has: {known}")
+
+    def _check_unused(self) -> None:
+        """Note general parameters that no chosen model of the role knows."""
+        for role, texts in self.case.parameters.items():
+            for key in texts:
+                if role in MOTION_ROLES and key not in self._used.get(role, set()):
+                    chosen = self._chosen(role)
+                    fields = sorted({f for model in chosen for f in model.parameters.model_fields})
+                    names = ", ".join(dict.fromkeys(model.name for model in chosen))
+                    self.ledger.problem(
+                        f"parameters.{role}.{key}",
+                        unknown_name(f"parameter of {role} {names}", key, fields),
+                    )
+
+    def _chosen(self, role: str) -> list[Law]:
+        found = []
+        for element in (each for each in self._elements() if each in MOTION_ROLES[role].elements):
+            name, _ = self._choice(element, role)
+            with suppress(LambdaError):  # told where it was chosen
+                found.append(law_called(self.registry, role, name, given=self._chosen_by(element, role) == "given"))
+        return found
+
+    def _explain(self, laws: Mapping[str, Mapping[str, ChosenLaw]]) -> None:
+        """Turn defaults and weak lubricant data into sentences, one per value, with source and grade."""
+        for element, roles in laws.items():
+            for role, law in roles.items():
+                written = law.parameters.model_dump(mode="json")
+                self._record(element, role, law, written)
+                for sentence in default_sentences(role, law, written):
+                    self.ledger.assume(sentence)
+                for key, origin in law.origins.items():
+                    if origin.endswith(_WEAK):
+                        self.ledger.assume(f"{role} {law.model.name}: {key} {short(written[key])}, {origin}")
+
+    def _record(self, element: str, role: str, law: ChosenLaw, written: Mapping[str, Any]) -> None:
+        source = law.model.distribution or "built-in"
+        self.ledger.record(
+            f"forces.{element}.models.{role}", law.model.name, "", source, self._chosen_by(element, role)
+        )
+        for key, value in written.items():
+            origin = law.origins[key]
+            weak: Status = "assumed" if origin.endswith(_WEAK) else "published"
+            status: Status = "given" if origin == "case" else "default" if origin == "default" else weak
+            plain: float | str = value if isinstance(value, int | float | str) else str(value)
+            self.ledger.record(f"forces.{element}.parameters.{role}.{key}", plain, "", origin, status)

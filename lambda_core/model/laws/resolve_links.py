@@ -1,0 +1,66 @@
+"""Force elements of a case between bodies: their ends, their laws, their parameters."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lambda_core.domain.elements import BODIES, BodyName
+from lambda_core.domain.errors import unknown_name
+from lambda_core.model.bearing_model import ELEMENT_PREFIX, ChosenLaw, Link
+from lambda_core.model.laws.given_parameters import law_by_name
+from lambda_core.model.ledger import Ledger
+
+if TYPE_CHECKING:
+    from lambda_core.case.case import Case
+    from lambda_core.model.laws.resolve_laws import ModelSource
+
+ROLE = "force_element"
+GROUND = "ground"
+_CENTRE = (0.0, 0.0, 0.0)
+End = tuple[BodyName | None, tuple[float, float, float]]
+
+
+def resolve_links(
+    case: Case, registry: ModelSource, ledger: Ledger
+) -> tuple[dict[str, Link], dict[str, dict[str, ChosenLaw]]]:
+    """Return the force elements by name, and their laws as the model names them; complete unless there are problems."""
+    links: dict[str, Link] = {}
+    laws: dict[str, dict[str, ChosenLaw]] = {}
+    for name, element in case.elements.items():
+        where = f"elements.{name}"
+        first, second = (
+            _end(case, element.first, f"{where}.first", ledger),
+            _end(case, element.second, f"{where}.second", ledger),
+        )
+        law = law_by_name(ROLE, element.law, element.parameters, where, registry, ledger)
+        if first is None or second is None or law is None:
+            continue
+        if second[0] is None:
+            ledger.problem(f"{where}.second", "the ground does not move: write it as first, the body as second")
+        elif first[0] == second[0]:
+            ledger.problem(f"{where}.second", f"both ends are on one body, {second[0]}")
+        else:
+            links[name] = Link(first[0], first[1], second[0], second[1])
+            laws[f"{ELEMENT_PREFIX}{name}"] = {ROLE: law}
+    return links, laws
+
+
+def _end(case: Case, name: str, where: str, ledger: Ledger) -> End | None:
+    """Return the body and the place that a name stands for, None with a problem in the ledger."""
+    if name in case.markers and name in (GROUND, *BODIES):
+        ledger.problem(where, f'"{name}" stands for a marker and for what is always called so: rename the marker')
+        return None
+    if name == GROUND:
+        return None, _CENTRE
+    place = _CENTRE
+    body = next((each for each in BODIES if each == name), None)
+    if body is None and name in case.markers:
+        marker = case.markers[name]
+        body, place = marker.body, (marker.x, marker.y, marker.z)
+    if body is None:
+        ledger.problem(where, unknown_name("body or marker", name, [GROUND, *BODIES, *case.markers]))
+        return None
+    if body == "cage" and not case.depth.cage:
+        ledger.problem(where, "there is no cage: depth.cage is false")
+        return None
+    return body, place

@@ -1,0 +1,55 @@
+"""List the channels of a model that not every run has.
+
+These are states of contacts, arcs and waves of elastic rings.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from lambda_core.domain.channels import ARC_CHANNELS, CHANNELS, Channel
+from lambda_core.domain.elements import BODIES, RACEWAYS
+from lambda_core.laws.state import ROLE, State
+
+if TYPE_CHECKING:
+    from lambda_core.model.bearing_model import BearingModel
+
+
+def states_of(model: BearingModel, element: str) -> tuple[State, ...]:
+    """Return what every contact of one raceway keeps, in the order of its law."""
+    return model.laws[element][ROLE].model.states
+
+
+def state_channels(model: BearingModel) -> tuple[Channel, ...]:
+    """Return one channel for each state, of all raceways together."""
+    found = {state.name: state.channel for element in RACEWAYS for state in states_of(model, element)}
+    if model.geometry.four_point:
+        return tuple(replace(channel, dims=("ball", "arc")) for channel in found.values())
+    return tuple(found.values())
+
+
+def arc_channels(model: BearingModel) -> tuple[Channel, ...]:
+    """Return the channels of arcs, where a ring has two."""
+    return ARC_CHANNELS if model.geometry.four_point else ()
+
+
+def wave_channels(model: BearingModel) -> tuple[Channel, ...]:
+    """Return one channel for each number of waves of each elastic body, then how oval it is."""
+    found = []
+    for body, waves in model.elastic.items():
+        name = BODIES[body].split(" with")[0]
+        found += [
+            Channel(
+                f"{body}_waves_{order}", ("wave",), "m", f"amplitudes of {order} waves round the {name}, outwards, "
+                "in its frame",
+            )
+            for order in waves.counts
+        ]  # fmt: skip
+        found.append(Channel(f"{body}_ovality", (), "m", f"largest less smallest diameter of the bent {name}"))
+    return tuple(found)
+
+
+def result_channels(model: BearingModel) -> tuple[Channel, ...]:
+    """Return what every sample of a run of the model carries."""
+    return (*CHANNELS, *arc_channels(model), *state_channels(model), *wave_channels(model))

@@ -1,0 +1,45 @@
+"""The long form of the case of one bearing, with what the catalogue knows of its size."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Literal
+
+from lambda_core.case.case_io import Source, load_case
+from lambda_core.case.short_form import LongForm, expand
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.checking import resolve
+from lambda_core.model.laws.time_functions import initial
+
+
+def long_form(source: Source, overrides: Iterable[str] = ()) -> LongForm:
+    """Write the case of one bearing as a machine with this bearing on a rigid shaft, to go on from.
+
+    Parameters
+    ----------
+    source : str, Path, mapping or Case
+        File, built-in name, plain tables, or a case.
+    overrides : iterable of str
+        Changes ``path=value``.
+
+    Returns
+    -------
+    LongForm
+        Plain tables, which :func:`lambda_core.api.check` takes, and what the machine has otherwise.
+
+    Raises
+    ------
+    UsageError, CaseError
+        When there is no such case, or it has mistakes.
+    """
+    case = load_case(source, overrides)
+    model = resolve(case, is_static=True)
+    g = model.geometry
+    return expand(case, bore=g.bore_diameter, width=g.width, takes=_takes(model))
+
+
+def _takes(model: BearingModel) -> Literal["+x", "-x"] | None:
+    """Return the axial force on the shaft that an angular contact bearing takes: that of its axial load."""
+    if not model.geometry.contact_angle or model.geometry.rated_rows > 1:
+        return None
+    return "-x" if initial(model.inner_ring.force[0]) < 0.0 else "+x"

@@ -1,0 +1,215 @@
+"""A shaft in bearings, resolved: everything that its equilibrium needs, SI, immutable."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.formulas.elastic.body import ElasticBody
+from lambda_core.formulas.gear_forces import GearForces
+from lambda_core.model.bearing_model import ZERO, BearingModel, ElectricModel, Solver, TimeFunction
+from lambda_core.model.laws.time_functions import initial
+from lambda_core.model.settings.machine_heat import MachineHeat
+
+PLACES = (0, 1, 2, 4, 5)  # of a pose (solver.drivers.held_ring) among the six rows of a node
+# [N/m] of a seat that is locked in a body that moves: a hundred to a thousand times as stiff as a bearing
+LOCKED = 1e11
+GROUND, SHAFT = -1, 0  # numbers of bodies; the others follow
+
+
+@dataclass(frozen=True)
+class Seating:
+    """How an outer ring sits in the housing, in the order of POSE.
+
+    Attributes
+    ----------
+    stiffness : tuple of 5 floats
+        Of the housing, [N/m] and [N m/rad]; inf where locked, 0 where free.
+    shift : tuple of 5 floats
+        Where the ring stands before any load against its drawn place [m, rad].
+    force : float
+        Of a spring on the outer ring along x [N].
+    damping : tuple of 5 floats
+        Of the seat [N s/m, N m s/rad].
+    lead : tuple of 5 TimeFunction
+        `shift` over time, which is its value at t = 0.
+    """
+
+    stiffness: tuple[float, ...]
+    shift: tuple[float, ...]
+    force: float = 0.0
+    damping: tuple[float, ...] = (0.0,) * 5
+    lead: tuple[TimeFunction, ...] = (ZERO,) * 5
+
+
+@dataclass(frozen=True)
+class MountedBearing:
+    """A bearing at its place on the shaft."""
+
+    name: str
+    position: float  # [m]
+    model: BearingModel
+    seating: Seating
+    takes: int  # axial force on the shaft that it can take: +1, -1, 0 for both
+    nominal_angle: float  # contact angle of its ratings [rad]
+    dynamic_rating: float  # C [N]
+    static_rating: float  # C_0 [N]
+    fatigue_limit: float  # C_u [N]
+    carrier: int = GROUND  # body that the outer ring sits in
+
+    @property
+    def is_locked_along(self) -> bool:
+        """Whether its seat holds the outer ring along the shaft."""
+        return self.seating.stiffness[0] >= LOCKED
+
+
+@dataclass(frozen=True)
+class Unbalance:
+    """A mass that turns with the shaft beside its axis."""
+
+    position: float  # [m]
+    amount: float  # mass times eccentricity [kg m]
+    angle: float  # azimuth at t = 0, from +y to +z [rad]
+
+
+@dataclass(frozen=True)
+class Place:
+    """A point of a body, and axes there."""
+
+    body: int
+    point: tuple[float, float, float]  # where it is drawn, from the left end of the shaft's axis [m]
+    axes: FloatArray  # as columns, shape (3, 3)
+
+
+@dataclass(frozen=True)
+class ShaftSpring:
+    """Spring and damper between two bodies, or a body and the ground, at one point."""
+
+    name: str
+    place: Place  # of the one body
+    to: int  # the other one
+    stiffness: FloatArray  # against the motions and turns of one against the other there, shape (6, 6)
+    damping: FloatArray
+
+
+@dataclass(frozen=True)
+class RigidBody:
+    """A body beside the shaft, SI."""
+
+    name: str
+    centre: tuple[float, float, float]  # of mass, from the left end of the shaft's axis [m]
+    mass: float  # [kg]
+    polar_inertia: float  # about x [kg m2]
+    transverse_inertia: float  # about y and about z [kg m2]
+    hold: tuple[float, ...]  # stiffness of what holds the centre, six; inf where locked, 0 where free [N/m, N m/rad]
+    extent: tuple[float, float, float]  # length, width, height of its shape, zeros where there is none [m]
+    lead: tuple[TimeFunction, ...] = (ZERO,) * 6  # where it is led, what is locked of it [m, rad]
+    damping: tuple[float, ...] = (0.0,) * 6  # of what holds the centre [N s/m, N m s/rad]
+
+    @property
+    def shift(self) -> tuple[float, ...]:
+        """Where it is led at t = 0 [m, rad]."""
+        return tuple(map(initial, self.lead))
+
+
+@dataclass(frozen=True)
+class MachineModel:
+    """Shaft, bearings and loads.
+
+    Attributes
+    ----------
+    body : ElasticBody
+        The shaft with its discs.
+    bearings : tuple of MountedBearing
+        From left to right.
+    loads : float64[:], shape (rows of the shaft + 6 bodies,)
+        Nodal forces of loads and gears, then forces and moments on the bodies about their centres [N, N m].
+    weight : float64[:], likewise
+        Of shaft with discs, and bodies [N, N m].
+    growth : float64[:], likewise
+        Forces that stretch the shaft as much as its temperature does [N].
+    housing : float64[:, :], shape (5 bearings, 5 bearings), or None
+        Stiffness between all outer rings in an elastic housing, zeros where a ring is free; None: rigid seats.
+    housing_damping : float64[:, :], likewise
+    drive : int
+        Row of the turning of the node that the coupling holds.
+    outline, discs, load_places, wheels
+        What a drawing shows.
+    unbalances : tuple of Unbalance
+        Of the discs; they count in motion.
+    speed_over_time : TimeFunction
+        Of the shaft [rad/s].
+    springs : tuple of ShaftSpring
+        Between shaft, bodies and ground.
+    bodies : tuple of RigidBody
+        Beside the shaft.
+    markers : tuple of (str, Place)
+        Named places.
+    heat : MachineHeat
+        The thermal network.
+    awaits_temperatures : bool
+        Whether they are to be computed before anything else.
+    warnings : tuple of str
+        What cannot stand on the shaft as it is drawn.
+    """
+
+    name: str
+    body: ElasticBody
+    bearings: tuple[MountedBearing, ...]
+    loads: FloatArray
+    weight: FloatArray
+    growth: FloatArray
+    housing: FloatArray | None
+    gravity: tuple[float, float, float]  # [m/s2]
+    drive: int
+    heat: MachineHeat
+    speed: float  # at t = 0 [rad/s]
+    contamination: float | None  # e_C of ISO 281
+    gears: dict[str, GearForces]  # forces of each mesh, by name
+    assumptions: tuple[str, ...]
+    outline: tuple[tuple[float, float, float, float], ...]  # begin, end, diameter, bore of each section [m]
+    discs: tuple[tuple[str, float], ...]  # name and position [m]
+    load_places: tuple[tuple[str, float], ...]  # of loads and gears [m]
+    wheels: tuple[tuple[str, float, float], ...] = ()  # of gears: name, position, pitch diameter [m]
+    unbalances: tuple[Unbalance, ...] = ()
+    speed_over_time: TimeFunction = ZERO
+    varying: tuple[tuple[int, TimeFunction], ...] = ()  # row of `loads` and its value over time
+    twists: bool = False  # in motion
+    springs: tuple[ShaftSpring, ...] = ()
+    bodies: tuple[RigidBody, ...] = ()
+    markers: tuple[tuple[str, Place], ...] = ()
+    housing_damping: FloatArray | None = None
+    awaits_temperatures: bool = False
+    warnings: tuple[str, ...] = ()
+    electric: ElectricModel | None = None  # circuit of shaft and frame
+    case_toml: str = ""  # the case, complete: it runs again as it stands
+
+    @property
+    def led(self) -> list[TimeFunction]:
+        """Everything that leads shaft, seats and bodies over time."""
+        seats = [lead for mounted in self.bearings for lead in mounted.seating.lead]
+        return [self.speed_over_time, *seats, *(lead for body in self.bodies for lead in body.lead)]
+
+    @property
+    def solver(self) -> Solver:
+        """Settings of the integrator, but for those that each bearing has of its own: longest step and time."""
+        return self.bearings[0].model.solver
+
+    @property
+    def spring_places(self) -> tuple[float, ...]:
+        """Where springs hold the shaft [m]."""
+        return tuple(s.place.point[0] for s in self.springs if SHAFT in (s.place.body, s.to))
+
+    @property
+    def has_changing_torque(self) -> bool:
+        """Whether torques on the shaft change over time."""
+        return any(row < 6 * self.body.positions.size and row % 6 == 3 for row, _ in self.varying)
+
+    @property
+    def names(self) -> dict[str, list[str]]:
+        """Of bearings, bodies and markers."""
+        return {
+            "bearings": [bearing.name for bearing in self.bearings],
+            "bodies": [body.name for body in self.bodies],
+            "markers": [name for name, _ in self.markers],
+        }

@@ -1,0 +1,314 @@
+"""From a case to a bearing model: every value looked up, frozen in SI, with its origin.
+
+What the case leaves open is filled from the catalogue or by a stated assumption; what is
+missing, unknown, contradictory or impossible is collected and raised at once.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, Protocol
+
+from pydantic import BaseModel
+
+from lambda_core.case.case import Case
+from lambda_core.case.case_writer import standalone_toml
+from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue
+from lambda_core.domain.elements import BODIES
+from lambda_core.domain.units import show
+from lambda_core.laws.context import Material
+from lambda_core.laws.jit.reach import reach
+from lambda_core.laws.law import Law
+from lambda_core.model.bearing_model import (
+    BearingModel,
+    ChosenEvent,
+    ChosenLaw,
+    ChosenObserver,
+    Depth,
+    Geometry,
+    Marker,
+    Output,
+)
+from lambda_core.model.bodies.resolve_bodies import (
+    Inertia,
+    check_bodies,
+    resolve_body,
+    resolve_cage,
+    resolve_inertia,
+    ring_inertia,
+    shaft_inertia,
+)
+from lambda_core.model.bodies.resolve_elastic import resolve_elastic
+from lambda_core.model.bodies.resolve_materials import (
+    lubrication_of,
+    resolve_lubricant,
+    resolve_material,
+    resolve_oil_level,
+)
+from lambda_core.model.geometry.geometry_checks import check_clearance
+from lambda_core.model.geometry.resolve_clearance import clearance_in_operation, resolve_mounting
+from lambda_core.model.geometry.resolve_designation import resolve_designation
+from lambda_core.model.geometry.resolve_geometry import resolve_geometry, with_clearance
+from lambda_core.model.geometry.resolve_rows import hold_tilts
+from lambda_core.model.geometry.shadowed_data import tell_shadows
+from lambda_core.model.laws.interpolation import say_overshoot
+from lambda_core.model.laws.law_packages import with_packages
+from lambda_core.model.laws.resolve_laws import LawResolver, ModelSource
+from lambda_core.model.laws.resolve_links import resolve_links
+from lambda_core.model.laws.resolve_states import check_states
+from lambda_core.model.laws.time_functions import peak, time_function
+from lambda_core.model.laws.time_laws import resolve_time_laws, signals_of
+from lambda_core.model.ledger import Ledger
+from lambda_core.model.settings.resolve_electric import resolve_electric
+from lambda_core.model.settings.resolve_solver import resolve_solver
+from lambda_core.model.settings.resolve_thermal import check_thermal
+from lambda_core.model.settings.resolve_watch import WatchSource, resolve_events, resolve_observers
+from lambda_core.views.observer import Event, Observer
+
+# [m/s] on the pitch circle: a ring of steel would be under rho v^2 = 7.9 GPa of hoop stress (Timoshenko and Goodier,
+# Theory of Elasticity, rotating rings), three times what bearing steel bears.
+FASTEST = 1000.0
+
+
+class PluginSource(ModelSource, WatchSource, Protocol):
+    """What the resolution needs of the registry."""
+
+
+def resolve(
+    case: Case,
+    registry: PluginSource,
+    catalogue: Catalogue,
+    *,
+    is_static: bool = False,
+    place: Callable[[str], str] = str,
+) -> BearingModel:
+    """Freeze a case into the model that a run needs.
+
+    Parameters
+    ----------
+    case : Case
+        What the engineer wrote.
+    registry : PluginSource
+        Models by role and name; observers and events by name.
+    catalogue : Catalogue
+        Bearings, lubricants, materials, cages, clearance classes.
+    is_static : bool
+        Whether the model is for an equilibrium alone, which needs no end in time.
+    place : callable
+        Where in the file stands what stands at a path of the case: a machine has several bearings.
+
+    Raises
+    ------
+    CaseError
+        With everything that is unknown, missing, contradictory or impossible.
+    """
+    ledger, written = Ledger(assumptions=list(case.assumptions), place=place), case
+    row, designation, case = resolve_designation(written, catalogue, ledger)
+    known = row is not None or (case.bearing.designation is None and case.bearing.geometry is not None)
+    bare = resolve_geometry(case.bearing, row, catalogue, ledger) if known else None
+    parts = {part: resolve_material(part, case, catalogue, ledger) for part in ("inner", "outer", "balls")}
+    cage_row = ledger.ask("bodies.cage.type", lambda: catalogue.cage(case.bodies.cage.type))
+    parts["cage"] = resolve_material("cage", case, catalogue, ledger, cage_row.material if cage_row else None)
+    materials = {part: known.material for part, known in parts.items()}
+    lubricant, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
+    case = hold_tilts(case, bare[0], ledger) if bare else case
+    case, courses = resolve_time_laws(case, registry, ledger)
+    if not is_static:
+        say_overshoot(signals_of(case), ledger)
+    check_bodies(case, ledger)
+    check_thermal(case, ledger)
+    _settings(case, ledger)
+    kind = bare[0].kind if bare else "deep groove"
+    guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
+    laws = LawResolver(case, registry, lubricant, guidance, ledger, kind).resolve() if lubricant else {}
+    between, more = resolve_links(case, registry, ledger)
+    more |= courses
+    electric = resolve_electric(case.electric.inlined(), registry, ledger) if case.electric else None
+    observers, events = resolve_observers(case, registry, ledger), resolve_events(case, registry, ledger)
+    if bare is None or cage_row is None or oil is None:
+        ledger.check(case.name)
+        raise AssertionError("a part is missing and no problem says why")
+    _check_temperature(case, cage_row, ledger)
+    geometry, bought = bare
+    _possible(case, ledger)
+    mounting = resolve_mounting(case, geometry, bought, parts["inner"].solid, parts["balls"].solid, ledger)
+    if mounting is not None:
+        geometry = with_clearance(geometry, clearance_in_operation(case, geometry, mounting, ledger))
+    check_clearance(geometry, ledger)
+    _possible(case, ledger)
+    lubrication = lubrication_of(case.lubricant, lubricant)
+    oil_level = resolve_oil_level(case.lubricant, lubricant, geometry.ball_diameter, ledger)
+    cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, materials["cage"], ledger)
+    inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
+    elastic = resolve_elastic(case, geometry, (cage, inertias["cage"].mass), materials, ledger)
+    _check_spins(case, geometry, ledger)
+    solver = resolve_solver(case, geometry, laws, ledger, is_static=is_static)
+    names = (designation, oil.name, *(material.name for material in materials.values()), cage_row.name)
+    check_states(laws, observers, ledger)
+    tell_shadows(catalogue, registry, (case, names), laws, ledger)
+    ledger.check(case.name)
+    return BearingModel(
+        name=case.name,
+        title=_title(case, row, designation),
+        geometry=geometry,
+        ball_material=materials["balls"],
+        inner_material=materials["inner"],
+        outer_material=materials["outer"],
+        cage_material=materials["cage"],
+        oil=oil,
+        oil_level=oil_level,
+        lubrication=lubrication,
+        oil_flow=case.thermal.oil_flow,
+        roughness=case.surface.roughness,
+        starvation=case.lubricant.starvation,
+        gravity=(case.gravity.x, case.gravity.y, case.gravity.z),
+        inner_ring=resolve_body("inner_ring", case, inertias["inner_ring"]),
+        outer_ring=resolve_body("outer_ring", case, inertias["outer_ring"]),
+        cage=cage,
+        cage_body=resolve_body("cage", case, inertias["cage"]),
+        laws={**laws, **more},
+        depth=Depth(case.depth.cage, case.depth.strips, case.depth.rows),
+        solver=solver,
+        output=Output(case.output.interval or 0.0, case.output.checkpoint_interval),
+        values=tuple(ledger.values),
+        assumptions=tuple(ledger.assumptions),
+        case_toml=standalone_toml(with_packages(written, registry)),
+        plugins=_distributions(
+            {**laws, **more, "electric": electric.laws if electric else {}}, [*observers.values(), *events.values()]
+        ),
+        markers={name: Marker(m.body, (m.x, m.y, m.z)) for name, m in case.markers.items()},
+        thermal=case.thermal if case.operation.temperatures == "computed" else None,
+        mounting=mounting,
+        contradictions=tuple(ledger.contradictions),
+        electric=electric,
+        observers=observers,
+        events=events,
+        links=between,
+        elastic=elastic,
+    )
+
+
+def _distributions(
+    laws: Mapping[str, Mapping[str, ChosenLaw]], watching: Iterable[ChosenObserver | ChosenEvent]
+) -> tuple[str, ...]:
+    """Return "distribution version" of every plugin that a chosen law, observer or event comes from."""
+    found = {law.model.distribution for roles in laws.values() for law in roles.values()}
+    found |= {chosen.item.distribution for chosen in watching}
+    return tuple(sorted(found - {""}))
+
+
+def _title(case: Case, row: BearingRow | None, designation: str) -> str:
+    if row is None:
+        return f"{designation or case.name} (geometry of the case)"
+    edited = ", geometry edited" if case.bearing.geometry else ""
+    return f"{designation} ({row.maker}{edited})"
+
+
+def _possible(case: Case, ledger: Ledger) -> None:
+    """Raise what is wrong so far when the bearing is impossible: what follows computes with its dimensions."""
+    if any(problem.where.startswith("bearing.") for problem in ledger.problems):
+        ledger.check(case.name)
+
+
+def _check_temperature(case: Case, cage: CageRow, ledger: Ledger) -> None:
+    """Say when the oil is hotter than the cage is made for."""
+    limit, oil = cage.maximum_temperature, case.lubricant.temperature
+    if case.depth.cage and limit is not None and oil > limit.value:
+        hot, rated = show(oil, "temperature", 4), show(limit.value, "temperature", 4)
+        ledger.assume(f"the oil at {hot} is hotter than the cage type {cage.name} is made for ({rated})")
+
+
+def _inertias(
+    case: Case, geometry: Geometry, materials: Mapping[str, Material], cage: Inertia, ledger: Ledger
+) -> dict[str, Inertia]:
+    """Return mass and inertia of rings and cage, the shaft counted to the inner ring."""
+    bodies = case.bodies
+    rings = {ring: ring_inertia(geometry, ring, materials[ring].density) for ring in ("inner", "outer")}
+    inner = resolve_inertia("inner_ring", bodies.inner_ring, rings["inner"], ledger)
+    shaft = shaft_inertia(bodies.inner_ring, geometry, materials["inner"].density, ledger)
+    ledger.assume("mass and inertia of the rings estimated from the geometry: hollow cylinders less their grooves")
+    return {
+        "inner_ring": inner + shaft,
+        "outer_ring": resolve_inertia("outer_ring", bodies.outer_ring, rings["outer"], ledger),
+        "cage": resolve_inertia("cage", bodies.cage, cage, ledger),
+    }
+
+
+def _settings(case: Case, ledger: Ledger) -> None:
+    """Record the remaining settings; those left open become assumptions."""
+    lubricant, surface = case.lubricant, case.surface
+    ledger.given("lubricant.temperature", lubricant.temperature, "temperature")
+    for section, name, quantity, sentence in (
+        (lubricant, "starvation", "", "films fully flooded: no starvation is given"),
+        (
+            surface,
+            "roughness",
+            "small_length",
+            "composite roughness sigma {}, as on measured raceways of 0.10 and 0.16 um",
+        ),
+    ):
+        value, prefix = getattr(section, name), "surface" if section is surface else "lubricant"
+        if name in section.model_fields_set:
+            ledger.given(f"{prefix}.{name}", value, quantity)
+        else:
+            ledger.record(f"{prefix}.{name}", value, quantity, "default", "assumed")
+            ledger.assume(sentence.format(show(value, quantity)) if "{}" in sentence else sentence)
+
+
+def _check_spins(case: Case, geometry: Geometry, ledger: Ledger) -> None:
+    """Refuse prescribed spins at which rings and cage would fly apart."""
+    highest = 2.0 * FASTEST / geometry.pitch_diameter
+    spins: dict[str, Any] = {"operation.speed": case.operation.speed}
+    for name in BODIES:
+        spins[f"bodies.{name}.spin.motion"] = getattr(getattr(case.bodies, name).spin, "motion", None)
+    for place, motion in spins.items():
+        if peak(time_function(motion)) > highest:
+            ledger.problem(place, f"is too fast: steel bursts far below {show(highest, 'rotational_speed', 3)}")
+
+
+def case_hash(model: BearingModel) -> str:
+    """Return a hash of all that decides the numbers of a run, equal in every process.
+
+    The laws count with everything their kernels reach: an edited law has another hash. Name,
+    title, sources and assumptions are left out: two cases that mean the same run share one.
+    """
+    silent = {"name", "title", "values", "assumptions", "contradictions", "case_toml", "plugins"}
+    if model.thermal is None:
+        silent |= {"thermal", "mounting"}
+    if model.electric is None:
+        silent |= {"electric"}
+    # Left out where a model has none: the hash is that from before there were any.
+    absent = [name for name in ("observers", "events", "links", "elastic") if not getattr(model, name)]
+    names = [f.name for f in dataclasses.fields(model) if f.name not in (*silent, *absent)]
+    data = {name: _plain(getattr(model, name)) for name in names}
+    if model.solver.resolve == 0.0:
+        del data["solver"]["resolve"]
+    for name in ("resting_angle", "rows", "row_distance", "arrangement"):  # as before there were any
+        if getattr(model.geometry, name) == Geometry.__dataclass_fields__[name].default:
+            del data["geometry"][name]
+    text = json.dumps(data, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _plain(value: Any) -> Any:
+    """Return `value` as JSON data; floats keep 13 digits, so that 0.1 um and 100 nm are one."""
+    if isinstance(value, Law):
+        laws = [function for function in (value.kernel, value.prepare) if function is not None]
+        kept = [_plain(state) for state in value.states]  # none: as before there were any
+        return [value.role, value.name, value.role_api, *(reach(law, lenient=True).key for law in laws), *kept]
+    if isinstance(value, Observer | Event):
+        return [value.name, value.key]
+    if isinstance(value, BaseModel):
+        return {name: _plain(getattr(value, name)) for name in type(value).model_fields}
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value) if f.name != "origins"}
+    if callable(value):
+        return reach(value, lenient=True).key
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, tuple | list):
+        return [_plain(item) for item in value]
+    return f"{value:.12e}" if isinstance(value, float) else value

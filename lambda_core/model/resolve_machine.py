@@ -1,0 +1,364 @@
+"""From the case of a shaft to its model: every bearing resolved as its own case, every mistake at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import closing, nullcontext
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lambda_core.case.case import Case, merged
+from lambda_core.case.case_io import Source, read_tables, validate
+from lambda_core.case.case_writer import tables_toml
+from lambda_core.case.salvage import InvalidCase, related
+from lambda_core.case.shaft import ShaftCase, bearing_tables, place_in_machine
+from lambda_core.catalogue.protocol import Catalogue
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.domain.errors import CaseError, Problem
+from lambda_core.domain.units import show
+from lambda_core.formulas.elastic.beam import NODE
+from lambda_core.formulas.elastic.body import Disc, ElasticBody, shaft_body, with_discs
+from lambda_core.formulas.elastic.sections import BodyMaterial, RoundSection
+from lambda_core.formulas.fits import REFERENCE_TEMPERATURE
+from lambda_core.formulas.gear_forces import GearForces, gear_forces
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.bodies.elastic_housing import elastic_housing
+from lambda_core.model.bodies.fitting import fitting_warnings
+from lambda_core.model.bodies.locations import Places, places
+from lambda_core.model.bodies.mounting import mounted, refuse_motion
+from lambda_core.model.bodies.reduced_shaft import reduced_shaft
+from lambda_core.model.bodies.resolve_materials import body_material
+from lambda_core.model.bodies.rigid_bodies import (
+    all_loads,
+    connections,
+    refuse_far_beyond,
+    refuse_idle_dampers,
+    rigid_bodies,
+)
+from lambda_core.model.checking import resolve
+from lambda_core.model.checks.dependent_errors import independent, is_shape_known
+from lambda_core.model.laws.interpolation import say_overshoot
+from lambda_core.model.laws.time_functions import initial, planned_speed, time_function
+from lambda_core.model.laws.time_laws import refuse_laws
+from lambda_core.model.ledger import Ledger
+from lambda_core.model.machine_model import GROUND, SHAFT, MachineModel, MountedBearing, Unbalance
+from lambda_core.model.settings.machine_heat import check_heat, resolve_heat, stretch
+from lambda_core.model.settings.machine_solver import changing, refuse_settings, with_settings
+from lambda_core.model.settings.resolve_electric import resolve_machine_electric, with_circuits
+
+_SLENDEREST = 200  # diameters; elements are as long as thick, and matrices of more take minutes
+
+
+@one_blas_thread()
+def check_shaft(
+    source: Source,
+    overrides: Iterable[str] = (),
+    *,
+    folder: Path | None = None,
+    catalogue: Catalogue | None = None,
+) -> MachineModel:
+    """Read and resolve the case of a shaft in bearings without solving it.
+
+    Parameters
+    ----------
+    source : str, Path, mapping or ShaftCase
+        File, plain tables as they stand in one, or a case.
+    overrides : iterable of str
+        Changes ``path=value``.
+    folder : Path, optional
+        That file names in plain tables are relative to; default: the working directory.
+    catalogue : Catalogue, optional
+        An open one, left open; default: one of its own.
+
+    Returns
+    -------
+    MachineModel
+        With the model of every bearing.
+
+    Raises
+    ------
+    CaseError
+        With every mistake at once: those of the file and those that only catalogue and geometry show, of all that the
+        former leave.
+    """
+    from lambda_core.discovery.manager import registry
+
+    read = read_tables(source, folder).changed(overrides)
+    tables, name, folder = merged({}, read.data), read.name, read.folder
+    if read.root is not ShaftCase:
+        raise CaseError(name, [Problem("bearing", "is one bearing; this question is about a machine with a shaft")])
+    found: list[Problem] = []
+    case: ShaftCase | None = None
+    try:
+        case = validate(ShaftCase, tables, name, folder)
+    except InvalidCase as error:
+        found += error.problems
+        case = error.remainder
+    with closing(registry().catalogue()) if catalogue is None else nullcontext(catalogue) as opened:
+        models = _bearings(tables, folder, opened, found)
+        ledger = Ledger(assumptions=list(case.assumptions) if case else [])
+        resolved = _shaft(case, models, opened, ledger, found) if case else None
+    if case is not None and resolved is not None and not ledger.problems:
+        resolved = with_settings(case, resolved, ledger)
+    if found or ledger.problems or resolved is None:
+        raise CaseError(name, [*found, *independent(found, ledger.problems, tables)])
+    return replace(resolved, case_toml=tables_toml(_anywhere(tables, folder)))
+
+
+def _anywhere(tables: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
+    """Return tables whose files are found from any folder."""
+    found = dict(tables)
+    for name in ("shaft", "housing"):
+        table = tables.get(name)
+        if isinstance(table, Mapping) and "reduced" in table:
+            found[name] = {**table, "reduced": str(((folder or Path()) / table["reduced"]).absolute())}
+    electric = tables.get("electric")
+    series = electric.get("series") if isinstance(electric, Mapping) else None
+    if isinstance(electric, Mapping) and isinstance(series, Mapping) and "file" in series:
+        path = str(((folder or Path()) / series["file"]).absolute())
+        found["electric"] = {**electric, "series": {**series, "file": path}}
+    return found
+
+
+def _bearings(
+    tables: Mapping[str, Any], folder: Path | None, catalogue: Catalogue, found: list[Problem]
+) -> dict[str, BearingModel]:
+    """Return the model of every bearing that can be resolved; what is wrong with the others comes into `found`."""
+    given, models = tables.get("bearings"), {}
+    tables_of = given if isinstance(given, Mapping) else {}
+    for name in (key for key, value in tables_of.items() if isinstance(value, Mapping)):
+        try:
+            case = validate(Case, bearing_tables(tables, name), name, folder)
+        except InvalidCase as error:  # the mistakes are those of the machine's tables, which are known
+            case = error.remainder
+        if case is None:
+            continue
+        try:
+            models[name] = resolve(case, catalogue, is_static=True, place=partial(place_in_machine, tables, name))
+        except CaseError as error:
+            known = [problem.where for problem in found]
+            found += [one for one in error.problems if not any(related(one.where, where) for where in known)]
+    return models
+
+
+def _shaft(
+    case: ShaftCase, models: Mapping[str, BearingModel], catalogue: Catalogue, ledger: Ledger, found: Sequence[Problem]
+) -> MachineModel | None:
+    """Return the whole; None where something is wrong, here or as `found` before, after all else has been looked at."""
+    from lambda_core.discovery.manager import registry
+
+    folder, outside, shape_known = case.folder or Path(), None, is_shape_known(found)
+    if case.shaft.reduced is not None:
+        outside = reduced_shaft(folder / case.shaft.reduced, ledger)
+        shape_known = outside is not None
+    stand = places(case, outside, ledger)
+    case = _in_place(case, stand)
+    if shape_known:
+        _check_on_shaft(case, stand, outside, ledger)
+    _check_one_place(case, stand, ledger)
+    for key, bearing in case.bearings.items():
+        refuse_motion(key, bearing, case.housing.reduced is not None or stand.carrier(bearing.outer) != GROUND, ledger)
+    refuse_laws(changing(case), ledger)
+    say_overshoot(changing(case), ledger)
+    refuse_settings(case, ledger)
+    check_heat(case, ledger)
+    material = body_material(case.shaft.material, "shaft.material", catalogue, ledger)
+    around = body_material(case.housing.material, "housing.material", catalogue, ledger)
+    gears = _gears(case, ledger)
+    discs = _discs(case, catalogue, ledger)
+    bodies = rigid_bodies(case, catalogue, ledger)
+    springs = connections(case, stand, ledger)
+    electric = resolve_machine_electric(case.electric, list(case.bearings), registry(), ledger)
+    models = with_circuits(models, electric)
+    strain = around.thermal_expansion * (case.housing.temperature - REFERENCE_TEMPERATURE) if around else 0.0
+    bearings = sorted(
+        (
+            mounted(name, given, models[name], stand.carrier(given.outer), strain * given.place, ledger)
+            for name, given in case.bearings.items()
+            if name in models
+        ),
+        key=lambda one: one.position,
+    )
+    if len(bearings) == len(case.bearings):
+        refuse_far_beyond(case, gears, bearings, ledger)
+    housing, housing_damping = None, None
+    if case.housing.reduced is not None:
+        is_whole = len(bearings) == len(case.bearings) and not ledger.problems
+        housing, housing_damping = elastic_housing(folder / case.housing.reduced, bearings if is_whole else (), ledger)
+    if case.housing.reduced is None or housing is not None:
+        refuse_idle_dampers(bearings, housing, ledger)
+    if found or ledger.problems or material is None or around is None or len(bearings) < len(case.bearings):
+        return None
+    body = _body(case, stand, material, discs) if outside is None else with_discs(outside, discs)
+    heat = resolve_heat(case, [one.name for one in bearings], body, (material, around), ledger)
+    shared: dict[str, list[str]] = {}
+    for name, model in models.items():
+        for sentence in model.assumptions:
+            shared.setdefault(sentence, []).append(name)
+    for sentence, names in shared.items():
+        ledger.assume(f"{', '.join(names)}: {sentence}")
+    ledger.assume("bearing friction is neglected in the equilibrium of the shaft")
+    gravity = (case.gravity.x, case.gravity.y, case.gravity.z)
+    drive = case.shaft.drive if case.shaft.drive is not None else float(body.positions[0])
+    acting = [(name, load.place) for name, load in case.loads.items() if stand.on_shaft("loads", name)]
+    acting += [(name, gear.place) for name, gear in case.gears.items()]
+    pulled = np.concatenate([body.weight(gravity), *(one.mass * np.array([*gravity, 0.0, 0.0, 0.0]) for one in bodies)])
+    loads, varying = all_loads(case, stand, body, bodies, gears)
+    return MachineModel(
+        name=case.name,
+        body=body,
+        bearings=tuple(bearings),
+        housing=housing,
+        housing_damping=housing_damping,
+        loads=loads,
+        growth=np.concatenate([_growth(case, body, material), np.zeros(NODE * len(bodies))]),
+        weight=pulled,
+        gravity=gravity,
+        drive=body.rows(drive).start + 3,
+        heat=heat,
+        awaits_temperatures=case.operation.temperatures == "computed",
+        speed=initial(time_function(case.operation.speed)),
+        speed_over_time=time_function(case.operation.speed),
+        varying=varying,
+        twists=case.shaft.twists,
+        springs=springs,
+        bodies=bodies,
+        markers=tuple(stand.markers.items()),
+        electric=electric,
+        contamination=case.life.contamination,
+        gears=gears,
+        assumptions=tuple(ledger.assumptions),
+        warnings=(*ledger.contradictions, *fitting_warnings(case, bearings, _outline(case))),
+        outline=_outline(case) if outside is None else _drawn(body, bearings),
+        discs=tuple((name, disc.place) for name, disc in case.discs.items()),
+        load_places=tuple(acting),
+        wheels=tuple((name, gear.place, gear.pitch_diameter) for name, gear in case.gears.items()),
+        unbalances=tuple(
+            Unbalance(disc.place, disc.unbalance, disc.unbalance_angle)
+            for disc in case.discs.values()
+            if disc.unbalance
+        ),
+    )
+
+
+def _in_place(case: ShaftCase, stand: Places) -> ShaftCase:
+    """Return the case with the place of every part."""
+    tables = {}
+    for table in ("bearings", "discs", "gears", "loads", "connections"):
+        parts = getattr(case, table)
+        at = {name: stand.of[f"{table}.{name}"].point[0] for name in parts if f"{table}.{name}" in stand.of}
+        tables[table] = {name: part.placed(at[name]) if name in at else part for name, part in parts.items()}
+    return case.model_copy(update=tables)
+
+
+def _check_on_shaft(case: ShaftCase, stand: Places, outside: ElasticBody | None, ledger: Ledger) -> None:
+    """Note everything that stands beyond the ends of the shaft, or off the nodes of one from outside."""
+    parts = {f"{path}.at": place.point[0] for path, place in stand.of.items() if place.body == SHAFT}
+    parts |= {f"markers.{name}.x": marker.x for name, marker in case.markers.items() if marker.body == "shaft"}
+    for name, spring in case.connections.items():
+        if stand.carrier(spring.to) == SHAFT:
+            parts[f"connections.{name}.to"] = spring.place
+    if case.shaft.drive is not None:
+        parts["shaft.drive"] = case.shaft.drive
+    length = sum(section.length for section in case.shaft.sections)
+    slender = sum(section.length / section.diameter for section in case.shaft.sections)
+    if slender > _SLENDEREST:
+        ledger.problem(
+            "shaft.sections", f"are {slender:.3g} diameters long, {_SLENDEREST} at most: are lengths and units right?"
+        )
+    for where, position in parts.items():
+        at = show(position, "length", 6)
+        if outside is None and not 0.0 <= position <= length * (1.0 + 1e-12):
+            ledger.problem(where, f"{at} is not on the shaft: 0 mm to {show(length, 'length', 6)}")
+        elif outside is not None and not outside.has_node(position):
+            nodes = ", ".join(f"{1e3 * x:.6g}" for x in outside.positions)
+            ledger.problem(where, f"there is no node at {at}; nodes of the shaft stand at {nodes} mm")
+
+
+def _check_one_place(case: ShaftCase, stand: Places, ledger: Ledger) -> None:
+    """Note bearings in one place."""
+    seen: dict[float, str] = {}
+    for name, bearing in ((name, one) for name, one in case.bearings.items() if f"bearings.{name}" in stand.of):
+        other = seen.setdefault(round(bearing.place, 7), name)
+        if other != name:
+            ledger.problem(f"bearings.{name}.at", f'is also that of "{other}"; give each bearing a place of its own')
+
+
+def _gears(case: ShaftCase, ledger: Ledger) -> dict[str, GearForces]:
+    """Return the forces of every gear; a power needs a speed."""
+    found = {}
+    for name, gear in case.gears.items():
+        over_time = time_function(case.operation.speed)
+        speed = planned_speed(over_time)
+        if gear.power is not None and speed == 0.0:
+            ledger.problem(f"gears.{name}.power", "needs a speed of the shaft: at rest write the torque")
+            continue
+        if gear.power is not None and any(term.kind != "constant" for term in over_time.terms):
+            ledger.problem(f"gears.{name}.power", "needs a constant speed: where it changes write the torque")
+            continue
+        torque = gear.torque if gear.torque is not None else (gear.power or 0.0) / abs(speed)
+        found[name] = gear_forces(
+            torque, gear.pitch_diameter, mesh=gear.mesh, role=gear.role, spin=speed,
+            pressure_angle=gear.pressure_angle, helix_angle=gear.helix_angle, hand=gear.hand or "right",
+        )  # fmt: skip
+    return found
+
+
+def _outline(case: ShaftCase) -> tuple[tuple[float, float, float, float], ...]:
+    ends = np.cumsum([0.0, *(section.length for section in case.shaft.sections)]).tolist()
+    return tuple((ends[i], ends[i + 1], s.diameter, s.bore) for i, s in enumerate(case.shaft.sections))
+
+
+def _discs(case: ShaftCase, catalogue: Catalogue, ledger: Ledger) -> list[Disc]:
+    """Return the rigid bodies on the shaft, their masses given or from their shapes."""
+    found = []
+    for name, given in case.discs.items():
+        mass, polar, transverse = given.mass or 0.0, 0.0, 0.0
+        if given.diameter is not None and given.width is not None:
+            material = body_material(given.material, f"discs.{name}.material", catalogue, ledger)
+            outer, inner = given.diameter**2, given.bore**2
+            mass = 0.25 * math.pi * (outer - inner) * given.width * (material.density if material else 0.0)
+            polar = mass * (outer + inner) / 8.0
+            transverse = 0.5 * polar + mass * given.width**2 / 12.0
+        if given.polar_inertia is not None:
+            polar, transverse = given.polar_inertia, 0.5 * given.polar_inertia
+        if given.transverse_inertia is not None:
+            transverse = given.transverse_inertia
+        found.append(Disc(given.place, mass, transverse, polar))
+    return found
+
+
+def _drawn(body: ElasticBody, bearings: Iterable[MountedBearing]) -> tuple[tuple[float, float, float, float], ...]:
+    """Return one piece to draw in place of a shaft from outside: as thick as its smallest bearing's bore."""
+    bore = min(bearing.model.geometry.bore_diameter for bearing in bearings)
+    return ((float(body.positions[0]), float(body.positions[-1]), bore, 0.0),)
+
+
+def _body(case: ShaftCase, stand: Places, material: BodyMaterial, discs: list[Disc]) -> ElasticBody:
+    sections = [(s.length, RoundSection(s.diameter, s.bore, material)) for s in case.shaft.sections]
+    held = [place.point[0] for place in stand.of.values() if place.body == SHAFT]
+    held += [place.point[0] for place in stand.markers.values() if place.body == SHAFT]
+    held += [spring.place for spring in case.connections.values() if stand.carrier(spring.to) == SHAFT]
+    drive = [] if case.shaft.drive is None else [case.shaft.drive]
+    return shaft_body(sections, places=[*held, *drive], discs=discs)
+
+
+def _growth(case: ShaftCase, body: ElasticBody, material: BodyMaterial) -> FloatArray:
+    """Return the nodal forces that stretch the shaft as its temperature does: those that would hold it stretched."""
+    stretched = np.zeros(body.mass.shape[0])
+    along = case.shaft.temperatures
+    if along:
+        places = np.array([place.at for place in along])
+        moved = stretch(body.positions, places, np.array([place.temperature for place in along]), material)
+    else:
+        strain = material.thermal_expansion * (case.shaft.temperature - REFERENCE_TEMPERATURE)
+        moved = strain * body.positions
+    stretched[0 : NODE * body.positions.size : NODE] = moved
+    found: FloatArray = body.stiffness @ stretched
+    return found

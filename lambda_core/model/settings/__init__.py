@@ -1,0 +1,1 @@
+"""Settings of a machine: solver, temperatures, circuit, observers."""

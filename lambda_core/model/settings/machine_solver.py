@@ -1,0 +1,88 @@
+"""Settings of the integrator of a whole: one integration of all bearings, for averages or for vibrations."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+from lambda_core.case.shaft import ShaftCase
+from lambda_core.domain.elements import POSE
+from lambda_core.model.bodies.rigid_bodies import COMPONENTS
+from lambda_core.model.laws.time_functions import highest_frequency, peak, time_function
+from lambda_core.model.ledger import Ledger
+from lambda_core.model.machine_model import MachineModel, MountedBearing
+from lambda_core.model.settings.resolve_solver import (
+    cage_period,
+    end_in_sight,
+    excited_faster,
+    resolution,
+    say_cut,
+    settings,
+    surface_of_its_own,
+)
+
+
+def changing(case: ShaftCase) -> list[tuple[str, Any]]:
+    """Return the path of everything that loads or leads the shaft, and its value or course."""
+    found: list[tuple[str, Any]] = [("operation.speed", case.operation.speed)]
+    for key, load in case.loads.items():
+        found += [(f"loads.{key}.{name}", getattr(load, name)) for name in COMPONENTS]
+    for key, bearing in case.bearings.items():
+        found += [(f"bearings.{key}.support.{dof}.motion", getattr(bearing.support, dof).motion) for dof in POSE]
+    for key, rigid in case.bodies.items():
+        found += [(f"bodies.{key}.support.{dof}.motion", getattr(rigid.support, dof).motion) for dof in POSE]
+    return found
+
+
+def refuse_settings(case: ShaftCase, ledger: Ledger) -> None:
+    """Note settings that cannot be, whatever the shaft and its bearings are."""
+    given = case.solver
+    resolution(given, _excitation(case), "", ledger, is_silent=True)
+    end = given.duration or given.max_duration
+    if end is not None:  # turns of the cage end a run of their own accord
+        end_in_sight(given, None, end, math.inf, ledger)
+
+
+def with_settings(case: ShaftCase, model: MachineModel, ledger: Ledger) -> MachineModel:
+    """Return the whole with bearings that are all followed alike: vibrations where one of them asks for that.
+
+    Parameters
+    ----------
+    case : ShaftCase
+        What the engineer wrote, without mistakes.
+    model : MachineModel
+        Whose bearings were resolved each by itself.
+    ledger : Ledger
+        Takes what was chosen.
+    """
+    given, frequency, speed = case.solver, _excitation(case), peak(model.speed_over_time)
+    rough, said = _rough(model.bearings), Ledger()
+    why = rough or excited_faster("shaft", frequency, speed)
+    resolve = resolution(given, frequency, why, said, is_silent=False)
+    turns = [cage_period(mounted.model.geometry, speed) for mounted in model.bearings]
+    found = [settings(given, turn, frequency, resolve, said) for turn in turns]
+    say_cut(given, min(one.max_step for one in found), said)
+    for sentence in said.assumptions:
+        ledger.assume(f"in motion {sentence}")
+    if rough:
+        ledger.assume(f"the equilibrium has nominal raceways ({rough})")
+    bearings = tuple(
+        replace(mounted, model=replace(mounted.model, solver=solver))
+        for mounted, solver in zip(model.bearings, found, strict=True)
+    )
+    return replace(model, bearings=bearings, assumptions=tuple(ledger.assumptions))
+
+
+def _excitation(case: ShaftCase) -> float:
+    """Return the highest frequency at which the shaft is loaded or led [Hz]; 0 where it is not."""
+    return highest_frequency(*(time_function(signal) for _, signal in changing(case)))
+
+
+def _rough(bearings: tuple[MountedBearing, ...]) -> str:
+    """Return which raceway is not nominal, in words, or nothing."""
+    for mounted in bearings:
+        found = surface_of_its_own(mounted.model.laws)
+        if found:
+            return f"{mounted.name}: {found}"
+    return ""

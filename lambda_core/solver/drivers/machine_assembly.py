@@ -1,0 +1,230 @@
+"""Turn a machine into the assembly that the compiled solver integrates: lumps, rings, cages, bodies and their ties.
+
+Members stand in the order: first lump, outer ring of the first bearing, the other lumps, then the other outer rings and
+cages bearing by bearing. A bearing's inner ring is the lump at its place; every bearing has its own origin at its place
+along the shaft, so that all positions are displacements. Rigid bodies follow. Where the shaft twists and the coupling
+turns it beside all lumps, a member without mass comes last, whose angle leads.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import DOFS, POSE, SPIN
+from lambda_core.formulas.elastic.beam import NODE
+from lambda_core.model.bearing_model import ZERO, BearingModel, Body, DofState, TimeFunction
+from lambda_core.model.laws.law_context import ContactFrame
+from lambda_core.model.laws.time_functions import initial, scaled
+from lambda_core.model.machine_model import GROUND, PLACES, MachineModel, RigidBody
+from lambda_core.solver.drivers.assembly import AssembledBearing, Assembly, Member, Ties
+from lambda_core.solver.drivers.compiled_laws import Kernels
+from lambda_core.solver.drivers.law_inputs import Oils
+from lambda_core.solver.drivers.lumps import LumpedShaft, unbalance_of_lumps
+from lambda_core.solver.drivers.structure import Rows, structure
+
+_ABOUT_X = 3  # row of a node
+_FREE, _LOCKED = DofState("free"), DofState("locked")
+Frozen = tuple[Kernels, ContactFrame, Oils]  # laws of a bearing as they are compiled and frozen
+Load = tuple[TimeFunction, ...]  # force x, y, z [N] and moment about x, y, z [N m]
+
+
+@dataclass(frozen=True)
+class MemberNumbers:
+    """Numbers of the members of a machine.
+
+    Attributes
+    ----------
+    lumps : int64[:]
+    outer_rings, cages : tuple of ints
+        Of each bearing.
+    inner : tuple of ints
+        Lump that carries the inner ring of each.
+    bodies : int64[:]
+    led : int64[:]
+        Members that the coupling turns: all lumps, or where the shaft twists one, or the member behind all.
+    count : int
+    """
+
+    lumps: NDArray[np.int64]
+    inner: tuple[int, ...]
+    outer_rings: tuple[int, ...]
+    cages: tuple[int, ...]
+    bodies: NDArray[np.int64]
+    led: NDArray[np.int64]
+    count: int
+
+
+def member_numbers(machine: MachineModel, shaft: LumpedShaft) -> MemberNumbers:
+    """Return the numbers of the members."""
+    lumps, bearings = shaft.positions.size, len(machine.bearings)
+    own = np.array([0, *range(2, lumps + 1)])
+    with_mass = lumps + 2 * bearings + len(machine.bodies)
+    led = np.append(own, with_mass)[[shaft.driven]] if machine.twists else own
+    return MemberNumbers(
+        lumps=own,
+        inner=tuple(int(own[shaft.at(bearing.position)]) for bearing in machine.bearings),
+        outer_rings=(1, *(lumps + 2 * i for i in range(1, bearings))),
+        cages=tuple(lumps + 2 * i + 1 for i in range(bearings)),
+        bodies=np.arange(with_mass - len(machine.bodies), with_mass),
+        led=led,
+        count=max(with_mass, int(led.max()) + 1),
+    )
+
+
+def with_free_bodies(model: BearingModel) -> BearingModel:
+    """Return a bearing whose rings and cage are free in every direction, without force elements of its own."""
+    bodies = {name: getattr(model, name).freed(DOFS) for name in ("inner_ring", "outer_ring", "cage_body")}
+    return dataclasses.replace(model, **bodies, links={})
+
+
+def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Frozen]) -> Assembly:
+    """Return the assembly of a machine, with the laws of each bearing as they are frozen."""
+    numbers = member_numbers(machine, shaft)
+    bearings = [
+        AssembledBearing(
+            mounted.name, with_free_bodies(mounted.model), kernels, angles, oils,
+            (numbers.inner[i], numbers.outer_rings[i], numbers.cages[i]),
+        )
+        for i, (mounted, (kernels, angles, oils)) in enumerate(zip(machine.bearings, frozen, strict=True))
+    ]  # fmt: skip
+    members = _lumps(machine, shaft, numbers)
+    for i, bearing in enumerate(bearings):
+        model = bearing.model
+        members[numbers.outer_rings[i]] = Member(f"{bearing.name} outer ring", _outer_ring(machine, i, model))
+        members[numbers.cages[i]] = Member(f"{bearing.name} cage", _unloaded(model.cage_body))
+    loads = _loads_on_bodies(machine)
+    for k, rigid in enumerate(machine.bodies):
+        members[int(numbers.bodies[k])] = Member(rigid.name, _rigid(rigid, loads[k]))
+    for number in numbers.led:  # the member without mass, where there is one
+        members.setdefault(int(number), Member("coupling", Body(0.0, 0.0, 0.0, _turned(machine, _LOCKED))))
+    return Assembly(
+        tuple(members[number] for number in range(numbers.count)),
+        tuple(bearings),
+        machine.gravity,
+        ties=_ties(machine, shaft, numbers),
+    )
+
+
+def _lumps(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) -> dict[int, Member]:
+    """Return the lumps of the shaft, with the inner rings that they carry."""
+    unbalances, loads = unbalance_of_lumps(machine, shaft)[0], _loads_on_lumps(machine, shaft)
+    found = {}
+    for k, number in enumerate(numbers.lumps.tolist()):
+        mass, polar = float(shaft.mass[k]), float(shaft.polar_inertia[k])
+        transverse = float(shaft.transverse_inertia[k])
+        for inner, mounted in zip(numbers.inner, machine.bearings, strict=True):
+            if inner == number:
+                ring = mounted.model.inner_ring
+                mass, polar = mass + ring.mass, polar + ring.polar_inertia
+                transverse += ring.transverse_inertia
+        dofs = _turned(machine, _FREE) if number in numbers.led else dict.fromkeys(DOFS, _FREE)
+        body = _loaded(Body(mass, transverse, polar, dofs, unbalance=float(unbalances[k])), loads[k])
+        found[number] = Member(f"shaft at {1e3 * float(shaft.positions[k]):.4g} mm", body)
+    return found
+
+
+def _turned(machine: MachineModel, others: DofState) -> dict[str, DofState]:
+    """Return the degrees of freedom of a member that the coupling turns."""
+    return {**dict.fromkeys(DOFS, others), SPIN: DofState("prescribed", machine.speed_over_time)}
+
+
+def _outer_ring(machine: MachineModel, i: int, model: BearingModel) -> Body:
+    """Return an outer ring in its seat: springs and elastic housings tie it, and it is free between them."""
+    seating, dofs = machine.bearings[i].seating, {SPIN: _LOCKED}
+    is_housed = machine.housing is not None and machine.bearings[i].carrier == GROUND
+    for name, stiffness, lead in zip(POSE, seating.stiffness, seating.lead, strict=True):
+        dofs[name] = _FREE if math.isfinite(stiffness) or is_housed else _led(lead)
+    ring = dataclasses.replace(_unloaded(model.outer_ring), dofs=dofs)
+    return _loaded(ring, (TimeFunction.constant(seating.force), *[ZERO] * (NODE - 1)))
+
+
+def _led(motion: TimeFunction) -> DofState:
+    return DofState("prescribed", motion) if motion.terms else _LOCKED
+
+
+def _rigid(rigid: RigidBody, load: Load) -> Body:
+    dofs: dict[str, DofState] = {}
+    for name, place in zip(DOFS, (*PLACES, _ABOUT_X), strict=True):  # the turn about x comes last
+        dofs[name] = _FREE if math.isfinite(rigid.hold[place]) else _led(rigid.lead[place])
+    return _loaded(Body(rigid.mass, rigid.transverse_inertia, rigid.polar_inertia, dofs), load)
+
+
+def _unloaded(body: Body) -> Body:
+    """Return a body without the loads of a bearing that is alone: those of the machine act on its members."""
+    return dataclasses.replace(body, force=(ZERO,) * 3, moment=(ZERO,) * 3)
+
+
+def _loaded(body: Body, load: Load) -> Body:
+    x, y, z, about_x, about_y, about_z = load
+    return dataclasses.replace(body, force=(x, y, z), moment=(about_x, about_y, about_z))
+
+
+def _loads_on_lumps(machine: MachineModel, shaft: LumpedShaft) -> list[Load]:
+    """Return force and moment on each lump.
+
+    Loads, weight and growth by temperature go to the lumps as the beam hands them on; of the weight the part that
+    gravity does to the lumps anyway is taken off.
+    """
+    size, nodes = machine.body.mass.shape[0], NODE * machine.body.positions.size
+    follow = shaft.follow[:, : NODE * shaft.positions.size]
+    given = (machine.loads + machine.weight + machine.growth)[:size]
+    if not machine.twists:  # torques go straight to the coupling
+        given[_ABOUT_X:nodes:NODE] = 0.0
+    terms: list[TimeFunction] = [ZERO] * follow.shape[1]
+    for row, function in machine.varying:
+        if row >= size or (row % NODE == _ABOUT_X and not machine.twists):
+            continue
+        given[row] -= initial(function)
+        terms = [_sum(sofar, scaled(function, float(share))) for sofar, share in zip(terms, follow[row], strict=True)]
+    still = (follow.T @ given).reshape(-1, NODE)
+    still[:, :3] -= np.outer(shaft.mass, machine.gravity)
+    constant = [TimeFunction.constant(float(value)) for value in still.ravel()]
+    every = [_sum(one, other) for one, other in zip(terms, constant, strict=True)]
+    return [tuple(every[k : k + NODE]) for k in range(0, len(every), NODE)]
+
+
+def _loads_on_bodies(machine: MachineModel) -> list[Load]:
+    """Return force and moment on each rigid body."""
+    size, changing = machine.body.mass.shape[0], dict(machine.varying)
+    every = [
+        changing.get(row, TimeFunction.constant(float(machine.loads[row])))
+        for row in range(size, size + NODE * len(machine.bodies))
+    ]
+    return [tuple(every[k : k + NODE]) for k in range(0, len(every), NODE)]
+
+
+def _sum(one: TimeFunction, other: TimeFunction) -> TimeFunction:
+    return TimeFunction((*one.terms, *other.terms))
+
+
+def _ties(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) -> Ties:
+    """Return what ties members: shaft, housing, seats, springs and dampers, and what holds rigid bodies."""
+    lumps, turns = numbers.lumps, np.arange(NODE)
+    lead = [numbers.count - 1] if shaft.driven == lumps.size else []
+    rings, bodies = np.array(numbers.outer_rings), numbers.bodies
+    member = np.concatenate([np.repeat(lumps, NODE), lead, np.repeat(rings, len(POSE)), np.repeat(bodies, NODE)])
+    direction = np.concatenate([
+        np.tile(turns, lumps.size), [_ABOUT_X] * len(lead), np.tile(PLACES, rings.size), np.tile(turns, bodies.size)
+    ])  # fmt: skip
+    size = shaft.stiffness.shape[0]
+    own = slice(size, size + len(POSE) * rings.size)
+    rows = Rows(lambda x: NODE * shaft.at(x), own.start, own.stop, member.size)
+    stiffness, damping = structure(machine, rows)
+    stiffness[:size, :size] += shaft.stiffness
+    if machine.housing is not None:
+        stiffness[own, own] += machine.housing
+    if machine.housing_damping is not None:
+        damping[own, own] += machine.housing_damping
+    rest: FloatArray = np.zeros(member.size)
+    rest[_ABOUT_X : NODE * lumps.size : NODE] = unbalance_of_lumps(machine, shaft)[1]  # angle 0 is the unbalance's
+    rest[own] = np.concatenate([bearing.seating.shift for bearing in machine.bearings])
+    if not machine.twists:
+        about = np.flatnonzero(direction[:size] == _ABOUT_X)
+        stiffness[about] = stiffness[:, about] = 0.0
+    return Ties(member.astype(np.int64), direction.astype(np.int64), stiffness, damping, rest)

@@ -1,0 +1,255 @@
+"""Start the motion of a machine from its quasi-static equilibrium, and read shaft, bodies and markers from it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import CAGE, INNER, OUTER
+from lambda_core.formulas.elastic.beam import NODE
+from lambda_core.model.bodies.locations import carried
+from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel
+from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.drivers.assembly import BearingSpan
+from lambda_core.solver.drivers.compiled_laws import Announce
+from lambda_core.solver.drivers.dynamics import CAPACITY, MotionEngine, MotionStart, initial_state
+from lambda_core.solver.drivers.engine import usual_interval
+from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.lumps import LumpedShaft, lump, unbalance_of_lumps
+from lambda_core.solver.drivers.machine_assembly import machine_assembly, member_numbers, with_free_bodies
+from lambda_core.solver.drivers.readings import Channels, MachineReadings, MachineSamples, ReadBearing, Sums
+from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, solve_shaft
+from lambda_core.solver.drivers.solver_context import SolverContext, assemble, context_of
+from lambda_core.solver.drivers.surface_steps import longest_step
+from lambda_core.solver.drivers.tables import SIGNS, STATES
+
+# State that each displacement of POSE moves, and its sign.
+RING_STATES, RING_SIGNS = STATES[np.array(PLACES)], SIGNS[np.array(PLACES)]
+_AXES = 3
+
+
+@dataclass(frozen=True)
+class MachineStart:
+    """A machine at t = 0.
+
+    Attributes
+    ----------
+    machine : MachineModel
+    shaft : LumpedShaft
+    state : ShaftState
+        The quasi-static equilibrium of shaft, rings and bodies.
+    equilibria : tuple of Equilibrium
+        Of each bearing there, with the friction of its balls.
+    motion : MotionStart
+        What the engine begins with.
+    """
+
+    machine: MachineModel
+    shaft: LumpedShaft
+    state: ShaftState
+    equilibria: tuple[Equilibrium, ...]
+    motion: MotionStart[MachineSamples, list[Sums]]
+
+    @property
+    def drive_torque(self) -> float:
+        """Mean torque of the coupling without friction [N m]; nan where torques on the shaft change over time."""
+        return math.nan if self.machine.has_changing_torque else self.state.drive_torque
+
+
+def machine_start(machine: MachineModel, announce: Announce = None) -> MachineStart:
+    """Return a machine at t = 0, in its quasi-static equilibrium.
+
+    Raises
+    ------
+    SolverError
+        When there is none.
+    """
+    state, shaft = solve_shaft(machine, announce), lump(machine)
+    equilibria = tuple(ring.equilibrium() for ring in state.rings)
+    alone = [_free(found.context) for found in equilibria]
+    context = context_of(machine_assembly(machine, shaft, [(one.kernels, one.frame, one.oils) for one in alone]))
+    names = [bearing.name for bearing in machine.bearings]
+    bearings = tuple(map(ReadBearing, names, alone, context.assembly.spans()))
+    changes = any(term.kind != "constant" for function in machine.led for term in function.terms)
+    solvers = [bearing.model.solver for bearing in machine.bearings]
+    intervals = [
+        one.model.output.interval or usual_interval(one.model, found.orbit)
+        for one, found in zip(machine.bearings, equilibria, strict=True)
+    ]
+    steps = [min(own.max_step, longest_step(one)) for own, one in zip(solvers, alone, strict=True)]
+    motion = MotionStart(
+        context=context,
+        state=_start_state(machine, shaft, context, bearings, state, equilibria),
+        readings=MachineReadings(
+            context, bearings, MemberChannels(machine, shaft), None if changes else _standing(machine, shaft, context)
+        ),
+        tolerance=min(own.tolerance for own in solvers),
+        sample_interval=min(intervals),
+        longest_step=min(steps),
+        resolve=machine.solver.resolve,
+        modes_until=machine.solver.resolve,
+    )
+    return MachineStart(machine, shaft, state, equilibria, motion)
+
+
+class MachineEngine(MotionEngine[MachineSamples, list[Sums]]):
+    """The dynamics of a machine, started from its quasi-static equilibrium.
+
+    Parameters
+    ----------
+    start : MachineStart
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+    capacity : int
+        Samples that the buffer holds.
+    """
+
+    def __init__(self, start: MachineStart, announce: Announce = None, *, capacity: int = CAPACITY) -> None:
+        super().__init__(start.motion, announce, capacity=capacity)
+        self.start = start
+
+    @property
+    def machine(self) -> MachineModel:
+        """What moves."""
+        return self.start.machine
+
+
+def machine_engine(machine: MachineModel, announce: Announce = None) -> MachineEngine:
+    """Return the dynamics of a machine at t = 0.
+
+    Raises
+    ------
+    SolverError
+        When there is no equilibrium to start from.
+    """
+    return MachineEngine(machine_start(machine, announce), announce)
+
+
+def _free(found: SolverContext) -> SolverContext:
+    """Return the context of the same bearing whose bodies are free in every direction."""
+    return assemble(with_free_bodies(found.model), found.kernels, found.frame, found.oils)
+
+
+def _start_state(
+    machine: MachineModel, shaft: LumpedShaft, context: SolverContext, bearings: tuple[ReadBearing, ...],
+    state: ShaftState, equilibria: tuple[Equilibrium, ...],
+) -> FloatArray:  # fmt: skip
+    """Return the state that the motion begins with: equilibrium, every ball at its cage's speed."""
+    bodies, numbers = np.zeros(context.bundle.bodies.size, R.BODY_STATE), member_numbers(machine, shaft)
+    flat = bodies.view(np.float64)
+    moved = np.array([state.displacement[machine.body.rows(float(x))] for x in shaft.positions])
+    for body, own, azimuth in zip(numbers.lumps, moved, unbalance_of_lumps(machine, shaft)[1], strict=True):
+        flat[L.NS * body + STATES] = SIGNS * own
+        bodies["angle"][body] *= machine.twists
+        bodies["angle"][body] += azimuth  # a body's unbalance points to its own angle 0
+        bodies["spin"][body] = machine.speed
+    for body, own in zip(numbers.bodies, state.bodies, strict=True):
+        flat[L.NS * body + STATES] = SIGNS * own
+    balls, kept = [], []
+    for one, found, outer in zip(bearings, equilibria, state.outer, strict=True):
+        y = initial_state(found)
+        flat[L.NS * one.span.bodies[OUTER] + RING_STATES] = RING_SIGNS * outer
+        own = np.zeros(found.context.bundle.bodies.size, R.BODY_STATE)
+        own.view(np.float64)[found.context.bundle.active] = found.context.shared_part(y)
+        _place_cage(bodies, own, one.span, found, outer)
+        balls.append(_carried(y[: L.NB * one.span.balls].view(R.BALL).copy(), outer).view(np.float64))
+        kept.append(y[y.size - found.context.bundle.states.size :])
+    return np.concatenate([*balls, flat[context.bundle.active], *kept])
+
+
+def _place_cage(bodies: np.ndarray, own: np.ndarray, span: BearingSpan, found: Equilibrium, outer: FloatArray) -> None:
+    """Write the states of the cage and of the waves of elastic parts, from those of the bearing alone."""
+    cage = own[CAGE]
+    cage["position"] += outer[:3]
+    bodies[span.bodies[CAGE]] = cage
+    for body, wave, row in zip(span.bodies[CAGE + 1 :], own[CAGE + 1 :], found.context.bundle.waves, strict=True):
+        # waves stand in the material of their ring, which a lump's unbalance has turned
+        turned = float(row["order"] * bodies["angle"][span.bodies[INNER]]) if row["ring"] == INNER else 0.0
+        c, s = math.cos(turned), math.sin(turned)
+        _, cosine, sine = wave["position"]
+        bodies["position"][body, 1:] = cosine * c + sine * s, sine * c - cosine * s
+
+
+def _carried(balls: np.ndarray, pose: FloatArray) -> np.ndarray:
+    """Move balls along with an outer ring by a small pose."""
+    x, y, z = balls["x"], balls["radius"] * np.cos(balls["azimuth"]), balls["radius"] * np.sin(balls["azimuth"])
+    about_y, about_z = pose[3], pose[4]
+    balls["x"] = x + pose[0] + about_y * z - about_z * y
+    y, z = y + pose[1] + about_z * x, z + pose[2] - about_y * x
+    turned = np.arctan2(z, y) - balls["azimuth"]
+    balls["azimuth"] += np.remainder(turned + math.pi, 2.0 * math.pi) - math.pi
+    balls["radius"] = np.hypot(y, z)
+    return balls
+
+
+def _standing(machine: MachineModel, shaft: LumpedShaft, context: SolverContext) -> FloatArray:
+    """Return the whole shared state where nothing that is prescribed changes, but for what is free."""
+    numbers = member_numbers(machine, shaft)
+    flat = np.zeros(context.bundle.shared.size)
+    flat.view(R.BODY_STATE)["spin"][numbers.lumps] = machine.speed
+    for outer, bearing in zip(numbers.outer_rings, machine.bearings, strict=True):
+        flat[L.NS * outer + RING_STATES] = RING_SIGNS * bearing.seating.shift
+    for number, rigid in zip(numbers.bodies, machine.bodies, strict=True):
+        flat[L.NS * number + STATES] = SIGNS * rigid.shift
+    return flat
+
+
+class MemberChannels:
+    """Motions of shaft, bodies and markers from the states of members."""
+
+    def __init__(self, machine: MachineModel, shaft: LumpedShaft) -> None:
+        self._machine, self._shaft = machine, shaft
+        self._numbers = member_numbers(machine, shaft)
+        self._azimuths = unbalance_of_lumps(machine, shaft)[1]
+        count = len(machine.markers)
+        self._of_lumps = np.zeros((count, _AXES, NODE * shaft.positions.size))
+        self._of_bodies = np.zeros((count, _AXES, NODE * len(machine.bodies)))
+        for k, (_, place) in enumerate(machine.markers):
+            if place.body == SHAFT:
+                node = shaft.follow[machine.body.rows(place.point[0]), : self._of_lumps.shape[2]]
+                self._of_lumps[k] = (carried([0.0, *place.point[1:]]) @ node)[:_AXES]
+            elif place.body != GROUND:
+                own, first = machine.bodies[place.body - 1], NODE * (place.body - 1)
+                arm = np.subtract(place.point, own.centre)
+                self._of_bodies[k, :, first : first + NODE] = carried(arm)[:_AXES]
+
+    def __call__(self, times: FloatArray, flat: FloatArray) -> Channels:
+        """Return the channels from the whole shared state of samples, shape (n, 12 bodies)."""
+        bodies = flat.view(R.BODY_STATE)
+        lumps, twist = bodies[:, self._numbers.lumps], self._twist(flat)
+        rigid = _motions(bodies[:, self._numbers.bodies])
+        return {
+            "shaft_position": lumps["position"].copy(),
+            "shaft_tilt": np.stack([-lumps["tilt"][:, :, 1], lumps["tilt"][:, :, 0]], axis=2),
+            "shaft_twist": twist,
+            "body_position": rigid[:, :, :3],
+            "body_tilt": rigid[:, :, 3:],
+            "marker_position": self._markers(_motions(lumps, twist), rigid),
+        }
+
+    def _twist(self, flat: FloatArray) -> FloatArray:
+        """Return how far the lumps have turned beyond the coupling, shape (n, lumps) [rad]."""
+        angles = flat.view(R.BODY_STATE)["angle"]
+        found: FloatArray = angles[:, self._numbers.lumps] - self._azimuths
+        if not self._machine.twists:
+            return np.zeros_like(found)
+        lead = angles[:, self._numbers.led] - np.append(self._azimuths, 0.0)[[self._shaft.driven]]
+        return np.asarray(found - lead)
+
+    def _markers(self, lumps: FloatArray, bodies: FloatArray) -> FloatArray:
+        """Return x, y, z of every marker, shape (n, markers, 3), from motions of shape (n, lumps or bodies, 6)."""
+        n = len(lumps)
+        found: FloatArray = np.einsum("maj,nj->nma", self._of_lumps, lumps.reshape(n, -1))
+        found += np.einsum("maj,nj->nma", self._of_bodies, bodies.reshape(n, -1))
+        return found
+
+
+def _motions(bodies: np.ndarray, twist: FloatArray | None = None) -> FloatArray:
+    """Return x, y, z and turns about x, y, z of bodies in samples, shape (n, bodies, 6), `twist` in place of angles."""
+    about = bodies["angle"] if twist is None else twist
+    turns = [about[..., None], -bodies["tilt"][..., 1:], bodies["tilt"][..., :1]]
+    return np.concatenate([bodies["position"], *turns], axis=-1)

@@ -1,0 +1,365 @@
+"""One quasi-static equilibrium of a shaft in its bearings: Newton's method on shaft nodes and outer rings.
+
+Every bearing answers a pose of its inner ring against the outer one with a force, a moment and a stiffness, its balls
+in equilibrium throughout. Contacts open and close, so that the steps are damped as Levenberg and Marquardt do:
+a spring to the last state at every ring, softer as the residual falls; each step ends where the potential does.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import POSE
+from lambda_core.domain.errors import SolverError
+from lambda_core.formulas.elastic.beam import NODE
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.machine_model import GROUND, PLACES, MachineModel
+from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
+from lambda_core.solver.drivers.first_state import free_contact_angle
+from lambda_core.solver.drivers.held_ring import HeldRing
+from lambda_core.solver.drivers.loose_motion import loose_motion
+from lambda_core.solver.drivers.structure import static_rows, structure
+
+_GUESS = np.array([5e7, 1e8, 1e8, 1e3, 1e3])  # [N/m, N m/rad] of a bearing before its contacts are known
+_ITERATIONS, _FRAMES, _TRIES = 100, 6, 20
+_CONVERGED, _ROUNDING = 1e-9, 1e-6  # residual over the loads: wanted; where the balls' own tolerance may end it
+_DAMPING, _LEAST_DAMPING = 1e-3, 1e-10  # of _GUESS
+_SLOPE, _NARROW = 0.5, 1e-3  # of the first slope, of the step: where a search along a step ends
+_ARMS = np.array([1.0, 1.0, 1.0, 0.03, 0.03])  # [m] at which tilts are lengths
+_AXES = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
+_LONGEST = 2e-4  # [m] largest move of a ring per step; tilts count at the pitch radius
+
+
+@dataclass
+class ShaftState:
+    """The solution.
+
+    Attributes
+    ----------
+    displacement : float64[:], shape (6 n,)
+        Of the shaft's nodes [m, rad].
+    outer : float64[:, :], shape (bearings, 5)
+        Of the outer rings in the order of POSE.
+    bodies : float64[:, :], shape (bodies, 6)
+        Of the bodies beside the shaft [m, rad].
+    reactions : float64[:, :], shape (bearings, 5)
+        Force and moment of each bearing on the shaft [N, N m].
+    stiffness : float64[:, :, :], shape (bearings, 5, 5)
+        Of each bearing alone.
+    rings : list of HeldRing
+        At their last poses.
+    drive_torque : float
+        Of the coupling on the shaft [N m].
+    residual : float
+        Largest unbalanced force over the loads.
+    """
+
+    displacement: FloatArray
+    outer: FloatArray
+    bodies: FloatArray
+    reactions: FloatArray
+    stiffness: FloatArray
+    rings: list[HeldRing]
+    drive_torque: float
+    residual: float
+    iterations: int
+
+    @property
+    def motions(self) -> FloatArray:
+        """Of shaft, outer rings and bodies, in the rows of structure.static_rows."""
+        return np.concatenate([self.displacement, self.outer.ravel(), self.bodies.ravel()])
+
+    def pose(self, model: MachineModel, index: int) -> FloatArray:
+        """Return the pose of a bearing's inner ring against its outer one, shape (5,)."""
+        rows = model.body.rows(model.bearings[index].position).start + np.array(PLACES)
+        return np.asarray(self.displacement[rows] - self.outer[index])
+
+
+class _Whole:
+    """The unknowns of shaft, outer rings and other bodies in one vector, and the forces on them.
+
+    The shaft's are the pose of the node that the coupling holds and, of all others, what they move beside a rigid
+    shaft with that pose. Elastic forces then are those of deflections alone: however stiff the shaft is, its motion as
+    a rigid body leaves no rounding in them.
+    """
+
+    def __init__(self, model: MachineModel, rings: list[HeldRing]) -> None:
+        self.model, self.rings = model, rings
+        rows = static_rows(model)
+        self.size, count = rows.rings, rows.size
+        self.outer = np.arange(rows.rings, rows.bodies).reshape(len(rings), len(POSE))
+        frame = np.arange(NODE) + NODE * (model.drive // NODE)
+        self.moves = np.eye(count)  # of shaft, rings and bodies with the unknowns
+        self.moves[: self.size, : self.size] = _carried(model, frame)
+        deflects = np.setdiff1d(np.arange(self.size), frame)
+        self.linear: FloatArray = np.zeros((count, count))
+        self.linear[np.ix_(deflects, deflects)] = model.body.stiffness[np.ix_(deflects, deflects)]
+        holds = [k for body in model.bodies for k in body.hold]  # six of each; inf where locked
+        held = [model.drive, *(rows.bodies + np.flatnonzero(np.isinf(holds))).tolist()]
+        self.start = np.zeros(count)
+        ties = structure(model, rows)[0]
+        given = np.zeros(count)
+        acting = model.loads + model.weight + model.growth
+        given[: self.size], given[rows.bodies :] = acting[: self.size], acting[self.size :]
+        for own, bearing in zip(self.outer, model.bearings, strict=True):
+            self.start[own] = bearing.seating.shift
+            given[own[0]] += bearing.seating.force
+            is_held = np.isinf(bearing.seating.stiffness) & (model.housing is None or bearing.carrier != GROUND)
+            held += own[is_held].tolist()
+        if model.housing is not None:
+            own = self.outer.ravel()
+            ties[np.ix_(own, own)] += model.housing
+        self.linear += self.moves.T @ ties @ self.moves
+        self.given = self.moves.T @ (given + ties @ self.start)
+        self.start[rows.bodies :] = np.ravel([body.shift for body in model.bodies])
+        self.free = np.setdiff1d(np.arange(count), held)
+        # of every bearing, how its inner ring moves against its outer one, shape (bearings, 5, unknowns)
+        self.reach = np.zeros((len(rings), len(POSE), count))
+        for reach, outer, bearing in zip(self.reach, self.outer, model.bearings, strict=True):
+            reach[:] = self.moves[model.body.rows(bearing.position).start + np.array(PLACES)]
+            reach[range(len(POSE)), outer] = -1.0
+        # lengths that make moments forces: residuals of one kind
+        arms = np.ones(count)
+        length = float(np.ptp(model.body.positions))
+        arms[: NODE * model.body.positions.size].reshape(-1, NODE)[:, 3:] = length
+        arms[self.outer[:, 3:]] = length
+        arms[rows.bodies :].reshape(-1, NODE)[:, 3:] = length
+        self.arms = arms
+        loads = np.abs(model.loads + model.weight) / np.concatenate([arms[: self.size], arms[rows.bodies :]])
+        self.scale = max(float(loads.max()), *(abs(b.seating.force) for b in model.bearings), 1.0)
+        self.carried = 0.0  # largest reaction of a bearing at the last state [N]
+
+    def poses(self, q: FloatArray) -> FloatArray:
+        """Return the pose of every inner ring against its outer one, shape (bearings, 5)."""
+        return np.asarray(self.reach @ q)
+
+    def residual(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return what is unbalanced [N, N m] and the reactions of the bearings on the shaft."""
+        reactions = np.array([ring.reaction(pose) for ring, pose in zip(self.rings, self.poses(q), strict=True)])
+        self.carried = float(np.abs(reactions[:, :3]).max())
+        pushed = np.asarray(np.einsum("bij,bi->j", self.reach, reactions))
+        return self.given - self.linear @ q + pushed, reactions
+
+    def tangent(self, each: FloatArray) -> FloatArray:
+        """Return the stiffness of the whole with one of (5, 5) at every bearing."""
+        return np.asarray(self.linear + sum(reach.T @ k @ reach for reach, k in zip(self.reach, each, strict=True)))
+
+    def merit(self, unbalanced: FloatArray) -> float:
+        """Return the size of the residual over the loads."""
+        return float(np.linalg.norm((unbalanced / self.arms)[self.free])) / max(self.scale, self.carried)
+
+    def step(self, tangent: FloatArray, unbalanced: FloatArray) -> FloatArray:
+        """Return the step of the free unknowns, zeros elsewhere."""
+        move = np.zeros(unbalanced.size)
+        block = tangent[np.ix_(self.free, self.free)]
+        # of one unit and size: the condition is that of the structure, however stiff parts of it are
+        # (a ball that only the centrifugal force presses may give a direction a stiffness of 0 or less)
+        size = np.where(np.diag(block) > 0.0, np.diag(block), np.abs(block).max(axis=1))
+        scale = 1.0 / np.sqrt(np.maximum(size, np.finfo(float).tiny))
+        scaled, pull = block * np.outer(scale, scale), scale * unbalanced[self.free]
+        try:
+            move[self.free] = scale * np.linalg.solve(scaled, pull)
+        except np.linalg.LinAlgError:  # nothing holds it in some direction: the search ends there and says which
+            move[self.free] = scale * np.linalg.lstsq(scaled, pull)[0]
+        return move
+
+
+def _carried(model: MachineModel, frame: NDArray[np.int64]) -> FloatArray:
+    """Return how all rows move with the unknowns: of one node its pose, of the others the way beside a rigid shaft."""
+    found: FloatArray = np.eye(model.body.stiffness.shape[0])
+    at = model.body.positions[frame[0] // NODE]
+    for node, place in enumerate(model.body.positions):
+        first = NODE * node
+        found[range(first, first + NODE), frame] = 1.0
+        found[first + 1, frame[5]], found[first + 2, frame[4]] = place - at, at - place  # tilts carry y and z along
+    return found
+
+
+class SharedKernels:
+    """Compiled laws by their choice: bearings on one shaft mostly have the same, and laws are tried out once."""
+
+    def __init__(self, announce: Announce = None) -> None:
+        self._announce = announce
+        self._known: dict[tuple[tuple[str, str, str], ...], Kernels] = {}
+
+    def of(self, model: BearingModel) -> Kernels:
+        """Return the compiled laws of a bearing."""
+        choice = tuple((e, r, law.model.label) for e, roles in model.laws.items() for r, law in roles.items())
+        if choice not in self._known:
+            self._known[choice] = Kernels(model, self._announce)
+        return self._known[choice]
+
+
+def solve_shaft(model: MachineModel, announce: Announce = None, kernels: SharedKernels | None = None) -> ShaftState:
+    """Find the equilibrium of shaft, bearings and housing.
+
+    Parameters
+    ----------
+    model : MachineModel
+        From :func:`lambda_core.model.resolve_machine.check_shaft`.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+    kernels : SharedKernels, optional
+        Of another shaft, whose laws need not be tried out again.
+
+    Raises
+    ------
+    SolverError
+        When there is none: nothing holds the shaft, or a bearing falls apart.
+    """
+    if model.awaits_temperatures:
+        raise SolverError(f"{model.name}: internal error: temperatures must be computed before the equilibrium")
+    shared = kernels or SharedKernels(announce)
+    rings = []
+    for m, takes in ((bearing.model, bearing.takes) for bearing in model.bearings):
+        angle = free_contact_angle(m) if takes else m.geometry.resting_angle
+        rings.append(HeldRing(m, angle, 1000.0, shared.of(m), announce))
+    whole = _Whole(model, rings)
+    _refuse_loose(whole)
+    q = _first_guess(whole)
+    iterations = 0
+    for _ in range(_FRAMES):
+        q, used = _newton(whole, q)
+        iterations += used
+        if not sum(ring.refresh() for ring in rings):
+            break
+    unbalanced, reactions = whole.residual(q)
+    _check_sides(model, reactions)
+    torque = -float(unbalanced[model.drive])
+    moved = whole.moves @ q
+    return ShaftState(
+        displacement=moved[: whole.size],
+        outer=q[whole.outer],
+        bodies=moved[whole.outer.max() + 1 :].reshape(-1, NODE),
+        reactions=reactions,
+        stiffness=np.array([ring.stiffness() for ring in rings]),
+        rings=rings,
+        drive_torque=torque,
+        residual=whole.merit(unbalanced),
+        iterations=iterations,
+    )
+
+
+def _first_guess(whole: _Whole) -> FloatArray:
+    """Return a state in which every loaded bearing is in contact: springs first, then the way to touching rings."""
+    model = whole.model
+    springs = np.array([np.diag(_GUESS)] * len(whole.rings))
+    tangent, q = whole.tangent(springs), whole.start.copy()
+    offset = np.zeros((len(whole.rings), len(POSE)))
+    for i, bearing in enumerate(model.bearings):
+        if bearing.takes:
+            offset[i, 0] = -whole.start[whole.outer[i, 0]]
+    for _ in range(2):
+        pull = whole.given - whole.linear @ whole.start
+        forces = np.array([k @ o for k, o in zip(springs, offset, strict=True)])
+        for i in range(len(whole.rings)):
+            pull += whole.reach[i].T @ (forces[i] - springs[i] @ whole.reach[i] @ whole.start)
+        q = whole.start + whole.step(tangent, pull)
+        for i, bearing in enumerate(model.bearings):
+            pushed = (whole.poses(q)[i] - offset[i])[1:3]
+            size = float(np.hypot(*pushed))
+            if not bearing.takes and size > 0.0:
+                offset[i, 1:3] = 0.5 * max(bearing.model.geometry.clearance, 0.0) * pushed / size
+    return q
+
+
+def _newton(whole: _Whole, q: FloatArray) -> tuple[FloatArray, int]:
+    """Return the state of balance next to `q`, and the number of iterations."""
+    unbalanced, _ = whole.residual(q)
+    merit = whole.merit(unbalanced)
+    for iteration in range(_ITERATIONS):
+        if merit < _CONVERGED:
+            return q, iteration
+        damping = min(_DAMPING, max(_LEAST_DAMPING, _DAMPING * merit))
+        each = np.array([ring.stiffness() for ring in whole.rings])
+        move = whole.step(whole.tangent(each + damping * np.diag(_GUESS)), unbalanced)
+        longest = float(np.abs(whole.poses(move) * _ARMS).max())
+        move *= min(1.0, _LONGEST / max(longest, 1e-300))
+        q, unbalanced = _along(whole, q, move, unbalanced)
+        before, merit = merit, whole.merit(unbalanced)
+        if merit < _ROUNDING and merit > 0.3 * before:
+            return q, iteration
+    raise SolverError(_no_balance(whole, unbalanced, merit))
+
+
+def _along(whole: _Whole, q: FloatArray, move: FloatArray, unbalanced: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the state along a step where the potential no longer falls, to a share of its first slope.
+
+    Forces of frictionless contacts have a potential; its slope along the step is the work of what is unbalanced. Where
+    a gap closes along the way it turns over, and a secant finds where.
+    """
+    first = float(unbalanced @ move)
+    if first <= 0.0:  # what is left is rounding
+        return q + move, whole.residual(q + move)[0]
+    low, at_low, high, at_high = 0.0, first, 1.0, math.nan
+    share = 1.0
+    for _ in range(_TRIES):
+        try:
+            trial, _ = whole.residual(q + share * move)
+        except SolverError:
+            high, at_high, share = share, math.nan, 0.5 * (low + share)
+            continue
+        slope = float(trial @ move)
+        if slope >= -_SLOPE * abs(first):
+            if math.isnan(at_high) or slope <= _SLOPE * abs(first) or high - low < _NARROW:
+                break
+            low, at_low = share, slope
+        else:
+            high, at_high = share, slope
+        secant = low + (high - low) * at_low / (at_low - at_high) if at_high < 0.0 else 0.5 * (low + high)
+        share = min(max(secant, low + 0.1 * (high - low)), high - 0.1 * (high - low))
+    else:
+        trial, _ = whole.residual(q + share * move)
+    return q + share * move, trial
+
+
+def _refuse_loose(whole: _Whole) -> None:
+    """Refuse a shaft or a body that nothing holds in a direction in which something pulls it."""
+    held = whole.tangent(np.array([np.diag(_GUESS)] * len(whole.rings)))[np.ix_(whole.free, whole.free)]
+    pull = (whole.given - whole.linear @ whole.start)[whole.free]
+    way = loose_motion(held, pull, whole.arms[whole.free], whole.scale)
+    if way is not None:
+        axis, what = _named(whole, int(whole.free[np.flatnonzero(np.abs(way) > 0.99)[0]]))
+        turned = f"against turning about {axis[-1]}" if axis.startswith("tilt") else f"along {axis}"
+        raise SolverError(f"{whole.model.name}: no equilibrium of the shaft: nothing holds it {turned} ({what})")
+
+
+def _no_balance(whole: _Whole, unbalanced: FloatArray, merit: float) -> str:
+    sizes = np.abs(unbalanced / whole.arms)
+    of_rings = set(whole.outer.ravel().tolist())
+    axis, what = _named(whole, int(max((row for row in whole.free if row not in of_rings), key=lambda row: sizes[row])))
+    return (
+        f"{whole.model.name}: no equilibrium of the shaft: {merit:.1e} of the loads stay unbalanced, most along {axis} "
+        f"{what}: is the shaft held in every direction, and does each bearing take what comes to it?"
+    )
+
+
+def _named(whole: _Whole, row: int) -> tuple[str, str]:
+    """Return the axis of an unknown, and where it is."""
+    model, beyond = whole.model, row - whole.size
+    if beyond >= whole.outer.size:
+        body, axis = divmod(beyond - whole.outer.size, NODE)
+        return _AXES[axis], f"of {model.bodies[body].name}"
+    if beyond >= 0:
+        bearing, place = divmod(beyond, len(POSE))
+        return _AXES[PLACES[place]], f"outer ring of {model.bearings[bearing].name}"
+    node, axis = divmod(row, NODE)
+    if node < model.body.positions.size:
+        return _AXES[axis], f"at {1e3 * model.body.positions[node]:.4g} mm"
+    return "one", "of the shaft's own modes"
+
+
+def _check_sides(model: MachineModel, reactions: FloatArray) -> None:
+    """Refuse a solution in which an angular contact bearing is pushed against its open side."""
+    for bearing, reaction in zip(model.bearings, reactions, strict=True):
+        if bearing.takes and reaction[0] * bearing.takes > 1e-6 * max(1.0, float(np.abs(reaction[:3]).max())):
+            side = "+x" if bearing.takes > 0 else "-x"
+            raise SolverError(
+                f"{model.name}: {bearing.name} takes axial force along {side} and would have to take "
+                f"{abs(reaction[0]):.4g} N the other way: change the arrangement or give more preload"
+            )

@@ -1,0 +1,96 @@
+"""Springs, dampers and seats of a whole as matrices between the motions of shaft, outer rings and other bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import POSE
+from lambda_core.formulas.elastic.beam import NODE
+from lambda_core.model.bodies.locations import carried
+from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel, ShaftSpring
+
+_RING = np.array(PLACES)
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Where motions stand in a vector.
+
+    Attributes
+    ----------
+    node : callable
+        First of the six rows of the shaft at a place [m].
+    rings : int
+        First row of the outer rings, five each.
+    bodies : int
+        First row of the rigid bodies, six each.
+    size : int
+        Of the vector.
+    """
+
+    node: Callable[[float], int]
+    rings: int
+    bodies: int
+    size: int
+
+
+def static_rows(model: MachineModel) -> Rows:
+    """Return the rows of the unknowns of an equilibrium: the shaft's, five of each ring, six of each body."""
+    rings = model.body.stiffness.shape[0]
+    bodies = rings + len(POSE) * len(model.bearings)
+    return Rows(lambda x: model.body.rows(x).start, rings, bodies, bodies + NODE * len(model.bodies))
+
+
+def point_on(
+    model: MachineModel, rows: Rows, body: int, point: Sequence[float]
+) -> tuple[NDArray[np.int64], FloatArray]:
+    """Return the rows that move a point of a body, and how the point moves and turns with them, shape (6, rows)."""
+    if body == GROUND:
+        return np.zeros(0, dtype=np.int64), np.zeros((NODE, 0))
+    at = np.asarray(point, dtype=float)
+    if body == SHAFT:
+        return rows.node(at[0]) + np.arange(NODE), carried([0.0, *at[1:]])
+    own = model.bodies[body - 1]
+    return rows.bodies + NODE * (body - 1) + np.arange(NODE), carried(at - own.centre)
+
+
+def ring_in(model: MachineModel, rows: Rows, index: int) -> FloatArray:
+    """Return how an outer ring moves against what carries it, shape (5, size)."""
+    bearing = model.bearings[index]
+    found: FloatArray = np.zeros((len(POSE), rows.size))
+    found[range(len(POSE)), rows.rings + len(POSE) * index + np.arange(len(POSE))] = 1.0
+    own, moves = point_on(model, rows, bearing.carrier, (bearing.position, 0.0, 0.0))
+    found[:, own] -= moves[_RING]
+    return found
+
+
+def stretch(model: MachineModel, rows: Rows, spring: ShaftSpring) -> FloatArray:
+    """Return how the body of a spring moves and turns against the other one at its place, shape (6, size)."""
+    found: FloatArray = np.zeros((NODE, rows.size))
+    for sign, body in ((1.0, spring.place.body), (-1.0, spring.to)):
+        own, moves = point_on(model, rows, body, spring.place.point)
+        found[:, own] += sign * moves
+    return found
+
+
+def structure(model: MachineModel, rows: Rows) -> tuple[FloatArray, FloatArray]:
+    """Return stiffness and damping of springs, seats that give way, and what holds bodies, shape (size, size)."""
+    stiffness, damping = np.zeros((rows.size, rows.size)), np.zeros((rows.size, rows.size))
+    for spring in model.springs:
+        reach = stretch(model, rows, spring)
+        stiffness += reach.T @ spring.stiffness @ reach
+        damping += reach.T @ spring.damping @ reach
+    for i, bearing in enumerate(model.bearings):
+        reach, seat = ring_in(model, rows, i), bearing.seating
+        stiffness += reach.T @ np.diag(np.where(np.isfinite(seat.stiffness), seat.stiffness, 0.0)) @ reach
+        damping += reach.T @ np.diag(seat.damping) @ reach
+    for i, rigid in enumerate(model.bodies):
+        own = rows.bodies + NODE * i + np.arange(NODE)
+        stiffness[own, own] += np.where(np.isfinite(rigid.hold), rigid.hold, 0.0)
+        damping[own, own] += rigid.damping
+    return stiffness, damping

@@ -1,0 +1,173 @@
+"""Define the responses of a study of a machine: of the machine, and ``NAME.RESPONSE`` of each of its bearings.
+
+Every response of a study of one bearing exists for each bearing ("left.min_film_um"), as do the rows of comparison
+methods ("left.skf/friction/total"); bearing currents are those of the machine's circuit and are not among them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lambda_core.analysis.electric.current_numbers import UNITS
+from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
+from lambda_core.study.responses import RESPONSES, DynamicPoint, Number, Response, StaticPoint
+
+if TYPE_CHECKING:
+    from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
+    from lambda_core.analysis.rotor.machine_modes import MachineModes
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.solver.drivers.equilibrium import Equilibrium
+
+# Fields of BearingEquilibrium: name, unit, meaning.
+_OF_BEARING = (
+    ("radial_load_N", "N", "radial load"),
+    ("axial_load_N", "N", "axial load"),
+    ("equivalent_load_N", "N", "equivalent load P of ISO 281"),
+    ("basic_rating_life_h", "h", "basic rating life L_10h of ISO 281"),
+    ("reference_rating_life_h", "h", "reference rating life L_10rh of ISO/TS 16281"),
+    ("modified_rating_life_h", "h", "modified reference rating life L_nmrh"),
+    ("viscosity_ratio", "", "viscosity ratio kappa"),
+    ("static_safety", "", "static safety"),
+    ("clearance_um", "um", "clearance in operation"),
+)
+
+
+@dataclass
+class MachinePoint:
+    """A quasi-static point of a machine: what is asked of it is computed once."""
+
+    model: MachineModel
+    state: ShaftState
+    kernels: SharedKernels
+    _points: dict[str, StaticPoint] = field(default_factory=dict)
+
+    @cached_property
+    def equilibria(self) -> list[Equilibrium]:
+        """Of every bearing at its pose, with the friction of its balls."""
+        return [ring.equilibrium() for ring in self.state.rings]
+
+    @cached_property
+    def summary(self) -> MachineEquilibrium:
+        """The equilibrium in the words of the machine interface."""
+        from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
+
+        return equilibrium_of(self.model, self.state, self.equilibria)
+
+    @cached_property
+    def modes(self) -> MachineModes:
+        """Natural frequencies and critical speeds."""
+        from lambda_core.analysis.rotor.machine_modes import modes_of
+
+        return modes_of(self.model, self.state)
+
+    def bearing(self, name: str) -> StaticPoint:
+        """Return one bearing as a point of its own."""
+        from lambda_core.results.quasistatic import quasistatic_of
+
+        if name not in self._points:
+            number = [one.name for one in self.model.bearings].index(name)
+            found = self.equilibria[number]
+            kernels = self.kernels.of(self.model.bearings[number].model)
+            self._points[name] = StaticPoint(found, quasistatic_of(found), kernels)
+        return self._points[name]
+
+
+def machine_point(model: MachineModel, kernels: SharedKernels) -> MachinePoint:
+    """Solve a machine for a point of a study."""
+    return MachinePoint(model, solve_shaft(model, kernels=kernels), kernels)
+
+
+@lru_cache(maxsize=8)
+def machine_responses(bearings: tuple[str, ...]) -> Mapping[str, Response]:
+    """Return the responses of a machine with bearings of these names."""
+    found = [*_of_machine(), *(one for name in bearings for one in _of_bearing(name))]
+    return {response.name: response for response in found}
+
+
+def usual_responses(bearings: tuple[str, ...], mode: str) -> tuple[str, ...]:
+    """Return what a study of a machine asks where it names nothing."""
+    if mode == "quasi-static":
+        whole = ["system_life_h", "friction_torque_Nmm"]
+        each = [
+            "radial_load_N", "reference_rating_life_h", "friction_torque_Nmm", "max_pressure_GPa", "min_film_parameter",
+        ]  # fmt: skip
+    else:
+        whole = ["friction_torque_Nmm", "energy_residual", "converged"]
+        each = ["friction_torque_Nmm", "friction_torque_ci_Nmm", "max_pressure_GPa", "min_film_um"]
+    return (*whole, *(f"{name}.{one}" for name in bearings for one in each))
+
+
+def _of_machine() -> list[Response]:
+    both = [("friction_torque_Nmm", "N mm", "friction torque of all bearings"),
+            ("system_life_h", "h", "life of all bearings, 90 %"),
+            ("drive_torque_Nm", "N m", "torque of the coupling on the shaft")]  # fmt: skip
+    dynamic = [("friction_torque_ci_Nmm", "N mm", "95 % confidence half-width of the friction torque"),
+               ("energy_residual", "", "energy residual"), ("simulated_s", "s", "simulated time")]  # fmt: skip
+    return [
+        *(Response(name, unit, meaning, _number(name), _number(name)) for name, unit, meaning in both),
+        Response(
+            "system_life_h", "h", "life of all bearings, 90 %", _number("system_life_h"), _number("system_life_h")
+        ),
+        Response("power_loss_W", "W", "power loss of all bearings", _power, _number("power_loss_W")),
+        Response("max_deflection_um", "um", "largest deflection of the shaft across its axis", _deflection),
+        Response("first_critical_speed_rpm", "rpm", "first critical speed", _critical),
+        *(Response(name, unit, meaning, None, _number(name)) for name, unit, meaning in dynamic),
+        Response("converged", "", "1 when converged", None, lambda point: float(point.summary.converged)),
+    ]
+
+
+def _number(name: str) -> Callable[[Any], Number]:
+    def read(point: Any) -> Number:
+        value = getattr(point.summary, name)
+        return None if value is None else float(value)
+
+    return read
+
+
+def _power(point: Any) -> Number:
+    return float(sum(found.losses.sum() for found in point.equilibria))
+
+
+def _deflection(point: Any) -> Number:
+    return float(np.hypot(*np.array(point.summary.deflection_um).T[1:]).max())
+
+
+def _critical(point: Any) -> Number:
+    found = point.modes.critical_speeds
+    return found[0].speed_rpm if found else None
+
+
+def _of_bearing(name: str) -> list[Response]:
+    own = [
+        Response(f"{name}.{key}", unit, f"{name}: {meaning}", _field(name, key)) for key, unit, meaning in _OF_BEARING
+    ]
+    return own + [
+        Response(
+            f"{name}.{one.name}", one.unit, f"{name}: {one.meaning}",
+            None if one.static is None else _static(name, one.static),
+            None if one.dynamic is None else _dynamic(name, one.dynamic),
+        )
+        for one in RESPONSES.values()
+        if one.name not in UNITS and one.name not in ("energy_residual", "simulated_s", "converged")
+    ]  # fmt: skip
+
+
+def _field(name: str, key: str) -> Callable[[Any], Number]:
+    def read(point: Any) -> Number:
+        value: Number = getattr(point.summary.bearing(name), key)
+        return value
+
+    return read
+
+
+def _static(name: str, read: Callable[[StaticPoint], Number]) -> Callable[[Any], Number]:
+    return lambda point: read(point.bearing(name))
+
+
+def _dynamic(name: str, read: Callable[[DynamicPoint], Number]) -> Callable[[Any], Number]:
+    return lambda point: read(DynamicPoint(point.result.bearings[name], point.summary.bearings[name]))

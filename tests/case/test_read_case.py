@@ -1,0 +1,61 @@
+"""One loader for the case of one bearing and that of a machine."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from lambda_core import api
+from lambda_core.case.case_io import load_case, read_case
+from lambda_core.model.machine_templates import geared_shaft
+
+
+@pytest.fixture
+def box(tmp_path: Path) -> Path:
+    """Return the file of a machine."""
+    path = tmp_path / "box.toml"
+    path.write_text(geared_shaft("box"))
+    return path
+
+
+def test_a_file_tables_and_a_name_are_read_alike(box: Path) -> None:
+    for source in (box, str(box), tomllib.loads(box.read_text())):
+        assert isinstance(read_case(source), api.ShaftCase)
+    assert isinstance(read_case("6208-axial-1300"), api.Case)
+    one = read_case("6208-axial-1300", ["operation.speed=900 rpm"])
+    assert isinstance(one, api.Case)
+    assert one.written()["operation"] == {"speed": "900 rpm"}
+
+
+def test_check_and_with_take_either(box: Path) -> None:
+    machine = api.case(box).with_(operation={"speed": "900 rpm"})
+    assert machine.folder == box.parent
+    found = api.check(machine)
+    assert isinstance(found, api.MachineModel)
+    assert found.speed == pytest.approx(900.0 * 3.14159265 / 30.0)
+    assert isinstance(api.check("6208-axial-1300"), api.BearingModel)
+    assert api.problems(tomllib.loads(box.read_text())) == ()
+
+
+def test_a_machine_is_saved_with_its_comments(box: Path) -> None:
+    api.save(api.case(box).with_(shaft={"temperature": "50 degC"}), box)
+    text = box.read_text()
+    assert 'temperature = "50 degC"' in text
+    assert "# Gears: forces follow from power (or torque) and geometry." in text
+
+
+def test_what_is_about_one_bearing_refuses_machines(box: Path) -> None:
+    with pytest.raises(api.CaseError, match="is a machine of several bearings"):
+        load_case(box)
+    with pytest.raises(api.CaseError, match="about a machine"):
+        api.check_shaft("6208-axial-1300")
+
+
+def test_one_schema_says_which_of_both_a_file_is() -> None:
+    schema = api.schema()
+    assert schema["if"] == {"required": ["bearing"]}
+    names = [schema[key]["$ref"].rpartition("/")[2] for key in ("then", "else")]
+    assert names == ["Case", "ShaftCase"]
+    assert set(names) < set(schema["$defs"])

@@ -1,0 +1,77 @@
+"""The case of one bearing in the long form, against itself: 200 random cases."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lambda_core import api
+from lambda_core.case.case_io import load_case
+from lambda_core.model.bodies.resolve_bodies import body_loads
+from lambda_core.model.checking import check_bearing
+from lambda_core.model.laws.time_functions import initial
+
+CASES = Path(__file__).parents[2] / "benchmarks" / "case_tables.jsonl"
+# Fields of a resolved bearing that have nothing to do with how it is held, loaded and observed
+SAME = (
+    "geometry", "ball_material", "inner_material", "outer_material", "cage_material", "oil", "oil_level", "roughness",
+    "starvation", "gravity", "cage", "depth", "mounting", "elastic",
+)  # fmt: skip
+CONTACTS = ("ball_inner", "ball_outer", "ball_cage", "ball_ball", "cage_inner", "cage_outer", "fluid_drag")
+
+
+def cases() -> list[dict[str, Any]]:
+    """Return the random cases."""
+    return [json.loads(line) for line in CASES.read_text(encoding="utf-8").splitlines()]
+
+
+@pytest.mark.parametrize("part", range(4))
+def test_a_random_bearing_is_the_same_in_a_machine(part: int) -> None:
+    """Everything of the bearing itself, to the last digit, and the loads on its inner ring."""
+    with_catalogue = api.catalogue()
+    for tables in cases()[part::4]:
+        case, single = load_case(tables), check_bearing(tables, catalogue=with_catalogue)
+        machine = api.check(api.long_form(tables).tables, catalogue=with_catalogue)
+        assert isinstance(machine, api.MachineModel)
+        (bearing,) = machine.bearings
+        for name in SAME:
+            assert repr(getattr(bearing.model, name)) == repr(getattr(single, name)), (tables["name"], name)
+        for element in CONTACTS:
+            assert repr(bearing.model.laws.get(element)) == repr(single.laws.get(element)), (tables["name"], element)
+        force, moment = body_loads("inner_ring", case)
+        rows = machine.body.rows(bearing.position)
+        acting = [initial(f) for f in (*force, *moment[1:])]
+        expected = [machine.loads[rows][i] for i in (0, 1, 2, 4, 5)]
+        assert expected == pytest.approx(acting, abs=1e-9 * max(map(abs, acting), default=0.0) + 1e-12)
+    with_catalogue.close()
+
+
+def test_the_equilibrium_is_that_of_the_bearing() -> None:
+    """Under a radial and an axial load without tilt, but for friction, which a machine neglects in its equilibrium."""
+    changes = ["loads.radial=2 kN", "loads.axial=500 N", "bodies.inner_ring.tilt_y=locked", "gravity.z=0 m/s2"]
+    changes += ["bodies.inner_ring.tilt_z=locked"]
+    single = api.quasistatic("6208-axial-1300", changes)
+    long = api.long_form("6208-axial-1300", changes)
+    (bearing,) = api.quasistatic(long.tables).bearings
+    assert [difference.partition(":")[0] for difference in long.differences] == [
+        "bodies.inner_ring.tilt_y", "bodies.inner_ring.tilt_z",
+    ]  # fmt: skip
+    assert bearing.force_N[0] == pytest.approx(-500.0, rel=1e-6)
+    assert bearing.max_load_N == pytest.approx(single.max_load_N, rel=5e-3)
+    assert bearing.friction_torque_Nmm == pytest.approx(single.friction_torque_Nmm, rel=1e-2)
+
+
+def test_what_a_machine_does_not_have_is_said() -> None:
+    case = api.case("6208-axial-1300").with_(
+        bodies={"outer_ring": {"spin": {"motion": "100 rpm"}}, "cage": {"x": "locked"}},
+        markers={"rim": {"body": "outer_ring", "z": "40 mm"}, "journal": {"body": "inner_ring", "x": "2 mm"}},
+        loads={"cage": {"force_z": "1 N"}},
+    )
+    long = api.long_form(case)
+    told = {difference.partition(":")[0] for difference in long.differences}
+    assert {"bodies.outer_ring.spin", "bodies.cage.x", "markers.rim", "loads.cage"} <= told
+    assert "journal" in long.tables["markers"]
+    assert isinstance(api.check(long.tables), api.MachineModel)

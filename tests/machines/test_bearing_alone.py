@@ -1,0 +1,39 @@
+"""A bearing of a machine by itself: the same balls under the same load as in the machine."""
+
+from __future__ import annotations
+
+import tomllib
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.analysis.rotor.bearing_alone import alone_under_load, at_speed
+from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.solver.drivers.equilibrium import solve
+from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+
+
+@pytest.mark.parametrize("number", [0, 1])
+def test_a_bearing_alone_is_that_of_the_machine(number: int) -> None:
+    """Free under the load where it is held in the machine: loads to 2 N of 236, friction and position to 2 %."""
+    machine = api.check_shaft(tomllib.loads(geared_shaft("box")))
+    state = solve_shaft(machine)
+    held = state.rings[number].equilibrium()
+    free = solve(alone_under_load(machine, state, number))
+    assert np.abs(free.contacts[:, :, 0] - held.contacts[:, :, 0]).max() < 2.0  # friction of balls carries a part
+    assert free.losses.sum() == pytest.approx(held.losses.sum(), rel=0.02)
+    pose = state.pose(machine, number)
+    assert free.displacement[1:3] == pytest.approx(pose[1:3].tolist(), abs=0.1e-6)
+    assert free.displacement[3:] == pytest.approx(pose[3:].tolist(), rel=1e-9)
+
+
+def test_a_bearing_alone_turns_at_another_speed() -> None:
+    """The torque of the Stribeck curve at the machine's own speed is that of its equilibrium, over ball positions."""
+    tables = tomllib.loads(geared_shaft("box"))
+    curve = api.stribeck(tables, bearing="left", speeds_rpm=[1500.0, 3000.0])
+    torque = api.quasistatic(tables).bearing("left").friction_torque_Nmm
+    assert curve.torque_Nmm[1] == pytest.approx(torque, rel=0.02)
+    assert curve.torque_Nmm[0] < 0.9 * curve.torque_Nmm[1]
+    machine = api.check_shaft(tables)
+    assert at_speed(machine.bearings[0].model, 7.0).inner_ring.dofs["spin"].motion.terms[0].values == (7.0,)

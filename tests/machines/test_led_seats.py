@@ -1,0 +1,170 @@
+"""Seats and bodies that are led: a shaft carried along stays as it is; in motion it follows, and energy is balanced."""
+
+from __future__ import annotations
+
+import tomllib
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.case.case import merged
+from lambda_core.domain.elements import OUTER
+from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.solver.drivers.machine_motion import machine_engine
+from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+
+
+def tables(left: dict[str, Any], right: dict[str, Any], **changes: Any) -> dict[str, Any]:
+    """Return the case that init writes with seats that are led."""
+    seats = {"left": {"support": left}, "right": {"support": right}}
+    return merged(tomllib.loads(geared_shaft("box")), {"bearings": seats, **changes})
+
+
+def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
+    """Both seats on one rigid carrier that moves by 20 um and turns by 0.2 mrad: the same reactions, second order."""
+    angle, y, z = 2e-4, 2e-5, -1e-5  # about z [rad], [m]
+    model = check_shaft(tomllib.loads(geared_shaft("box")))
+    places = {bearing.name: bearing.position for bearing in model.bearings}
+    seats = [
+        {
+            "y": {"motion": f"{y + angle * places[name]:.12g} m"},
+            "z": {"motion": f"{z} m"},
+            "tilt_z": {"motion": f"{angle} rad"},
+        }
+        for name in ("left", "right")
+    ]
+    seats[0]["x"] = {"motion": "3 um"}
+    at_rest, carried = solve_shaft(model), solve_shaft(check_shaft(tables(*seats)))
+    assert carried.reactions == pytest.approx(at_rest.reactions, rel=2e-3, abs=0.5)
+    moved = (carried.displacement - at_rest.displacement).reshape(-1, 6)
+    assert moved[:, 0] == pytest.approx(3e-6, abs=2e-8)
+    assert moved[:, 1] == pytest.approx(y + angle * model.body.positions, abs=2e-8)
+    assert moved[:, 2] == pytest.approx(z, abs=2e-8)
+    assert moved[:, 5] == pytest.approx(angle, rel=1e-3)
+
+
+def test_a_seat_out_of_line_loads_its_bearing() -> None:
+    """Half a milliradian between both seats is what the rings are tilted by, less what the shaft bends."""
+    report = api.quasistatic(check_shaft(tables({}, {"tilt_y": {"motion": "0.5 mrad"}})))
+    at_rest = api.quasistatic(check_shaft(tables({}, {})))
+    (one,), (other,) = ([b for b in found.bearings if b.name == "right"] for found in (report, at_rest))
+    assert one.misalignment_mrad[0] - other.misalignment_mrad[0] == pytest.approx(-0.5, rel=0.1)
+    assert abs(one.moment_Nm[0]) > 5.0 * abs(other.moment_Nm[0])
+
+
+def test_a_shaft_follows_seats_that_move() -> None:
+    """Both go up by 20 um in 4 ms while the right one is shaken along x at 250 Hz."""
+    up = {"kind": "ramp", "start": "0 um", "end": "20 um", "start_time": "0 s", "end_time": "4 ms"}
+    shaken = {"kind": "harmonic", "amplitude": "2 um", "frequency": "250 Hz"}
+    right = {"x": {"motion": shaken}, "z": {"motion": up}}
+    engine = machine_engine(check_shaft(tables({"x": "free", "z": {"motion": up}}, right)))
+    still = machine_engine(check_shaft(tables({"x": "free"}, {"x": "locked"})))
+    assert engine.advance(8e-3).ok
+    assert still.advance(8e-3).ok
+    moved, alike = engine.samples(), still.samples()
+    assert moved is not None
+    assert alike is not None
+    t = moved.machine["time"]
+    rings = [samples["body_position"][:, OUTER] for samples in moved.bearings]
+    assert rings[0][:, 2] == pytest.approx(np.minimum(t / 4e-3, 1.0) * 2e-5, abs=1e-12)
+    assert rings[1][:, 0] == pytest.approx(2e-6 * np.sin(2.0 * np.pi * 250.0 * t), abs=1e-12)
+    speed = moved.bearings[1]["body_velocity"][:, OUTER, 0]
+    assert speed == pytest.approx(2e-6 * 500.0 * np.pi * np.cos(500.0 * np.pi * t), abs=1e-9)
+    late = t > 6e-3
+    risen = moved.machine["shaft_position"][late, :, 2].mean(axis=0) - alike.machine["shaft_position"][
+        alike.machine["time"] > 6e-3, :, 2
+    ].mean(axis=0)
+    assert risen == pytest.approx(2e-5, abs=1e-6)
+    row = engine.integrals()[0]
+    losses = sum(value for name, value in row.items() if name.startswith("loss"))
+    assert abs(row["input"] - losses - row["stored"]) < 1e-3 * row["input_abs"]
+
+
+BOX = {"x": "85 mm", "z": "-40 mm", "length": "160 mm", "width": "120 mm", "height": "80 mm"}
+
+
+def boxed(hold: dict[str, Any]) -> dict[str, Any]:
+    """Return the case that init writes with both bearings in a body that the ground holds."""
+    held = dict.fromkeys(("x", "y", "z", "tilt_x", "tilt_y", "tilt_z"), "locked")
+    case = tables({}, {}, bodies={"box": {**BOX, "support": {**held, **hold}}})
+    for bearing in case["bearings"].values():
+        bearing["outer"] = "box"
+    return case
+
+
+def test_a_body_that_is_led_carries_its_bearings() -> None:
+    """By 20 um and, about its centre, 0.2 mrad: reactions as before, the shaft where the body takes it."""
+    at_rest, model = (
+        solve_shaft(check_shaft(boxed({}))),
+        check_shaft(boxed({"x": {"motion": "3 um"}, "y": {"motion": "20 um"}, "tilt_z": {"motion": "0.2 mrad"}})),
+    )
+    carried = solve_shaft(model)
+    assert carried.bodies[0] == pytest.approx([3e-6, 2e-5, 0.0, 0.0, 0.0, 2e-4], abs=1e-15)
+    assert carried.reactions == pytest.approx(at_rest.reactions, rel=2e-3, abs=0.5)
+    moved = (carried.displacement - at_rest.displacement).reshape(-1, 6)
+    assert moved[:, 0] == pytest.approx(3e-6, abs=2e-8)
+    assert moved[:, 1] == pytest.approx(2e-5 + 2e-4 * (model.body.positions - 85e-3), abs=2e-8)
+
+
+def test_a_body_that_is_shaken_does_work() -> None:
+    """Body, rings and shaft go along with 10 um at 100 Hz, far below all modes; energy is balanced."""
+    swing = {"kind": "harmonic", "amplitude": "10 um", "frequency": "100 Hz"}
+    engine = machine_engine(check_shaft(boxed({"y": {"motion": swing}, "x": {"motion": "3 um"}})))
+    assert engine.advance(8e-3).ok
+    samples = engine.samples()
+    t = samples.machine["time"]
+    expected = 1e-5 * np.sin(200.0 * np.pi * t)
+    assert samples.machine["body_position"][:, 0, 1] == pytest.approx(expected, abs=1e-12)
+    assert samples.machine["body_position"][:, 0, 0] == pytest.approx(3e-6, abs=1e-12)
+    shaft = samples.machine["shaft_position"][:, :, 1].mean(axis=1)
+    size = np.linalg.lstsq(np.column_stack([expected, np.ones(t.size)]), shaft, rcond=None)[0][0]
+    assert size == pytest.approx(1.0, abs=0.15)
+    row = engine.integrals()[0]
+    losses = sum(value for name, value in row.items() if name.startswith("loss"))
+    assert abs(row["input"] - losses - row["stored"]) < 1e-3 * row["input_abs"]
+
+
+def test_what_cannot_be_led() -> None:
+    """Each at its path: a ring that gives way, one in a body, one on a preload spring, a course by a law."""
+    box = {"x": "85 mm", "mass": "9 kg", "polar_inertia": "1 kg m2", "transverse_inertia": "1 kg m2"}
+    for changes, where, said in (
+        (tables({"y": {"mode": "free", "motion": "1 um"}}, {}), "support.y", 'needs mode = "prescribed", not "free"'),
+        (tables({"y": {"motion": "1e6 mm"}}, {}), "support.y.motion", "at most 100 mm: is the unit right?"),
+        (
+            tables({}, {}, bodies={"box": {**box, "support": {"tilt_y": {"motion": "9 deg"}}}}),
+            "bodies.box.support.tilt_y.motion",
+            "at most",
+        ),
+        (
+            merged(
+                tables({"y": {"motion": "1 um"}}, {}, bodies={"box": box}), {"bearings": {"left": {"outer": "box"}}}
+            ),
+            "support.y.motion",
+            "only a ring whose `outer` is the ground",
+        ),
+        (
+            merged(
+                tables({"x": {"motion": "1 um"}}, {}),
+                {"bearings": {"left": {"takes": "+x", "preload_force": "100 N"}}},
+            ),
+            "support.x.motion",
+            "`preload_force` makes the ring slide",
+        ),
+        (
+            tables({}, {}, bodies={"box": {**box, "motion_z": "1 um"}}),
+            "bodies.box.motion_z",
+            "write support.z = { motion = ... }",
+        ),
+        (
+            tables({"z": {"motion": {"kind": "law", "law": "chirp", "amplitude": "1 um"}}}, {}),
+            "support.z.motion.law",
+            "is no law yet",
+        ),
+    ):
+        with pytest.raises(api.CaseError) as found:
+            check_shaft(changes)
+        problems = {problem.where: problem.message for problem in found.value.problems}
+        assert said in problems[where if where.startswith("bodies") else f"bearings.left.{where}"], problems
