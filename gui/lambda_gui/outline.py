@@ -69,6 +69,8 @@ def outline(names: Names | None = None) -> list[Node]:
         _forces(names),
         _loads(),
         _lubricant(),
+        _form("requirements", "Requirements", ("requirements",)),
+        _form("life", "Rating life", ("life",)),
         _form("depth", "Modelling depth", ("depth",)),
         _form("solver", "Solver", ("solver",)),
         _output(names),

@@ -31,6 +31,7 @@ _NAMED = {
 }  # fmt: skip
 _TITLES = {
     "operation": "Drive", "materials": "Materials", "surface": "Surfaces", "life": "Rating life",
+    "requirements": "Requirements",
     "thermal": "Thermal network",
 }  # fmt: skip
 # What comes first on the form of a table: what each of them needs

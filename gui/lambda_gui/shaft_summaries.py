@@ -22,6 +22,7 @@ _TELL = {
     "lubricant": ("name", "temperature"),
     "housing": ("temperature", "reduced"),
     "life": ("contamination",),
+    "requirements": ("life", "static_safety"),
     "solver": ("duration", "accuracy"),
 }
 

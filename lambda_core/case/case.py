@@ -15,6 +15,7 @@ from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters
 from lambda_core.case.motion import BetweenBodies, Bodies, Gravity, Loads, Marker, Operation
 from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.parts import Bearing, Lubricant, Materials, Surface
+from lambda_core.case.requirements import Life, Requirements
 from lambda_core.case.thermal import Thermal
 from lambda_core.domain.handed_laws import packed, unpack
 
@@ -92,6 +93,8 @@ class Case(Written):
     loads: Loads = option({}, "external loads")
     operation: Operation = option(description="what drives the bearing")
     bodies: Bodies = option({}, "masses and boundary conditions")
+    life: Life = option({}, "what modified rating lives need")
+    requirements: Requirements = option({}, "what the bearing has to reach")
     thermal: Thermal = option({}, "thermal network of the bearing and its surroundings")
     markers: dict[str, Marker] = option({}, "named points whose motion is written")
     models: Models = option({}, "model by role")

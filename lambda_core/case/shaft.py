@@ -15,6 +15,7 @@ from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters
 from lambda_core.case.motion import CageShape, Gravity
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, OwnLubricant, Surface
+from lambda_core.case.requirements import Life, Requirements
 from lambda_core.case.shaft_parts import (
     Connection,
     Gear,
@@ -42,6 +43,8 @@ SHARED = (
     "output",
     "observers",
     "events",
+    "life",
+    "requirements",
 )
 OWN = ("elastic", "forces")  # tables of one of them
 NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "connections")  # tables of named parts
@@ -175,12 +178,6 @@ class ShaftOperation(Section):
     )
 
 
-class ShaftLife(Section):
-    """What modified rating lives need."""
-
-    contamination: float | None = option(None, "contamination factor e_C of ISO 281", ge=0.0, le=1.0)
-
-
 class ShaftCase(Written):
     """What the file of a shaft says; values in SI, written as unit strings."""
 
@@ -205,7 +202,8 @@ class ShaftCase(Written):
     surface: Surface = option({}, "surfaces")
     gravity: Gravity = option({}, "acceleration of gravity")
     thermal: MachineThermal = option({}, "thermal network of shaft, housing and all bearings")
-    life: ShaftLife = option({}, "what modified rating lives need")
+    life: Life = option({}, "what modified rating lives need")
+    requirements: Requirements = option({}, "what every bearing has to reach")
     depth: Depth = option({}, "modelling depth, of every bearing")
     models: Models = option({}, "model by role, for every bearing")
     parameters: Parameters = option({}, "parameters by role, for every bearing")

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal
 
+from lambda_core.case.requirements import Requirements
 from lambda_core.domain.elements import SPIN
 
 if TYPE_CHECKING:
@@ -345,3 +346,5 @@ class BearingModel:
     events: Mapping[str, ChosenEvent] = field(default_factory=dict)
     links: Mapping[str, Link] = field(default_factory=dict)
     elastic: Mapping[BodyName, RingWaves] = field(default_factory=dict)
+    contamination: float | None = None  # e_C of ISO 281; None: not given
+    requirements: Requirements = field(default_factory=Requirements)

@@ -164,7 +164,6 @@ class MachineModel:
     drive: int
     heat: MachineHeat
     speed: float  # at t = 0 [rad/s]
-    contamination: float | None  # e_C of ISO 281
     gears: dict[str, GearForces]  # forces of each mesh, by name
     assumptions: tuple[str, ...]
     outline: tuple[tuple[float, float, float, float], ...]  # begin, end, diameter, bore of each section [m]

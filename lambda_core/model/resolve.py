@@ -19,6 +19,7 @@ from lambda_core.case.case_writer import standalone_toml
 from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue
 from lambda_core.domain.elements import BODIES
 from lambda_core.domain.units import show
+from lambda_core.formulas.life import contamination_range
 from lambda_core.laws.context import Material
 from lambda_core.laws.jit.reach import reach
 from lambda_core.laws.law import Law
@@ -188,7 +189,19 @@ def resolve(
         events=events,
         links=between,
         elastic=elastic,
+        contamination=_contamination(case, geometry, ledger),
+        requirements=case.requirements,
     )
+
+
+def _contamination(case: Case, geometry: Geometry, ledger: Ledger) -> float | None:
+    """Return e_C; of a level of contamination the lower end (ISO 281:2007, table 13)."""
+    given = case.life.contamination
+    if not isinstance(given, str):
+        return given
+    low, high = contamination_range(given, geometry.pitch_diameter)
+    ledger.assume(f"e_C {low:g}, the lower end of {low:g} to {high:g} for {given} (ISO 281, table 13)")
+    return low
 
 
 def _distributions(
@@ -276,6 +289,7 @@ def case_hash(model: BearingModel) -> str:
     title, sources and assumptions are left out: two cases that mean the same run share one.
     """
     silent = {"name", "title", "values", "assumptions", "contradictions", "case_toml", "plugins"}
+    silent |= {"contamination", "requirements"}  # of ratings
     if model.thermal is None:
         silent |= {"thermal", "mounting"}
     if model.electric is None:

@@ -231,7 +231,6 @@ def _shaft(
         bodies=bodies,
         markers=tuple(stand.markers.items()),
         electric=electric,
-        contamination=case.life.contamination,
         gears=gears,
         assumptions=tuple(ledger.assumptions),
         warnings=(*ledger.contradictions, *fitting_warnings(case, bearings, _outline(case))),

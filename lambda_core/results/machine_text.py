@@ -25,7 +25,9 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
     rows = [("bearing", [one.title.split(" (")[0] for one in each]), *_rows(found, units)]
     wide = max(_COLUMN, *(2 + len(cell) for cells in (list(found.bearings), *(c for _, c in rows)) for cell in cells))
     names = "".join(f"{name:>{wide}}" for name in found.bearings)
+    judged = [(name, one.verdict.lines(units)[0]) for name, one in found.bearings.items() if one.verdict]
     lines = [
+        *wrapped([line(f"verdict {name}", sentence) for name, sentence in judged], width),
         f"{found.case}, {found.speed_rpm:.5g} 1/min",
         "",
         f"{'':<{_HEAD}}{names}",

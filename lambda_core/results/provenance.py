@@ -34,7 +34,10 @@ if TYPE_CHECKING:
 
 _LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "pydantic")
 # Of the model these stand in datasets of their own, or follow from the case and are part of the geometry.
-_APART = ("values", "assumptions", "case_toml", "plugins", "mounting", "thermal", "contradictions")
+_APART = (
+    "values", "assumptions", "case_toml", "plugins", "mounting", "thermal", "contradictions",
+    "contamination", "requirements",
+)  # fmt: skip
 
 
 @cache

@@ -17,6 +17,7 @@ from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.results.averages import finite
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
+from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import (
     LOADED_BALLS,
@@ -27,6 +28,7 @@ from lambda_core.results.summary import (
     merged_cage,
     span,
 )
+from lambda_core.results.verdict import Verdict, rated_verdict
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.wave_tables import waves_at
@@ -58,6 +60,9 @@ class QuasiStatic(Record):
     case: str
     title: str
     headline: str
+    verdict: Verdict | None = Field(description="against required life and limits", default=None)
+    rating: Rating | None = Field(description="life, safety and catalogue friction", default=None)
+    power_loss_W: float | None = Field(description="of the friction, without the cage", default=None)
     loaded_balls: int = Field(description=LOADED_BALLS)
     max_load_N: float = Field(description=MAX_LOAD)
     max_load_ring: Ring = Field(description="the ring that the largest contact load stands at")
@@ -86,8 +91,8 @@ class QuasiStatic(Record):
         return quasistatic_text(self, width, units)
 
 
-def quasistatic_of(found: Equilibrium) -> QuasiStatic:
-    """Put an equilibrium into the units of the interface."""
+def quasistatic_of(found: Equilibrium, rating: Rating | None = None) -> QuasiStatic:
+    """Put an equilibrium into the units of the interface; the verdict needs its rating."""
     from lambda_core.model.checks.describe import headline
 
     model = found.context.model
@@ -102,14 +107,18 @@ def quasistatic_of(found: Equilibrium) -> QuasiStatic:
         Grooves.of(dataclasses.asdict(model.geometry)), load, channels["contact_angle"], channels["semi_axis_a"]
     )
     per_speed = {name: power / speed if speed > 0.0 else math.nan for name, power in losses.items()}
+    pressure, films = 1e-9 * float(channels["max_pressure"].max()), span(channels["film_parameter"][carrying])
     return QuasiStatic(
         case=model.name,
         title=model.title,
         headline="\n".join(headline(model)),
+        verdict=rated_verdict(rating, pressure, films, 1e3 * math.hypot(tilt_y, tilt_z)),
+        rating=rating,
+        power_loss_W=finite(float(found.losses.sum())) if speed > 0.0 else None,
         loaded_balls=loaded_balls(load[:, RINGS.index("inner")]),
         max_load_N=largest,
         max_load_ring=ring,
-        max_pressure_GPa=1e-9 * float(channels["max_pressure"].max()),
+        max_pressure_GPa=pressure,
         friction_torque_Nmm=finite(1e3 * sum(per_speed.values())),
         friction_breakdown_Nmm=merged_cage(per_speed),
         orbit_speed_ratio=finite(_ratio(found)),
@@ -118,7 +127,7 @@ def quasistatic_of(found: Equilibrium) -> QuasiStatic:
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
         ring_shapes=_ring_shapes(found),
         film_um=span(1e6 * channels["film_central"][carrying]),
-        film_parameter=span(channels["film_parameter"][carrying]),
+        film_parameter=films,
         capacitance_note=capacitance_note(load, channels["capacitance"]),
         shoulders=edges,
         warnings=[

@@ -41,6 +41,7 @@ from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.rolling import ROLLING, rolling_of
 from lambda_core.results.run_status import Status
+from lambda_core.results.verdict import Verdict, rated_verdict
 from lambda_core.results.watched import events_seen, observed_numbers
 
 if TYPE_CHECKING:
@@ -117,6 +118,7 @@ class BearingSummary(Record):
     currents: Currents | None = Field(description="of a case with a circuit; null without one", default=None)
     observed: list[ObserverNumber] = Field(description="numbers of the observers of the case", default=[])
     events: list[EventSeen] = Field(description="events that the case looks out for", default=[])
+    verdict: Verdict | None = Field(description="against required life and limits", default=None)
     rating: Rating | None = Field(description="life, safety and catalogue friction of the case at its start")
     shoulders: list[Shoulder] = Field(description="how near contacts came to the shoulders, the worst on each ring")
     force_N: list[float] = Field(description="mean force of a machine's bearing on the shaft: x, y, z", default=[])
@@ -299,6 +301,12 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         currents=currents_of(result, start),
         observed=observed_numbers(result, start),
         events=events_seen(result),
+        verdict=rated_verdict(
+            result.rating,
+            finite(1e-9 * extremes.pressure),
+            span(end["film_parameter"][carrying]),
+            1e3 * extremes.largest_tilt,
+        ),
         rating=result.rating,
         shoulders=edges,
         **(reactions(result, start) if result.is_machine else {}),

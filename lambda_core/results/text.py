@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from lambda_core.domain.number_text import NONE, hours, interval, number
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from lambda_core.results.quasistatic import QuasiStatic, RingShape
     from lambda_core.results.rating import Rating
     from lambda_core.results.summary import BearingSummary, Summary
+    from lambda_core.results.verdict import Verdict
 
 _PER_RING = ("sliding", "spin", "rolling", "hysteresis", "boundary", "damping")
 _REST = ("cage", "drag", "support")
@@ -40,6 +41,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
     )
     mean = units.plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm, "N mm")
     lines = [
+        *verdict_lines(summary.verdict, units),
         line("friction torque", mean, window, verdict),
         *breakdown_lines(summary.friction_breakdown_Nmm, units),
         line("power loss", units.text(summary.power_loss_W, "W", _digits(summary.power_loss_W))),
@@ -118,18 +120,44 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI) -> list[str]:
     if rating is None:
         return []
     makers = (("SKF", rating.skf_torque_Nmm), ("Schaeffler", rating.schaeffler_torque_Nmm))
-    lives = ((rating.reference_life_h, "ISO/TS 16281"), (rating.basic_life_h, "ISO 281"))
     says = [f"{maker} {units.number(torque, 'N mm', 0)}" for maker, torque in makers if torque is not None]
-    rated = [f"{hours(life)} ({standard})" for life, standard in lives if life is not None]
+    rated = [
+        f"{standard}: {_lives(zip(names, found, strict=True))}"
+        for standard, *found, names in (
+            ("ISO 281", rating.basic_life_h, rating.modified_life_h, ("L_10h", "L_nmh")),
+            ("ISO/TS 16281", rating.reference_life_h, rating.modified_reference_life_h, ("L_10rh", "L_nmrh")),
+        )
+        if found[0] is not None
+    ]
     return [
         *([line("catalogues", f"{'   '.join(says)} {units.unit('N mm')}")] if says else []),
-        *([line("rating life", *rated)] if rated else []),
+        *(line("" if i else "rating life", text) for i, text in enumerate(rated)),
+        *([line("", contamination_text(rating))] if rating.modified_life_h is not None else []),
         line(
             "safety",
             f"static C0/P0 {number(rating.static_safety)}" if rating.static_safety is not None else "",
             f"viscosity ratio kappa {number(rating.viscosity_ratio, 1)}" if rating.viscosity_ratio is not None else "",
         ),
     ]
+
+
+def _lives(found: Iterable[tuple[str, float | None]]) -> str:
+    """Write lives with their symbols."""
+    return "  ".join(f"{name} {hours(life)}" for name, life in found if life is not None)
+
+
+def contamination_text(rating: Rating) -> str:
+    """Say which e_C the modified lives were computed with."""
+    given = "" if rating.contamination_given else ": normal cleanliness, the case gives none (life.contamination)"
+    return f"a_ISO {number(rating.life_factor, 2)} with e_C {rating.contamination:g}{given}"
+
+
+def verdict_lines(verdict: Verdict | None, units: UnitSystem = SI) -> list[str]:
+    """Return the verdict, then the margins to limits."""
+    if verdict is None:
+        return []
+    sentence, margins = verdict.lines(units)
+    return [line("verdict", sentence), *([line("margins", *margins)] if margins else [])]
 
 
 def _digits(value: float | None) -> int:
@@ -162,7 +190,9 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
             f"{units.value(contact.load_N, 'N'):>10.1f}{contact.contact_angle_deg:>11.2f}"
             f"{units.number(contact.film_um, 'um', 3):>10}{number(contact.capacitance_pF, 1):>9}"
         )
+    power = found.power_loss_W
     lines = [
+        *verdict_lines(found.verdict, units),
         units.sentence(found.headline),
         line(
             "equilibrium",
@@ -176,6 +206,8 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
         *(line("" if i else "shape of rings", *_bent(bent, units)) for i, bent in enumerate(found.ring_shapes)),
         line("friction torque", units.text(found.friction_torque_Nmm, "N mm"), "(without cage)"),
         *breakdown_lines(found.friction_breakdown_Nmm, units),
+        *([line("power loss", units.text(power, "W", _digits(power)))] if power is not None else []),
+        *rating_lines(found.rating, units),
         line("ball orbit", f"{number(found.orbit_speed_ratio, 4)} of inner ring"),
         line("film", units.interval(found.film_um, "um", 2), f"Lambda {interval(found.film_parameter, 1)}"),
         line("shoulders", *(_margin(edge, units) for edge in found.shoulders)),

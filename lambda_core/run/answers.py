@@ -195,7 +195,7 @@ def _compare_in_machine(
     machine = ready_machine_of(source, overrides, announce)
     number = bearing_number(machine, bearing)
     state = solve_shaft(machine, announce)
-    given = machine.contamination if contamination is None else contamination
+    given = machine.bearings[number].model.contamination if contamination is None else contamination
     inputs = comparison_inputs(state.rings[number].equilibrium(), contamination=given)
     alone = alone_under_load(machine, state, number)
     return comparison_of(

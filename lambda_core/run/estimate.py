@@ -126,7 +126,7 @@ def estimate(
     simulated, turn = _simulated_time(model, found), _cage_turn(model, found)
     trial = None if simulated is None else _trial(BearingEngine(model, announce, found), turn, simulated)
     return Estimate(
-        equilibrium=quasistatic_of(found),
+        equilibrium=quasistatic_of(found, rating),
         rating_life_h=rating.basic_life_h,
         viscosity_ratio=rating.viscosity_ratio,
         rating=rating,

@@ -65,12 +65,15 @@ def quasistatic(
         machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
         with naming_laws(*(bearing.model for bearing in machine.bearings)):
             return machine_equilibrium(machine, announce=announce)
+    from lambda_core.discovery.manager import registry
     from lambda_core.results.quasistatic import quasistatic_of
+    from lambda_core.run.engineering import rating_of
     from lambda_core.solver.drivers.equilibrium import solve
 
     model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
     with naming_laws(model):
-        return quasistatic_of(solve(model, announce=announce))
+        found = solve(model, announce=announce)
+        return quasistatic_of(found, rating_of(found, registry().methods))
 
 
 @one_blas_thread()

@@ -43,6 +43,8 @@ def test_the_tree_mirrors_the_set_up() -> None:
         "Force elements",
         "Loads and motion",
         "Lubricant",
+        "Requirements",
+        "Rating life",
         "Modelling depth",
         "Solver",
         "Outputs",

@@ -69,7 +69,7 @@ def test_a_run_says_it_first(combined_run: api.Result) -> None:
     assert summary.power_loss_W == pytest.approx(1e-3 * summary.friction_torque_Nmm * rpm, rel=1e-3)
     text = summary_text(summary)
     lines = text.splitlines()
-    first = "\n".join(lines[:10])
+    first = "\n".join(lines[:13])
     for head in ("power loss", "catalogues", "rating life", "safety", "film"):
         assert f"\n{head}" in first
     assert sum("assum" in text for text in lines) <= 2

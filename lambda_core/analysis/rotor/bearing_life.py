@@ -28,14 +28,13 @@ class BearingLife:
     equivalent_load: float  # P of ISO 281 [N]
     basic: float  # L_10h
     reference: float  # L_10rh of ISO/TS 16281
+    modified_basic: float | None  # L_nmh of ISO 281
     modified: float | None  # L_nmrh
     viscosity_ratio: float | None
     static_safety: float  # C_0/P_0
 
 
-def bearing_life(
-    bearing: MountedBearing, found: Equilibrium, radial: float, axial: float, contamination: float | None
-) -> BearingLife:
+def bearing_life(bearing: MountedBearing, found: Equilibrium, radial: float, axial: float) -> BearingLife:
     """Return what the standards say of a bearing.
 
     Parameters
@@ -44,8 +43,6 @@ def bearing_life(
         With the load of every ball.
     radial, axial : float
         What the bearing carries [N].
-    contamination : float or None
-        e_C of ISO 281; without it there is no modified life.
     """
     g, angle, speed = bearing.model.geometry, bearing.nominal_angle, found.relative_speed
     gamma = g.ball_diameter * math.cos(angle) / g.pitch_diameter
@@ -60,18 +57,21 @@ def bearing_life(
         nominal_angle=angle,
         rows=g.rated_rows,
     )
-    ratio = modified = None
+    ratio = modified = modified_basic = None
+    contamination, basic = bearing.model.contamination, basic_rating_life(bearing.dynamic_rating, load)
     if speed > 0.0:
         oil = found.context.oil
         ratio = oil.viscosity / oil.density / reference_viscosity(speed, g.pitch_diameter)
         if contamination is not None and ratio >= _LEAST_RATIO:
-            factor = life_modification_factor(ratio, contamination, bearing.fatigue_limit, reference.equivalent_load)
-            modified = life_hours(factor * reference.life, speed)
+            dirt = ratio, contamination, bearing.fatigue_limit
+            modified_basic = life_hours(life_modification_factor(*dirt, load) * basic, speed)
+            modified = life_hours(life_modification_factor(*dirt, reference.equivalent_load) * reference.life, speed)
     static_load = static_equivalent_load(radial, axial, *kind, self_aligning=aligning)
     return BearingLife(
         load,
-        life_hours(basic_rating_life(bearing.dynamic_rating, load), speed),
+        life_hours(basic, speed),
         life_hours(reference.life, speed),
+        modified_basic,
         modified,
         ratio,
         bearing.static_rating / static_load if static_load > 0.0 else math.inf,

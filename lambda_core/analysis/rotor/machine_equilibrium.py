@@ -25,6 +25,7 @@ from lambda_core.results.limits import warnings
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import LOADED_BALLS, MAX_LOAD, Contact
+from lambda_core.results.verdict import Found, Verdict, limits_of, verdict
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 from lambda_core.solver.drivers.structure import point_on, static_rows, stretch
@@ -52,6 +53,7 @@ class BearingEquilibrium(Record):
     equivalent_load_N: float = Field(description="P of ISO 281")
     basic_rating_life_h: float | None = Field(description="L_10h of ISO 281; null at rest or without load")
     reference_rating_life_h: float | None = Field(description="L_10rh of ISO/TS 16281, from the load of every ball")
+    modified_basic_life_h: float | None = Field(description="L_nmh of ISO 281; needs life.contamination")
     modified_rating_life_h: float | None = Field(description="L_nmrh; needs life.contamination")
     viscosity_ratio: float | None = Field(description="kappa")
     static_safety: float | None = Field(description="C_0 over P_0")
@@ -62,6 +64,7 @@ class BearingEquilibrium(Record):
         description="6 x 6, inner ring against outer ring, order of `axes` [N/m, N/rad, N m/rad]; no row turns about x"
     )
     contacts: list[Contact] = Field(description="of every ball with each ring")
+    verdict: Verdict = Field(description="against required life and limits")
     warnings: list[str] = Field(description="what is beyond a limit: ratings, pressure, shoulders, tilt, speed, oil")
 
 
@@ -184,8 +187,13 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
     bearing, reaction = model.bearings[index], state.reactions[index]
     alone = quasistatic_of(found)
     radial, axial = float(np.hypot(*reaction[1:3])), float(-reaction[0])
-    life = bearing_life(bearing, found, radial, abs(axial), model.contamination)
+    life = bearing_life(bearing, found, radial, abs(axial))
     pose = state.pose(model, index)
+    counted = ("L_10rh", life.reference) if life.modified is None else ("L_nmrh", life.modified)
+    judged = Found(
+        alone.max_pressure_GPa, min(alone.film_parameter, default=None), 1e3 * float(np.hypot(*pose[3:])),
+        life.equivalent_load, finite(life.static_safety), life.viscosity_ratio, finite(counted[1]), counted[0],
+    )  # fmt: skip
     return BearingEquilibrium(
         name=bearing.name,
         title=bearing.model.title,
@@ -206,6 +214,7 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
         equivalent_load_N=life.equivalent_load,
         basic_rating_life_h=finite(life.basic),
         reference_rating_life_h=finite(life.reference),
+        modified_basic_life_h=None if life.modified_basic is None else finite(life.modified_basic),
         modified_rating_life_h=None if life.modified is None else finite(life.modified),
         viscosity_ratio=life.viscosity_ratio,
         static_safety=finite(life.static_safety),
@@ -214,6 +223,7 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
         film_um=alone.film_um,
         stiffness=six(state.stiffness[index]),
         contacts=alone.contacts,
+        verdict=verdict(limits_of(bearing.model), judged),
         warnings=_warnings(bearing, found, alone, (radial, abs(axial)), float(np.hypot(*pose[3:]))),
     )
 

@@ -11,6 +11,7 @@ from lambda_core.domain.number_text import NONE
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.model.checks.operating_limits import operating_warnings
+from lambda_core.results.text import line
 
 if TYPE_CHECKING:
     from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
@@ -84,6 +85,7 @@ _ROWS = (
     _Row("p_max", "GPa", lambda b: b.max_pressure_GPa, 3),
     _Row("contact angles", "deg", lambda b: list(b.contact_angle_deg), 3),
     _Row("L_10h", "h", lambda b: hours(b.basic_rating_life_h)),
+    _Row("L_nmh", "h", lambda b: hours(b.modified_basic_life_h)),
     _Row("L_10rh", "h", lambda b: hours(b.reference_rating_life_h)),
     _Row("L_nmrh", "h", lambda b: hours(b.modified_rating_life_h)),
     _Row("static safety", "", lambda b: b.static_safety, 3),
@@ -125,7 +127,10 @@ def _table(
 def equilibrium_text(found: MachineEquilibrium, width: int | None = None, units: UnitSystem = SI) -> str:
     """Return what one equilibrium says: the bearings side by side, then the shaft."""
     own = [units.sentence(line) for line in _shaft_lines(found)]
-    head = [f"{found.case}, {found.speed_rpm:.5g} 1/min", ""]
+    judged = [(one.name, one.verdict) for one in found.bearings]
+    verdicts = [line(f"verdict {name}", verdict.lines(units)[0]) for name, verdict in judged]
+    margins = [line(f"margins {name}", *verdict.lines(units)[1]) for name, verdict in judged if verdict.lines(units)[1]]
+    head = [*wrapped([*verdicts, *margins], width), "", f"{found.case}, {found.speed_rpm:.5g} 1/min", ""]
     return "\n".join([*head, *_table(_ROWS, found.bearings, units), "", *wrapped(own, width)])
 
 

@@ -93,6 +93,11 @@ def operating_warnings(model: BearingModel, *, on_shaft: bool = False) -> list[s
     ]
 
 
+def permissible_tilt(kind: str) -> float:
+    """Return the angle between the rings that bearings of a kind take [rad]."""
+    return _TILTS[kind][0]
+
+
 def tilt_warning(tilt: float, kind: str, what: str = "the inner ring tilts by", *, on_shaft: bool = False) -> list[str]:
     """Return a sentence where the angle between the rings [rad] is above what bearings of a kind take."""
     most, said = _TILTS[kind]
@@ -106,17 +111,18 @@ def tilt_warning(tilt: float, kind: str, what: str = "the inner ring tilts by", 
     ]
 
 
-def _known(model: BearingModel, path: str) -> float | None:
+def known_value(model: BearingModel, path: str) -> float | None:
+    """Return a resolved number by its path, SI; None where there is none."""
     return next((v.value for v in model.values if v.path == path and isinstance(v.value, float)), None)
 
 
-def _relative_speed(model: BearingModel) -> float:
+def relative_speed(model: BearingModel) -> float:
     """Return an upper bound of the rings' relative speed [rad/s]; where both turn, they may turn against each other."""
     return peak(model.inner_ring.dofs["spin"].motion) + peak(model.outer_ring.dofs["spin"].motion)
 
 
 def _speed(model: BearingModel) -> Iterator[str]:
-    limit, speed = _known(model, "bearing.limiting_speed"), _relative_speed(model)
+    limit, speed = known_value(model, "bearing.limiting_speed"), relative_speed(model)
     if limit is not None and speed > limit:
         rpm, most = (f"{value * 30.0 / math.pi:.0f} rpm" for value in (speed, limit))
         yield f"{rpm} is above the limiting speed of the bearing in the catalogue, {most}"
@@ -138,7 +144,7 @@ def applied_load(model: BearingModel) -> tuple[float, float] | None:
 def operating_point(model: BearingModel) -> str:
     """Name a bearing with its speed, loads and oil temperature."""
     loads = applied_load(model)
-    parts = [f"{model.title} at {show(_relative_speed(model), 'rotational_speed', 4)}"]
+    parts = [f"{model.title} at {show(relative_speed(model), 'rotational_speed', 4)}"]
     if loads is not None:
         parts += [f"{_force(load)} {way}" for load, way in zip(loads, ("radial", "axial"), strict=True) if load > 0.0]
     return ", ".join([*parts, f"oil at {show(model.oil.temperature, 'temperature', 3)}"])
@@ -148,11 +154,11 @@ def _mode(body: Body, dof: str) -> str:
     return body.dofs[dof].mode
 
 
-def _ratings(model: BearingModel) -> tuple[float, float]:
+def ratings(model: BearingModel) -> tuple[float, float]:
     """Return C and C_0 [N]: the catalogue's, or from the geometry (ISO 281, ISO 76)."""
     g = model.geometry
     size, angle = (g.ball_count, g.ball_diameter, g.pitch_diameter), g.contact_angle
-    dynamic, static = _known(model, "bearing.dynamic_rating"), _known(model, "bearing.static_rating")
+    dynamic, static = known_value(model, "bearing.dynamic_rating"), known_value(model, "bearing.static_rating")
     return (
         dynamic or dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows, self_aligning=g.self_aligning),
         static or static_rating(*size, contact_angle=angle, rows=g.rated_rows, self_aligning=g.self_aligning),
@@ -177,13 +183,13 @@ def _load(model: BearingModel) -> list[str]:
 
 def load_warnings(model: BearingModel, radial: float, axial: float) -> Iterator[str]:
     """Say what is beyond ratings and other limits of the load that a bearing carries, radially and axially [N]."""
-    dynamic, static = _ratings(model)
+    dynamic, static = ratings(model)
     g = model.geometry
     gamma, kind = g.ball_diameter * math.cos(g.contact_angle) / g.pitch_diameter, (g.contact_angle, g.rated_rows)
     factor = static_factor(gamma, self_aligning=g.self_aligning)
     equivalent = dynamic_equivalent_load(radial, axial, static, factor, *kind, self_aligning=g.self_aligning).load
     resting = static_equivalent_load(radial, axial, *kind, self_aligning=g.self_aligning)
-    turns = _relative_speed(model) > 0.0
+    turns = relative_speed(model) > 0.0
     if g.four_point and axial < ONE_SIDE * radial:
         yield (
             f"the axial load of {_force(axial)} is below {ONE_SIDE:g} of the radial one: balls of four-point contact "
@@ -223,7 +229,7 @@ def _oil(model: BearingModel) -> Iterator[str]:
     low, high = OIL_TEMPERATURES
     if not low <= celsius <= high:
         yield f"the oil at {celsius:.6g} degC is outside {low:g} to {high:g} degC, where laws of viscosity hold at best"
-    coldest, hottest = (_known(model, f"lubricant.{end}_temperature") for end in ("lowest", "highest"))
+    coldest, hottest = (known_value(model, f"lubricant.{end}_temperature") for end in ("lowest", "highest"))
     if coldest is not None and hottest is not None and not coldest <= model.oil.temperature <= hottest:
         yield (
             f"the grease {model.oil.name} at {celsius:.6g} degC is outside what its maker gives it for, "
@@ -259,7 +265,7 @@ def heating_factor(model: BearingModel) -> float | None:
     from lambda_core.model.laws.law_context import ContactFrame, build_context, prepare
 
     law, rheology = (model.laws["ball_inner"][role] for role in ("thermal_correction", "rheology"))
-    speed = _relative_speed(model)
+    speed = relative_speed(model)
     if speed == 0.0 or law.model.name == "none":
         return None
     context = build_context(model, "ball_inner", ContactFrame((0.0, 0.0), (0.0, 0.0)), model.oil)

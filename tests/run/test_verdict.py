@@ -1,0 +1,93 @@
+"""The standard answer: modified life, verdict against required life and limits, margins."""
+
+from __future__ import annotations
+
+import tomllib
+
+import pytest
+
+from lambda_core import api
+from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
+from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.results.quasistatic import QuasiStatic
+
+CASE = {
+    "name": "motor",
+    "bearing": {"designation": "6308 C3", "maker": "SKF"},
+    "lubricant": {"name": "FVA3A", "temperature": "60 degC"},
+    "loads": {"radial": "5 kN", "axial": "1 kN"},
+    "operation": {"speed": "3000 rpm"},
+    "bodies": {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}},
+    "life": {"contamination": "normal cleanliness"},
+    "requirements": {"life": "20000 h"},
+}
+
+
+def test_the_verdict_comes_first_with_its_margins() -> None:
+    found = api.quasistatic(CASE)
+    assert isinstance(found, QuasiStatic)
+    assert found.verdict is not None
+    assert found.verdict.met
+    text = found.text().splitlines()
+    assert text[0].startswith("verdict")
+    assert "of 20 000 h required" in text[0]
+    # limiting speed of the 6308 is 11 000 1/min; 0.01 C = 423 N and P is 5 kN; 4.2 GPa of ISO 76
+    for words in ("n 27 % of 11 000 1/min", "minimum load met 12 times", "p 55 % of 4.2 GPa"):
+        assert words in text[1]
+
+
+def test_modified_lives_stand_beside_the_basic_ones() -> None:
+    found = api.quasistatic(CASE)
+    assert isinstance(found, QuasiStatic)
+    rating = found.rating
+    assert rating is not None
+    other = api.compare(CASE, contamination=0.5)
+    assert rating.contamination == 0.5  # lower end of 0.5 to 0.6 below 100 mm (ISO 281, table 13)
+    assert rating.contamination_given
+    for name, method, row in (
+        ("modified_life_h", "iso-281", "modified rating life, hours"),
+        ("modified_reference_life_h", "iso-ts-16281", "reference modified rating life, hours"),
+    ):
+        assert getattr(rating, name) == pytest.approx(other.value(method, "life", row), rel=1e-9)
+    assert "L_nmh" in found.text()
+
+
+@pytest.mark.parametrize(
+    ("requirement", "words"),
+    [
+        ({"life": "1e5 h"}, "L_nmrh"),
+        ({"static_safety": 10.0}, "static safety"),
+        ({"viscosity_ratio": 9.0}, "kappa"),
+        ({"film_parameter": 9.0}, "Lambda"),
+        ({"temperature": "50 degC"}, "oil temperature"),
+    ],
+)
+def test_each_requirement_that_is_missed_is_named(requirement: dict[str, str | float], words: str) -> None:
+    found = api.quasistatic({**CASE, "requirements": requirement})
+    assert isinstance(found, QuasiStatic)
+    assert found.verdict is not None
+    assert not found.verdict.met
+    assert found.verdict.sentence.startswith("NOT MET")
+    assert words in found.verdict.sentence
+
+
+def test_a_life_without_given_cleanliness_counts_without_a_iso() -> None:
+    found = api.quasistatic({key: value for key, value in CASE.items() if key != "life"})
+    assert isinstance(found, QuasiStatic)
+    assert found.verdict is not None
+    assert not found.verdict.met  # L_10rh is 3 200 h
+    assert "L_10rh" in found.verdict.sentence
+    assert "the case gives none" in found.text()
+
+
+def test_an_unknown_level_of_contamination_names_the_nearest() -> None:
+    with pytest.raises(api.CaseError, match="normal cleanliness"):
+        api.check({**CASE, "life": {"contamination": "normal cleanlines"}})
+    assert api.check(CASE, ["life.contamination=0.7"]).contamination == 0.7  # type: ignore[union-attr]
+
+
+def test_every_bearing_of_a_machine_is_judged() -> None:
+    found = api.quasistatic(tomllib.loads(geared_shaft("box")), ["requirements.life=20000 h"])
+    assert isinstance(found, MachineEquilibrium)
+    assert [one.verdict.met for one in found.bearings] == [True, True]
+    assert found.text().startswith("verdict left     MET: L_nmrh")
