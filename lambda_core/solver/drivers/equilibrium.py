@@ -76,6 +76,8 @@ class Equilibrium:
         Of the pseudo-transient continuation with friction.
     converged : bool
         False where only the normal forces are in equilibrium and the balls roll kinematically.
+    phase : float
+        Where the balls stand, in ball pitches.
     """
 
     context: SolverContext
@@ -88,6 +90,7 @@ class Equilibrium:
     relative_speed: float
     iterations: int
     converged: bool = True
+    phase: float = 0.0
 
     def loads_by_row(self) -> tuple[list[float], list[float]]:
         """Return the loads on inner and outer raceways row by row, of four-point contact by pairs of arcs [N]."""
@@ -154,13 +157,57 @@ def solve(
             raise creeps from None
         state, converged, report = smooth, False, np.zeros(1, dtype=STATIC_REPORT)
         report["orbit"] = smooth[L.BVT] / smooth[L.BR]
-    arcs, losses = contact_channels(compiled, context, state)
+    channels = contact_channels(compiled, context, state)
+    return _solution(context, state, channels, report, phase=phase, converged=converged)
+
+
+def solve_near(model: BearingModel, near: Equilibrium, kernels: Kernels | None = None) -> Equilibrium:
+    """Find the equilibrium of a model whose laws differ from those of a solved one, from its solution.
+
+    Normal forces are as good as the same: contact frame and first state are those of the solution, which saves most of
+    the work of :func:`solve`. A model whose state has another size, or that has no solution near, is solved anew.
+
+    Parameters
+    ----------
+    near : Equilibrium
+        Of the same bearing under the same loads.
+
+    Raises
+    ------
+    SolverError
+        As :func:`solve`.
+    """
+    frame, kernels = near.context.frame, kernels or Kernels(model)
+    oils = derive_oils(model, kernels, frame)
+    check_laws(model, kernels, frame, oils)
+    compiled, context = core(None), assemble(model, kernels, frame, oils)
+    if context.size != near.state.size:
+        return solve(model, kernels, phase=near.phase)
+    state = near.state.copy()
+    try:
+        report = continue_static(compiled, context, state, friction=True)
+    except SolverError:
+        return solve(model, kernels, phase=near.phase)
+    return _solution(context, state, contact_channels(compiled, context, state), report, phase=near.phase)
+
+
+def _solution(
+    context: SolverContext,
+    state: FloatArray,
+    channels: tuple[FloatArray, FloatArray],
+    report: StaticReport,
+    *,
+    phase: float,
+    converged: bool = True,
+) -> Equilibrium:
+    """Return what a state of equilibrium says; `channels` as :func:`contact_channels` returns them."""
+    arcs, losses = channels
     inner, outer = context.bundle.bodies_now[INNER], context.bundle.bodies_now[OUTER]
     x, y, z, tilt_y, tilt_z = (float(v) for v in (*inner.position, -inner.tilt[1], inner.tilt[0]))
     return Equilibrium(
         context,
         state,
-        contacts_by_ring(model.geometry, arcs),
+        contacts_by_ring(context.model.geometry, arcs),
         arcs,
         losses,
         displacement=(x, y, z, tilt_y, tilt_z),
@@ -168,6 +215,7 @@ def solve(
         relative_speed=abs(float(inner.spin - outer.spin)),
         iterations=int(report["iterations"][0]),
         converged=converged,
+        phase=phase,
     )
 
 
