@@ -34,3 +34,14 @@ def interval(values: Sequence[float], digits: int) -> str:
     if not values:
         return NONE
     return f"{number(values[0], digits)}..{number(values[1], digits)}"
+
+
+def digits_of_band(half_width: float) -> int:
+    """Return the decimals of a number that its band leaves a meaning: two digits of the half-width."""
+    return 1 - math.floor(math.log10(half_width)) if half_width > 0.0 and math.isfinite(half_width) else 3
+
+
+def rounded(value: float, half_width: float) -> str:
+    """Write a number to the digits that its band leaves a meaning."""
+    digits = digits_of_band(half_width)
+    return number(round(value, digits), max(digits, 0))

@@ -4,109 +4,58 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, SolverError
-from lambda_core.fit.graded import exchanges, graded_parameters, varied
-from lambda_core.fit.operating_points import UNITS_OF, point_values
-from lambda_core.fit.quantities import MEASURED
-from lambda_core.fit.scores import COVERAGE, rounded
-from lambda_core.results.record import INTERFACE, Record
+from lambda_core.fit.changed import as_loaded, resolved_anew, with_laws, with_value
+from lambda_core.fit.graded import Exchange, Resolver, exchanges, graded_parameters, varied
+from lambda_core.fit.operating_points import POSITIONS, READ, UNITS_OF, read_values
+from lambda_core.results.model_band import COVERAGE, QUANTITIES, Band, Contributor, ModelBand
+from lambda_core.solver.drivers.compiled_laws import Kernels
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve, solve_near
+from lambda_core.system.bearing import BearingModel
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
     from lambda_core.case.fitted import FitOrigin
 
-QUANTITIES = ("friction torque", "power loss", "minimum film", "maximum pressure", "capacitance")
-_FIELDS = {
-    **{name: measured.response for name, measured in MEASURED.items()},
-    "maximum pressure": "max_pressure_GPa",
-}
 _NORMAL = 1.6448536269514722  # standard deviations of a normal distribution within which 90 % lie
-_NAMED = 3  # largest contributors
 _LEAST_SHARE = 0.02  # of the variance of a contributor that is named
-
-
-class Contributor(Record):
-    """One source of the band."""
-
-    name: str
-    share: float = Field(description="of the variance of the band")
-    low: float = Field(description="result at one end of the range, or the smallest of all laws")
-    high: float
-    source: str
-
-
-class Band(Record):
-    """The band of one result."""
-
-    quantity: str
-    unit: str
-    value: float
-    low: float
-    high: float
-    contributors: list[Contributor]
-
-    @property
-    def half_width_pct(self) -> float:
-        """Half of the width over the value [%]."""
-        return 50.0 * (self.high - self.low) / abs(self.value) if self.value else math.nan
-
-    def text(self) -> str:
-        """Return the band in one line, rounded to what it leaves a meaning."""
-        half = 0.5 * (self.high - self.low)
-        shown = [rounded(number, half) for number in (self.value, self.low, self.high)]
-        names = ", ".join(f"{c.name} {100.0 * c.share:.0f} %" for c in self.contributors[:_NAMED])
-        why = f"; mostly {names}" if names else ""
-        return f"{self.quantity} {shown[0]} {self.unit}, 90 % model band {shown[1]}..{shown[2]} {self.unit}{why}"
-
-
-class ModelBand(Record):
-    """The bands of the results of a case."""
-
-    interface: int = INTERFACE
-    case: str
-    coverage: float
-    bands: list[Band]
-    left_out: list[str] = Field(description="what could not be varied, and why")
-
-    def band(self, quantity: str) -> Band:
-        """Return the band of one result."""
-        return next(band for band in self.bands if band.quantity == quantity)
-
-    def fields(self) -> dict[str, list[float]]:
-        """Return the ends of each band under the name of its number in the machine interface, with ``_band``."""
-        return {f"{_FIELDS[band.quantity]}_band": [band.low, band.high] for band in self.bands}
-
-    def text(self) -> str:
-        """Return a heading and one line per result."""
-        head = "model band, quasi-static, mean over the positions of the balls:"
-        return "\n".join([head, *(band.text() for band in self.bands), *self.left_out])
+Reader = Callable[[Equilibrium], float]
 
 
 @dataclass(frozen=True)
-class _Effect:
-    """Logarithms of the results over those of the case, at each of some equally likely alternatives."""
+class Effect:
+    """Logarithms of the results over those of the case, at each of some equally likely alternatives.
+
+    Attributes
+    ----------
+    alternatives : float64[:, :], shape (alternatives, quantities)
+    is_range : bool
+        Whether they are the two ends of a uniform distribution; otherwise they are all there is.
+    """
 
     name: str
     source: str
-    alternatives: FloatArray  # shape (alternatives, quantities)
-    is_range: bool  # two ends of a uniform distribution; otherwise the alternatives are all there is
+    alternatives: FloatArray
+    is_range: bool
 
     @property
     def mean(self) -> FloatArray:
+        """Mean of the alternatives."""
         found: FloatArray = self.alternatives.mean(axis=0)
         return found
 
     @property
     def variance(self) -> FloatArray:
+        """Variance of the distribution."""
         if self.is_range:
             found: FloatArray = np.ptp(self.alternatives, axis=0) ** 2 / 12.0
             return found
@@ -115,7 +64,7 @@ class _Effect:
 
 @one_blas_thread()
 def model_band(
-    source: str | Path | Mapping[str, Any] | Case,
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
     overrides: Iterable[str] = (),
     *,
     quantities: Sequence[str] = QUANTITIES,
@@ -130,7 +79,7 @@ def model_band(
     Parameters
     ----------
     source, overrides
-        As for :func:`check`.
+        As for :func:`check`, or a resolved model of one bearing.
     quantities : sequence of str
         Results: "friction torque", "power loss", "minimum film", "maximum pressure", "capacitance".
     announce : callable, optional
@@ -150,100 +99,202 @@ def model_band(
     ----------
     First-order propagation with uniform distributions: JCGM 100:2008, sections 4.3.7 and 5.1.2.
     """
-    from lambda_core.case.case_io import apply_overrides
-    from lambda_core.case.case_writer import standalone_toml
-    from lambda_core.model.cases import case_of
+    from lambda_core.thermal.temperatures import ready_model
 
-    case = apply_overrides(case_of(source), overrides)
-    text, names = standalone_toml(case), tuple(quantities)
-    base = point_values(text, (), names).mean(axis=0)
-    one = point_values(text, (), names, one=True)[0]
-    left_out: list[str] = []
+    model = ready_model(source, overrides, announce, is_static=True)
     if announce is not None:
         announce("computing the model band from the ranges of parameters and laws")
-    effects = list(_effects(case, text, names, one, left_out))
+    return band_of(model, quantities)
+
+
+def band_of(
+    model: BearingModel,
+    quantities: Sequence[str] = QUANTITIES,
+    *,
+    readers: Mapping[str, Reader] = READ,
+    units: Mapping[str, str] = UNITS_OF,
+) -> ModelBand:
+    """Return the band of a resolved model whose temperatures are known, alone or under its loads in a machine.
+
+    Parameters
+    ----------
+    readers, units : mapping
+        How each quantity is read from an equilibrium, and its unit.
+    """
+    found = Effects(model, quantities, readers)
+    effects, value = list(found.all()), found.values_at_all_positions()
     return ModelBand(
-        case=case.name,
+        case=model.name,
         coverage=COVERAGE,
-        bands=[_band(name, i, float(base[i]), effects) for i, name in enumerate(names)],
-        left_out=left_out,
+        bands=[_band(name, units[name], i, float(value[i]), effects) for i, name in enumerate(quantities)],
+        left_out=found.left_out,
     )
 
 
-def _effects(case: Case, text: str, names: tuple[str, ...], base: FloatArray, left_out: list[str]) -> Iterator[_Effect]:
-    """Yield the effects of all parameters and laws; what has no solution is left out and named."""
-    from lambda_core.study.job import resolve_point
+class Effects:
+    """What each range and each exchange of a law does to the results of a model.
 
-    model = resolve_point(text, ())
-    fitted = {} if case.fit is None else {row.path: row for row in case.fit.parameters}
-    if case.fit is not None:
-        yield from _fitted(case.fit, text, names, base)
-    for graded in graded_parameters(model):
-        if graded.path in fitted or not graded.low < graded.high:
-            continue
-        try:
-            ends = [_logarithms(text, graded.changes(end), names, base) for end in (graded.low, graded.high)]
-        except (CaseError, SolverError) as error:
-            left_out.append(f"{graded.short} is left out: {_first(error)}")
-            continue
-        yield _Effect(graded.short, graded.source, np.array(ends), is_range=True)
-    for exchange in exchanges(model):
-        if any(path.startswith(f"parameters.{exchange.role}.") for path in fitted):
-            continue
-        found = [np.zeros(len(names))]
-        for law in exchange.laws:
-            try:
-                found.append(_logarithms(_with_law(case, exchange.role, law), (), names, base))
-            except (CaseError, SolverError) as error:
-                left_out.append(f"{exchange.role} {law} is left out: {_first(error)}")
-        yield _Effect(f"law of {exchange.role}", exchange.source, np.array(found), is_range=False)
+    Parameters
+    ----------
+    model : BearingModel
+        Resolved, at known temperatures.
+    quantities : sequence of str
+        Keys of `readers`.
+    without : collection of str
+        Paths of parameters that are not varied. Laws are exchanged none the less, but those of a fitted case.
 
-
-def _with_law(case: Case, role: str, law: str) -> str:
-    """Return a case with another law, without the parameters of its own one."""
-    from lambda_core.case.case_writer import standalone_toml
-
-    return standalone_toml(case.with_(models={role: law}, parameters={role: None}))
-
-
-def _fitted(fit: FitOrigin, text: str, names: tuple[str, ...], base: FloatArray) -> Iterator[_Effect]:
-    """Yield the effect of the errors of the fitted values, and of the ranges of values that were held.
-
-    Over the range of a held value the fitted ones follow their regression on it: the data hold for each of its values.
+    Attributes
+    ----------
+    left_out : list of str
+        What could not be varied, and why; after the effects were asked for.
     """
-    from lambda_core.study.job import resolve_point
 
-    rows, model = fit.parameters, resolve_point(text, ())
-    graded = [varied(model, f"{row.path}={_ends(row)}") for row in rows]
-    deviation = np.array([row.standard_error for row in rows])
-    matrix = np.array(fit.correlation) * np.outer(deviation, deviation)
-    values = np.array([row.value for row in rows])
-    held = np.array([bool(row.range) for row in rows])
+    def __init__(
+        self,
+        model: BearingModel,
+        quantities: Sequence[str],
+        readers: Mapping[str, Reader] = READ,
+        without: Iterable[str] = (),
+    ) -> None:
+        from lambda_core.case.case_io import parse_case
 
-    def logarithms(moved: FloatArray) -> FloatArray:
-        changes = [
-            change for entry, number in zip(graded, moved.tolist(), strict=True) for change in entry.changes(number)
-        ]
-        return _logarithms(text, tuple(changes), names, base)
+        self._model, self._names, self._readers = model, tuple(quantities), readers
+        self._kernels = Kernels(model)
+        self._base = solve(model, self._kernels, phase=POSITIONS[0])
+        self._values = self._read(self._base)
+        self._fit = parse_case(model.case_toml, model.name).fit
+        fitted = [row.path for row in self._fit.parameters] if self._fit is not None else []
+        self._without = {*without, *fitted}
+        self._kept = {path.split(".")[1] for path in fitted if path.startswith("parameters.")}  # laws of fitted values
+        self.left_out: list[str] = []
 
-    follow = np.zeros((len(rows), len(rows)))
-    if held.any():
-        follow[:, held] = matrix[:, held] @ np.linalg.inv(matrix[np.ix_(held, held)])
-    for index in np.flatnonzero(held):
-        ends = [logarithms(values + follow[:, index] * (end - values[index])) for end in rows[index].range]
-        yield _Effect(f"{graded[index].short} (not fitted)", graded[index].source, np.array(ends), is_range=True)
-    if held.all():
-        return
-    rest = matrix - follow @ matrix
-    sizes, vectors = np.linalg.eigh(rest[np.ix_(~held, ~held)])
-    parts = []
-    for size, vector in zip(sizes, vectors.T, strict=True):
-        step = np.zeros(len(rows))
-        step[~held] = math.sqrt(max(float(size), 0.0)) * vector
-        parts.append(0.5 * (logarithms(values + step) - logarithms(values - step)))
-    # As two alternatives with the variance of all components together.
-    total = np.sqrt(np.sum(np.square(parts), axis=0))
-    yield _Effect("fitted values", f"fitted to {fit.file}", np.array([total, -total]), is_range=False)
+    def values_at_all_positions(self) -> FloatArray:
+        """Return the results of the model, averaged over the positions of the balls."""
+        return read_values(self._model, self._kernels, [self._readers[n] for n in self._names], self._base).mean(axis=0)
+
+    def all(self) -> Iterator[Effect]:
+        """Yield the effects of all parameters and laws; what has no solution is left out and named."""
+        from lambda_core.discovery.manager import registry
+        from lambda_core.system.resolve import resolve
+
+        models = registry()
+        with closing(models.catalogue()) as catalogue:
+
+            def resolver(case: Case) -> BearingModel:
+                return resolve(case, models, catalogue, is_static=True)
+
+            if self._fit is not None:
+                yield from self._fitted(self._fit, resolver)
+            yield from self._ranges(resolver)
+            yield from self._exchanges(resolver)
+
+    def _ranges(self, resolver: Resolver) -> Iterator[Effect]:
+        for graded in graded_parameters(self._model, resolver):
+            if graded.path in self._without or not graded.low < graded.high:
+                continue
+            try:
+                moved = graded.models or [
+                    with_value(self._model, graded, end, resolver) for end in (graded.low, graded.high)
+                ]
+                ends = [self._logarithms(as_loaded(one, self._model), near=bool(graded.law)) for one in moved]
+            except (CaseError, SolverError) as error:
+                self.left_out.append(f"{graded.short} is left out: {_first(error)}")
+                continue
+            yield Effect(graded.short, graded.source, np.array(ends), is_range=True)
+
+    def _exchanges(self, resolver: Resolver) -> Iterator[Effect]:
+        wanted = [exchange for exchange in exchanges(self._model) if exchange.role not in self._kept]
+        found: dict[str, list[FloatArray]] = {exchange.role: [np.zeros(len(self._names))] for exchange in wanted}
+        for role, law, other in self._others(wanted, resolver):
+            try:
+                # Laws that carry normal force need the whole search; those of oil and friction do not.
+                found[role].append(self._logarithms(with_laws(self._model, role, other), near=True, other=True))
+            except (CaseError, SolverError) as error:
+                self.left_out.append(f"{role} {law} is left out: {_first(error)}")
+        for exchange in wanted:
+            yield Effect(f"law of {exchange.role}", exchange.source, np.array(found[exchange.role]), is_range=False)
+
+    def _others(self, wanted: Sequence[Exchange], resolver: Resolver) -> Iterator[tuple[str, str, BearingModel]]:
+        """Yield role, name and model of each other law: one model has one other law of every role."""
+        for number in range(max((len(exchange.laws) for exchange in wanted), default=0)):
+            pairs = [(exchange.role, exchange.laws[number]) for exchange in wanted if number < len(exchange.laws)]
+            try:
+                together = self._with_laws(pairs, resolver)
+            except CaseError:
+                together = None
+            for role, law in pairs:
+                try:
+                    yield role, law, together or self._with_laws([(role, law)], resolver)
+                except CaseError as error:
+                    self.left_out.append(f"{role} {law} is left out: {_first(error)}")
+
+    def _with_laws(self, pairs: Sequence[tuple[str, str]], resolver: Resolver) -> BearingModel:
+        """Return the model with other laws, without the parameters of its own ones."""
+        from lambda_core.case.case_io import parse_case
+
+        case = parse_case(self._model.case_toml, self._model.name)
+        return resolver(case.with_(models=dict(pairs), parameters={role: None for role, _ in pairs}))
+
+    def _fitted(self, fit: FitOrigin, resolver: Resolver) -> Iterator[Effect]:
+        """Yield the effect of the errors of the fitted values, and of the ranges of values that were held.
+
+        Over the range of a held value the fitted ones follow their regression on it: the data hold for each of its
+        values.
+        """
+        rows = fit.parameters
+        graded = [varied(self._model, f"{row.path}={_ends(row)}") for row in rows]
+        deviation = np.array([row.standard_error for row in rows])
+        matrix = np.array(fit.correlation) * np.outer(deviation, deviation)
+        values = np.array([row.value for row in rows])
+        held = np.array([bool(row.range) for row in rows])
+
+        def logarithms(moved: FloatArray) -> FloatArray:
+            model = self._model
+            options = [
+                change
+                for entry, number in zip(graded, moved.tolist(), strict=True)
+                if not entry.law
+                for change in entry.changes(number)
+            ]
+            if options:
+                model = resolved_anew(model, options, resolver)
+            for entry, number in zip(graded, moved.tolist(), strict=True):
+                if entry.law:
+                    model = with_value(model, entry, number, resolver)
+            return self._logarithms(model, near=not options)
+
+        follow = np.zeros((len(rows), len(rows)))
+        if held.any():
+            follow[:, held] = matrix[:, held] @ np.linalg.inv(matrix[np.ix_(held, held)])
+        for index in np.flatnonzero(held):
+            ends = [logarithms(values + follow[:, index] * (end - values[index])) for end in rows[index].range]
+            yield Effect(f"{graded[index].short} (not fitted)", graded[index].source, np.array(ends), is_range=True)
+        if held.all():
+            return
+        rest = matrix - follow @ matrix
+        sizes, vectors = np.linalg.eigh(rest[np.ix_(~held, ~held)])
+        parts = []
+        for size, vector in zip(sizes, vectors.T, strict=True):
+            step = np.zeros(len(rows))
+            step[~held] = math.sqrt(max(float(size), 0.0)) * vector
+            parts.append(0.5 * (logarithms(values + step) - logarithms(values - step)))
+        # As two alternatives with the variance of all components together.
+        total = np.sqrt(np.sum(np.square(parts), axis=0))
+        yield Effect("fitted values", f"fitted to {fit.file}", np.array([total, -total]), is_range=False)
+
+    def _read(self, found: Equilibrium) -> FloatArray:
+        return np.array([self._readers[name](found) for name in self._names])
+
+    def _logarithms(self, model: BearingModel, *, near: bool, other: bool = False) -> FloatArray:
+        """Return ln of the results of a model over those of the case, at one position of the balls.
+
+        With `near` only laws differ; with `other` they are other laws, which have kernels of their own.
+        """
+        kernels = Kernels(model) if other else self._kernels
+        found = solve_near(model, self._base, kernels) if near else solve(model, kernels, phase=POSITIONS[0])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = np.log(self._read(found) / self._values)
+        return np.where(np.isfinite(ratio), ratio, 0.0)
 
 
 def _ends(row: Any) -> str:
@@ -251,15 +302,7 @@ def _ends(row: Any) -> str:
     return "..".join(f"{end!r} {row.unit}".rstrip() for end in ends)
 
 
-def _logarithms(text: str, changes: tuple[str, ...], names: tuple[str, ...], base: FloatArray) -> FloatArray:
-    """Return ln of the results over those of the case, at one position of the balls."""
-    values = point_values(text, changes, names, one=True)[0]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = np.log(values / base)
-    return np.where(np.isfinite(ratio), ratio, 0.0)
-
-
-def _band(name: str, index: int, value: float, effects: Sequence[_Effect]) -> Band:
+def _band(name: str, unit: str, index: int, value: float, effects: Sequence[Effect]) -> Band:
     means = np.array([effect.mean[index] for effect in effects])
     variances = np.array([effect.variance[index] for effect in effects])
     total, shift = float(variances.sum()), float(means.sum())
@@ -278,7 +321,7 @@ def _band(name: str, index: int, value: float, effects: Sequence[_Effect]) -> Ba
     ]
     return Band(
         quantity=name,
-        unit=UNITS_OF[name],
+        unit=unit,
         value=value,
         low=value * math.exp(shift - half),
         high=value * math.exp(shift + half),

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.batch.values import Scale, scale_of
 from lambda_core.domain.errors import UsageError, nearest
 from lambda_core.domain.units import UNITS, from_si, parse
-from lambda_core.study.values import Scale, scale_of
 
 if TYPE_CHECKING:
-    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.case.case import Case
+    from lambda_core.system.bearing import BearingModel
 
 _FILE = "graded_ranges.toml"
+Resolver = Callable[["Case"], "BearingModel"]
 _BETWEEN = ".."
 CLEARANCE = "bearing.clearance"
 
@@ -40,6 +42,8 @@ class Graded:
         Where the range comes from; "published", "assumed", "given" for one of the user.
     law : str
         Law that the parameter belongs to, for a parameter of a law.
+    models : tuple of BearingModel
+        At the two ends, where the case had to be resolved to find them.
     """
 
     path: str
@@ -50,11 +54,23 @@ class Graded:
     source: str
     grade: str
     law: str = ""
+    models: tuple[BearingModel, ...] = ()
 
     @property
     def short(self) -> str:
         """Name for tables."""
         return self.path.removeprefix("parameters.")
+
+    def written(self, number: float) -> str | float:
+        """Return a value as it stands in a case."""
+        return self.scale.text(number) if self.scale.unit else number
+
+    def si(self, number: float) -> float:
+        """Return a value in SI."""
+        if not self.scale.unit:
+            return number
+        quantity = next(name for name, units in UNITS.items() if self.scale.unit in units)
+        return parse(self.scale.text(number), quantity)
 
     def changes(self, number: float) -> tuple[str, ...]:
         """Return the changes of the case that set a value, and keep the law that it belongs to."""
@@ -88,10 +104,10 @@ def exchanges(model: BearingModel) -> list[Exchange]:
     return found
 
 
-def graded_parameters(model: BearingModel) -> list[Graded]:
+def graded_parameters(model: BearingModel, resolver: Resolver | None = None) -> list[Graded]:
     """Return every parameter of a model that has a range."""
     of_laws = (_within_class(entry, model.oil.base_type) for entry in _of_laws(model, is_ranged=True))
-    return [*(entry for entry in of_laws if entry is not None), *_of_options(model), *_of_clearance(model)]
+    return [*(entry for entry in of_laws if entry is not None), *_of_options(model), *_of_clearance(model, resolver)]
 
 
 def varied(model: BearingModel, specification: str) -> Graded:
@@ -251,19 +267,21 @@ def _in_unit(text: str, own: Graded) -> float:
     return from_si(parse(text, quantity), quantity, own.scale.unit)
 
 
-def _of_clearance(model: BearingModel) -> list[Graded]:
+def _of_clearance(model: BearingModel, resolver: Resolver | None) -> list[Graded]:
     """Return the clearance with the limits of its class, where the case leaves it to the class."""
-    from lambda_core.study.job import resolve_point
+    from lambda_core.case.case_io import apply_overrides, parse_case
+    from lambda_core.system.checking import resolve
 
     own = _option(model, CLEARANCE)
     status = next((value.status for value in model.values if value.path == CLEARANCE), "")
     if own is None or status != "assumed":
         return []
-    ends = []
+    case, moved = parse_case(model.case_toml, model.name), []
     for pick in ("minimum", "maximum"):
-        moved = _option(resolve_point(model.case_toml, (f"bearing.clearance_pick={pick}",)), CLEARANCE)
-        ends.append(moved.value if moved else math.nan)
-    if not ends[0] < ends[1]:
+        picked = apply_overrides(case, (f"bearing.clearance_pick={pick}",))
+        moved.append((resolver or partial(resolve, is_static=True))(picked))
+    low, high = (found.value if found else math.nan for found in (_option(one, CLEARANCE) for one in moved))
+    if not low < high:
         return []
     source = next(value.source for value in model.values if value.path == CLEARANCE)
-    return [Graded(CLEARANCE, own.value, ends[0], ends[1], own.scale, source, "published")]
+    return [Graded(CLEARANCE, own.value, low, high, own.scale, source, "published", models=tuple(moved))]

@@ -6,20 +6,21 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from lambda_core.batch.job import kernels_of, resolve_point, with_temperatures
+from lambda_core.batch.values import DIGITS
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, LambdaError, SolverError, UsageError
+from lambda_core.domain.loading import CARRYING
 from lambda_core.domain.units import UNITS, from_si
 from lambda_core.fit.quantities import CONDITIONS, MEASURED
-from lambda_core.formulas.loading import CARRYING
-from lambda_core.model.bearing_model import BearingModel
+from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.records import CONTACT_CHANNELS
-from lambda_core.study.job import kernels_of, resolve_point, with_temperatures
-from lambda_core.study.values import DIGITS
+from lambda_core.system.bearing import BearingModel
 
 # Positions of the balls in pitches, equally weighted: half a pitch mirrors the other under a radial load, and two
 # midpoints leave out all but the fourth harmonic of the ball pass.
-_POSITIONS = (0.125, 0.375)
+POSITIONS = (0.125, 0.375)
 _LOAD = CONTACT_CHANNELS.index("load")
 UNITS_OF = {**{name: measured.unit for name, measured in MEASURED.items()}, "maximum pressure": "GPa"}
 _SAME = 1e-6  # relative spread of the loads below which the position of the balls does not matter
@@ -58,10 +59,23 @@ def point_values(case_toml: str, changes: Sequence[str], names: Sequence[str], *
 
 def model_values(model: BearingModel, names: Sequence[str], *, one: bool = False) -> FloatArray:
     """Return measured quantities as a resolved model predicts them; see :func:`point_values`."""
-    kernels, found = kernels_of(model), []
-    for position in _POSITIONS[:1] if one else _POSITIONS:
-        equilibrium = solve(model, kernels, phase=position)
-        found.append([_READ[name](equilibrium) for name in names])
+    return read_values(model, kernels_of(model), [READ[name] for name in names], one=one)
+
+
+def read_values(
+    model: BearingModel,
+    kernels: Kernels,
+    readers: Sequence[Callable[[Equilibrium], float]],
+    first: Equilibrium | None = None,
+    *,
+    one: bool = False,
+) -> FloatArray:
+    """Return what readers find in the equilibria at several positions of the balls; `first` where that is known."""
+    found = []
+    for position in POSITIONS[:1] if one else POSITIONS:
+        equilibrium = first or solve(model, kernels, phase=position)
+        first = None
+        found.append([reader(equilibrium) for reader in readers])
         loads = equilibrium.contacts[:, 0, _LOAD]
         if np.ptp(loads) <= _SAME * loads.max():
             break
@@ -94,7 +108,7 @@ def _displacement(axis: int) -> Callable[[Equilibrium], float]:
     return lambda found: 1e6 * float(found.displacement[axis])
 
 
-_READ: Mapping[str, Callable[[Equilibrium], float]] = {
+READ: Mapping[str, Callable[[Equilibrium], float]] = {
     "friction torque": _torque,
     "power loss": lambda found: float(found.losses.sum()),
     "minimum film": _film,

@@ -1,14 +1,11 @@
-"""Score bands by what was measured, and round numbers to their band."""
+"""Score bands by what was measured."""
 
 from __future__ import annotations
-
-import math
 
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-
-COVERAGE = 0.9  # of a model band
+from lambda_core.results.model_band import COVERAGE
 
 
 def interval_score(low: FloatArray, high: FloatArray, measured: FloatArray, coverage: float = COVERAGE) -> FloatArray:
@@ -23,14 +20,3 @@ def interval_score(low: FloatArray, high: FloatArray, measured: FloatArray, cove
         high - low + penalty * np.maximum(low - measured, 0.0) + penalty * np.maximum(measured - high, 0.0)
     )
     return found
-
-
-def digits_of_band(half_width: float) -> int:
-    """Return the decimals of a number that its band leaves a meaning: two digits of the half-width."""
-    return 1 - math.floor(math.log10(half_width)) if half_width > 0.0 and math.isfinite(half_width) else 3
-
-
-def rounded(value: float, half_width: float) -> str:
-    """Write a number to the digits that its band leaves a meaning."""
-    digits = digits_of_band(half_width)
-    return f"{round(value, digits):.{max(digits, 0)}f}"

@@ -12,8 +12,9 @@ from lambda_cli.main import main
 from lambda_core import api
 from lambda_core.case.case_io import validate_case
 from lambda_core.discovery.manager import registry
+from lambda_core.domain.number_text import rounded
 from lambda_core.fit.measurements import parse_measurements
-from lambda_core.fit.scores import interval_score, rounded
+from lambda_core.fit.scores import interval_score
 from lambda_core.run.engineering import rating_of
 from lambda_core.solver.drivers.equilibrium import solve
 
@@ -37,7 +38,7 @@ def test_the_interval_score_is_the_published_one() -> None:
 
 @pytest.mark.parametrize(
     ("value", "half", "text"),
-    [(1157.02, 95.0, "1157"), (1157.02, 213.0, "1160"), (0.4719, 0.023, "0.472"), (5.0, 0.0, "5.000")],
+    [(1157.02, 95.0, "1 157"), (1157.02, 213.0, "1 160"), (0.4719, 0.023, "0.472"), (5.0, 0.0, "5.000")],
 )
 def test_numbers_are_rounded_to_their_band(value: float, half: float, text: str) -> None:
     assert rounded(value, half) == text

@@ -1,0 +1,75 @@
+"""Change one value or law of a resolved model without resolving all of it again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from lambda_core.fit.graded import Graded, Resolver
+from lambda_core.model.bearing_model import BearingModel, ChosenLaw
+
+ROUGHNESS = "surface.roughness"
+
+
+def with_value(model: BearingModel, graded: Graded, number: float, resolver: Resolver) -> BearingModel:
+    """Return a model with another value of a parameter of a law, of its roughness, or of an option of its case."""
+    if graded.law:
+        return _with_parameter(model, graded, number)
+    if graded.path == ROUGHNESS:
+        return replace(model, roughness=graded.si(number))
+    return resolved_anew(model, graded.changes(number), resolver)
+
+
+def _with_parameter(model: BearingModel, graded: Graded, number: float) -> BearingModel:
+    """Return a model whose laws of one role and name have another parameter, but where it was given apart."""
+    _, role, name = graded.path.split(".")
+    first = next(roles[role] for roles in model.laws.values() if _is_of(roles, role, graded.law))
+    written = first.parameters.model_dump(mode="json") | {name: graded.written(number)}
+    value = getattr(type(first.parameters).model_validate(written), name)
+    own = getattr(first.parameters, name)
+    laws = {
+        element: {
+            **roles,
+            role: replace(roles[role], parameters=roles[role].parameters.model_copy(update={name: value})),
+        }
+        if _is_of(roles, role, graded.law) and getattr(roles[role].parameters, name) == own
+        else roles
+        for element, roles in model.laws.items()
+    }
+    return replace(model, laws=laws)
+
+
+def _is_of(roles: Mapping[str, ChosenLaw], role: str, law: str) -> bool:
+    return role in roles and roles[role].model.name == law
+
+
+def with_laws(model: BearingModel, role: str, other: BearingModel) -> BearingModel:
+    """Return a model with the laws of one role of another one."""
+    laws = {
+        element: {**roles, role: other.laws[element][role]} if role in roles else roles
+        for element, roles in model.laws.items()
+    }
+    return replace(model, laws=laws)
+
+
+def resolved_anew(model: BearingModel, changes: Sequence[str], resolver: Resolver) -> BearingModel:
+    """Return the model of a changed case, under the loads and at the speed of a model.
+
+    Those of a bearing of a machine are not in its case.
+    """
+    from lambda_core.case.case_io import apply_overrides, parse_case
+
+    return as_loaded(resolver(apply_overrides(parse_case(model.case_toml, model.name), changes)), model)
+
+
+def as_loaded(moved: BearingModel, model: BearingModel) -> BearingModel:
+    """Return a model in the place of another one: with its loads, speed and mounting, and no search of temperatures."""
+    return replace(
+        moved,
+        name=model.name,
+        title=model.title,
+        inner_ring=model.inner_ring,
+        outer_ring=model.outer_ring,
+        links=model.links,
+        thermal=None,
+    )
