@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # what one calls, and what it raises
+    from lambda_core.analysis.band.model_band import model_band
     from lambda_core.analysis.electric.api import check_discharges_file, write_discharges
     from lambda_core.analysis.electric.bearing_currents import electric, film_from_capacitance
     from lambda_core.analysis.rotor.machine_answers import describe_machine, modes
@@ -34,7 +35,6 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     )
     from lambda_core.export.ross import ross_rotor
     from lambda_core.export.stiffness import stiffness_target, write_stiffness
-    from lambda_core.fit.band import model_band
     from lambda_core.fit.fit_case import fit
     from lambda_core.fit.fitted_case import fitted_case
     from lambda_core.fit.measured import compare_measured, measured_series

@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lambda_core.analysis.band.graded import varied
+from lambda_core.analysis.band.quantities import CONDITIONS, MEASURED
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.units import show
-from lambda_core.fit.graded import varied
 from lambda_core.fit.least_squares import Fit
 from lambda_core.fit.least_squares import fit as fit_values
 from lambda_core.fit.measurements import Measurements, read_measurements
 from lambda_core.fit.next_point import next_point
 from lambda_core.fit.problem import CaseProblem
-from lambda_core.fit.quantities import CONDITIONS, MEASURED
 from lambda_core.fit.report import (
     FitReport,
     FittedParameter,

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.domain.written_values import DIGITS
 from lambda_core.fit.report_text import compact
-from lambda_core.study.values import DIGITS
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case

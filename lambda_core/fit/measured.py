@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 from pydantic import ConfigDict, Field, ValidationError
 
+from lambda_core.analysis.band.model_band import model_band
+from lambda_core.analysis.band.quantities import MEASURED
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, unknown_name
-from lambda_core.fit.band import model_band
 from lambda_core.fit.measurements import Measurements, parse_measurements, read_measurements
 from lambda_core.fit.operating_points import condition_change, point_values
-from lambda_core.fit.quantities import MEASURED
 from lambda_core.fit.scores import interval_score
 from lambda_core.results.record import INTERFACE, Record
 

@@ -13,11 +13,11 @@ from pathlib import Path
 
 import numpy as np
 
+from lambda_core.analysis.band.quantities import CONDITIONS, ERROR, LABEL, MEASURED
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
 from lambda_core.domain.units import from_si, misread, parse, units_of
-from lambda_core.fit.quantities import CONDITIONS, ERROR, LABEL, MEASURED
 
 _LARGEST = 4 * 2**20  # [byte] of a file
 _MOST_ROWS = 2000

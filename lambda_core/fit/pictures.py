@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lambda_core.analysis.band.quantities import CONDITIONS
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.units import UNITS, from_si
-from lambda_core.fit.quantities import CONDITIONS
 from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
 
 if TYPE_CHECKING:

@@ -9,14 +9,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lambda_core.analysis.band.graded import Graded
+from lambda_core.analysis.band.quantities import CONDITIONS
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import LambdaError, UsageError
-from lambda_core.fit.graded import Graded
 from lambda_core.fit.least_squares import Data
 from lambda_core.fit.measurements import Measurements
 from lambda_core.fit.operating_points import at_line, condition_change, point_values
 from lambda_core.fit.parameters import Parameter
-from lambda_core.fit.quantities import CONDITIONS
 
 _STEP = 0.05  # of a parameter's spread before the fit, for slopes: above the scatter of the equilibrium's iteration
 _MOST_CONDITIONS = 3  # that candidates of the next point combine

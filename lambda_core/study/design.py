@@ -11,8 +11,8 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, Problem
+from lambda_core.domain.written_values import Scale, Value, scale_of, written
 from lambda_core.study.definition import SAMPLED, Parameter, Study
-from lambda_core.study.values import Scale, Value, scale_of, written
 
 FIRST_SAMPLES = 4  # per parameter, before an optimisation searches from the best
 

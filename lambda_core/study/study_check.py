@@ -147,9 +147,9 @@ def _case_toml(study: Study, folder: Path | None, case: Case | None) -> str:
     from lambda_core.case.case_io import apply_overrides, is_machine, load_case
     from lambda_core.case.case_writer import standalone_toml
     from lambda_core.discovery.manager import registry
+    from lambda_core.domain.written_values import written
     from lambda_core.model.laws.law_packages import with_packages
     from lambda_core.model.resolve_machine import check_shaft
-    from lambda_core.study.values import written
 
     changes = [f"{path}={written(value)}" for path, value in study.set.items()]
     if case is None:

@@ -9,7 +9,7 @@ from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.study.values import scale_of
+from lambda_core.domain.written_values import scale_of
 
 if TYPE_CHECKING:
     from lambda_core.study.design import Plan

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -10,13 +11,15 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
+from lambda_core.analysis.band.changed import with_value
+from lambda_core.analysis.band.graded import graded_parameters
 from lambda_core.case.case_io import validate_case
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.number_text import rounded
 from lambda_core.fit.measurements import parse_measurements
 from lambda_core.fit.scores import interval_score
 from lambda_core.run.engineering import rating_of
-from lambda_core.solver.drivers.equilibrium import solve
+from lambda_core.solver.drivers.equilibrium import solve, solve_near
 
 # Table 4 of Syla et al. 2026, and the oil temperatures that its SKF row has (docs/validation.md).
 POINTS = {
@@ -112,3 +115,16 @@ def test_the_command_prints_the_band_and_writes_it_as_json(capsys: pytest.Captur
     low, high = found["friction_torque_Nmm_band"]
     assert low < found["friction_torque_Nmm"] < high
     assert len(found["min_film_um_band"]) == 2
+
+
+@pytest.mark.parametrize("path", ["loss_factor", "tau_eyring", "surface.roughness", "lubricant.temperature"])
+def test_a_changed_model_is_the_resolved_changed_case(path: str) -> None:
+    """The short way of the band, from the solution of the case, ends where the long way does."""
+    model = api.resolve(api.case("6319-cp10-1500"), is_static=True)
+    graded = next(entry for entry in graded_parameters(model) if entry.path.endswith(path))
+    moved = with_value(model, graded, graded.high, partial(api.resolve, is_static=True))
+    near = solve(model, phase=0.125)
+    short = solve_near(moved, near) if graded.law else solve(moved, phase=0.125)
+    long = solve(api.resolve(api.case("6319-cp10-1500", graded.changes(graded.high)), is_static=True), phase=0.125)
+    np.testing.assert_allclose(short.losses, long.losses, rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(short.displacement, long.displacement, rtol=1e-6, atol=1e-12)

@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lambda_core.domain.errors import CaseError
+from lambda_core.domain.written_values import scale_of
 from lambda_core.study.definition import parse_study, study_json_schema
 from lambda_core.study.design import Plan
-from lambda_core.study.values import scale_of
 
 HEAD = 'name = "s"\ncase = "6319-cp10-1500"\n'
 

@@ -11,8 +11,8 @@ from lambda_syla2026 import parameters as P
 from lambda_syla2026.published import METHODS, POINTS, TABLE_4, mean_absolute_error
 
 from lambda_core import api
+from lambda_core.domain.written_values import scale_of
 from lambda_core.model.resolve import case_hash
-from lambda_core.study.values import scale_of
 
 # Syla et al. 2026, Table 4, recomputed from its six columns: as rounded in the project's goals.
 PRINTED = {"SKF": 8.5, "LaMBDA": 12.0, "FVA-Workbench": 14.0, "Bearinx": 18.0}

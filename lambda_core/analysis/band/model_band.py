@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lambda_core.analysis.band.changed import as_loaded, resolved_anew, with_laws, with_value
+from lambda_core.analysis.band.graded import Exchange, Resolver, exchanges, graded_parameters, varied
+from lambda_core.analysis.band.readings import POSITIONS, READ, UNITS_OF, read_values
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, SolverError
-from lambda_core.fit.changed import as_loaded, resolved_anew, with_laws, with_value
-from lambda_core.fit.graded import Exchange, Resolver, exchanges, graded_parameters, varied
-from lambda_core.fit.operating_points import POSITIONS, READ, UNITS_OF, read_values
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results.model_band import COVERAGE, QUANTITIES, Band, Contributor, ModelBand
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve, solve_near
-from lambda_core.system.bearing import BearingModel
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
@@ -99,7 +99,7 @@ def model_band(
     ----------
     First-order propagation with uniform distributions: JCGM 100:2008, sections 4.3.7 and 5.1.2.
     """
-    from lambda_core.thermal.temperatures import ready_model
+    from lambda_core.analysis.thermal.temperatures import ready_model
 
     model = ready_model(source, overrides, announce, is_static=True)
     if announce is not None:
@@ -175,7 +175,7 @@ class Effects:
     def all(self) -> Iterator[Effect]:
         """Yield the effects of all parameters and laws; what has no solution is left out and named."""
         from lambda_core.discovery.manager import registry
-        from lambda_core.system.resolve import resolve
+        from lambda_core.model.resolve import resolve
 
         models = registry()
         with closing(models.catalogue()) as catalogue:

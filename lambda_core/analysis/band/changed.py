@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from lambda_core.fit.graded import Graded, Resolver
+from lambda_core.analysis.band.graded import Graded, Resolver
 from lambda_core.model.bearing_model import BearingModel, ChosenLaw
 
 ROUGHNESS = "surface.roughness"

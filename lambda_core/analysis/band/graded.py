@@ -10,13 +10,13 @@ from functools import cache, partial
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.batch.values import Scale, scale_of
 from lambda_core.domain.errors import UsageError, nearest
 from lambda_core.domain.units import UNITS, from_si, parse
+from lambda_core.domain.written_values import Scale, scale_of
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
-    from lambda_core.system.bearing import BearingModel
+    from lambda_core.model.bearing_model import BearingModel
 
 _FILE = "graded_ranges.toml"
 Resolver = Callable[["Case"], "BearingModel"]
@@ -270,7 +270,7 @@ def _in_unit(text: str, own: Graded) -> float:
 def _of_clearance(model: BearingModel, resolver: Resolver | None) -> list[Graded]:
     """Return the clearance with the limits of its class, where the case leaves it to the class."""
     from lambda_core.case.case_io import apply_overrides, parse_case
-    from lambda_core.system.checking import resolve
+    from lambda_core.model.checking import resolve
 
     own = _option(model, CLEARANCE)
     status = next((value.status for value in model.values if value.path == CLEARANCE), "")

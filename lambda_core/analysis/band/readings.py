@@ -1,0 +1,79 @@
+"""Read results from equilibria at several positions of the balls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from lambda_core.analysis.band.quantities import MEASURED
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import UsageError
+from lambda_core.formulas.loading import CARRYING
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.solver.drivers.compiled_laws import Kernels
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.records import CONTACT_CHANNELS
+
+# Positions of the balls in pitches, equally weighted: half a pitch mirrors the other under a radial load, and two
+# midpoints leave out all but the fourth harmonic of the ball pass.
+POSITIONS = (0.125, 0.375)
+_LOAD = CONTACT_CHANNELS.index("load")
+UNITS_OF = {**{name: measured.unit for name, measured in MEASURED.items()}, "maximum pressure": "GPa"}
+_SAME = 1e-6  # relative spread of the loads below which the position of the balls does not matter
+
+
+def read_values(
+    model: BearingModel,
+    kernels: Kernels,
+    readers: Sequence[Callable[[Equilibrium], float]],
+    first: Equilibrium | None = None,
+    *,
+    one: bool = False,
+) -> FloatArray:
+    """Return what readers find in the equilibria at several positions of the balls; `first` where that is known."""
+    found = []
+    for position in POSITIONS[:1] if one else POSITIONS:
+        equilibrium = first or solve(model, kernels, phase=position)
+        first = None
+        found.append([reader(equilibrium) for reader in readers])
+        loads = equilibrium.contacts[:, 0, _LOAD]
+        if np.ptp(loads) <= _SAME * loads.max():
+            break
+    return np.array(found)
+
+
+def _torque(found: Equilibrium) -> float:
+    if found.relative_speed <= 0.0:
+        raise UsageError("a bearing at rest has no friction torque: remove the points at speed 0")
+    return 1e3 * float(found.losses.sum()) / found.relative_speed
+
+
+def _film(found: Equilibrium) -> float:
+    load = found.contacts[:, :, _LOAD]
+    film = found.contacts[:, :, CONTACT_CHANNELS.index("film_minimum")]
+    return 1e6 * float(film[load > CARRYING * load.max()].min())
+
+
+def _pressure(found: Equilibrium) -> float:
+    return 1e-9 * float(found.contacts[:, :, CONTACT_CHANNELS.index("max_pressure")].max())
+
+
+def _capacitance(found: Equilibrium) -> float:
+    each = found.contacts[:, :, CONTACT_CHANNELS.index("capacitance")]
+    with np.errstate(divide="ignore"):
+        return 1e9 * float((1.0 / (1.0 / each).sum(axis=1)).sum())
+
+
+def _displacement(axis: int) -> Callable[[Equilibrium], float]:
+    return lambda found: 1e6 * float(found.displacement[axis])
+
+
+READ: Mapping[str, Callable[[Equilibrium], float]] = {
+    "friction torque": _torque,
+    "power loss": lambda found: float(found.losses.sum()),
+    "minimum film": _film,
+    "maximum pressure": _pressure,
+    "capacitance": _capacitance,
+    **{f"displacement {axis}": _displacement(index) for index, axis in enumerate("xyz")},
+}
