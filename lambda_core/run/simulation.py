@@ -151,19 +151,25 @@ def run(
     from lambda_core.run.launch import launch
 
     path = None if out is None else Path(out)
-    model: BearingModel | MachineModel
+    return launch(_ready(source, overrides, announce), path, force=force, report=progress, announce=announce)
+
+
+def _ready(
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    overrides: Iterable[str],
+    announce: Callable[[str], None] | None,
+) -> BearingModel | MachineModel:
+    """Return the model of a bearing or a machine, with its temperatures."""
     if is_machine(source):
         from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
 
-        model = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
-    else:
-        model = ready_model(source, overrides, announce)  # type: ignore[arg-type]
-    return launch(model, path, force=force, report=progress, announce=announce)
+        return ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
+    return ready_model(source, overrides, announce)  # type: ignore[arg-type]
 
 
 @one_blas_thread()
 def iterate(
-    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     interval: float | None = None,
@@ -174,7 +180,7 @@ def iterate(
     """Simulate a case step by step, without a result file: ``for step in iterate(case)``.
 
     For programs that look at every step, or that give the loads on the inner ring or the motion of both rings:
-    co-simulation.
+    co-simulation. To a machine they give loads at its markers, loads and gears, and the speed of its shaft.
 
     Parameters
     ----------
@@ -201,7 +207,7 @@ def iterate(
     """
     from lambda_core.run.stepping import Stepping
 
-    return Stepping(ready_model(source, overrides, announce), interval, announce, exact=exact, couple=couple)
+    return Stepping(_ready(source, overrides, announce), interval, announce, exact=exact, couple=couple)
 
 
 @one_blas_thread()

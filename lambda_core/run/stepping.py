@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.elements import BODIES
 from lambda_core.domain.errors import SolverError, UsageError, unknown_name
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.run.record_times import next_multiple
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.given import (
@@ -29,8 +29,9 @@ from lambda_core.solver.drivers.given import (
 )
 
 if TYPE_CHECKING:
-    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.compiled_laws import Announce
+    from lambda_core.solver.drivers.machine_motion import MachineEngine
 
 # What push gives, and the direction in which the ring has to be free.
 _PUSHES = {
@@ -41,25 +42,29 @@ _PUSHES = {
 
 @dataclass(frozen=True)
 class Step:
-    """Where a bearing stands at the end of a step.
+    """Where a bearing or a machine stands at the end of a step.
 
     Attributes
     ----------
     time_s : float
         [s]
     channels : mapping of str to float64 array
-        Every channel of a result file at this moment, SI: ``channels["load"]`` has shape (balls, 2).
+        Every channel of a result file at this moment, SI: ``channels["load"]`` has shape (balls, 2). Of a machine
+        those of shaft, bodies and markers.
     reactions : mapping of str to float64 array
         By body what the bearing puts on it, without its loads, weight and support: force x, y, z [N], moment x, y, z
-        about its centre [N m], shape (6,).
+        about its centre [N m], shape (6,). Of a machine, by bearing what it puts on the shaft.
     friction_torque_Nmm : float
         Dissipated power over the relative speed of the rings, mean over the step; NaN when they do not turn.
+    bearings : mapping of str to mapping
+        Of a machine, the channels of each bearing by its name.
     """
 
     time_s: float
     channels: Mapping[str, FloatArray]
     reactions: Mapping[str, FloatArray]
     friction_torque_Nmm: float
+    bearings: Mapping[str, Mapping[str, FloatArray]] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> FloatArray:
         """Return one channel at this moment; UsageError with the nearest names when there is none."""
@@ -68,12 +73,97 @@ class Step:
         return self.channels[name]
 
 
+class Coupled(Protocol):
+    """What moves, and what another program gives to it."""
+
+    @property
+    def engine(self) -> BearingEngine | MachineEngine:
+        """Return its dynamics."""
+
+    @property
+    def given(self) -> tuple[str, ...]:
+        """Return the names of what is given."""
+
+    def give(self, name: str, value: float, rate: float, acceleration: float) -> None:
+        """Give a load or motion from now on."""
+
+    def step(self) -> Step:
+        """Return where it stands now."""
+
+    def pressure(self) -> float:
+        """Return the largest contact pressure now [Pa]."""
+
+    def state(self) -> dict[str, NDArray[np.float64]]:
+        """Return what a continuation needs, but for the engine's own state."""
+
+    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
+        """Go back to what :meth:`state` returned."""
+
+
+class _OneBearing:
+    """A bearing that is pushed, or whose rings are led."""
+
+    def __init__(self, model: BearingModel, couple: Coupling, announce: Announce | None) -> None:
+        self.model, equilibrium = start(model, couple, announce)
+        self.given = given_names(self.model, couple)
+        self.engine = BearingEngine(self.model, announce, equilibrium, given=self.given)
+
+    def give(self, name: str, value: float, rate: float, acceleration: float) -> None:
+        row = self.engine.given[self.given.index(name)]
+        row["value"], row["rate"], row["acceleration"], row["begin"] = value, rate, acceleration, self.engine.time
+
+    def step(self) -> Step:
+        channels = self.engine.now()
+        return Step(self.engine.time, channels, dict(zip(BODIES, self.engine.reactions(), strict=True)), math.nan)
+
+    def pressure(self) -> float:
+        return float(self.engine.now()["max_pressure"].max())
+
+    def state(self) -> dict[str, NDArray[np.float64]]:
+        return {}
+
+    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
+        del state  # the engine has all
+
+
+class _Machine:
+    """A machine that is pushed at its markers, loads and gears, and turned by its coupling."""
+
+    def __init__(self, machine: MachineModel, couple: Coupling, announce: Announce | None) -> None:
+        from lambda_core.solver.drivers.machine_given import check_coupling
+        from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_start
+
+        check_coupling(machine, couple)
+        begun = machine_start(machine, announce, is_given=True)
+        assert begun.given is not None
+        self._given, self.given = begun.given, begun.given.names
+        self.engine = MachineEngine(begun, announce)
+
+    def give(self, name: str, value: float, rate: float, acceleration: float) -> None:
+        self._given.give(name, value, rate, acceleration, self.engine.time)
+
+    def step(self) -> Step:
+        seen, names = self.engine.now(), [one.name for one in self.engine.bearings]
+        pairs = zip(seen.machine["reaction_force"], seen.machine["reaction_moment"], strict=True)
+        reactions = dict(zip(names, map(np.concatenate, pairs), strict=True))
+        return Step(self.engine.time, seen.machine, reactions, math.nan, dict(zip(names, seen.bearings, strict=True)))
+
+    def pressure(self) -> float:
+        return max(float(channels["max_pressure"].max()) for channels in self.engine.now().bearings)
+
+    def state(self) -> dict[str, NDArray[np.float64]]:
+        return self._given.state()
+
+    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
+        self._given.restore(state)
+
+
 class Stepping(Iterator[Step]):
-    """The steps of one bearing; an iterator that ends at ``solver.duration``, or at ``solver.max_duration``.
+    """The steps of one bearing or of a machine; ends at ``solver.duration``, or at ``solver.max_duration``.
 
     Parameters
     ----------
-    model : BearingModel
+    model : BearingModel or MachineModel
         Resolved model.
     interval : float, optional
         Time between steps [s]; default: that of the samples of a run, 1/100 of a cage revolution. A step ends with the
@@ -84,10 +174,11 @@ class Stepping(Iterator[Step]):
         Steps end at the multiples themselves.
     couple : "force" or "motion"
         Who owns the inner ring's motion: this bearing, pushed by loads, or another program, which gives the poses of
-        both rings and takes the reactions.
+        both rings and takes the reactions. A machine owns its motion.
 
     Attributes
     ----------
+    model : BearingModel or MachineModel
     given : tuple of str
         What :meth:`give` takes.
 
@@ -101,7 +192,7 @@ class Stepping(Iterator[Step]):
 
     def __init__(
         self,
-        model: BearingModel,
+        model: BearingModel | MachineModel,
         interval: float | None = None,
         announce: Announce | None = None,
         *,
@@ -110,14 +201,18 @@ class Stepping(Iterator[Step]):
     ) -> None:
         if interval is not None and not 0.0 < interval < math.inf:
             raise UsageError(f"{interval:g} s between steps is no time: give a positive number of seconds")
-        if interval is not None and interval < model.solver.max_step and not exact:
-            model = replace(model, solver=replace(model.solver, max_step=interval))
-        self.model, equilibrium = start(model, couple, announce)
-        self.given = given_names(model, couple)
-        self._engine = BearingEngine(self.model, announce, equilibrium, given=self.given)
+        if interval is not None and not exact:
+            model = _in_steps(model, interval)
+        self._coupled: Coupled
+        if isinstance(model, BearingModel):
+            self._coupled = one = _OneBearing(model, couple, announce)
+            self.model: BearingModel | MachineModel = one.model
+        else:
+            self._coupled, self.model = _Machine(model, couple, announce), model
+        self.given, self._engine = self._coupled.given, self._coupled.engine
         self.interval = interval or self._engine.sample_interval
         self._exact, self._end = exact, model.solver.duration or model.solver.max_duration
-        self._before = self._spent()
+        self._before = self._engine.spent()
 
     @property
     def time_s(self) -> float:
@@ -144,8 +239,7 @@ class Stepping(Iterator[Step]):
             raise UsageError(unknown_name("signal", name, self.given))
         if not all(map(math.isfinite, (value, rate, acceleration))):
             raise UsageError(f"{name} is given as {value:g}, {rate:g}, {acceleration:g}: all must be finite numbers")
-        row = self._engine.given[self.given.index(name)]
-        row["value"], row["rate"], row["acceleration"], row["begin"] = value, rate, acceleration, self.time_s
+        self._coupled.give(name, value, rate, acceleration)
 
     def push(self, force: Sequence[float] = (0.0, 0.0, 0.0), moment: Sequence[float] = (0.0, 0.0)) -> None:
         """Put a load on the inner ring, in addition to those of the case, from now on until the next call.
@@ -160,8 +254,10 @@ class Stepping(Iterator[Step]):
         Raises
         ------
         UsageError
-            When a number is not finite, or a load points where the inner ring cannot move.
+            When a number is not finite, a load points where the inner ring cannot move, or for a machine.
         """
+        if not isinstance(self.model, BearingModel):
+            raise UsageError(f"a machine has several rings: give a load by its name, {', '.join(self.given[:3])} ...")
         given = {"force": force, "moment": moment}
         for name, axes in _PUSHES.items():
             values = given[name]
@@ -200,29 +296,31 @@ class Stepping(Iterator[Step]):
 
     def state(self) -> dict[str, NDArray[np.float64]]:
         """Return everything that a continuation from here needs: to look ahead, and :meth:`restore`."""
-        return {**self._engine.state(samples=False), "before": np.array(self._before)}
+        own = {f"coupled.{name}": part for name, part in self._coupled.state().items()}
+        return {**self._engine.state(samples=False), **own, "before": np.array(self._before)}
 
     def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
         """Go back to where :meth:`state` was asked; what follows is what followed then, bit for bit."""
         self._before = (float(state["before"][0]), float(state["before"][1]))
-        self._engine.restore({name: part for name, part in state.items() if name != "before"})
+        coupled = {name: part for name, part in state.items() if name.startswith("coupled.")}
+        self._coupled.restore({name.removeprefix("coupled."): part for name, part in coupled.items()})
+        self._engine.restore({name: part for name, part in state.items() if name != "before" and name not in coupled})
 
     def _go(self, until: float, *, exactly: bool) -> Step:
         engine = self._engine
         before = engine.state(samples=False)
         try:
             self._advance(until, exactly)
-            channels = engine.now()
+            step = self._coupled.step()
         except SolverError:
             engine.forget_samples()
             engine.restore(before)
             raise
-        reactions = dict(zip(BODIES, engine.reactions(), strict=True))
         engine.forget_samples()
-        loss, turned = self._spent()
+        loss, turned = engine.spent()
         torque = 1e3 * (loss - self._before[0]) / (turned - self._before[1]) if turned > self._before[1] else math.nan
         self._before = loss, turned
-        return Step(engine.time, channels, reactions, torque)
+        return replace(step, friction_torque_Nmm=torque)
 
     def _advance(self, until: float, exactly: bool) -> None:
         """Integrate to the end of a step; SolverError when the integrator cannot go on or gets nowhere."""
@@ -237,14 +335,22 @@ class Stepping(Iterator[Step]):
         if not advance.ok:
             raise SolverError(advance.message)
         if engine.time < until:
-            pressure = 1e-9 * float(engine.now()["max_pressure"].max())
+            pressure = 1e-9 * self._coupled.pressure()
             raise SolverError(
                 f"at t = {engine.time:.9g} s, on the way to {until:.9g} s, {engine.iterations - before} iterations are "
                 f"spent (contact pressure {pressure:.3g} GPa): forces or motions that no bearing takes; are loads in "
                 "N, places in m, speeds in rad/s?"
             )
 
-    def _spent(self) -> tuple[float, float]:
-        """Return the dissipated energy [J] and the relative angle of the rings [rad] since the start."""
-        integrals = self._engine.integrals()
-        return sum(integrals[f"loss.{name}"] for name in LOSSES), integrals["relative_angle"]
+
+def _in_steps(model: BearingModel | MachineModel, interval: float) -> BearingModel | MachineModel:
+    """Return the model with no step of the integrator longer than an interval [s]."""
+    if isinstance(model, BearingModel):
+        return _bearing_in_steps(model, interval)
+    bearings = tuple(replace(one, model=_bearing_in_steps(one.model, interval)) for one in model.bearings)
+    return replace(model, bearings=bearings)
+
+
+def _bearing_in_steps(model: BearingModel, interval: float) -> BearingModel:
+    longest = min(interval, model.solver.max_step)
+    return replace(model, solver=replace(model.solver, max_step=longest))

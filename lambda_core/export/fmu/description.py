@@ -1,4 +1,4 @@
-"""The model description of a bearing, by the standards FMI 2.0 and FMI 3.0 (fmi-standard.org)."""
+"""The model description of a bearing or a machine, by the standards FMI 2.0 and FMI 3.0 (fmi-standard.org)."""
 
 from __future__ import annotations
 
@@ -31,6 +31,8 @@ class About:
         Program and version.
     end, step : float
         What a host may simulate [s].
+    has_slopes : bool
+        Whether it answers with directional derivatives.
     """
 
     name: str
@@ -40,6 +42,7 @@ class About:
     tool: str
     end: float
     step: float
+    has_slopes: bool = True
 
 
 def description(about: About, variables: Sequence[Variable], fmi: int) -> bytes:
@@ -77,7 +80,8 @@ def _abilities(about: About, fmi: int) -> dict[str, str]:
             "providesDirectionalDerivatives",
         ),
     }  # fmt: skip
-    return {"modelIdentifier": about.identifier, **dict.fromkeys(yes[fmi], "true")}
+    names = [name for name in yes[fmi] if about.has_slopes or not name.startswith("providesDirectional")]
+    return {"modelIdentifier": about.identifier, **dict.fromkeys(names, "true")}
 
 
 def _units(root: ET.Element) -> None:

@@ -1,4 +1,4 @@
-"""A bearing frozen at its start: everything that compiled code works on, in one image."""
+"""A bearing or a machine frozen at its start: everything that compiled code works on, in one image."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import BODIES
+from lambda_core.domain.errors import UsageError
 from lambda_core.export.fmu.circuit_image import Circuit, circuit
 from lambda_core.export.fmu.curves import Constant, constants
 from lambda_core.export.fmu.image import Image, host_words
@@ -19,14 +20,17 @@ from lambda_core.export.fmu.led_rings import LedRings, led_rings
 from lambda_core.export.fmu.starting import Start, prepare_start
 from lambda_core.export.fmu.varied import Varied
 from lambda_core.laws.jit.portable import REAL, WORD, Entry
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.machine_model import MachineModel
 from lambda_core.solver import layout as T
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.integrator_memory import CONTROL, Memory
 from lambda_core.solver.drivers.compiled_laws import derive_oils
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.given import Coupling, given_names, start
+from lambda_core.solver.drivers.machine_given import check_coupling
+from lambda_core.solver.drivers.machine_motion import MachineEngine, MachineStart, changed_start, machine_start
 from lambda_core.solver.drivers.solver_context import assemble
 from lambda_core.solver.integrator.arrow import factors_t
 from lambda_core.solver.integrator.blocks import blocks_t
@@ -36,12 +40,12 @@ from lambda_core.solver.sampling import observe_sig
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.solver.drivers.assembly import BearingSpan
     from lambda_core.solver.drivers.compiled_laws import Announce
     from lambda_core.solver.drivers.observation import Scratch
 
 _CAPACITY = 4  # samples: nobody takes them, but the integrator keeps room for those of the step in hand
-_HOST_WORDS = 8  # behind them stand the values of the options that vary
+_HOST_WORDS = 8  # behind them stand what a machine is given, then the values of the options that vary
 # Of the bundle, what the set-up of a model works out, and of the integrator's control.
 _TABLES = (
     "system", "bodies", "rows", "raceways", "waves", "lands", "links", "tie_stiffness", "tie_damping", "tie_rest",
@@ -51,24 +55,44 @@ _CONTROL = ("longest_step", "leak_floor")
 
 
 @dataclass(frozen=True)
+class FrozenBearing:
+    """A bearing among those of an image.
+
+    Attributes
+    ----------
+    name : str
+        "" for a bearing that is alone.
+    model : BearingModel
+    span : BearingSpan
+        Where it stands in tables and samples.
+    """
+
+    name: str
+    model: BearingModel
+    span: BearingSpan
+
+
+@dataclass(frozen=True)
 class Frozen:
     """A model at its start.
 
     Attributes
     ----------
+    name : str
     image : Image
     entries : tuple of Entry
         The functions of the library: advance, observe.
+    bearings : tuple of FrozenBearing
     given : tuple of str
         What the host gives.
     terms : records.TERM[:]
-        Their rows.
+        Their rows; of a machine those that follow what is given.
     wrenches : float64[:, 6]
-        What the bearing puts on its bodies.
+        What bearings put on their bodies.
     host : float64[:]
         Memory for the host.
-    start : Start
-        For a start elsewhere.
+    start : Start, optional
+        For a start elsewhere; a machine has none.
     varied : tuple of Varied
         Options that the host may change.
     constants : list of Constant
@@ -78,31 +102,39 @@ class Frozen:
     circuit : Circuit, optional
     led : LedRings, optional
         For slopes of reactions, where the host leads the rings.
+    machine : MachineStart, optional
     """
 
-    model: BearingModel
+    name: str
+    duration: float | None
     image: Image
     entries: tuple[Entry, ...]
+    bearings: tuple[FrozenBearing, ...]
     given: tuple[str, ...]
     terms: Any
     wrenches: Any
     memory: Memory
     scratch: Scratch
-    fault: Any
+    bundle: L.Bundle
     host: Any
-    system: Any
-    start: Start
+    start: Start | None
     varied: tuple[Varied, ...]
     constants: list[Constant]
     losses: int
     circuit: Circuit | None
     led: LedRings | None
+    machine: MachineStart | None
 
     def moves(self, body: str) -> bool:
-        """Tell whether a body is there and can move."""
+        """Tell whether a body of a bearing that is alone is there and can move."""
+        model = self.bearings[0].model
         if body == "cage":
-            return bool(self.model.depth.cage)
-        return any(dof.mode != "locked" for dof in getattr(self.model, body).dofs.values())
+            return bool(model.depth.cage)
+        return any(dof.mode != "locked" for dof in getattr(model, body).dofs.values())
+
+    def input_place(self, name: str) -> int:
+        """Return where a machine keeps what is given to it [bytes]: value, then rate."""
+        return self.image.place(self.host, _HOST_WORDS + 2 * self.given.index(name))
 
     def of_row(self, rows: Any, row: int, field: str) -> int:
         """Return the place of a field in a row of a table."""
@@ -122,11 +154,11 @@ class Frozen:
 
 
 def freeze(
-    model: BearingModel,
+    model: BearingModel | MachineModel,
     couple: Coupling,
     announce: Announce = None,
     options: Sequence[Varied] = (),
-    changed: Callable[[Mapping[str, float]], BearingModel] | None = None,
+    changed: Callable[[Mapping[str, float]], BearingModel | MachineModel] | None = None,
 ) -> Frozen:
     """Solve for the start of a model and freeze it there.
 
@@ -142,16 +174,14 @@ def freeze(
     SolverError, UsageError
         As for :func:`lambda_core.solver.drivers.given.start` and :func:`lambda_core.export.fmu.curves.constants`.
     """
-    model, equilibrium = start(model, couple, announce)
-    given = given_names(model, couple)
-    begin = prepare_start(equilibrium)
-    engine = BearingEngine(model, announce, equilibrium, given=given, capacity=_CAPACITY)
-    core, context, memory, scratch = engine.parts()
+    begun = (_OneBearing if isinstance(model, BearingModel) else _Machine)(model, couple, announce)  # type: ignore[arg-type]
+    core, context, memory, scratch = begun.engine.parts()
     memory.control["sample_interval"] = math.inf
-    bundle, host = context.bundle, host_words(_HOST_WORDS + len(options))
-    host[_HOST_WORDS:] = [option.start for option in options]
-    led = led_rings(context, given) if couple == "motion" else None
-    electric = circuit(model, scratch.contacts.size // scratch.contacts.shape[-1], announce)
+    bundle = context.bundle
+    host = host_words(_HOST_WORDS + begun.inputs.size + len(options))
+    host[_HOST_WORDS : _HOST_WORDS + begun.inputs.size] = begun.inputs
+    host[_HOST_WORDS + begun.inputs.size :] = [option.start for option in options]
+    led, electric, start_ = begun.led, begun.circuit, begun.start
     now = memory.control.view(np.float64)[:1]  # the field "time" is the first one
     sections = [
         ("evaluate", evaluate_t, core.evaluate_pointer),
@@ -163,13 +193,13 @@ def freeze(
         ("times", T.array1, now),
         ("states", T.array2, memory.y.reshape(1, -1)),
         ("host", T.array1, host),
-        *begin.sections(),
+        *(start_.sections() if start_ else ()),
         *(electric.sections() if electric else ()),
         *(led.sections() if led else ()),
     ]
     kinds = observe_sig.args[-len(scratch._fields) :]
     sections += [(name, kind, array) for name, kind, array in zip(scratch._fields, kinds, scratch, strict=True)]
-    pointers = [kernel.pointer for kernel in context.kernels.compiled.values()]
+    pointers = [kernel.pointer for bearing in context.assembly.bearings for kernel in bearing.kernels.compiled.values()]
     image = Image(sections, bundle.laws, pointers, led.workspaces() if led else ())
     at = image.sections
     advance = core.advance_finely_pointer if memory.stages.size else core.advance_pointer
@@ -182,58 +212,97 @@ def freeze(
             core.observe_pointer,
             (at["times"], at["states"], at["bundle"], at["evaluate"], float(SHORTED), *looks),
         ),
-        begin.entry(at),
+        *((start_.entry(at),) if start_ else ()),
         *((electric.entry(image),) if electric else ()),
         *((led.entry(at, core),) if led else ()),
     )
-    fault = bundle.scratch
-    wrenches = bundle.body_wrenches.view(np.float64)
-    rows = engine.given
     assert list(BODIES)[:2] == ["inner_ring", "outer_ring"]
     followed: list[Constant] = []
     if options and changed is not None:
-        parts = _parts(engine)
+        parts = _parts(begun.engine)
         where = np.concatenate([image.place(part) + 8 * np.arange(part.size) for part in parts])
 
         def sample(values: Mapping[str, float]) -> FloatArray:
-            return np.concatenate(_parts(_alike(changed(values), equilibrium, couple, given)))
+            return _joined(_parts(begun.alike(changed(values))))  # type: ignore[arg-type]
 
-        found = constants(options, np.concatenate(parts), sample)
+        found = constants(options, _joined(parts), sample)
         followed = [dataclasses.replace(each, word=int(where[each.word])) for each in found]
     return Frozen(
-        model,
-        image,
-        entries,
-        given,
-        rows,
-        wrenches,
-        memory,
-        scratch,
-        fault,
-        host,
-        bundle.system,
-        begin,
-        tuple(options),
-        followed,
+        name=model.name,
+        duration=model.solver.duration,
+        image=image,
+        entries=entries,
+        bearings=begun.bearings,
+        given=begun.given,
+        terms=begun.engine.given,
+        wrenches=(bundle.contact_wrenches if begun.machine else bundle.body_wrenches).view(np.float64),
+        memory=memory,
+        scratch=scratch,
+        bundle=bundle,
+        host=host,
+        start=start_,
+        varied=tuple(options),
+        constants=followed,
         losses=scratch.rates.shape[-1] - L.BESIDE_LOSSES,
         circuit=electric,
         led=led,
+        machine=begun.machine,
     )
 
 
-def _alike(model: BearingModel, base: Equilibrium, couple: Coupling, given: tuple[str, ...]) -> BearingEngine:
-    """Return an engine of another model in the state and with the frame of the contacts of a base."""
-    if couple == "motion":  # the host holds the rings where the base has them
-        own = base.context.model
-        inner = dataclasses.replace(model.inner_ring, dofs=own.inner_ring.dofs)
-        outer = dataclasses.replace(model.outer_ring, dofs=own.outer_ring.dofs)
-        model = dataclasses.replace(model, inner_ring=inner, outer_ring=outer)
-    kernels, frame = base.context.kernels, base.context.frame
-    context = assemble(model, kernels, frame, derive_oils(model, kernels, frame))
-    return BearingEngine(model, None, dataclasses.replace(base, context=context), given=given, capacity=_CAPACITY)
+class _OneBearing:
+    """A bearing that is alone, at its start."""
+
+    machine = None
+    inputs: FloatArray = np.zeros(0)
+
+    def __init__(self, model: BearingModel, couple: Coupling, announce: Announce) -> None:
+        model, equilibrium = start(model, couple, announce)
+        self.given, self._couple, self._equilibrium = given_names(model, couple), couple, equilibrium
+        self.start: Start | None = prepare_start(equilibrium)
+        self.engine = BearingEngine(model, announce, equilibrium, given=self.given, capacity=_CAPACITY)
+        _, context, _, scratch = self.engine.parts()
+        self.led = led_rings(context, self.given) if couple == "motion" else None
+        self.circuit = circuit(model, scratch.contacts.size // scratch.contacts.shape[-1], announce)
+        self.bearings = (FrozenBearing("", model, context.assembly.spans()[0]),)
+
+    def alike(self, model: BearingModel) -> BearingEngine:
+        """Return an engine of another model in the state and with the contact frame of the first."""
+        base, given = self._equilibrium, self.given
+        if self._couple == "motion":  # the host holds the rings where the base has them
+            own = base.context.model
+            inner = dataclasses.replace(model.inner_ring, dofs=own.inner_ring.dofs)
+            outer = dataclasses.replace(model.outer_ring, dofs=own.outer_ring.dofs)
+            model = dataclasses.replace(model, inner_ring=inner, outer_ring=outer)
+        kernels, frame = base.context.kernels, base.context.frame
+        context = assemble(model, kernels, frame, derive_oils(model, kernels, frame))
+        return BearingEngine(model, None, dataclasses.replace(base, context=context), given=given, capacity=_CAPACITY)
 
 
-def _parts(engine: BearingEngine) -> list[FloatArray]:
+class _Machine:
+    """A machine at its start."""
+
+    start = led = circuit = None
+
+    def __init__(self, machine: MachineModel, couple: Coupling, announce: Announce) -> None:
+        check_coupling(machine, couple)
+        if machine.electric is not None:
+            raise UsageError(
+                f"{machine.name}: the circuit of a machine is not exported: leave [electric] out of the case"
+            )
+        self.machine = machine_start(machine, announce, is_given=True)
+        given = self.machine.given
+        assert given is not None
+        self.given, self.inputs = given.names, given.values[:, :2].ravel()
+        self.engine = MachineEngine(self.machine, announce, capacity=_CAPACITY)
+        self.bearings = tuple(FrozenBearing(one.name, one.context.model, one.span) for one in self.engine.bearings)
+
+    def alike(self, machine: MachineModel) -> MachineEngine:
+        """Return an engine of another model in the state and with the contact frames of the first."""
+        return MachineEngine(changed_start(self.machine, machine), capacity=_CAPACITY)
+
+
+def _parts(engine: BearingEngine | MachineEngine) -> list[FloatArray]:
     """Return everything that the set-up of a model has worked out, as views of numbers."""
     _, context, memory, _ = engine.parts()
     tables = [getattr(context.bundle, name) for name in _TABLES]
@@ -241,3 +310,9 @@ def _parts(engine: BearingEngine) -> list[FloatArray]:
     control = memory.control.view(np.float64)
     at = [int(CONTROL.fields[name][1]) // 8 for name in _CONTROL]  # type: ignore[index]
     return [*found, memory.weight, memory.inertia, *(control[i : i + 1] for i in at)]
+
+
+def _joined(parts: Sequence[FloatArray]) -> FloatArray:
+    """Return all numbers one after another; a count below zero, which reads as no number, as -1."""
+    joined: FloatArray = np.nan_to_num(np.concatenate(parts), nan=-1.0, posinf=np.inf, neginf=-np.inf)
+    return joined

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from lambda_core.solver.arrays.integrator_memory import COUNT
 from lambda_core.solver.drivers.ball_paths import NO_PATH, PATH_ITERATIONS, PATH_SHARE, PATH_TOLERANCE
 from lambda_core.solver.drivers.equilibrium import MAX_ITERATIONS
 from lambda_core.solver.drivers.given import MOST_ITERATIONS, MOST_ITERATIONS_PER_SECOND
+from lambda_core.solver.drivers.machine_given import SHAFT_SPIN
 from lambda_core.solver.drivers.ring_values import rings_of_contacts
 from lambda_core.solver.records import STATIC_REPORT
 from lambda_core.solver.status import Status
@@ -61,7 +62,7 @@ _LOOKED_AT = (
 
 def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
     """Return what the library's C has to know of a case."""
-    image, fault = frozen.image, frozen.image.place(frozen.fault) + _at(R.SCRATCH, "fault")
+    image, fault = frozen.image, frozen.image.place(frozen.bundle.scratch) + _at(R.SCRATCH, "fault")
     numbers = {
         "IMAGE_SIZE": image.size,
         "KEPT_SIZE": image.kept,
@@ -74,7 +75,7 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
         "LONGEST_STEP": _LONGEST_STEP,
         "MOST_ITERATIONS": MOST_ITERATIONS,
         "MOST_ITERATIONS_PER_SECOND": MOST_ITERATIONS_PER_SECOND,
-        "PRESSURE": next(i for i, v in enumerate(variables) if v.name == "bearing.max_pressure"),
+        "PRESSURE": next(i for i, v in enumerate(variables) if v.name.endswith(".max_pressure")),
         "FAULT_ROLE": fault + _at(R.FAULT, "role"),
         "FAULT_STATUS": fault + _at(R.FAULT, "status"),
         "FAULT_BALL": fault + _at(R.FAULT, "ball"),
@@ -105,12 +106,14 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
     lines += [f"static const uint32_t lb_relocations[][2] = {{{_pairs(image.relocations)}}};"]
     lines += [f"static const uint32_t lb_fixes[][2] = {{{_pairs(image.fixes)}}};"]
     lines += [f"static const char *const lb_roles[] = {{{', '.join(map(_quoted, ROLES))}}};"]
-    lines += [*_limit_tables(frozen), *_start_tables(frozen), *_slope_table(frozen), *_curves(frozen)]
-    rows = (
-        f"{{{v.kind:d},{v.place},{v.count},{v.stride},{v.scale!r},{v.begin},{_real(v.limits[0])},{_real(v.limits[1])},"
-        f"{v.axis},{v.turn!r}}}"
-        for v in variables
-    )
+    lines += [*_part_table(frozen), *_start_tables(frozen), *_slope_table(frozen), *_curves(frozen)]
+    lines += _machine_tables(frozen, variables)
+    first, rows = 0, []
+    for v in variables:
+        place, count = (first, len(v.parts)) if v.parts else (v.place, v.count)
+        first += len(v.parts)
+        limits = ",".join(map(_real, v.limits))
+        rows.append(f"{{{v.kind:d},{place},{count},{v.stride},{v.scale!r},{v.begin},{limits},{v.axis},{v.turn!r}}}")
     lines += [f"static const lb_variable lb_variables[] = {{{', '.join(rows)}}};"]
     units = [f" {v.unit}" if v.unit not in ("", "1") else "" for v in variables]  # behind a number
     for name, texts in (("names", [v.name for v in variables]), ("units", units)):
@@ -120,51 +123,65 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
 
 def _limit_numbers(frozen: Frozen) -> dict[str, object]:
     """Return the numbers of the warnings at the limits of laws: :mod:`lambda_core.results.limits`."""
-    contacts, grooves = frozen.scratch.contacts, Grooves.of(dataclasses.asdict(frozen.model.geometry))
+    contacts = frozen.scratch.contacts
     places = {f"CONTACT_{name.upper()}": _at(R.CONTACT_SAMPLE, name) for name in _LOOKED_AT}
     return {
         "CONTACTS": frozen.image.place(contacts),
         "CONTACT_SIZE": R.CONTACT_SAMPLE.itemsize,
         "CONTACTS_OF_A_BALL": contacts.shape[-2],
+        "BALLS": contacts.shape[-3],
+        "PARTS": len(frozen.bearings),
         **places,
-        "HIGHEST_PRESSURE": highest_pressure(grooves.kind),
         "THINNEST_FILM": THINNEST_FILM,
         "SHORTED_BELOW": SHORTED,
         "CALM": _CALM,
         "CARRYING": CARRYING,
-        "LEAST_SHARE": grooves.least_share,
-        "ONE_SIDED": int(grooves.one_sided),
-        "RIDGE": int(grooves.ridge is not None),
     }
 
 
-def _limit_tables(frozen: Frozen) -> list[str]:
-    """Return the ring of each contact of a ball, and of both rings the groove: radius, edge, edge between two arcs."""
-    grooves = Grooves.of(dataclasses.asdict(frozen.model.geometry))
-    ridge = np.zeros(len(RINGS)) if grooves.ridge is None else grooves.ridge
-    rows = ("{" + _reals(row) + "}" for row in np.column_stack([grooves.radius, grooves.edge, ridge]).tolist())
-    rings = ", ".join(map(str, rings_of_contacts(frozen.model.geometry)))
-    return [
-        f"static const unsigned lb_contact_ring[] = {{{rings}}};",
-        f"static const double lb_grooves[][3] = {{{', '.join(rows)}}};",
-    ]
+def _part_table(frozen: Frozen) -> list[str]:
+    """Return where each bearing stands, the ring of each contact of its balls, and its limits and grooves.
+
+    Of both rings the groove: radius, edge, edge between two arcs.
+    """
+    parts = []
+    for one in frozen.bearings:
+        grooves, rings = Grooves.of(dataclasses.asdict(one.model.geometry)), rings_of_contacts(one.model.geometry)
+        ridge = np.zeros(len(RINGS)) if grooves.ridge is None else grooves.ridge
+        rows = ("{" + _reals(row) + "}" for row in np.column_stack([grooves.radius, grooves.edge, ridge]).tolist())
+        label = f"{one.name}: " if one.name else ""
+        parts.append(
+            f'{{"{label}", {one.span.first_ball}, {one.span.balls}, {len(rings)}, '
+            f"{{{', '.join(map(str, rings))}}}, {{{', '.join(rows)}}}, {highest_pressure(grooves.kind)!r}, "
+            f"{grooves.least_share!r}, {int(grooves.one_sided)}, {int(grooves.ridge is not None)}}}"
+        )
+    return [f"static const lb_part lb_parts[] = {{{', '.join(parts)}}};"]
 
 
 def _start_numbers(frozen: Frozen) -> dict[str, object]:
     """Return the numbers of a start elsewhere than at the case's equilibrium."""
     image, start = frozen.image, frozen.start
-    system = image.place(frozen.system)
+    found: dict[str, object] = {
+        "STATE": image.place(frozen.memory.y),
+        "BALL_SIZE": R.BALL.itemsize,
+        "STALE": image.place(frozen.memory.count) + _at(COUNT, "stale"),
+        "VALUES": image.place(frozen.host, frozen.host.size - len(frozen.varied)),
+        "CONSTANTS": len(frozen.constants),
+        "SETTLES": int(start is not None),
+        "FOLLOWERS": 0 if frozen.machine is None else len(list(_followers(frozen))),
+    }
+    if start is None:
+        return found
+    system = image.place(frozen.bundle.system)
     places = {f"START_{name[6:].upper()}": image.place(array) for name, _, array in start.sections()}
     fields = {f"BALL_{name.upper()}": _at(R.BALL, name) for name in ("x", "radius", "azimuth", "velocity", "spin")}
     spin = [place for name, place in _given_places(frozen) if name == "inner_ring.spin"]
     return {
+        **found,
         **places,
         **fields,
-        "STATE": image.place(frozen.memory.y),
         "STATES": start.state.size,
-        "BALLS": start.trust.size,
         "BALLS_OF_A_ROW": start.slope.size,
-        "BALL_SIZE": R.BALL.itemsize,
         "REPORT_SIZE": start.report.nbytes,
         "REPORT_ORBIT": image.place(start.report) + _at(STATIC_REPORT, "orbit"),
         "FRICTION_ON": system + _at(R.SYSTEM, "friction_on"),
@@ -173,7 +190,7 @@ def _start_numbers(frozen: Frozen) -> dict[str, object]:
         "SPEED": repr(start.speed),
         "SMOOTH_WORK": MAX_ITERATIONS[False],
         "FRICTION_WORK": MAX_ITERATIONS[True],
-        "PATH_ITERATIONS": 0 if frozen.model.geometry.self_aligning else PATH_ITERATIONS,
+        "PATH_ITERATIONS": 0 if frozen.bearings[0].model.geometry.self_aligning else PATH_ITERATIONS,
         "PATH_SHARE": PATH_SHARE,
         "PATH_TOLERANCE": PATH_TOLERANCE,
         "NO_PATH": NO_PATH,
@@ -181,10 +198,34 @@ def _start_numbers(frozen: Frozen) -> dict[str, object]:
         "CAGE_X": L.SX,
         "CAGE_ANGLE": L.STHETA,
         "CAGE_SPEED": L.SSIGMA,
-        "STALE": image.place(frozen.memory.count) + _at(COUNT, "stale"),
-        "VALUES": image.place(frozen.host, frozen.host.size - len(frozen.varied)),
-        "CONSTANTS": len(frozen.constants),
     }
+
+
+def _followers(frozen: Frozen) -> Iterator[tuple[int, int, list[tuple[int, float]]]]:
+    """Yield places of numbers that follow what a machine is given, of the time since when, and their shares."""
+    given = frozen.machine.given if frozen.machine else None
+    for row, shares in given.shares.items() if given else ():
+        begin = frozen.of_row(frozen.terms, row, "begin")
+        for k, field in enumerate(("value", "rate")):
+            if k and [frozen.given[number] for number, _ in shares] != [SHAFT_SPIN]:
+                continue  # loads have no rates
+            sources = [(frozen.input_place(frozen.given[number]) + 8 * k, weight) for number, weight in shares]
+            yield frozen.of_row(frozen.terms, row, field), begin, sources
+
+
+def _machine_tables(frozen: Frozen, variables: Sequence[Variable]) -> list[str]:
+    """Return what follows the inputs of a machine, and the sums that its outputs are."""
+    followers: list[str] = []
+    shares: list[str] = []
+    for place, begin, sources in _followers(frozen):
+        followers.append(f"{{{place},{begin},{len(shares)},{len(sources)}}}")
+        shares += [f"{{{source},{weight!r}}}" for source, weight in sources]
+    parts = [f"{{{place},{weight!r}}}" for v in variables for place, weight in v.parts]
+    return [
+        f"static const lb_follower lb_followers[] = {{{', '.join(followers) or '{0}'}}};",
+        f"static const lb_share lb_shares[] = {{{', '.join(shares) or '{0}'}}};",
+        f"static const lb_share lb_terms[] = {{{', '.join(parts) or '{0}'}}};",
+    ]
 
 
 def _circuit_numbers(frozen: Frozen) -> dict[str, object]:
@@ -249,6 +290,8 @@ def _given_places(frozen: Frozen) -> Iterable[tuple[str, int]]:
 
 def _start_tables(frozen: Frozen) -> list[str]:
     start = frozen.start
+    if start is None:
+        return []
     rolling = ", ".join(_reals(row) for row in start.rolling.reshape(-1, 4).tolist())
     return [
         f"static const double lb_rolling[] = {{{rolling}}};",

@@ -14,6 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import SolverError, UsageError, unknown_name
 from lambda_core.laws.pack import compiled_here
 
@@ -21,7 +22,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
     from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.given import Coupling
 
 PROCESSORS = {
@@ -39,7 +42,7 @@ _FIXED_TIME = (1980, 1, 1, 0, 0, 0)  # of files in the archive: the same case ma
 
 
 def export_fmu(
-    source: str | Path | Mapping[str, Any] | Case,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase,
     overrides: Iterable[str] = (),
     *,
     out: str | Path | None = None,
@@ -51,7 +54,7 @@ def export_fmu(
     force: bool = False,
     announce: Callable[[str], None] | None = None,
 ) -> Path:
-    """Write a bearing as a co-simulation FMU.
+    """Write a bearing or a machine as a co-simulation FMU.
 
     Its library holds the compiled solver, the laws of the case and its data at the equilibrium of t = 0; it needs the C
     library and nothing else.
@@ -66,7 +69,7 @@ def export_fmu(
         Version of the standard: 2 or 3.
     couple : "force" or "motion"
         What the host gives: loads on the inner ring, which the bearing moves; or the poses of both rings, on which the
-        bearing puts reactions.
+        bearing puts reactions. To a machine it gives loads at markers, loads and gears, and the speed of the shaft.
     vary : iterable of str
         Options ``path=low..high`` that the host may change: temperatures as inputs, all others as tunable parameters.
     platforms : iterable of str
@@ -93,11 +96,13 @@ def export_fmu(
     CaseError, SolverError
         With a sentence about the case or its equilibrium.
     """
-    from lambda_core.case.case_io import load_case
+    from lambda_core.case.case import Case
+    from lambda_core.case.case_io import read_case
     from lambda_core.case.case_writer import standalone_toml
     from lambda_core.domain.files import check_folder, check_new, check_target
     from lambda_core.export.fmu.varied import varied
     from lambda_core.model.checking import resolve
+    from lambda_core.model.resolve_machine import check_shaft
     from lambda_core.solver.drivers.given import COUPLINGS
 
     wanted = tuple(dict.fromkeys(platforms))
@@ -117,10 +122,13 @@ def export_fmu(
         if name not in PLATFORMS:
             raise UsageError(unknown_name("platform", name, PLATFORMS))
         compiler(name)
-    loaded = load_case(source, overrides)
+    loaded = read_case(source, overrides)
     options = tuple(vary)
     varied(options, loaded)
-    resolve(loaded)
+    if isinstance(loaded, Case):
+        resolve(loaded)
+    else:
+        check_shaft(loaded)
     target = check_target(Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu"))
     check_folder(check_new(target, force).parent, target)
     task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}
@@ -140,15 +148,17 @@ def _plain(name: str) -> str:
 
 def write(task: Mapping[str, Any], announce: Callable[[str], None] | None = None) -> None:
     """Write an FMU with the code of this process's processor."""
-    with compiled_here():
+    with compiled_here(), one_blas_thread():
         _write(task, announce)
 
 
 def _write(task: Mapping[str, Any], announce: Callable[[str], None] | None) -> None:
     from importlib.metadata import version
 
+    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
     from lambda_core.analysis.thermal.temperatures import ready_model
-    from lambda_core.case.case_io import apply_overrides, parse_case
+    from lambda_core.case.case import Case
+    from lambda_core.case.case_io import apply_overrides, read_case, toml_tables
     from lambda_core.export.fmu.description import About, description
     from lambda_core.export.fmu.frozen import freeze
     from lambda_core.export.fmu.library import PLATFORMS, build, library_parts
@@ -156,24 +166,30 @@ def _write(task: Mapping[str, Any], announce: Callable[[str], None] | None) -> N
     from lambda_core.export.fmu.varied import varied
 
     fmi, text = task["fmi"], task["case"]
-    case = parse_case(text)
+    case = read_case(toml_tables(text, "case"))
     options = {option.path: option for option in varied(task["vary"], case)}
 
-    def changed(values: Mapping[str, float]) -> BearingModel:
-        return ready_model(apply_overrides(case, (options[path].change(value) for path, value in values.items())))
+    def ready(case: Case | ShaftCase, announce: Callable[[str], None] | None = None) -> BearingModel | MachineModel:
+        if isinstance(case, Case):
+            return ready_model(case, (), announce)
+        return ready_machine_of(case, (), announce)
 
-    frozen = freeze(ready_model(case, (), announce), task["couple"], announce, tuple(options.values()), changed)
-    model = frozen.model
+    def changed(values: Mapping[str, float]) -> BearingModel | MachineModel:
+        return ready(apply_overrides(case, (options[path].change(value) for path, value in values.items())))
+
+    frozen = freeze(ready(case, announce), task["couple"], announce, tuple(options.values()), changed)
+    kind = "rolling bearing" if frozen.machine is None else "shaft in rolling bearings"
     seen = variables(frozen)
     parts = library_parts(frozen, seen, task["platforms"])
     about = About(
-        name=model.name,
-        text=f"rolling bearing, coupled by {task['couple']}, started at its equilibrium; {_STAYS}",
-        identifier="bearing_" + re.sub(r"\W", "_", model.name, flags=re.ASCII),
+        name=frozen.name,
+        text=f"{kind}, coupled by {task['couple']}, started at its equilibrium; {_STAYS}",
+        identifier="bearing_" + re.sub(r"\W", "_", frozen.name, flags=re.ASCII),
         token=parts.token,
         tool=f"lambda-bearing {version('lambda-bearing')}",
-        end=model.solver.duration or _END,
+        end=frozen.duration or _END,
         step=_STEP,
+        has_slopes=frozen.machine is None,
     )
     with tempfile.TemporaryDirectory(prefix="lambda-bearing-") as made:
         files = {"modelDescription.xml": description(about, seen, fmi), "resources/case.toml": text.encode()}

@@ -35,6 +35,7 @@ class Kind(IntEnum):
     SOURCE = 9  # an input that moves nothing
     CAPACITANCE = 10  # of the balls that do not connect the rings by touching metal
     SHORTED = 11  # how many do
+    WEIGHTED = 12  # a sum of numbers with weights
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,7 @@ class Variable:
     tunable: bool = False  # a parameter of the host, not an input
     axis: int = -1  # in the matrix of slopes: of a reaction its row, of a motion its column
     turn: float = 1.0  # sign there
+    parts: tuple[tuple[int, float], ...] = ()  # of a weighted sum: places [bytes] and weights
 
     @property
     def causality(self) -> Literal["independent", "input", "output", "parameter"]:
@@ -76,8 +78,13 @@ _TITLES = {"x": "along the shaft", "y": "horizontal", "z": "vertical"}
 
 
 def variables(frozen: Frozen) -> list[Variable]:
-    """Return the variables of a bearing in the order of their value references."""
-    found = [Variable("time", "time", "s", Kind.TIME, 0), *_inputs(frozen)]
+    """Return the variables of a bearing or a machine in the order of their value references."""
+    found = [Variable("time", "time", "s", Kind.TIME, 0)]
+    if frozen.machine is not None:
+        from lambda_core.export.fmu.machine_variables import machine_variables
+
+        return [*found, *machine_variables(frozen, frozen.machine), *_varied(frozen)]
+    found += _inputs(frozen)
     taken = {each.name for each in found}
     found += [
         each
@@ -175,21 +182,11 @@ def _reactions(frozen: Frozen) -> Iterator[Variable]:
 
 
 def _bearing(frozen: Frozen) -> Iterator[Variable]:
-    """Yield what the bearing as a whole answers with."""
-    contacts, record = frozen.scratch.contacts, R.CONTACT_SAMPLE
-    count, stride = contacts.size // contacts.shape[-1], 8 * contacts.shape[-1]
-
-    def of_contacts(name: str, text: str, unit: str, kind: Kind) -> Variable:
-        place = frozen.image.place(contacts) + record.fields[name][1]  # type: ignore[index]
-        return Variable(f"bearing.{name}", text, unit, kind, place, count, stride)
-
+    """Yield the answers of a bearing that is alone."""
     yield Variable("bearing.friction_torque", "friction torque, mean over the step", "N m", Kind.TORQUE, 0)
     losses = frozen.image.place(frozen.scratch.rates)
     yield Variable("bearing.loss", "power lost to friction", "W", Kind.SUM, losses, frozen.losses, 8)
-    yield of_contacts("load", "largest contact load", "N", Kind.GREATEST)
-    yield of_contacts("max_pressure", "largest contact pressure", "Pa", Kind.GREATEST)
-    yield of_contacts("film_minimum", "smallest film of all contacts", "m", Kind.LEAST)
-    yield of_contacts("film_parameter", "smallest film parameter Lambda of all contacts", "1", Kind.LEAST)
+    yield from of_contacts(frozen, "bearing", "", 0, frozen.bearings[0].span.balls)
     text = "capacitance between the rings; balls that connect them are left out"
     yield Variable("bearing.capacitance", text, "F", Kind.CAPACITANCE, 0)
     text = "balls that connect the rings: metal touches metal on both"
@@ -199,8 +196,28 @@ def _bearing(frozen: Frozen) -> Iterator[Variable]:
     yield Variable("bearing.energy_lost", text, "J", Kind.SUM, integrals, frozen.losses, 8)
     text = "energy that came in through everything external since the start"
     yield Variable("bearing.energy_in", text, "J", Kind.VALUE, frozen.integral("input"))
+    yield steps(frozen)
+
+
+def of_contacts(frozen: Frozen, name: str, of: str, first: int, balls: int) -> Iterator[Variable]:
+    """Yield extremes over the contacts of a bearing's balls."""
+    contacts, record = frozen.scratch.contacts, R.CONTACT_SAMPLE
+    each, stride = contacts.shape[-2], 8 * contacts.shape[-1]
+    begin, count = frozen.image.place(contacts) + stride * each * first, each * balls
+    for channel, text, unit, kind in (
+        ("load", "largest contact load", "N", Kind.GREATEST),
+        ("max_pressure", "largest contact pressure", "Pa", Kind.GREATEST),
+        ("film_minimum", "smallest film of all contacts", "m", Kind.LEAST),
+        ("film_parameter", "smallest film parameter Lambda of all contacts", "1", Kind.LEAST),
+    ):
+        place = begin + record.fields[channel][1]  # type: ignore[index]
+        yield Variable(f"{name}.{channel}", f"{text}{of}", unit, kind, place, count, stride)
+
+
+def steps(frozen: Frozen) -> Variable:
+    """Return the counter of the integrator's steps."""
     place = frozen.image.place(frozen.memory.count) + COUNT.fields["steps"][1]  # type: ignore[index]
-    yield Variable("solver.steps", "steps of the integrator", "", Kind.COUNT, place)
+    return Variable("solver.steps", "steps of the integrator", "", Kind.COUNT, place)
 
 
 def _circuit(frozen: Frozen) -> Iterator[Variable]:

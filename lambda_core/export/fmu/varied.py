@@ -12,6 +12,7 @@ from lambda_core.domain.units import UNITS, parse
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
 
 _NUMBER = re.compile(r"\s*[+-]?[\d.]+(e[+-]?\d+)?\s*", re.IGNORECASE)
 _SI = {"temperature": "K"}
@@ -54,7 +55,7 @@ class Varied:
         return f"{self.path}={value!r} {self.unit}" if self.quantity else f"{self.path}={value!r}"
 
 
-def varied(texts: Iterable[str], case: Case) -> tuple[Varied, ...]:
+def varied(texts: Iterable[str], case: Case | ShaftCase) -> tuple[Varied, ...]:
     """Read ``path=low..high`` with the case's own value as the start.
 
     Raises
@@ -71,7 +72,7 @@ def varied(texts: Iterable[str], case: Case) -> tuple[Varied, ...]:
     return found
 
 
-def _read(text: str, written: Mapping[str, Any], case: Case) -> Varied:
+def _read(text: str, written: Mapping[str, Any], case: Case | ShaftCase) -> Varied:
     path, equals, span = text.partition("=")
     low, dots, high = span.partition("..")
     path, low, high = path.strip(), low.strip(), high.strip()
@@ -98,7 +99,7 @@ def _read(text: str, written: Mapping[str, Any], case: Case) -> Varied:
     return Varied(path, quantity, lowest, start, highest)
 
 
-def _check_known(path: str, value: str, case: Case) -> None:
+def _check_known(path: str, value: str, case: Case | ShaftCase) -> None:
     """Raise UsageError when no case says such an option, or none such a value."""
     from lambda_core.case.case_io import apply_overrides
 

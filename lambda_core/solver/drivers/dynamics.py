@@ -157,6 +157,10 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         """The bearings, each with its own context."""
         return self._readings.bearings
 
+    def parts(self) -> tuple[Core, SolverContext, Memory, Scratch]:
+        """Return what takes steps and looks at states, for code that is to do so elsewhere."""
+        return self._core, self.context, self._memory, Scratch.of(1, self.context)
+
     def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
         """Integrate until `time` >= `until` [s] or `pause` says so; samples gather in the buffer meanwhile.
 
@@ -220,6 +224,12 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         first = y.size - self.context.bundle.states.size + span.first_state
         kept: FloatArray = y[first : first + span.states].copy()
         return kept
+
+    def spent(self) -> tuple[float, float]:
+        """Return the dissipated energy [J] and the relative angle of the rings [rad] since the start."""
+        values = self._memory.integrals
+        lost = sum(values[: values.size - L.BESIDE_LOSSES].tolist())
+        return lost, float(running(values)["relative_speed"])
 
     def _energy(self) -> float:
         """Return kinetic and elastic energy at `time` [J]."""
@@ -349,10 +359,6 @@ class BearingEngine(MotionEngine[Channels, Sums]):
         self.channels = result_channels(model)
         self._equilibrium = equilibrium or solve(model, announce=announce, strict=False)
         super().__init__(bearing_start(self._equilibrium, model, given), announce, capacity=capacity)
-
-    def parts(self) -> tuple[Core, SolverContext, Memory, Scratch]:
-        """Return what takes steps and looks at states, for code that is to do so elsewhere."""
-        return self._core, self.context, self._memory, Scratch.of(1, self.context)
 
     @property
     def kernel_keys(self) -> dict[str, str]:

@@ -15,7 +15,7 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, DOFS, SPIN
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.model.bearing_model import BearingModel, Body, DofState, TimeFunction
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver import records as R
@@ -81,6 +81,12 @@ def make_room(context: SolverContext, names: Sequence[str]) -> Any:
     return context.bundle.terms[terms.size - np.count_nonzero(replaced) :]
 
 
+def check_known(couple: str) -> None:
+    """Refuse a coupling that there is none of; UsageError."""
+    if couple not in COUPLINGS:
+        raise UsageError(unknown_name("coupling", couple, COUPLINGS))
+
+
 def start(model: BearingModel, couple: Coupling, announce: Any = None) -> tuple[BearingModel, Equilibrium]:
     """Return the model as it is coupled, and the equilibrium that its motion starts from.
 
@@ -93,8 +99,7 @@ def start(model: BearingModel, couple: Coupling, announce: Any = None) -> tuple[
     SolverError
         When there is no equilibrium.
     """
-    if couple not in COUPLINGS:
-        raise UsageError(f'there is no coupling "{couple}": force or motion')
+    check_known(couple)
     found = solve(model, announce=announce, strict=False)
     if couple == "force":
         return model, found

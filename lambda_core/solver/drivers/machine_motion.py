@@ -15,12 +15,13 @@ from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.assembly import BearingSpan
-from lambda_core.solver.drivers.compiled_laws import Announce
+from lambda_core.solver.drivers.compiled_laws import Announce, derive_oils
 from lambda_core.solver.drivers.dynamics import CAPACITY, MotionEngine, MotionStart, initial_state
 from lambda_core.solver.drivers.engine import usual_interval
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.lumps import LumpedShaft, lump, unbalance_of_lumps
 from lambda_core.solver.drivers.machine_assembly import machine_assembly, member_numbers, with_free_bodies
+from lambda_core.solver.drivers.machine_given import MachineGiven, machine_given
 from lambda_core.solver.drivers.readings import Channels, MachineReadings, MachineSamples, ReadBearing, Sums
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble, context_of
@@ -46,6 +47,9 @@ class MachineStart:
         Of each bearing there, with the friction of its balls.
     motion : MotionStart
         What the engine begins with.
+    readings : MachineReadings
+    given : MachineGiven, optional
+        Loads and speed from another program.
     """
 
     machine: MachineModel
@@ -53,6 +57,8 @@ class MachineStart:
     state: ShaftState
     equilibria: tuple[Equilibrium, ...]
     motion: MotionStart[MachineSamples, list[Sums]]
+    readings: MachineReadings
+    given: MachineGiven | None = None
 
     @property
     def drive_torque(self) -> float:
@@ -60,8 +66,13 @@ class MachineStart:
         return math.nan if self.machine.has_changing_torque else self.state.drive_torque
 
 
-def machine_start(machine: MachineModel, announce: Announce = None) -> MachineStart:
+def machine_start(machine: MachineModel, announce: Announce = None, *, is_given: bool = False) -> MachineStart:
     """Return a machine at t = 0, in its quasi-static equilibrium.
+
+    Parameters
+    ----------
+    is_given : bool
+        Whether another program gives loads and speed.
 
     Raises
     ------
@@ -71,29 +82,51 @@ def machine_start(machine: MachineModel, announce: Announce = None) -> MachineSt
     state, shaft = solve_shaft(machine, announce), lump(machine)
     equilibria = tuple(ring.equilibrium() for ring in state.rings)
     alone = [_free(found.context) for found in equilibria]
+    return _begun(machine, shaft, state, equilibria, alone, is_given=is_given)
+
+
+def changed_start(start: MachineStart, machine: MachineModel) -> MachineStart:
+    """Return the start of another model of a machine, in the state and with the contact frames of the first."""
+    alone = [
+        assemble(with_free_bodies(one.model), old.kernels, old.frame, derive_oils(one.model, old.kernels, old.frame))
+        for one, old in zip(machine.bearings, (found.context for found in start.equilibria), strict=True)
+    ]
+    given = start.given is not None
+    return _begun(machine, lump(machine), start.state, start.equilibria, alone, is_given=given)
+
+
+def _begun(
+    machine: MachineModel, shaft: LumpedShaft, state: ShaftState, equilibria: tuple[Equilibrium, ...],
+    alone: list[SolverContext], *, is_given: bool,
+) -> MachineStart:  # fmt: skip
+    """Return a machine at t = 0 in an equilibrium, each bearing with a context of its own."""
     context = context_of(machine_assembly(machine, shaft, [(one.kernels, one.frame, one.oils) for one in alone]))
     names = [bearing.name for bearing in machine.bearings]
     bearings = tuple(map(ReadBearing, names, alone, context.assembly.spans()))
+    given = machine_given(machine, shaft, context) if is_given else None
     changes = any(term.kind != "constant" for function in machine.led for term in function.terms)
+    changes = changes or (given is not None and given.turns)
     solvers = [bearing.model.solver for bearing in machine.bearings]
     intervals = [
         one.model.output.interval or usual_interval(one.model, found.orbit)
         for one, found in zip(machine.bearings, equilibria, strict=True)
     ]
     steps = [min(own.max_step, longest_step(one)) for own, one in zip(solvers, alone, strict=True)]
+    readings = MachineReadings(
+        context, bearings, MemberChannels(machine, shaft), None if changes else _standing(machine, shaft, context)
+    )
     motion = MotionStart(
         context=context,
         state=_start_state(machine, shaft, context, bearings, state, equilibria),
-        readings=MachineReadings(
-            context, bearings, MemberChannels(machine, shaft), None if changes else _standing(machine, shaft, context)
-        ),
+        readings=readings,
         tolerance=min(own.tolerance for own in solvers),
         sample_interval=min(intervals),
         longest_step=min(steps),
         resolve=machine.solver.resolve,
         modes_until=machine.solver.resolve,
+        given=np.zeros(0, R.TERM) if given is None else given.rows,
     )
-    return MachineStart(machine, shaft, state, equilibria, motion)
+    return MachineStart(machine, shaft, state, equilibria, motion, readings, given)
 
 
 class MachineEngine(MotionEngine[MachineSamples, list[Sums]]):
@@ -111,6 +144,14 @@ class MachineEngine(MotionEngine[MachineSamples, list[Sums]]):
     def __init__(self, start: MachineStart, announce: Announce = None, *, capacity: int = CAPACITY) -> None:
         super().__init__(start.motion, announce, capacity=capacity)
         self.start = start
+
+    def now(self) -> MachineSamples:
+        """Return every channel of the machine and of its bearings at `time`."""
+        found = self.start.readings.seen(np.array([self.time]), self._memory.y.reshape(1, -1))
+        machine, *bearings = (
+            {name: values[0] for name, values in channels.items()} for channels in (found.machine, *found.bearings)
+        )
+        return MachineSamples(machine, bearings)
 
     @property
     def machine(self) -> MachineModel:

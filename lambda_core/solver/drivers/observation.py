@@ -37,11 +37,11 @@ class Scratch(NamedTuple):
     @classmethod
     def of(cls, n: int, context: SolverContext) -> Scratch:
         """Allocate for `n` samples."""
-        z, powers = context.model.geometry.balls, L.power_count(context.bundle)
+        z, powers = int(context.bundle.system["balls"][0]), L.power_count(context.bundle)
         shapes = (
             (n, z, int(context.bundle.rows["raceways"].max()), 16),
             (n, z, 3),
-            (n, 2, 3),
+            (n, 2 * len(context.assembly.bearings), 3),
             (n, powers + 2),
             (n, context.bundle.shared.size),
             (n, powers),

@@ -213,6 +213,14 @@ class MachineReadings:
 
     def sampled(self, times: FloatArray, states: FloatArray) -> MachineSamples:
         """Return what is read at samples, which follow those of the last call."""
+        found = self.seen(times, states)
+        for i, channels in enumerate(found.bearings):
+            self._add_up(i, channels)
+        self._last_time = float(times[-1])
+        return found
+
+    def seen(self, times: FloatArray, states: FloatArray) -> MachineSamples:
+        """Return every channel at states, which add nothing to the integrals."""
         flat = self.shared(times, states)
         found = [self._observed(one, times, states, flat) for one in self.bearings]
         machine = {
@@ -222,11 +230,7 @@ class MachineReadings:
             "reaction_moment": np.stack([wrenches[:, 3:] for _, wrenches in found], axis=1),
             "power_loss": sum((channels["loss"].sum(axis=1) for channels, _ in found), np.zeros(times.size)),
         }
-        each = [channels for channels, _ in found]
-        for i, channels in enumerate(each):
-            self._add_up(i, channels)
-        self._last_time = float(times[-1])
-        return MachineSamples(machine, each)
+        return MachineSamples(machine, [channels for channels, _ in found])
 
     def joined(self, blocks: list[MachineSamples]) -> MachineSamples:
         """Return blocks one after the other in time as one; without blocks there is no channel but an empty time."""

@@ -48,7 +48,8 @@ lb_bearing *lb_create(const char *name, void *host, void *logger,
   b->host = host, b->logger = logger, b->tell = tell;
   b->name = malloc(strlen(name ? name : "") + 1);
   b->memory = malloc(LB_IMAGE_SIZE + 64);
-  if (!b->name || !b->memory) {
+  b->seen = malloc(LB_EVENTS * LB_PARTS * sizeof *b->seen);
+  if (!b->name || !b->memory || !b->seen) {
     lb_free(b);
     return NULL;
   }
@@ -66,6 +67,7 @@ lb_bearing *lb_create(const char *name, void *host, void *logger,
 void lb_free(lb_bearing *b) {
   if (!b) return;
   free(b->memory);
+  free(b->seen);
   free(b->name);
   free(b);
 }
@@ -76,7 +78,7 @@ void lb_reset(lb_bearing *b) {
   HOST(b, PHASE) = LB_CREATED;
   HOST(b, TORQUE) = NAN;
   b->stale = 1, b->looked = NAN;
-  for (unsigned i = 0; i < LB_EVENTS; i++) b->seen[i] = -INFINITY;
+  for (unsigned i = 0; i < LB_EVENTS * LB_PARTS; i++) b->seen[i] = -INFINITY;
 }
 
 double lb_time(lb_bearing *b) { return HOST(b, ORIGIN) + REAL(b, LB_CONTROL_TIME); }
@@ -138,12 +140,12 @@ static double extreme(lb_bearing *b, const lb_variable *v) {
 
 /* Contacts of a ball with one ring are side by side, its rings in a row (solver/sampling.py); metal that touches has no
    capacitance, which is infinite there. */
-double lb_capacitance(lb_bearing *b, unsigned *shorted) {
+double lb_capacitance(lb_bearing *b, const lb_part *p, unsigned *shorted) {
   double total = 0.0;
   *shorted = 0;
-  for (unsigned j = 0; j < LB_BALLS; j++) {
+  for (unsigned j = p->first_ball; j < p->first_ball + p->balls; j++) {
     double rings[2] = {0.0, 0.0};
-    for (unsigned k = 0; k < LB_CONTACTS_OF_A_BALL; k++) rings[lb_contact_ring[k]] += SAMPLE(j, k, CAPACITANCE);
+    for (unsigned k = 0; k < p->contacts; k++) rings[p->ring[k]] += SAMPLE(j, k, CAPACITANCE);
     if (isinf(rings[0]) && isinf(rings[1]))
       ++*shorted;
     else
@@ -174,6 +176,12 @@ int lb_leave(lb_bearing *b) {
   return LB_OK;
 }
 
+static double weighted(lb_bearing *b, unsigned first, unsigned count) {
+  double total = 0.0;
+  for (unsigned i = first; i < first + count; i++) total += lb_terms[i].weight * REAL(b, lb_terms[i].place);
+  return total;
+}
+
 static double torque(lb_bearing *b) {
   double mean = HOST(b, TORQUE), speed = fabs(REAL(b, LB_RELATIVE_SPEED));
   if (isfinite(mean)) return mean;
@@ -188,8 +196,9 @@ static double value(lb_bearing *b, const lb_variable *v) {
     case LB_LEAST:
     case LB_GREATEST: return extreme(b, v);
     case LB_TORQUE: return torque(b);
-    case LB_CAPACITANCE: return lb_capacitance(b, &shorted);
-    case LB_SHORTED: return lb_capacitance(b, &shorted), shorted;
+    case LB_CAPACITANCE: return lb_capacitance(b, lb_parts + v->place, &shorted);
+    case LB_SHORTED: return lb_capacitance(b, lb_parts + v->place, &shorted), shorted;
+    case LB_WEIGHTED: return weighted(b, v->place, v->count);
     case LB_INPUT:
     case LB_SOURCE:
     case LB_VARIED: return REAL(b, v->place);
@@ -235,12 +244,29 @@ int lb_get_counts(lb_bearing *b, const unsigned *which, size_t count, int64_t *v
   return LB_OK;
 }
 
+/* Bring what follows an input of a machine to it. */
+static void pass_on(lb_bearing *b, unsigned place) {
+  for (unsigned i = 0; i < LB_FOLLOWERS; i++) {
+    const lb_follower *f = &lb_followers[i];
+    double total = 0.0;
+    int follows = 0;
+    for (unsigned k = f->first; k < f->first + f->count; k++) {
+      total += lb_shares[k].weight * REAL(b, lb_shares[k].place);
+      follows |= lb_shares[k].place == place;
+    }
+    if (follows) REAL(b, f->place) = total, REAL(b, f->begin) = REAL(b, LB_CONTROL_TIME);
+  }
+}
+
 /* Inputs say from when on they hold; what options mean is in curves. */
 static void put(lb_bearing *b, const lb_variable *v, double value) {
   int moves = v->kind != LB_SOURCE;
   if (moves && HOST(b, PHASE) < LB_STEPPING && value != REAL(b, v->place)) HOST(b, UNSETTLED) = 1.0;
   REAL(b, v->place) = value;
-  if (v->kind != LB_VARIED) REAL(b, v->begin) = REAL(b, LB_CONTROL_TIME);
+  if (LB_FOLLOWERS && v->kind == LB_INPUT)
+    pass_on(b, v->place);
+  else if (v->kind != LB_VARIED)
+    REAL(b, v->begin) = REAL(b, LB_CONTROL_TIME);
   if (moves) b->stale = 1;
 }
 

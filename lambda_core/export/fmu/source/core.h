@@ -14,7 +14,7 @@ enum { LB_OK, LB_WARNING, LB_DISCARD, LB_ERROR, LB_FATAL }; /* as FMI 2 and 3 nu
 enum { LB_CREATED, LB_INITIALISING, LB_STEPPING, LB_ENDED };
 #define LB_EVENTS 9 /* limits that are told: see limits.c */
 /* What a variable is: see variables.py. */
-enum { LB_TIME, LB_INPUT, LB_VALUE, LB_LEAST, LB_GREATEST, LB_SUM, LB_TORQUE, LB_COUNT, LB_VARIED, LB_SOURCE, LB_CAPACITANCE, LB_SHORTED };
+enum { LB_TIME, LB_INPUT, LB_VALUE, LB_LEAST, LB_GREATEST, LB_SUM, LB_TORQUE, LB_COUNT, LB_VARIED, LB_SOURCE, LB_CAPACITANCE, LB_SHORTED, LB_WEIGHTED };
 
 typedef struct {
   int kind;
@@ -30,7 +30,7 @@ typedef struct lb_bearing {
   unsigned char *memory, *image; /* the image begins at a line of the processor's cache */
   int stale;                     /* outputs are to be computed before they are read */
   int sloped;                    /* the matrix of slopes belongs to them */
-  double looked, seen[LB_EVENTS]; /* when limits were looked at last, and each was last beyond [s] */
+  double looked, *seen;           /* when limits were looked at last, and each of each bearing was last beyond [s] */
   char *name;
   void *host;    /* what the host wants back with each sentence */
   void *logger;  /* its function */

@@ -17,6 +17,21 @@ typedef struct {
 typedef struct {
   unsigned option, first, order;
 } lb_curve; /* values at the points of Chebyshev, from the highest to the lowest */
+typedef struct {
+  unsigned place;
+  double weight;
+} lb_share; /* of a sum */
+typedef struct {
+  unsigned place, begin, first, count;
+} lb_follower; /* a number that is a sum of inputs, since when it is, and its shares */
+typedef struct {
+  const char *label; /* before what is told of it */
+  unsigned first_ball, balls, contacts; /* of a ball */
+  unsigned char ring[4]; /* of each contact */
+  double grooves[2][3];  /* of each ring: radius, edge, edge between two arcs */
+  double highest_pressure, least_share;
+  int one_sided, ridge;
+} lb_part; /* a bearing */
 
 #include "case.h" /* written for each case: places in the image, variables, sentences */
 
@@ -39,7 +54,7 @@ enum { ORIGIN, LOST_BEFORE, TURNED_BEFORE, TORQUE, PHASE, UNSETTLED };
 const lb_variable *lb_real(lb_bearing *b, unsigned which); /* or NULL, and it has been said */
 int lb_given(const lb_variable *v);                        /* whether a host sets it */
 int lb_look(lb_bearing *b);    /* bring what can be read to the state as it stands */
-double lb_capacitance(lb_bearing *b, unsigned *shorted); /* [F] of the balls that short nothing; how many do */
+double lb_capacitance(lb_bearing *b, const lb_part *p, unsigned *shorted); /* [F] of the balls that short nothing; how many do */
 int lb_refused(lb_bearing *b); /* say which law refused; an error */
 void lb_address(unsigned char *image); /* give it the addresses of where it stands */
 void lb_follow(lb_bearing *b); /* bring constants to the values of the options */

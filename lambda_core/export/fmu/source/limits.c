@@ -12,9 +12,9 @@ typedef struct {
   unsigned ball;
 } nearest;
 
-static int begins(lb_bearing *b, unsigned event) {
-  double now = lb_time(b), before = b->seen[event];
-  b->seen[event] = now;
+static int begins(lb_bearing *b, const lb_part *p, unsigned event) {
+  double now = lb_time(b), *seen = b->seen + LB_EVENTS * (p - lb_parts) + event, before = *seen;
+  *seen = now;
   return before != b->looked && fabs(now - before) > LB_CALM;
 }
 
@@ -23,68 +23,72 @@ static void take(nearest *found, double end, double edge, double radius, unsigne
   if (margin < found->margin) *found = (nearest){margin, end, edge, ball};
 }
 
-static void tell_shoulders(lb_bearing *b, double most) {
+static void tell_shoulders(lb_bearing *b, const lb_part *p, double most) {
   double thrust = 0.0;
   nearest found[3][2];
   for (int i = 0; i < 6; i++) found[i / 2][i % 2] = (nearest){INFINITY, 0.0, 0.0, 0};
-  for (unsigned j = 0; j < LB_BALLS; j++)
-    for (unsigned k = 0; k < LB_CONTACTS_OF_A_BALL; k++) thrust += SAMPLE(j, k, LOAD) * SAMPLE(j, k, CONTACT_ANGLE);
-  for (unsigned j = 0; j < LB_BALLS; j++)
-    for (unsigned k = 0; k < LB_CONTACTS_OF_A_BALL; k++) {
+  for (unsigned j = p->first_ball; j < p->first_ball + p->balls; j++)
+    for (unsigned k = 0; k < p->contacts; k++) thrust += SAMPLE(j, k, LOAD) * SAMPLE(j, k, CONTACT_ANGLE);
+  for (unsigned j = p->first_ball; j < p->first_ball + p->balls; j++)
+    for (unsigned k = 0; k < p->contacts; k++) {
       double load = SAMPLE(j, k, LOAD), angle = SAMPLE(j, k, CONTACT_ANGLE);
-      unsigned ring = lb_contact_ring[k];
-      const double *groove = lb_grooves[ring]; /* radius, edge, edge between two arcs */
+      unsigned ring = p->ring[k];
+      const double *groove = p->grooves[ring]; /* radius, edge, edge between two arcs */
       double half = SAMPLE(j, k, SEMI_AXIS_A) / groove[0], side = thrust > 0.0 ? -1.0 : 1.0;
-      if (load > LB_LEAST_SHARE * most) take(&found[0][ring], fabs(angle) + half, groove[1], groove[0], j);
-      if (LB_ONE_SIDED && load > LB_CARRYING * most) take(&found[1][ring], side * angle + half, 0.0, groove[0], j);
-      if (LB_RIDGE && load > LB_CARRYING * most) take(&found[2][ring], half - fabs(angle), -groove[2], groove[0], j);
+      if (load > p->least_share * most) take(&found[0][ring], fabs(angle) + half, groove[1], groove[0], j - p->first_ball);
+      if (p->one_sided && load > LB_CARRYING * most) take(&found[1][ring], side * angle + half, 0.0, groove[0], j - p->first_ball);
+      if (p->ridge && load > LB_CARRYING * most) take(&found[2][ring], half - fabs(angle), -groove[2], groove[0], j - p->first_ball);
     }
   for (unsigned i = 0; i < 2; i++) {
     const nearest *high = &found[0][i], *low = &found[1][i], *ridge = &found[2][i];
-    if (high->margin < 0.0 && begins(b, HIGH + i))
+    if (high->margin < 0.0 && begins(b, p, HIGH + i))
       lb_say(b, LB_WARNING,
-             "at t = %.9g s the contact of ball %u runs %.0f um over the %s ring's shoulder (ellipse to %.1f deg, edge at "
+             "%sat t = %.9g s the contact of ball %u runs %.0f um over the %s ring's shoulder (ellipse to %.1f deg, edge at "
              "%.1f deg): computed as if the groove went on",
-             lb_time(b), high->ball + 1, -1e6 * high->margin, rings[i], DEGREES * high->end, DEGREES * high->edge);
-    if (low->margin < 0.0 && begins(b, LOW + i))
+             p->label, lb_time(b), high->ball + 1, -1e6 * high->margin, rings[i], DEGREES * high->end, DEGREES * high->edge);
+    if (low->margin < 0.0 && begins(b, p, LOW + i))
       lb_say(b, LB_WARNING,
-             "at t = %.9g s the contact of ball %u runs over the low shoulder of the %s ring (ellipse to %.1f deg, where the "
+             "%sat t = %.9g s the contact of ball %u runs over the low shoulder of the %s ring (ellipse to %.1f deg, where the "
              "groove ends at 0): more axial load holds an angular contact bearing together; computed as if the groove went on",
-             lb_time(b), low->ball + 1, rings[i], DEGREES * low->end);
-    if (ridge->margin < 0.0 && begins(b, RIDGE + i))
+             p->label, lb_time(b), low->ball + 1, rings[i], DEGREES * low->end);
+    if (ridge->margin < 0.0 && begins(b, p, RIDGE + i))
       lb_say(b, LB_WARNING,
-             "at t = %.9g s the contact of ball %u runs %.0f um over the edge between the arcs of the %s ring (ellipse to "
+             "%sat t = %.9g s the contact of ball %u runs %.0f um over the edge between the arcs of the %s ring (ellipse to "
              "%.1f deg): computed as if each arc went on",
-             lb_time(b), ridge->ball + 1, -1e6 * ridge->margin, rings[i], -DEGREES * ridge->end);
+             p->label, lb_time(b), ridge->ball + 1, -1e6 * ridge->margin, rings[i], -DEGREES * ridge->end);
   }
 }
 
-void lb_tell_limits(lb_bearing *b) {
+static void tell_part(lb_bearing *b, const lb_part *p) {
   double most = 0.0, pressure = 0.0, film = INFINITY, share = 0.0;
   unsigned ball = 0, ring = 0;
-  for (unsigned j = 0; j < LB_BALLS; j++)
-    for (unsigned k = 0; k < LB_CONTACTS_OF_A_BALL; k++) {
+  for (unsigned j = p->first_ball; j < p->first_ball + p->balls; j++)
+    for (unsigned k = 0; k < p->contacts; k++) {
       double thin = SAMPLE(j, k, FILM_PARAMETER);
       most = fmax(most, SAMPLE(j, k, LOAD)), pressure = fmax(pressure, SAMPLE(j, k, MAX_PRESSURE));
-      if (thin > 0.0 && thin < film) film = thin, share = SAMPLE(j, k, ASPERITY_SHARE), ball = j, ring = lb_contact_ring[k];
+      if (thin > 0.0 && thin < film) film = thin, share = SAMPLE(j, k, ASPERITY_SHARE), ball = j - p->first_ball, ring = p->ring[k];
     }
-  if (pressure > LB_HIGHEST_PRESSURE && begins(b, PRESSURE))
+  if (pressure > p->highest_pressure && begins(b, p, PRESSURE))
     lb_say(b, LB_WARNING,
-           "at t = %.9g s the contact pressure of %.3g GPa is beyond %g GPa, where steel yields (ISO 76): the contact laws "
+           "%sat t = %.9g s the contact pressure of %.3g GPa is beyond %g GPa, where steel yields (ISO 76): the contact laws "
            "are elastic",
-           lb_time(b), 1e-9 * pressure, 1e-9 * LB_HIGHEST_PRESSURE);
+           p->label, lb_time(b), 1e-9 * pressure, 1e-9 * p->highest_pressure);
   unsigned shorted;
-  lb_capacitance(b, &shorted);
-  if (shorted && begins(b, SHORT))
+  lb_capacitance(b, p, &shorted);
+  if (shorted && begins(b, p, SHORT))
     lb_say(b, LB_WARNING,
-           "at t = %.9g s metal touches metal on both rings of %u ball%s (Lambda below %g): the rings are connected there, and "
+           "%sat t = %.9g s metal touches metal on both rings of %u ball%s (Lambda below %g): the rings are connected there, and "
            "bearing.capacitance is that of the other balls",
-           lb_time(b), shorted, shorted > 1 ? "s" : "", LB_SHORTED_BELOW);
-  if (film < LB_THINNEST_FILM && begins(b, FILM))
+           p->label, lb_time(b), shorted, shorted > 1 ? "s" : "", LB_SHORTED_BELOW);
+  if (film < LB_THINNEST_FILM && begins(b, p, FILM))
     lb_say(b, LB_WARNING,
-           "at t = %.9g s the film parameter Lambda of %.2g at ball %u on the %s ring is below %g: the film is thinner than "
+           "%sat t = %.9g s the film parameter Lambda of %.2g at ball %u on the %s ring is below %g: the film is thinner than "
            "the roughness, asperities carry a share of %.2g of the load there",
-           lb_time(b), film, ball + 1, rings[ring], LB_THINNEST_FILM, share);
-  tell_shoulders(b, most);
+           p->label, lb_time(b), film, ball + 1, rings[ring], LB_THINNEST_FILM, share);
+  tell_shoulders(b, p, most);
+}
+
+void lb_tell_limits(lb_bearing *b) {
+  for (unsigned i = 0; i < LB_PARTS; i++) tell_part(b, lb_parts + i);
   b->looked = lb_time(b);
 }

@@ -95,6 +95,7 @@ static int with_one(lb_bearing *b, const unsigned *unknowns, size_t n, const lb_
 int lb_slope(lb_bearing *b, const unsigned *unknowns, size_t n, const unsigned *knowns, size_t m, const double *along,
              double *slopes) {
   if (!b) return LB_ERROR;
+  if (LB_FOLLOWERS) return lb_say(b, LB_ERROR, "slopes of a machine are not known: its description promises none");
   for (size_t i = 0; i < n; i++) {
     if (!lb_real(b, unknowns[i])) return LB_ERROR;
     slopes[i] = 0.0;

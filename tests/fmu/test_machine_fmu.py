@@ -1,0 +1,135 @@
+"""The FMU of a shaft in two bearings: the bits of its engine, what it takes, and what it refuses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from lambda_cli.main import main
+
+from lambda_core import api
+from lambda_core.domain.errors import UsageError
+
+CHANGES = ("solver.duration=0.1 s",)
+STEP = 1e-4  # [s]
+VARIED = "lubricant.temperature=60..80 degC"
+
+
+@pytest.fixture(scope="session")
+def shaft(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
+    """Return the case of a shaft in two bearings with a gear and a marker off its axis on a body."""
+
+    def fill(folder: Path) -> None:
+        assert main(["init", "box", "--template", "geared-shaft", "--out", str(folder / "box.toml")]) == 0
+
+    return once("fmu-shaft-case", fill) / "box.toml"
+
+
+@pytest.fixture(scope="session")
+def machine_unit(
+    host: Any, c_compiler: tuple[str, ...], shaft: Path, once: Callable[[str, Callable[[Path], object]], Path]
+) -> Any:
+    """Return the unpacked FMU of the shaft, with an option that varies."""
+
+    def fill(folder: Path) -> None:
+        out = folder / "box.fmu"
+        api.export_fmu(shaft, CHANGES, out=out, fmi=3, vary=[VARIED], processor="native")
+
+    folder = once("fmu-shaft", fill)
+    return host.Unit(folder / "box.fmu", folder / f"unit-{id(host)}")
+
+
+def seen(step: Any) -> dict[str, float]:
+    """Return outputs of the FMU as they follow from a step of the program."""
+    found = {}
+    for name, channels in step.bearings.items():
+        films, bearing = channels["film_minimum"], f"bearings.{name}"
+        found |= {
+            f"{bearing}.load": channels["load"].max(),
+            f"{bearing}.film_minimum": films[films > 0.0].min(),
+            f"{bearing}.capacitance": channels["bearing_capacitance"],
+            f"{bearing}.inner_ring.z": channels["body_position"][0, 2],
+            f"{bearing}.inner_ring.tilt_y": channels["body_tilt"][0, 0],
+            f"{bearing}.cage.spin": channels["body_spin"][2],
+            f"{bearing}.reaction_force_z": step.reactions[name][2],
+            f"{bearing}.reaction_moment_y": step.reactions[name][4],
+        }
+    return found | {"bearings.right.outer_ring.x": step.bearings["right"]["body_position"][1, 0]}
+
+
+def test_a_machine_has_the_bits_of_its_engine(host: Any, machine_unit: Any, shaft: Path) -> None:
+    """A push at the gear, then a shaft that runs up."""
+    instance, engine = host.Instance(machine_unit).ready(), api.iterate(shaft, CHANGES, exact=True)
+    pushed = ("gears.wheel.force_z", "gears.wheel.moment_y", "shaft.spin")
+    assert set(pushed) < set(engine.given)
+    for k in range(24):
+        if k == 8:
+            for name, value in (("gears.wheel.force_z", -500.0), ("gears.wheel.moment_y", 3.0)):
+                assert instance.set(name, value) == host.OK
+                engine.give(name, value)
+        if k == 16:
+            assert [instance.set("shaft.spin", 320.0), instance.set("shaft.spin_rate", 50.0)] == [host.OK] * 2
+            engine.give("shaft.spin", 320.0, 50.0)
+        assert instance.step(STEP) == host.OK, instance.said
+        step = engine.step_to(instance.time)
+        expected = seen(step)
+        assert dict(zip(expected, instance.get(list(expected)), strict=True)) == expected, f"step {k}"
+    torque, loss, left, right = instance.get(
+        ["machine.friction_torque", "machine.loss", "bearings.left.loss", "bearings.right.loss"]
+    )
+    assert torque == pytest.approx(1e-3 * step.friction_torque_Nmm, rel=1e-12)
+    assert loss == pytest.approx(left + right, rel=1e-12)
+    assert left == pytest.approx(float(step.bearings["left"]["loss"].sum()), rel=1e-12)
+    (place,) = instance.get(["gears.wheel.z"])
+    lumps = step.channels["shaft_position"][:, 2]
+    assert lumps.min() <= place <= lumps.max()
+
+
+def test_states_of_a_machine_and_its_inputs(host: Any, machine_unit: Any, shaft: Path) -> None:
+    """Go back in the FMU and in the program: the same bits again, with what was given then."""
+    instance, outputs = host.Instance(machine_unit).ready(), machine_unit.named("output")
+    assert [instance.set("gears.wheel.force_y", 200.0), instance.step(STEP)] == [host.OK] * 2
+    kept, begin = instance.packed(), instance.time
+    assert [instance.set("gears.wheel.force_y", -200.0), instance.step(STEP)] == [host.OK] * 2
+    other = host.Instance(machine_unit).ready()
+    assert other.unpack(kept, begin) == host.OK
+    assert other.get(["gears.wheel.force_y"]) == [200.0]
+    assert [other.set("gears.wheel.force_y", -200.0), other.step(STEP)] == [host.OK] * 2
+    assert other.get(outputs) == instance.get(outputs)
+    engine = api.iterate(shaft, CHANGES, exact=True)
+    engine.give("gears.wheel.force_y", 200.0)
+    engine.step_to(STEP)
+    state = engine.state()
+    engine.give("gears.wheel.force_y", -200.0)
+    first = seen(engine.step_to(2 * STEP))
+    engine.restore(state)
+    engine.give("gears.wheel.force_y", -200.0)
+    assert seen(engine.step_to(2 * STEP)) == first
+
+
+def test_warm_oil_is_that_of_a_case_with_warm_oil(host: Any, machine_unit: Any, shaft: Path) -> None:
+    instance = host.Instance(machine_unit).ready()
+    engine = api.iterate(shaft, (*CHANGES, "lubricant.temperature=76 degC"), exact=True)
+    assert instance.set("lubricant.temperature", 349.15) == host.OK
+    for _ in range(20):
+        assert instance.step(STEP) == host.OK
+        expected = seen(engine.step_to(instance.time))
+    name = "bearings.left.film_minimum"
+    assert instance.get([name])[0] == pytest.approx(expected[name], rel=5e-3)  # the start is that of 70 degC
+
+
+def test_what_a_machine_tells_and_refuses(host: Any, machine_unit: Any, shaft: Path) -> None:
+    early = host.Instance(machine_unit)
+    assert early.set("gears.wheel.force_z", -100.0) == host.OK
+    early.ready()
+    assert "begins at the equilibrium of its case" in early.said[-1]
+    assert early.set("gears.wheel.force_x", 1e300) == host.OK
+    assert early.step(STEP) == host.ERROR
+    with pytest.raises(UsageError, match="couple by force, or export one of its bearings alone"):
+        api.iterate(shaft, CHANGES, couple="motion")
+    with pytest.raises(UsageError, match=r"leave \[electric\] out of the case"):
+        api.export_fmu(shaft, ("electric.seed=3",), out=shaft.parent / "no.fmu", processor="native")
+    with pytest.raises(UsageError, match="give a load by its name, gears"):
+        api.iterate(shaft, CHANGES).push((1.0, 0.0, 0.0))
