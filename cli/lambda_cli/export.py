@@ -1,4 +1,4 @@
-"""The command export: bearings for other programs."""
+"""The command export: bearings and machines for other programs."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Couple(StrEnum):
 
 @app.callback()
 def _export() -> None:
-    """A bearing for other programs."""
+    """A bearing or a machine for other programs."""
 
 
 @app.command()
@@ -35,7 +35,7 @@ def fmu(
     ] = None,
     fmi: Annotated[int, typer.Option(metavar="VERSION", help="Version of the standard: 2 or 3.")] = 2,
     couple: Annotated[
-        Couple, typer.Option(help="What comes from outside: loads on the inner ring, or the motion of both rings.")
+        Couple, typer.Option(help="What comes from outside: loads, or the motion of both rings of one bearing.")
     ] = Couple.FORCE,
     vary: Annotated[
         list[str] | None,

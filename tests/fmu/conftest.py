@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import pytest
 
@@ -63,3 +64,33 @@ def exported(
         return once(f"fmu-{name}", fill) / f"{name}.fmu"
 
     return export
+
+
+@pytest.fixture(scope="session")
+def shaft(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
+    """Return the case of a shaft in two bearings with a gear."""
+
+    def fill(folder: Path) -> None:
+        api.init_case("box", template="geared-shaft", path=folder / "box.toml")
+
+    return once("fmu-shaft-case", fill) / "box.toml"
+
+
+@pytest.fixture(scope="session")
+def machine_unit_file(
+    c_compiler: tuple[str, ...], shaft: Path, once: Callable[[str, Callable[[Path], object]], Path]
+) -> Path:
+    """Return the FMU of the shaft, with an option that varies."""
+
+    def fill(folder: Path) -> None:
+        vary = ("lubricant.temperature=60..80 degC",)
+        changes = ("solver.duration=0.1 s",)
+        api.export_fmu(shaft, changes, out=folder / "box.fmu", fmi=2, vary=vary, processor="native")
+
+    return once("fmu-shaft", fill) / "box.fmu"
+
+
+@pytest.fixture(scope="session")
+def machine_unit(host: ModuleType, machine_unit_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """Return the FMU of the shaft, unpacked."""
+    return host.Unit(machine_unit_file, tmp_path_factory.mktemp("shaft-unit"))

@@ -33,6 +33,15 @@ def test_fmpy_at_two_temperatures(exported: Export, example: Callable[[str], Any
     assert warm["inner_ring.x"] == pytest.approx(cold["inner_ring.x"], rel=1e-2)
 
 
+def test_fmpy_pushes_a_shaft(machine_unit_file: Path, example: Callable[[str], Any], tmp_path: Path) -> None:
+    pytest.importorskip("fmpy", reason="FMPy is not installed: pip install fmpy")
+    module = example("shaft_in_fmpy")
+    found = module.pushed(str(machine_unit_file), end=7e-3)
+    before, after = (found["gears.wheel.z"][found["time"] < module.PUSH[0]][-1], found["gears.wheel.z"].min())
+    assert after < before - 10e-6
+    module.draw(found, str(tmp_path / "shaft-fmu.png"))
+
+
 def test_omsimulator(exported: Export, example: Callable[[str], Any]) -> None:
     pytest.importorskip("OMSimulator", reason="OMSimulator is not installed: pip install omsimulator")
     pushed = example("bearing_in_omsimulator").push(str(exported(2, "force")), -250.0, end=5e-3)

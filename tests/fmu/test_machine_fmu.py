@@ -2,43 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-from lambda_cli.main import main
 
 from lambda_core import api
 from lambda_core.domain.errors import UsageError
 
-CHANGES = ("solver.duration=0.1 s",)
+CHANGES = ("solver.duration=0.1 s",)  # of the FMU, too
 STEP = 1e-4  # [s]
-VARIED = "lubricant.temperature=60..80 degC"
-
-
-@pytest.fixture(scope="session")
-def shaft(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
-    """Return the case of a shaft in two bearings with a gear and a marker off its axis on a body."""
-
-    def fill(folder: Path) -> None:
-        assert main(["init", "box", "--template", "geared-shaft", "--out", str(folder / "box.toml")]) == 0
-
-    return once("fmu-shaft-case", fill) / "box.toml"
-
-
-@pytest.fixture(scope="session")
-def machine_unit(
-    host: Any, c_compiler: tuple[str, ...], shaft: Path, once: Callable[[str, Callable[[Path], object]], Path]
-) -> Any:
-    """Return the unpacked FMU of the shaft, with an option that varies."""
-
-    def fill(folder: Path) -> None:
-        out = folder / "box.fmu"
-        api.export_fmu(shaft, CHANGES, out=out, fmi=3, vary=[VARIED], processor="native")
-
-    folder = once("fmu-shaft", fill)
-    return host.Unit(folder / "box.fmu", folder / f"unit-{id(host)}")
 
 
 def seen(step: Any) -> dict[str, float]:
