@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import tempfile
 from contextlib import suppress
 from pathlib import Path
 
@@ -16,20 +17,27 @@ def _file() -> Path:
     return data_folder() / "recent.json"
 
 
+def _is_temporary(path: Path) -> bool:
+    return path.is_relative_to(Path(tempfile.gettempdir()).resolve())
+
+
 def recent_cases() -> list[Path]:
-    """Return the files that were worked on last and still exist, the newest first; an unreadable list is empty."""
+    """Return the files that were worked on last and still exist, the newest first; an unreadable list is empty.
+
+    Files in the folder for temporary files are left out.
+    """
     try:
         found = json.loads(_file().read_text(encoding="utf-8"))
-        return [path for path in map(Path, found) if path.is_file()]
+        return [path for path in map(Path, found) if path.is_file() and not _is_temporary(path)]
     except (OSError, ValueError, TypeError):
         return []
 
 
 def remember(path: str | Path) -> None:
-    """Put a case file at the head of the list; omit what is no file, and ignore failures to write."""
+    """Put a case file at the head of the list; omit temporary files, and ignore failures to write."""
     with suppress(OSError):
         case = Path(path).resolve()
-        if case.suffix != ".toml" or not case.is_file():
+        if case.suffix != ".toml" or not case.is_file() or _is_temporary(case):
             return
         names = [str(known) for known in (case, *(known for known in recent_cases() if known != case))]
         file = _file()

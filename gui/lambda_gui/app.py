@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 from collections.abc import Iterable
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -146,11 +147,9 @@ class BuilderApp(CaseApp):
 
     def _run_case(self) -> None:
         builder = self.builder
-        model = builder.check.resolved
+        model = builder.check.model
         if model is None:
-            count = len(builder.check.problems)
-            text = f"{count} mistake{'s' * (count != 1)} to mend first: F8"
-            self.notify(text, severity="warning", timeout=4)
+            self.notify(builder.what_is_wrong(), severity="warning", timeout=4)
             return
         self._queue_up(model.name, model.case_toml, "run")
 
@@ -177,13 +176,13 @@ class BuilderApp(CaseApp):
         builder = self.builder
         model = builder.check.model
         if model is None:
-            self.notify("a study starts from a case without mistakes: F8", severity="warning", timeout=4)
+            self.notify(builder.what_is_wrong(), severity="warning", timeout=4)
             return
         row = next((w for w in self.focused.ancestors_with_self if isinstance(w, Row)), None) if self.focused else None
         path, written = "", ""
         if row is not None:
             path, written = ".".join(row.place.keys), row.place.get() or builder.around.resolved(row.place.keys)
-        self.push_screen(StudyScreen(builder.draft, model, path, str(written)))
+        self.push_screen(StudyScreen(builder.draft, model, builder.options(), path, str(written)))
 
     def action_duty(self) -> None:
         """Set up a duty cycle of the case."""
@@ -191,20 +190,14 @@ class BuilderApp(CaseApp):
 
     def _set_up_duty(self) -> None:
         from lambda_gui.duty_screen import DutyScreen
-        from lambda_gui.duty_values import COLUMNS
 
         builder = self.builder
         model = builder.check.model
         if model is None:
-            self.notify("a duty cycle starts from a case without mistakes: F8", severity="warning", timeout=4)
+            self.notify(builder.what_is_wrong(), severity="warning", timeout=4)
             return
-        places = {path: tuple(path.split(".")) for path, _, _ in COLUMNS if "." in path}
-        written = {path: builder.draft.get(*keys) for path, keys in places.items()}
-        usual = {
-            path: value if isinstance(value, str) else "as it is" if value else builder.around.resolved(places[path])
-            for path, value in written.items()
-        }
-        self.push_screen(DutyScreen(builder.draft, model, usual))
+        width = self.size.width
+        self.push_screen(DutyScreen(builder.draft, model.name, model.case_toml, builder.around, width))
 
     def run_study(self, study: dict[str, Any], case_toml: str) -> None:
         """Run a study of a case."""
@@ -260,6 +253,21 @@ class BuilderApp(CaseApp):
         where = folder or (path.parent if path is not None else Path.cwd())
         self.push_screen(ResultsScreen(where, path))
 
+    def save_picture(self) -> None:
+        """Write the screen as SVG into the folder of the case; a file that stands there is kept."""
+        from lambda_core.api import save_text
+
+        path = self.builder.draft.path
+        folder, stem = (path.resolve().parent, path.stem) if path else (Path.cwd(), "lambda-bearing")
+        names = (f"{stem}-screen{'' if number == 1 else f'-{number}'}.svg" for number in count(1))
+        target = next(folder / name for name in names if not (folder / name).exists())
+        try:
+            save_text(self.export_screenshot(title=self.TITLE), target)
+        except LambdaError as error:
+            self.notify(str(error), severity="error", timeout=10)
+        else:
+            self.notify(f"wrote {target}", timeout=6, markup=False)
+
     def action_toggle_theme(self) -> None:
         """Change between light and dark."""
         self.theme = LIGHT.name if self.theme == DARK.name else DARK.name
@@ -301,6 +309,8 @@ class BuilderApp(CaseApp):
         yield SystemCommand("Runs", "the queue and live traces", self.action_runs)
         yield SystemCommand("Study", "let one or two options of the case vary", self.action_study)
         yield SystemCommand("Duty cycle", "life and losses over phases of the case", self.action_duty)
+        yield SystemCommand("Answers", "equilibrium, temperatures, currents, friction of the case without a run",
+                            lambda: self.builder.action_answers())  # fmt: skip
         yield SystemCommand("Results", "summary, views, comparison, export", self.action_results)
         yield SystemCommand("Catalogue of bearings", "choose one for the case", self.show_catalogue)
         yield SystemCommand(
@@ -309,6 +319,7 @@ class BuilderApp(CaseApp):
         yield SystemCommand("Undo", "take the last change back", lambda: self.builder.action_undo())
         yield SystemCommand("Light or dark", "change the colours", self.action_toggle_theme)
         yield SystemCommand("Themes", "choose among all colour themes", self.search_themes)
+        yield SystemCommand("Picture of the screen", "write the screen into an SVG file", self.save_picture)
         yield SystemCommand("Help", "keys, axes and signs", self.action_help)
         yield SystemCommand("Quit", "leave the builder", self.action_quit)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, get_origin
 
 from rich.text import Text
 from textual import events
@@ -27,6 +27,8 @@ from lambda_gui.sketch import Sketch
 from lambda_gui.tree import ModelTree
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from lambda_core.api import Draft
     from lambda_gui.taken import Taken
 
@@ -35,6 +37,7 @@ class BuilderScreen(LiveDraft):
     """One case."""
 
     HORIZONTAL_BREAKPOINTS = [(0, "-narrow"), (140, "-wide")]  # noqa: RUF012
+    VERTICAL_BREAKPOINTS = [(0, "-low"), (34, "-middle"), (44, "-high")]  # noqa: RUF012
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("f1", "app.help", "Help", priority=True),
         Binding("f2", "catalogue", "Catalogue", priority=True),
@@ -42,7 +45,8 @@ class BuilderScreen(LiveDraft):
         Binding("f4", "app.duty", "Duty cycle", show=False, priority=True),
         Binding("f5,ctrl+r", "app.run_case", "Run", priority=True),
         Binding("f6", "app.results", "Results", priority=True),
-        Binding("ctrl+s", "save", "Save", priority=True),
+        Binding("f10,ctrl+g", "answers", "Answers", priority=True, key_display="f10"),
+        Binding("ctrl+s", "save", "Save", show=False, priority=True),
         Binding("f7", "app.runs", "Runs", show=False, priority=True),
         Binding("f8", "next_mistake", "Next mistake", show=False, priority=True),
         Binding("ctrl+z", "undo", "Undo", show=False, priority=True),
@@ -64,25 +68,44 @@ class BuilderScreen(LiveDraft):
     BuilderScreen.-wide #help { height: 10; border-bottom: hkey $border-blurred; }
     BuilderScreen.-wide #derived { height: 21; border-bottom: hkey $border-blurred; }
     BuilderScreen.-wide #sketch { display: block; height: 1fr; }
+    BuilderScreen.-drawing-below #tree { width: 39; }
+    BuilderScreen.-drawing-below #side { height: 4; }
+    BuilderScreen.-drawing-below #help { height: 3; border-bottom: none; }
+    BuilderScreen.-drawing-below #sketch { display: block; width: 1fr; height: 1fr; }
+    BuilderScreen.-drawing-below #derived { width: 38; height: 1fr; border-bottom: none; }
+    BuilderScreen #below { height: 10; border-top: hkey $border-blurred; }
+    BuilderScreen.-middle #below { height: 15; }
+    BuilderScreen.-high #below { height: 21; }
+    BuilderScreen.-wide.-drawing-below #derived { width: 66; }
+    BuilderScreen.-wide.-drawing-below #side { height: 1fr; }
+    BuilderScreen.-wide.-drawing-below #help { height: 1fr; }
     """
 
     def __init__(self, draft: Draft) -> None:
         super().__init__(draft)
+        self.set_class("shaft" in draft.root.model_fields, "-drawing-below")  # it is as long as the screen is wide
         self._form_timer: Timer | None = None
-        # node and option that are to have the keyboard once its form stands
-        self._wanted: tuple[str, Keys] | None = None
+        # node and option that are to have the keyboard once its form stands, and whether its text is to be selected
+        self._wanted: tuple[str, Keys, bool] | None = None
+        self._mistake = (-1, "")  # number and place of the mistake that F8 went to last
 
     # -- layout --
 
     def compose(self) -> ComposeResult:
-        """Lay out head, tree, form and side."""
+        """Lay out head, tree, form, numbers and drawing: of a bearing at the side, of a shaft below."""
         yield Head()
+        is_below = self.has_class("-drawing-below")
         with Horizontal(id="body"):
             yield ModelTree(self.draft, self.around)
             with Vertical(id="right"), Vertical(id="side"):
                 yield OptionHelp(id="help")
-                yield Derived()
+                if not is_below:
+                    yield Derived()
+                    yield Sketch()
+        if is_below:
+            with Horizontal(id="below"):
                 yield Sketch()
+                yield Derived()
         yield Footer()
 
     def on_mount(self) -> None:
@@ -135,7 +158,7 @@ class BuilderScreen(LiveDraft):
                 self.query_one(Sketch).show_node(node)
         # On the way, the cursor may rest on another node (a tree that was planted anew begins at its first).
         if self._wanted is not None and self._wanted[0] == node.key and self.form is not None:
-            self.form.show(self._wanted[1])
+            self.form.show(*self._wanted[1:])
             self._wanted = None
 
     def _show_node_help(self, node: Node) -> None:
@@ -146,8 +169,13 @@ class BuilderScreen(LiveDraft):
 
     @property
     def bearing(self) -> Keys:
-        """Where the bearing is written that a row of the catalogue is taken for."""
-        return ("bearing",)
+        """Where the bearing is written that a catalogue row is taken for: that of the form, else the first one."""
+        if "bearing" in self.draft.root.model_fields:
+            return ("bearing",)
+        table = self.form.node.table[:2] if self.form is not None else ()
+        if table[:1] == ("bearings",) and len(table) == 2:
+            return table
+        return ("bearings", next(iter(self.draft.get("bearings") or ("left",))))
 
     @property
     def form(self) -> NodeForm | None:
@@ -199,8 +227,8 @@ class BuilderScreen(LiveDraft):
         elif isinstance(event.widget, ModelTree) and self.form is not None:
             self._show_node_help(self.form.node)
 
-    def go_to(self, keys: Keys) -> None:
-        """Bring an option into view, ready to be changed."""
+    def go_to(self, keys: Keys, *, select: bool = True) -> None:
+        """Bring an option into view, ready to be changed; with its text selected, it is typed over."""
         tree = self.query_one(ModelTree)
         tree.refresh_marks(self.check.problems)
         node = tree.node_at(keys) or node_of(Problem(".".join(keys), ""), tree.all_nodes())
@@ -209,17 +237,19 @@ class BuilderScreen(LiveDraft):
         at = tree.cursor_node  # where it has just gone to another node, the form of that one is still to come
         is_here = at is not None and at.data is node
         if is_here and self.form is not None and self.form.node is node and self.form.is_ready:
-            self.form.show(keys)
+            self.form.show(keys, select)
             return
-        self._wanted = (node.key, keys)
+        self._wanted = (node.key, keys, select)
         tree.go_to(node.key)
 
     def options(self) -> list[str]:
         """Return the options that stand on some node."""
         nodes = self.query_one(ModelTree).all_nodes()
         places = {place for node in nodes for place in node.places}
-        items = (group for node in nodes if node.kind == "item" for group in node.groups)
-        shown = (".".join(keys) for group in items for keys in group.fields)
+        fields = self.draft.root.model_fields
+        named = [name for name, info in fields.items() if get_origin(info.annotation) is dict or name == "shaft"]
+        groups = (group for node in nodes for group in node.groups if group.table[:1] and group.table[0] in named)
+        shown = (".".join(keys) for group in groups for keys in group.fields)
         split = ((path, tuple(path.split("."))) for path in dict.fromkeys((*option_paths(self.draft.root), *shown)))
         return [path for path, keys in split if any(keys[: n + 1] in places for n in range(len(keys)))]
 
@@ -251,6 +281,7 @@ class BuilderScreen(LiveDraft):
         """Show the numbers that follow."""
         if self.is_here:
             self.query_one(Derived).show_estimate(estimate, say)
+            self.query_one(Sketch).show_estimate(estimate)
             self._show_head()
 
     def action_undo(self) -> None:
@@ -278,12 +309,51 @@ class BuilderScreen(LiveDraft):
                 self.notify(warning, title="beyond a limit", severity="warning", timeout=15)
             self.notify("no mistakes", timeout=2)
             return
-        row = next((w for w in self.focused.ancestors_with_self if isinstance(w, Row)), None) if self.focused else None
-        at = -1
-        if row is not None:
-            at = next((i for i, p in enumerate(problems) if belongs(p, row.place.keys)), -1)
-        problem = problems[(at + 1) % len(problems)]
-        self.go_to(tuple(problem.where.split(".")))
+        places = list(dict.fromkeys(problem.where for problem in problems))
+        at = self._mistake_at(problems, places)
+        self._mistake = (at, places[at])
+        row = self._row()
+        if row is not None and any(belongs(p, row.place.keys) for p in problems if p.where == places[at]):
+            self.notify("this is the only mistake", timeout=2)
+            return
+        self.go_to(tuple(places[at].split(".")), select=False)
+
+    def _mistake_at(self, problems: Sequence[Problem], places: Sequence[str]) -> int:
+        """Return the number of the place of the next mistake.
+
+        It is the next one to the mistake under the keyboard, else to that which was shown last; where this one is
+        corrected, its successor has its number.
+        """
+        number, place = self._mistake
+        row = self._row()
+        here = [places.index(p.where) for p in problems if row is not None and belongs(p, row.place.keys)]
+        if here and place not in {places[at] for at in here}:
+            return (here[-1] + 1) % len(places)
+        if place in places:
+            return (places.index(place) + 1) % len(places)
+        return max(0, number) % len(places)
+
+    def _row(self) -> Row | None:
+        """Return the row that has the keyboard."""
+        above = self.focused.ancestors_with_self if self.focused else ()
+        return next((widget for widget in above if isinstance(widget, Row)), None)
+
+    def action_answers(self) -> None:
+        """Answer questions about the case as it stands."""
+        self.when_checked(self._answer)
+
+    def _answer(self) -> None:
+        from lambda_gui.answer_screen import AnswerScreen
+
+        if self.check.model is None:
+            self.notify(self.what_is_wrong(), severity="warning", timeout=4)
+        else:
+            self.app.push_screen(AnswerScreen(self.draft))
+
+    def what_is_wrong(self) -> str:
+        """Return how many mistakes the case has, and the key that leads to them."""
+        count = len(self.check.problems)
+        return f"correct {count} mistake{'s' * (count != 1)} first: F8"
 
     # -- file --
 

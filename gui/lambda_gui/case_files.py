@@ -14,7 +14,6 @@ from lambda_core.domain.errors import LambdaError
 from lambda_gui import recovery
 from lambda_gui.builder import BuilderScreen
 from lambda_gui.dialogs import EMPTY, MACHINE, SHAFT, Ask, AskText, OpenCase
-from lambda_gui.shaft_screen import ShaftScreen
 
 if TYPE_CHECKING:
     from lambda_core.api import Draft
@@ -50,7 +49,7 @@ class CaseApp(App[None]):
     def _open(self, draft: Draft | None, then: Callable[[], None] | None = None) -> None:
         """Work on a draft in place of the one before; `then` is called unless unsaved work on it is recovered."""
         draft = draft or api.draft()
-        screen = (ShaftScreen if draft.is_shaft else BuilderScreen)(draft)
+        screen = BuilderScreen(draft)
         if any(isinstance(shown, BuilderScreen) for shown in self.screen_stack):
             while not isinstance(self.screen, BuilderScreen):
                 self.pop_screen()  # whatever lies over the case belongs to the case before
@@ -84,12 +83,12 @@ class CaseApp(App[None]):
         )
 
     def _recover(self, rescue: recovery.Rescue, draft: Draft) -> None:
-        """Put rescued work into the draft; work without a file may be on a shaft, which has another screen."""
-        if rescue.is_shaft == draft.is_shaft:
+        """Put rescued work into the draft; work without a file has another outline where it has a shaft."""
+        if draft.path is not None or rescue.has_shaft == ("shaft" in draft.root.model_fields):
             recovery.take(rescue, draft)
             self.builder.edited()
             return
-        other = api.draft(shaft=rescue.is_shaft)
+        other = api.draft(shaft=rescue.has_shaft)
         recovery.take(rescue, other)
         self._open(other)
 

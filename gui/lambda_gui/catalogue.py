@@ -159,9 +159,9 @@ class CatalogueScreen(Screen[Taken | None]):
         if not is_here(self):
             return
         row, about, drawing = self._row, self.query_one("#about", Static), self.query_one("#drawing", Static)
-        drawing.display = self._kind == "bearing"
+        drawing.display = self._kind == "bearing" and row is not None
         if row is None:
-            about.update(Text("nothing matches", style="dim"))
+            about.update(Text(self._nothing(), style="dim"))
             drawing.update("")
         elif self._kind == "bearing":
             section = section_of(row)  # type: ignore[arg-type]
@@ -172,6 +172,30 @@ class CatalogueScreen(Screen[Taken | None]):
         else:
             about.update(lubricant_text(row))  # type: ignore[arg-type]
         self.query_one("#details", VerticalScroll).scroll_home(animate=False)
+
+    def _nothing(self) -> str:
+        """Say that nothing matches, and where something does."""
+        count = self._others()
+        if not count:
+            return "nothing matches"
+        one, other = ("bearing", "lubricant") if self._kind == "bearing" else ("lubricant", "bearing")
+        verb = "matches" if count == 1 else "match"
+        return f"no {one} matches, but {count} {other}{'s' * (count > 1)} {verb}: F2"
+
+    def _others(self) -> int:
+        """Return how many rows of the other kind match."""
+        text = self.query_one(Input).value
+        if not text.strip():
+            return 0
+        try:
+            found = (
+                self.catalogue.lubricants(text, _MOST)
+                if self._kind == "bearing"
+                else self.catalogue.bearings(text, _MOST)
+            )
+        except LambdaError:
+            return 0
+        return len(found)
 
     def action_move(self, by: int) -> None:
         """Move in the list while the filter keeps the keyboard."""
@@ -185,10 +209,12 @@ class CatalogueScreen(Screen[Taken | None]):
         details.scroll_relative(y=by * max(1, details.size.height - 1), animate=False)
 
     def action_other(self) -> None:
-        """Change between bearings and lubricants."""
+        """Change between bearings and lubricants; a filter that matches only the other kind stays."""
+        self._catch_up()
+        text = self.query_one(Input).value if self._row is None and self._others() else ""
         self._kind = "lubricant" if self._kind == "bearing" else "bearing"
         with self.prevent(Input.Changed):
-            self.query_one(Input).value = ""
+            self.query_one(Input).value = text
         self._show_kind()
 
     def action_take(self) -> None:

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from rich.text import Text
 from textual.color import Color
+from textual.containers import Horizontal
 from textual.widget import Widget
+from textual.widgets import Static
 
-from lambda_core.views.chart import Axis, Panel, Series
+from lambda_core.views.chart import Axis, Panel, Series, ViewData
 from lambda_gui.maps import FieldPlot
 from lambda_gui.plots import Colour, Plot, labels_of, padded, round_numbers, series_colour
 
@@ -254,9 +256,17 @@ class BarPlot(Widget):
         return text
 
 
-def notes_text(notes: Sequence[str]) -> Text:
-    """Return the notes under a view."""
-    return Text("\n".join(notes), style="dim")
+def rows_of(data: ViewData, width: int, height: int) -> list[Widget]:
+    """Return the panels of a view in rows, and its notes, for a place of so many columns and lines."""
+    side, high = shape_of(data.panels, data.columns, width, height)
+    rows: list[Widget] = []
+    for first in range(0, len(data.panels), side):
+        panels = data.panels[first : first + side]
+        row = Horizontal(*map(widget_for, panels), classes="row")
+        bars = [lines_of(panel, width // side) for panel in panels]
+        row.styles.height = max(bars) + 1 if all(bars) else max(high, *bars)
+        rows.append(row)
+    return [*rows, Static(Text("\n".join(data.notes), style="dim"))]
 
 
 def lines_of(panel: Panel, width: int) -> int:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, get_origin
+from typing import TYPE_CHECKING, Any, cast, get_origin
 
 from pydantic import BaseModel
 
-from lambda_core.api import Case, ShaftCase
 from lambda_core.domain.errors import Problem
 from lambda_core.domain.option_tree import model_at
 from lambda_gui.nodes import Keys, Node
@@ -22,26 +21,35 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Check:
-    """The outcome of checking a draft: mistakes, or the resolved model and its values for people."""
+    """The outcome of checking a draft: mistakes, or the resolved model and its values."""
 
     problems: tuple[Problem, ...] = ()
-    model: BearingModel | None = None
-    shaft: MachineModel | None = None  # in place of the model, of a shaft in several bearings
+    model: BearingModel | MachineModel | None = None
     values: tuple[ValueReport, ...] = ()
-    warnings: tuple[str, ...] = ()  # where a valid case leaves what bearing, oil and laws are made for
+    warnings: tuple[str, ...] = ()  # where a valid case leaves the limits of bearing, oil and laws
 
     @property
-    def resolved(self) -> BearingModel | MachineModel | None:
-        """What the case is, resolved."""
-        return self.model or self.shaft
+    def alone(self) -> BearingModel | None:
+        """The bearing, where the case has one without a shaft."""
+        return None if hasattr(self.model, "bearings") else self.model
+
+    @property
+    def machine(self) -> MachineModel | None:
+        """The machine, where the case has a shaft."""
+        return None if self.alone is not None else cast("MachineModel | None", self.model)
 
 
 class Checker:
-    """Checks drafts of one bearing against one open catalogue: opening it takes as long as a check."""
+    """Checks drafts against one open catalogue: opening it takes as long as a check.
 
-    root: type[BaseModel] = Case
+    Parameters
+    ----------
+    root : type of BaseModel
+        The class of the case.
+    """
 
-    def __init__(self) -> None:
+    def __init__(self, root: type[BaseModel]) -> None:
+        self._root = root
         self._catalogue: Catalogue | None = None
         self._turn = threading.Lock()
 
@@ -53,24 +61,16 @@ class Checker:
             with self._turn:
                 if self._catalogue is None:
                     self._catalogue = api.catalogue()
-                return self._resolved(_with_needed(tables, self.root), folder, self._catalogue)
+                model = api.check(_with_needed(tables, self._root), folder=folder, catalogue=self._catalogue)
+                return Check((), model, tuple(_values(model)), tuple(_warnings(model)))
         except api.CaseError as error:
             return Check(tuple(sorted(error.problems, key=self._order)))
         except api.LambdaError as error:  # a broken catalogue or plugin: nothing can be checked
             return Check((Problem("", str(error)),))
 
-    def _resolved(self, tables: Mapping[str, Any], folder: Path | None, catalogue: Catalogue) -> Check:
-        """Return the check of a case without mistakes; LambdaError where there are any."""
-        from lambda_core import api
-        from lambda_core.api import operating_warnings, value_reports
-
-        model = api.check(tables, folder=folder, catalogue=catalogue)
-        assert isinstance(model, api.BearingModel)
-        return Check((), model, None, tuple(value_reports(model)), tuple(operating_warnings(model)))
-
     def _order(self, problem: Problem) -> int:
         """Return the place of a problem's table in the case, so that mistakes come in the order of the tree."""
-        names = list(self.root.model_fields)
+        names = list(self._root.model_fields)
         first = problem.where.partition(".")[0]
         return names.index(first) if first in names else len(names)
 
@@ -82,33 +82,36 @@ class Checker:
                 self._catalogue = None
 
 
+def _values(model: BearingModel | MachineModel) -> Iterator[ValueReport]:
+    """Yield every value with its origin; those of a bearing on a shaft at the place of that bearing."""
+    from lambda_core.api import value_reports
+
+    bearings = getattr(model, "bearings", None)
+    if bearings is None:
+        yield from value_reports(cast("BearingModel", model))
+        return
+    for number, bearing in enumerate(bearings):
+        for value in value_reports(bearing.model):
+            if value.path.startswith("bearing."):
+                own = f"bearings.{bearing.name}.{value.path.removeprefix('bearing.')}"
+                yield value.model_copy(update={"path": own})
+            elif number == 0:
+                yield value
+
+
+def _warnings(model: BearingModel | MachineModel) -> Sequence[str]:
+    from lambda_core import api
+
+    if hasattr(model, "bearings"):
+        return api.machine_warnings(cast("MachineModel", model))
+    return api.operating_warnings(model)
+
+
 def plugin_faults() -> list[str]:
     """Return a sentence for each plugin that is broken; one that was switched off on purpose is none."""
     from lambda_core.api import registry
 
     return [f"{fault.distribution}: {fault.message}" for fault in registry().faults if fault.is_broken]
-
-
-class ShaftChecker(Checker):
-    """Checks drafts of a shaft in several bearings."""
-
-    root = ShaftCase
-
-    def _resolved(self, tables: Mapping[str, Any], folder: Path | None, catalogue: Catalogue) -> Check:
-        """Return the check of a shaft without mistakes, with what every bearing takes from the catalogue."""
-        from lambda_core import api
-        from lambda_core.api import value_reports
-
-        shaft = api.check_shaft(tables, folder=folder, catalogue=catalogue)
-        values = []
-        for number, bearing in enumerate(shaft.bearings):
-            own = f"bearings.{bearing.name}."
-            values += [
-                value.model_copy(update={"path": own + value.path.removeprefix("bearing.")})
-                if value.path.startswith("bearing.") else value
-                for value in value_reports(bearing.model) if number == 0 or value.path.startswith("bearing.")
-            ]  # fmt: skip
-        return Check((), None, shaft, tuple(values), tuple(api.machine_warnings(shaft)))
 
 
 def _with_needed(tables: Mapping[str, Any], root: type[BaseModel]) -> dict[str, Any]:

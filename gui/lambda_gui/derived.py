@@ -1,9 +1,9 @@
-"""Show the numbers derived from a case next to its form."""
+"""Show the numbers derived from a case: geometry, loads, pressures, films, lives, friction, or its mistakes."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from rich.text import Text
@@ -13,14 +13,21 @@ from lambda_gui.checking import Check
 from lambda_gui.shown_units import fact_in_units
 
 if TYPE_CHECKING:
-    from lambda_core.api import Estimate
+    from lambda_core.api import (
+        BearingEquilibrium,
+        BearingModel,
+        Estimate,
+        MachineEquilibrium,
+        MachineEstimate,
+        ValueReport,
+    )
     from lambda_core.domain.unit_systems import UnitSystem
 
 Fact = tuple[str, str, str]  # name, number, unit
 
 
 class Derived(Static):
-    """Derived quantities, or the mistakes that stand in their way."""
+    """Derived quantities, in grey while they are solved anew, or the mistakes that prevent them."""
 
     DEFAULT_CSS = """
     Derived { width: 1fr; height: 1fr; padding: 0 1; }
@@ -29,7 +36,7 @@ class Derived(Static):
     def __init__(self) -> None:
         super().__init__(id="derived")
         self._check: Check | None = None
-        self._estimate: Any = None  # an Estimate; of a machine its MachineEstimate
+        self.estimate: Estimate | MachineEstimate | None = None
         self._say = ""
         self.is_current = False  # whether the numbers are those of the case as it stands
 
@@ -39,10 +46,10 @@ class Derived(Static):
         self.is_current = False
         self.draw()
 
-    def show_estimate(self, estimate: Any, say: str) -> None:
+    def show_estimate(self, estimate: Estimate | MachineEstimate | None, say: str) -> None:
         """Take an estimate, or what is being done about it."""
         if estimate is not None:
-            self._estimate, self.is_current = estimate, True
+            self.estimate, self.is_current = estimate, True
         self._say = say
         self.draw()
 
@@ -51,29 +58,37 @@ class Derived(Static):
         self.draw()
 
     def draw(self) -> None:
-        """Draw what is known, in the colours of the theme."""
-        if self._check is None:
+        """Draw the known numbers, in the colours of the theme."""
+        check: Check | None = self._check
+        if check is None:
             self.update(Text("checking ...", style="dim"))
-        elif self._check.model is None:
-            self.update(self._mistakes(self._check))
+        elif check.model is None:
+            self.update(self._mistakes(check))
+        elif check.alone is None:
+            self.update(self._of_a_machine(self.app.units))  # type: ignore[attr-defined]
         else:
-            units: UnitSystem = self.app.units  # type: ignore[attr-defined]
-            geometry = [fact_in_units(fact, units) for fact in _geometry(self._check)]
-            warned = list(map(units.sentence, self.warnings()))
-            found = _numbers(self._estimate) if self._estimate else ()
-            numbers = [fact_in_units(fact, units) for fact in found]
-            if self.size.height > len(geometry) + len(numbers) + 1 + 2 * len(warned):
-                told = self._listed(geometry, numbers)
-            else:
-                told = self._inline([] if warned else geometry[1:], numbers)  # the balls stand in the tree
-            self.update(Text("\n").join([*self._warned(warned, told), told]))
+            self.update(self._of_a_bearing(check.alone, self.app.units))  # type: ignore[attr-defined]
 
     def warnings(self) -> list[str]:
-        """Return where the case leaves what bearing, oil and laws are made for: before solving, and after."""
+        """Return where the case leaves the limits of bearing, oil and laws: before solving, and after."""
         if self._check is None or self._check.model is None:
             return []
-        solved = self._estimate.equilibrium.warnings if self._estimate is not None and self.is_current else []
+        solved = _warned_by(self.estimate.equilibrium) if self.estimate is not None and self.is_current else []
         return list(dict.fromkeys([*self._check.warnings, *solved]))
+
+    # -- one bearing --
+
+    def _of_a_bearing(self, model: BearingModel, units: UnitSystem) -> Text:
+        assert self._check is not None
+        geometry = [fact_in_units(fact, units) for fact in _geometry(model, self._check.values)]
+        warned = list(map(units.sentence, self.warnings()))
+        found = _numbers(self.estimate) if self.estimate else ()  # type: ignore[arg-type]
+        numbers = [fact_in_units(fact, units) for fact in found]
+        if self.size.height > len(geometry) + len(numbers) + 1 + 2 * len(warned):
+            told = self._listed(geometry, numbers)
+        else:
+            told = self._inline([] if warned else geometry[1:], numbers)  # the balls stand in the tree
+        return Text("\n").join([*self._warned(warned, told), told])
 
     def _warned(self, warnings: Sequence[str], told: Text) -> list[Text]:
         """Write the warnings, as whole sentences as far as they leave room for the numbers, else cut to one line."""
@@ -85,26 +100,6 @@ class Derived(Static):
         for line in lines:
             line.truncate(width, overflow="ellipsis")
         return lines if len(lines) <= room else [*lines[: room - 1], Text(f"▲ {len(lines)} warnings: F8", colour)]
-
-    def _mistakes(self, check: Check) -> Text:
-        """Write as many complete mistakes as there is room for; F8 goes to the others."""
-        width, room = max(20, self.size.width), max(self.size.height, 1)
-        shown: list[Text] = []
-        used = 0
-        for number, problem in enumerate(check.problems):
-            where = f"{problem.where}  " if problem.where else ""
-            line = Text.assemble(("▲ ", self.app.theme_variables["error"]), f"{where}{problem.message}")
-            lines = len(line.wrap(self.app.console, width))
-            is_last = number == len(check.problems) - 1
-            if used + lines > room - (0 if is_last else 1):
-                break
-            shown.append(line)
-            used += lines
-        left = len(check.problems) - len(shown)
-        if left:
-            more = f"and {left} more: F8" if shown else f"▲ {left} mistake{'s' * (left > 1)}: F8"
-            shown.append(Text(more, style="dim"))
-        return Text("\n").join(shown)
 
     def _style(self) -> str:
         return "" if self.is_current else "dim"
@@ -135,8 +130,52 @@ class Derived(Static):
             text.append(self._say, style="dim italic")
         return text
 
+    # -- a machine --
 
-_LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
+    def _of_a_machine(self, units: UnitSystem) -> Text:
+        """Return a line for each bearing, then the numbers of the shaft."""
+        estimate: Any = self.estimate
+        if estimate is None:
+            return Text(self._say or "solving ...", style="dim italic")
+        width, room, warned = max(20, self.size.width), max(3, self.size.height), self.warnings()
+        lines = _table(estimate.equilibrium, units, width, self._style())
+        lines += [Text(line, style=self._style()) for line in _of_the_shaft(estimate, units)]
+        state = "" if self.is_current else f"stale: {self._say or 'solving'}"
+        head = [Text(state, style="italic", no_wrap=True, overflow="ellipsis")] if state else []
+        if warned:
+            words = units.sentence(warned[0]) if len(warned) == 1 else f"{len(warned)} warnings: F8"
+            head.append(
+                Text(f"▲ {words}", style=self.app.theme_variables["warning"], overflow="ellipsis", no_wrap=True)
+            )
+        for line in head:
+            line.truncate(width, overflow="ellipsis")
+        return Text("\n").join([*head, *lines][:room])
+
+    # -- mistakes --
+
+    def _mistakes(self, check: Check) -> Text:
+        """Write as many complete mistakes as there is room for; F8 goes to the others."""
+        width, room = max(20, self.size.width), max(self.size.height, 1)
+        shown: list[Text] = []
+        used = 0
+        for number, problem in enumerate(check.problems):
+            where = f"{problem.where}  " if problem.where else ""
+            line = Text.assemble(("▲ ", self.app.theme_variables["error"]), f"{where}{problem.message}")
+            lines = len(line.wrap(self.app.console, width))
+            is_last = number == len(check.problems) - 1
+            if used + lines > room - (0 if is_last else 1):
+                break
+            shown.append(line)
+            used += lines
+        left = len(check.problems) - len(shown)
+        if left:
+            more = f"and {left} more: F8" if shown else f"▲ {left} mistake{'s' * (left > 1)}: F8"
+            shown.append(Text(more, style="dim"))
+        return Text("\n").join(shown)
+
+
+_LONG_LIFE = 1e6  # a longer rating life is only said to be longer [h]
+_GAP = 2  # columns between two numbers of a table
 _LONG = {
     "pitch": "pitch diameter",
     "clearance": "radial clearance",
@@ -155,10 +194,17 @@ _LONG = {
 }
 
 
-def _geometry(check: Check) -> Iterable[Fact]:
-    assert check.model is not None
-    geometry = check.model.geometry
-    estimated = any(v.path == "bearing.ball_diameter" and v.status != "published" for v in check.values)
+def _warned_by(found: Any) -> list[str]:
+    """Return the warnings of an equilibrium; those of a bearing on a shaft begin with its name."""
+    bearings = getattr(found, "bearings", None)
+    if bearings is None:
+        return list(found.warnings)
+    return [f"{bearing.name}: {text}" for bearing in bearings for text in bearing.warnings]
+
+
+def _geometry(model: BearingModel, values: Sequence[ValueReport]) -> Iterable[Fact]:
+    geometry = model.geometry
+    estimated = any(v.path == "bearing.ball_diameter" and v.status != "published" for v in values)
     mark = "≈ " if estimated else ""
     yield "balls", f"{mark}{geometry.ball_count} x {geometry.ball_diameter * 1e3:.2f}", "mm"
     yield "pitch", f"{geometry.pitch_diameter * 1e3:.2f}", "mm"
@@ -181,8 +227,7 @@ def _numbers(estimate: Estimate) -> Iterable[Fact]:
     if estimate.viscosity_ratio is not None:
         yield "κ", f"{estimate.viscosity_ratio:.1f}", ""
     if estimate.rating_life_h is not None:
-        life = float(f"{estimate.rating_life_h:.2g}")
-        yield "L10", grouped(life) if life < _LONG_LIFE else f"> {grouped(_LONG_LIFE)}", "h"
+        yield "L10", _life(estimate.rating_life_h), "h"
     rating = estimate.rating
     if rating.static_safety is not None:
         yield "S0", f"{rating.static_safety:.1f}", ""
@@ -192,6 +237,73 @@ def _numbers(estimate: Estimate) -> Iterable[Fact]:
         yield "SKF", grouped(rating.skf_torque_Nmm), "N mm"
     if estimate.processor_s is not None:
         yield "run ≈", duration(estimate.processor_s), ""
+
+
+def _table(report: MachineEquilibrium, units: UnitSystem, width: int, style: str) -> list[Text]:
+    """Return one line per bearing under two lines of heads, with as many columns as there is room for."""
+    names = [bearing.name for bearing in report.bearings]
+    first = min(max(map(len, names)), 12)
+    shown: list[tuple[int, list[str]]] = []
+    used = first
+    for head, unit, value, rank in sorted(_COLUMNS, key=lambda column: column[-1]):
+        facts = [fact_in_units((head, value(bearing), unit), units) for bearing in report.bearings]
+        cells = [head, facts[0][2] if unit else "", *(fact[1] for fact in facts)]
+        wide = _GAP - (width < 48) + max(map(len, cells))
+        if used + wide > width:
+            break
+        used += wide
+        shown.append((rank, [f"{cell:>{wide}}" for cell in cells]))
+    order = [column[-1] for column in _COLUMNS]
+    columns = [cells for _, cells in sorted(shown, key=lambda column: order.index(column[0]))]
+    lines = [Text(" " * first + "".join(cells[at] for cells in columns), style="dim") for at in (0, 1)]
+    for at, name in enumerate(names):
+        line = Text(f"{name[:first]:<{first}}", style="bold")
+        lines.append(line.append("".join(cells[at + 2] for cells in columns), style=f"not bold {style}"))
+    return lines
+
+
+def _of_the_shaft(answer: MachineEstimate, units: UnitSystem) -> list[str]:
+    """Return the text about the complete shaft."""
+    report, modes = answer.equilibrium, answer.modes
+    bends = ((math.hypot(y, z), x) for (_, y, z), x in zip(report.deflection_um, report.positions_mm, strict=True))
+    bend, place = max(bends)
+    told = [f"bends {bend:.3g} um at {place:.4g} mm"]
+    if modes.critical_speeds:
+        first = modes.critical_speeds[0].speed_rpm
+        times = f", {first / abs(report.speed_rpm):.2g} x" if report.speed_rpm else ""
+        told.append(f"critical {grouped(float(f'{first:.4g}'))} 1/min{times}")
+    if report.system_life_h is not None:
+        told.append(f"all bearings {_life(report.system_life_h)} h")
+    if answer.processor_s is not None:
+        told.append(f"run ≈ {duration(answer.processor_s)}")
+    told.append(f"drive torque {report.drive_torque_Nm:.4g} N m")
+    told.append(f"friction torque {_number(report.friction_torque_Nmm)} N mm")
+    return [units.sentence(line) for line in told]
+
+
+def _life(value: float | None) -> str:
+    if value is None:
+        return "-"
+    return f">{grouped(_LONG_LIFE)}" if value > _LONG_LIFE else grouped(float(f"{value:.2g}"))
+
+
+def _number(value: float | None, digits: int = 3) -> str:
+    return "-" if value is None else f"{0.0 if abs(value) < 5e-4 else value:.{digits}g}"
+
+
+# Head, unit, what stands there, and how soon it is left out where there is little room
+_COLUMNS: tuple[tuple[str, str, Callable[[BearingEquilibrium], str], int], ...] = (
+    ("radial", "N", lambda b: grouped(b.radial_load_N), 0),
+    ("axial", "N", lambda b: grouped(b.axial_load_N) if abs(b.axial_load_N) > 0.5 else "0", 1),
+    ("p", "GPa", lambda b: f"{b.max_pressure_GPa:.2f}", 3),
+    ("Q max", "N", lambda b: grouped(b.max_load_N), 5),
+    ("tilt", "mrad", lambda b: f"{math.hypot(*b.misalignment_mrad):.2f}", 4),
+    ("clearance", "um", lambda b: _number(b.clearance_um), 8),
+    ("film", "um", lambda b: f"{min(b.film_um):.2f}" if b.film_um else "-", 7),
+    ("torque", "N mm", lambda b: _number(b.friction_torque_Nmm), 9),
+    ("S0", "", lambda b: _number(b.static_safety), 6),
+    ("L10rh", "h", lambda b: _life(b.reference_rating_life_h), 2),
+)
 
 
 def grouped(value: float) -> str:

@@ -1,8 +1,9 @@
-"""A duty cycle of the open case: a line for each phase, F5 adds up life and losses."""
+"""Set up a duty cycle of the open case: a line for each phase; F5 adds up life and losses."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from rich.console import Group
 from rich.text import Text
@@ -15,7 +16,7 @@ from textual.widgets import Footer, Input, Static
 
 from lambda_core.domain.errors import LambdaError
 from lambda_gui.dialogs import AskText
-from lambda_gui.duty_values import COLUMNS, FIRST_TIME, NAME, TIME, Phase, column_card, cycle_tables, cycle_view
+from lambda_gui.duty_values import FIRST_TIME, NAME, TIME, Column, Phase, columns_of, cycle_tables, cycle_view
 from lambda_gui.entry import Entry
 from lambda_gui.helper import Helper
 from lambda_gui.new_files import save_beside
@@ -24,36 +25,38 @@ from lambda_gui.presence import is_here
 from lambda_gui.rows import Rows
 
 if TYPE_CHECKING:
-    from lambda_core.api import BearingModel, Draft
+    from lambda_core.api import Draft
+    from lambda_gui.around import CaseAround
 
 _HINT = "F5 solves every phase and adds up life and losses; an empty place is as in the case"
 
 
 class PhaseLine(Horizontal):
-    """One phase: what differs in it."""
+    """One phase: the values that differ in it."""
 
     DEFAULT_CSS = """
     PhaseLine { height: 1; }
     PhaseLine Entry { margin-right: 1; }
     """
 
-    def __init__(self, phase: Phase, usual: dict[str, str]) -> None:
+    def __init__(self, phase: Phase, columns: Sequence[Column], usual: Mapping[str, str]) -> None:
         super().__init__()
-        self.phase, self._usual = phase, usual
+        self.phase, self._columns, self._usual = phase, columns, usual
 
     def compose(self) -> ComposeResult:
         """Lay out an entry for each column."""
-        for key, _, width in COLUMNS:
-            entry = Entry(column_card(key))
-            entry.value, entry.placeholder = self.phase.texts.get(key, ""), self._usual.get(key, "")
-            entry.styles.width = width
+        for column in self._columns:
+            entry = Entry(column.card)
+            entry.value = self.phase.texts.get(column.key, "")
+            entry.placeholder = self._usual.get(column.key, "")
+            entry.styles.width = column.width
             yield entry
 
     def keep(self) -> None:
         """Take what stands in the entries, with its units."""
-        for (key, _, _), entry in zip(COLUMNS, self.query(Entry), strict=True):
+        for column, entry in zip(self._columns, self.query(Entry), strict=True):
             entry.complete()
-            self.phase.texts[key] = entry.value.strip()
+            self.phase.texts[column.key] = entry.value.strip()
 
     def column_of(self, entry: Entry) -> int:
         """Return the number of an entry's column."""
@@ -67,8 +70,14 @@ class DutyScreen(Screen[None]):
     ----------
     draft : Draft
         The case that goes through the phases.
-    model : BearingModel
-        The same, resolved.
+    name : str
+        Name of the case.
+    case_toml : str
+        The same, complete.
+    around : CaseAround
+        The values that hold where the case says nothing.
+    width : int
+        Columns of the screen.
     """
 
     AUTO_FOCUS = "PhaseLine Entry"
@@ -92,21 +101,24 @@ class DutyScreen(Screen[None]):
     DutyScreen #sum { height: 1fr; padding: 0 1; border-top: hkey $border-blurred; }
     """
 
-    def __init__(self, draft: Draft, model: BearingModel, usual: dict[str, str]) -> None:
+    def __init__(self, draft: Draft, name: str, case_toml: str, around: CaseAround, width: int) -> None:
         super().__init__()
-        self._draft, self._model = draft, model
-        self._usual = {TIME: FIRST_TIME} | usual
+        self._draft, self._name, self._case_toml = draft, name, case_toml
+        self.columns = columns_of(draft, width)
+        self._usual = {TIME: FIRST_TIME} | {
+            column.key: _usual(draft.get(*column.keys), around, column) for column in self.columns if column.keys
+        }
         self.phases = [Phase({NAME: "work", TIME: FIRST_TIME})]
         self._helper = Helper(self._say, lambda: is_here(self))
 
     def compose(self) -> ComposeResult:
         """Lay out the spectrum over what comes of it."""
-        title = Text.assemble((f"A duty cycle of {self._model.name}", "bold"), ("   what differs in each phase", "dim"))
+        title = Text.assemble((f"A duty cycle of {self._name}", "bold"), ("   what differs in each phase", "dim"))
         yield Static(title, classes="title")
-        yield Static("".join(f"{head:<{width + 1}}" for _, head, width in COLUMNS), id="heads")
+        yield Static("".join(f"{column.head:<{column.width + 1}}" for column in self.columns), id="heads")
         with Rows():
             for phase in self.phases:
-                yield PhaseLine(phase, self._usual)
+                yield PhaseLine(phase, self.columns, self._usual)
         yield OptionHelp()
         with VerticalScroll(id="sum", can_focus=False):
             yield Static(Text(_HINT, style="dim"), id="found")
@@ -129,7 +141,7 @@ class DutyScreen(Screen[None]):
         """Say what the column under the keyboard is."""
         here = self._here()
         if here is not None:
-            self.query_one(OptionHelp).show(_about(COLUMNS[here[1]][0]))
+            self.query_one(OptionHelp).show(_about(self.columns[here[1]]))
 
     def on_input_changed(self, event: Input.Changed) -> None:
         """What was added up is of another cycle now."""
@@ -156,7 +168,7 @@ class DutyScreen(Screen[None]):
         place = self.phases.index(line.phase) + 1
         phase = Phase(line.phase.texts | {NAME: f"phase {len(self.phases) + 1}"})
         self.phases.insert(place, phase)
-        new = PhaseLine(phase, self._usual)
+        new = PhaseLine(phase, self.columns, self._usual)
         await self.query_one(Rows).mount(new, after=line)
         new.query(Entry).first().focus()
 
@@ -181,7 +193,7 @@ class DutyScreen(Screen[None]):
     def cycle(self) -> dict[str, object]:
         """Return the cycle as it stands in the form."""
         self._keep()
-        return cycle_tables(f"{self._model.name}-duty", self.phases)
+        return cycle_tables(f"{self._name}-duty", self.phases)
 
     # -- what comes of it --
 
@@ -198,13 +210,13 @@ class DutyScreen(Screen[None]):
         solved = self._written()
         shown, colours = self.query_one("#found", Static), self.app.theme_variables
         try:
-            found = await self._helper.ask("duty", cycle=cycle, case_toml=self._model.case_toml)
+            found = await self._helper.ask("duty", cycle=cycle, case_toml=self._case_toml)
         except LambdaError as error:
             shown.update(Text(str(error), style=colours["error"]))
             return
-        table, words = cycle_view(found, self.app.units, colours["warning"])  # type: ignore[attr-defined]
+        tables, words = cycle_view(found, self.app.units, colours["warning"])  # type: ignore[attr-defined]
         shown.set_class(self._written() != solved, "-old")
-        shown.update(Group(table, Text(""), words))
+        shown.update(Group(*tables, words))
         self.query_one("#sum").scroll_home(animate=False)
 
     def action_save(self) -> None:
@@ -219,7 +231,13 @@ class DutyScreen(Screen[None]):
         self.app.push_screen(question, lambda text: save_beside(self, cycle, text, "lambda-bearing duty"))
 
 
-def _about(key: str) -> Text:
-    found = column_card(key)
-    units = f"  {', '.join(found.units[:4])}" if found.units else ""
-    return Text.assemble((key, "bold"), f"  {found.description}", (units, "dim"))
+def _about(column: Column) -> Text:
+    units = f"  {', '.join(column.card.units[:4])}" if column.card.units else ""
+    return Text.assemble((column.key, "bold"), f"  {column.card.description}", (units, "dim"))
+
+
+def _usual(written: Any, around: CaseAround, column: Column) -> str:
+    """Return the value of the case where a phase says nothing."""
+    if isinstance(written, str):
+        return written
+    return "as it is" if written else around.resolved(column.keys)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_origin
 
+from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
@@ -13,20 +15,65 @@ from lambda_core.domain.unit_systems import UnitSystem
 from lambda_gui.study_values import card, card_of
 
 if TYPE_CHECKING:
-    from lambda_core.api import DutyCycle, FieldCard
+    from lambda_core.api import Draft, DutyCycle, FieldCard, MachineDutyCycle
+    from lambda_gui.nodes import Keys
 
 NAME, TIME = "name", "time"
-# Columns of the spectrum: key or path of an option, head, width
-COLUMNS = (
-    (NAME, "phase", 13),
-    (TIME, "time", 9),
-    ("loads.radial", "radial load", 11),
-    ("loads.axial", "axial load", 11),
-    ("operation.speed", "speed", 11),
-    ("lubricant.temperature", "oil", 10),
-)
 _TIMES = ["h", "min", "s"]
 FIRST_TIME = "1 h"
+_WIDE = 11  # columns of a value
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of the spectrum: key or path of an option, head, width, and what its values are."""
+
+    key: str
+    head: str
+    width: int
+    card: FieldCard
+
+    @property
+    def keys(self) -> Keys:
+        """Place in the case; () where it is none."""
+        return tuple(self.key.split(".")) if self.key not in (NAME, TIME) else ()
+
+
+def columns_of(draft: Draft, width: int) -> list[Column]:
+    """Return the columns for a case: name, time, its loads, speed and oil temperature, as many as there is room for.
+
+    Parameters
+    ----------
+    width : int
+        Columns of the screen.
+    """
+    time = card("time", "duration in one cycle").model_copy(update={"units": _TIMES, "kind": "quantity"})
+    found = [Column(NAME, "phase", 13, card("phase", "name of the phase")), Column(TIME, "time", 9, time)]
+    last = [("operation.speed", "speed"), ("lubricant.temperature", "oil")]
+    room = (width - 2 - sum(column.width + 1 for column in found)) // (_WIDE + 1) - len(last)
+    for path, head in [*list(_loads(draft))[: max(1, room)], *last]:
+        found.append(Column(path, head, _WIDE, card_of(draft.root, path)))
+    return found
+
+
+def _loads(draft: Draft) -> Iterator[tuple[str, str]]:
+    """Yield path and head of each load: radial and axial of one bearing, or what the case has on its shaft."""
+    if get_origin(draft.root.model_fields["loads"].annotation) is not dict:
+        yield from (("loads.radial", "radial load"), ("loads.axial", "axial load"))
+        return
+    for section, kinds in (("gears", ("power", "torque")), ("loads", None)):
+        for name, table in (draft.get(section) or {}).items():
+            for option in table if isinstance(table, dict) else ():
+                kind = card_of(draft.root, f"{section}.{name}.{option}").kind
+                if option in kinds if kinds else kind == "signal":
+                    head = option.replace("force_", "F").replace("moment_", "M")
+                    yield f"{section}.{name}.{option}", _short(f"{name} {head}")
+
+
+def _short(head: str) -> str:
+    """Return a head that fits over its column: the name is cut first."""
+    name, _, what = head.rpartition(" ")
+    return head if len(head) <= _WIDE else f"{name[: _WIDE - len(what) - 1]} {what}"
 
 
 @dataclass
@@ -34,15 +81,6 @@ class Phase:
     """One line of the spectrum: texts by column, "" where the case's own value holds."""
 
     texts: dict[str, str] = field(default_factory=dict)
-
-
-def column_card(key: str) -> FieldCard:
-    """Return the card of a column: its units, what it is."""
-    if key == NAME:
-        return card("phase", "what it is, for people")
-    if key == TIME:
-        return card("time", "how long it lasts in one cycle").model_copy(update={"units": _TIMES, "kind": "quantity"})
-    return card_of(key)
 
 
 def cycle_tables(name: str, phases: list[Phase]) -> dict[str, Any]:
@@ -65,8 +103,44 @@ def _life(life_h: float | None) -> str:
     return "-" if life_h is None else hours(life_h).removesuffix(" h")
 
 
-def cycle_view(found: DutyCycle, units: UnitSystem, warning: str) -> tuple[Table, Text]:
-    """Return the sum in words, and a table of the phases that fits 80 columns."""
+def cycle_view(
+    found: DutyCycle | MachineDutyCycle, units: UnitSystem, warning: str
+) -> tuple[list[RenderableType], Text]:
+    """Return tables of the phases that fit 80 columns, one for each bearing, and the sum in words."""
+    from lambda_core.api import DutyCycle as OneBearing  # loaded already: one of its kind has been read
+
+    if not isinstance(found, OneBearing):
+        tables: list[RenderableType] = []
+        for name, own in found.bearings.items():
+            tables += [Text(name, style="bold"), _table(own, units), Text()]
+        life = [f"{_life(found.system_life_h)} h", " of all bearings together\n"]
+        warned = [("", words) for words in found.warnings]
+        for name, own in found.bearings.items():
+            warned += [(phase.name, f"{name}: {words}") for phase in own.phases for words in phase.warnings]
+    else:
+        tables = [_table(found, units), Text()]
+        life = [
+            f"{_life(found.reference_life_h)} h",
+            f" (ISO/TS 16281)   {_life(found.basic_life_h)} h (ISO 281), damages added\n",
+        ]
+        warned = [(phase.name, words) for phase in found.phases for words in phase.warnings]
+    text = Text.assemble(
+        ("life    ", "dim"),
+        (life[0], "bold"),
+        (life[1], "dim"),
+        ("energy  ", "dim"),
+        (f"{number(found.energy_loss_kJ)} kJ", "bold"),
+        f" lost in a cycle of {number(found.cycle_h, 2)} h, {number(found.energy_loss_kWh_per_year)} kWh in a year\n",
+    )
+    for phase, words in warned:
+        text.append("▲ ", style=warning).append(f"{phase}: " if phase else "").append(f"{units.sentence(words)}\n")
+    for words in found.assumptions:
+        text.append("· ", style="dim").append(f"{units.sentence(words)}\n", style="dim")
+    return tables, text
+
+
+def _table(found: DutyCycle, units: UnitSystem) -> Table:
+    """Return a table of the phases of one bearing, and their sum."""
     table = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False, header_style="dim")
     heads = ("time %", "rpm", f"P {units.unit('N')}", "L10rh h", "damage %", f"loss {units.unit('W')}", "energy kJ")
     table.add_column("phase", no_wrap=True, max_width=16)
@@ -88,17 +162,4 @@ def cycle_view(found: DutyCycle, units: UnitSystem, warning: str) -> tuple[Table
         _life(found.reference_life_h), "", units.number(found.mean_power_loss_W, "W"), number(found.energy_loss_kJ),
         style="bold",
     )  # fmt: skip
-    text = Text.assemble(
-        ("life    ", "dim"),
-        (f"{_life(found.reference_life_h)} h", "bold"),
-        (f" (ISO/TS 16281)   {_life(found.basic_life_h)} h (ISO 281), damages added\n", "dim"),
-        ("energy  ", "dim"),
-        (f"{number(found.energy_loss_kJ)} kJ", "bold"),
-        f" lost in a cycle of {number(found.cycle_h, 2)} h, {number(found.energy_loss_kWh_per_year)} kWh in a year\n",
-    )
-    for phase in found.phases:
-        for words in phase.warnings:
-            text.append("▲ ", style=warning).append(f"{phase.name}: {units.sentence(words)}\n")
-    for words in found.assumptions:
-        text.append("· ", style="dim").append(f"{units.sentence(words)}\n", style="dim")
-    return table, text
+    return table

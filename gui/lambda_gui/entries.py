@@ -64,7 +64,7 @@ def remove(node: Node, draft: Draft) -> Keys:
     return (*section, str(min(at, len(tables) - 1))) if tables else section
 
 
-# What names bodies and markers of a shaft: section and option
+# Options that name bodies, bearings and markers: section and option
 _ENDS = (("bearings", "outer"), ("connections", "to"))
 _REFER: dict[str, tuple[tuple[str, str], ...]] = {
     "bodies": (*_ENDS, ("markers", "body")),
@@ -81,7 +81,7 @@ def rename(node: Node, draft: Draft, name: str) -> Keys:
         return node.table
     old = node.table[-1]
     _put(draft, section, {name if key == old else key: deepcopy(table) for key, table in tables.items()})
-    is_meant = draft.is_shaft and not (section == ("bearings",) and old in (draft.get("markers") or {}))
+    is_meant = not (section == ("bearings",) and old in (draft.get("markers") or {}))
     for places in _REFER.get(section[0], ()) if is_meant else ():
         for other, table in (draft.get(places[0]) or {}).items():
             if isinstance(table, dict) and table.get(places[1]) == old:

@@ -11,6 +11,7 @@ from textual.widgets import Input
 
 from lambda_core.api import FieldCard
 
+_MOST_NAMES = 5  # in one sentence
 _BARE = re.compile(r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(\s*)([A-Za-z]*)$")
 
 
@@ -26,6 +27,20 @@ def completed(text: str, units: Sequence[str]) -> str:
         return text
     whole = next((unit for unit in units if unit.startswith(begun)), None)
     return f"{number}{gap}{whole}" if whole else text
+
+
+def meant(text: str, names: Sequence[str]) -> list[str]:
+    """Return the name that begins with a text, else all names that hold it; only letters and digits count."""
+    folded = text.strip().casefold()
+    first = next((name for name in names if name.casefold().startswith(folded)), None)
+    if first is not None:
+        return [first]
+    plain = _plain(folded)
+    return [name for name in names if plain and plain in _plain(name.casefold())]
+
+
+def _plain(text: str) -> str:
+    return "".join(filter(str.isalnum, text))
 
 
 def value_of(text: str, card: FieldCard) -> Any:
@@ -97,6 +112,12 @@ class Entry(Input):
         self.value = letter
         self.cursor_position = len(letter)
 
+    def visit(self) -> None:
+        """Take the keyboard behind the text: what is typed is added to it."""
+        self.select_on_focus = False
+        self.focus()
+        self.cursor_position = len(self.value)
+
     def complete(self) -> None:
         """Write out the unit, or the name that is meant but for capitals."""
         if self._card.units:
@@ -106,11 +127,16 @@ class Entry(Input):
             self.value = next((name for name in self._names() if name.casefold() == folded), self.value)
 
     def accept(self) -> None:
-        """Take what is proposed in grey."""
+        """Take the proposal in grey, else the only name that holds what was typed; list them if there are more."""
         self.complete()
-        if self._names is not None and self.value and self.value not in self._names():
-            folded = self.value.strip().casefold()
-            self.value = next((name for name in self._names() if name.casefold().startswith(folded)), self.value)
+        if self._names is None or not self.value or self.value in self._names():
+            return
+        found = meant(self.value, self._names())
+        if len(found) == 1:
+            self.value = found[0]
+        elif found:
+            more = f" and {len(found) - _MOST_NAMES} more" if len(found) > _MOST_NAMES else ""
+            self.notify(f"{self.value}: {', '.join(found[:_MOST_NAMES])}{more}", timeout=8)
 
     def on_blur(self) -> None:
         """Complete what was typed."""

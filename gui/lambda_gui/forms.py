@@ -23,6 +23,7 @@ from lambda_gui.checking import by_place
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.details import Sources
 from lambda_gui.entries import free_name, is_list
+from lambda_gui.entry import Entry
 from lambda_gui.fields import ChoiceRow, ParagraphRow, TextRow, row_for
 from lambda_gui.laws import law_choice_row, law_choices, law_row
 from lambda_gui.nodes import Group, Keys, Node, is_freedom, table_model
@@ -234,11 +235,17 @@ class NodeForm(VerticalScroll, can_focus=False):
         title = "from the catalogue or derived; grade" + (", source" if told else "")
         return Lines(Text(title, style="italic"), table, told)
 
-    def show(self, keys: Keys) -> None:
-        """Bring one option into view and to the keyboard: the row that is most about it."""
+    def show(self, keys: Keys, select: bool = True) -> None:
+        """Bring one option into view and to the keyboard: the row that is most about it.
+
+        Text that is not selected is not typed over.
+        """
         rows = [row for row in self.query(Row) if _meets(row.place.keys, keys)]
         for row in sorted(rows, key=lambda row: -len(row.place.keys) if len(row.place.keys) <= len(keys) else 0):
             entry = row.entry()
+            if isinstance(entry, Entry) and not select:
+                entry.visit()
+                return
             if entry is not None:
                 entry.focus()
                 return

@@ -34,16 +34,16 @@ class Head(Static):
         name = draft.path.name if draft.path else f"{draft.get('name') or 'untitled'} (no file)"
         left = Text.assemble((" λ ", "bold reverse"), " ", (name, "bold"))
         if draft.is_changed():
-            left.append(" ● unsaved", style=colours["accent"])
+            left.append(" ● unsaved, Ctrl+S saves", style=colours["accent"])
         right = Text()
         count = len(check.problems)
         if count:
             right.append(f"▲ {count} mistake{'s' * (count > 1)}  F8", style=colours["error"])
-        elif check.resolved is not None:
+        elif check.model is not None:
             right.append("ready", style=colours["warning" if beyond else "success"])
             if beyond:
                 right.append(f", ▲ {beyond} warning{'s' * (beyond > 1)}  F8", style=colours["warning"])
-            right.append(f"  {len(check.resolved.assumptions)} assumptions", style="dim")
+            right.append(f"  {len(check.model.assumptions)} assumptions", style="dim")
         if running:
             right = Text.assemble((running, "bold"), "   ", right)
         left.pad_right(max(1, self.app.size.width - 2 - left.cell_len - right.cell_len))

@@ -22,55 +22,46 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     "BuilderScreen": (
         "The model",
         "The tree mirrors the multibody set-up. The form of the selected node is at its right, the derived numbers are "
-        "below or at the right of the form. The builder checks every input as you type.",
+        "below or at the right of the form, grey while the solver works. A shaft is drawn below, to scale, with its "
+        "deflection (z vertical, y horizontal). The builder checks every input as you type.",
         (
             ("↑ ↓", "move in the tree, or between the fields of a form"),
             ("→ ←", "open or close a node; → on an open node goes into its form"),
+            ("+  Del", "in the tree: add a piece, a bearing, a marker ... after the node; remove it"),
             ("Enter", "into the form; in a field: complete the unit and go on; on a choice: open its list"),
             ("Esc", "from the form back to the tree"),
-            ("F2", "catalogue: bearings, or oils when the form of the lubricant is shown"),
+            ("F2", "catalogue: bearings for the bearing whose form is shown; oils on the form of the lubricant"),
             ("F3", "a study: the option under the keyboard varies, or any other"),
             ("F4", "a duty cycle: life and losses over phases that differ in load, speed, oil temperature"),
             ("F5 or Ctrl+R", "run the case as it stands, saved or not"),
             ("F6  F7", "results; runs"),
-            ("F8", "go to the next mistake"),
+            ("F8", "go to the next mistake, ready to be corrected; show the warnings where there is none"),
+            ("F10 or Ctrl+G", "answers without a run: equilibrium, temperatures, currents, friction, assumptions"),
             ("Ctrl+S", "save; only what you changed is changed in the file"),
             ("Ctrl+Z  Ctrl+Y", "undo, redo"),
             ("Ctrl+O", "open another case, a built-in one, or an empty model"),
             ("Ctrl+P", "all commands; type the name of any option to go to it"),
             ("F9", "light or dark"),
             ("Ctrl+Q", "quit; asks for unsaved changes and runs that go on"),
-        ),
-    ),
-    "ShaftScreen": (
-        "A shaft in several bearings",
-        "The tree has pieces, bearings, gears, discs and loads; the form of the selected node is at its right. Below, "
-        "the drawing shows the upper half of the shaft to scale and its deflection (z vertical, y horizontal). The "
-        "results of the equilibrium are next to it, in grey while the solver works.",
-        (
-            ("↑ ↓ → ←", "move in the tree; open or close a node; → on an open node goes into its form"),
-            ("+  Del", "in the tree: add a piece, a bearing ... after the node; remove the one under the cursor"),
-            ("Enter", "into the form; in a field: complete the unit and go on; on a choice: open its list"),
-            ("Esc", "from the form back to the tree"),
-            ("F2", "catalogue: for the bearing whose form is shown; oils on the form of the lubricant"),
-            ("F3", "everything that the equilibrium says, with bending moment and natural frequencies"),
-            ("F5 or Ctrl+R", "let the shaft move with all its bearings; its folder appears under Results"),
-            ("F6  F7", "results; runs"),
-            ("F8", "go to the next mistake; the warnings where there is none"),
-            ("Ctrl+S", "save; only what you changed is changed in the file"),
-            ("Ctrl+Z  Ctrl+Y", "undo, redo"),
-            ("Ctrl+O", "open another case, a built-in one, or an empty model or shaft"),
-            ("Ctrl+P", "all commands; type the name of any option to go to it"),
             ("⊢left⊣  ~b~", "a bearing that holds the shaft both ways along x; one that floats; ⊢b or b⊣: one way"),
-            ("→ ← ↑ ↓ ⊗ ⊙", "how a load, a gear or a bearing pushes the shaft; ⊗ along +y, into the picture"),
+            (
+                "→ ← ↑ ↓ ⊗ ⊙",
+                "direction in which a load, a gear or a bearing pushes the shaft; ⊗ along +y, into the picture",
+            ),
             ("● ╱ ╲", "a ball; the contact line of an angular contact bearing: ╱ ╲ is O, ╲ ╱ is X"),
         ),
     ),
-    "ShaftAnswerScreen": (
-        "What the shaft does",
-        "The equilibrium: every bearing in a column, the shaft below, then deflection, bending moment and natural "
-        "frequencies over speed.",
-        (("PgUp PgDn", "scroll; Space goes on, too"), ("Esc or F3", "back"), *_ALL),
+    "AnswerScreen": (
+        "Answers",
+        "Answers about the case as it stands, saved or not, without a run in time: the equilibrium of all bearings "
+        "(of a shaft also its deflection, moments and critical speeds), steady temperatures under the case's own "
+        "losses, bearing voltages and discharges, friction over speed, and all assumptions.",
+        (
+            ("↑ ↓", "between the questions"),
+            ("PgUp PgDn", "scroll the answer; Space scrolls on, too"),
+            ("Esc or F10", "back"),
+            *_ALL,
+        ),
     ),
     "CatalogueScreen": (
         "The catalogue",

@@ -129,12 +129,10 @@ class Estimator:
     ----------
     tell : callable
         ``tell(estimate, sentence)``: an estimate, or what is being done or what went wrong.
-    work : str
-        What the helper does with a case: "estimate", or "shaft" for the equilibrium of a whole shaft.
     """
 
-    def __init__(self, tell: Callable[[Any, str], None], work: str = "estimate") -> None:
-        self._tell, self._work = tell, work
+    def __init__(self, tell: Callable[[Any, str], None]) -> None:
+        self._tell = tell
         self._helper = Helper(lambda text: tell(None, text))
         self._waiting: tuple[dict[str, Any], Path | None] | None = None
         self._is_busy = False
@@ -155,7 +153,7 @@ class Estimator:
 
     async def _answer(self, tables: dict[str, Any], folder: Path | None) -> None:
         try:
-            found = await self._helper.ask(self._work, tables=tables, folder=str(folder) if folder else None)
+            found = await self._helper.ask("estimate", tables=tables, folder=str(folder) if folder else None)
         except LambdaError as error:
             found, words = None, str(error)
         else:

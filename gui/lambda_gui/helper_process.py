@@ -20,17 +20,65 @@ Say = Callable[[str], None]
 
 
 def estimate(say: Say, tables: dict[str, Any], folder: str | None) -> Any:
-    """Solve the equilibrium of a case."""
+    """Estimate a case before it is run: equilibrium, lives, time of a run."""
     from lambda_core import api
 
     return api.estimate(api.check(tables, folder=Path(folder) if folder else None), announce=say)
 
 
-def shaft(say: Say, tables: dict[str, Any], folder: str | None) -> Any:
-    """Solve the equilibrium and the modes of a machine."""
+def answer(say: Say, question: str, tables: dict[str, Any], folder: str | None, units: str) -> Any:
+    """Return the answer to a question about a case as text and views."""
+    from lambda_core import api
+    from lambda_core.domain.unit_systems import unit_system
+
+    model = api.check(tables, folder=Path(folder) if folder else None)
+    return _ANSWERS[question](say, model, unit_system(units))
+
+
+def _equilibrium(say: Say, model: Any, units: Any) -> Any:
     from lambda_core import api
 
-    return api.estimate(api.check_shaft(tables, folder=Path(folder) if folder else None), announce=say)
+    found = api.quasistatic(model, announce=say)
+    if not api.is_machine(model):
+        return found.text(None, units), []
+    modes = api.modes(model, announce=say)
+    return f"{found.text(None, units)}\n\n{modes.text(None, units)}", api.machine_pictures(model, found, modes)  # type: ignore[arg-type]
+
+
+def _temperatures(say: Say, model: Any, units: Any) -> Any:
+    from lambda_core import api
+
+    found = api.thermal(model, announce=say)
+    return found.text(units), api.thermal_pictures(found)
+
+
+def _currents(say: Say, model: Any, units: Any) -> Any:
+    from lambda_core import api
+
+    return units.sentence(api.electric(model, announce=say).outcome.text()), []
+
+
+def _friction(say: Say, model: Any, units: Any) -> Any:
+    from lambda_core import api
+
+    names = [bearing.name for bearing in model.bearings] if api.is_machine(model) else [None]
+    curves = [api.stribeck(model, bearing=name, announce=say) for name in names]
+    texts = [
+        f"{name}\n{curve.text(units)}" if name else curve.text(units) for name, curve in zip(names, curves, strict=True)
+    ]
+    return "\n\n".join(texts), [api.stribeck_picture(curve) for curve in curves]
+
+
+def _assumptions(say: Say, model: Any, units: Any) -> Any:
+    from lambda_core import api
+
+    return units.sentence(api.describe_machine(model) if api.is_machine(model) else api.describe(model).text()), []
+
+
+_ANSWERS: dict[str, Callable[[Say, Any, Any], Any]] = {
+    "equilibrium": _equilibrium, "temperatures": _temperatures, "currents": _currents, "friction": _friction,
+    "assumptions": _assumptions,
+}  # fmt: skip
 
 
 def summary(say: Say, path: str, bearing: str | None = None) -> Any:
@@ -132,7 +180,7 @@ def differences(say: Say, sources: list[str]) -> Any:
 
 
 _DOES = (
-    estimate, shaft, summary, bearings, case_text, views, view, draw, report, study_cost, duty, study_summary,
+    estimate, answer, summary, bearings, case_text, views, view, draw, report, study_cost, duty, study_summary,
     differences,
 )  # fmt: skip
 _WORK: dict[str, Callable[..., Any]] = {work.__name__: work for work in _DOES}

@@ -15,7 +15,7 @@ from textual.worker import get_current_worker
 
 from lambda_core.domain.errors import LambdaError
 from lambda_gui.around import CaseAround
-from lambda_gui.checking import Check, Checker, ShaftChecker, plugin_faults
+from lambda_gui.checking import Check, Checker, plugin_faults
 from lambda_gui.helper import Estimator
 from lambda_gui.presence import is_here
 from lambda_gui.recovery import Keeper
@@ -43,8 +43,8 @@ class LiveDraft(Screen[None]):
         self.check = Check()
         self.checked_in = 0.0  # how long the last check took [s]
         self.keeper = Keeper()
-        self._estimator = Estimator(self.show_estimate, "shaft" if draft.is_shaft else "estimate")
-        self._checker = ShaftChecker() if draft.is_shaft else Checker()
+        self._estimator = Estimator(self.show_estimate)
+        self._checker = Checker(draft.root)
         self._check_timer: Timer | None = None
         self._changes, self._checked_changes = 0, -1  # how many there were, and when what was checked last began
         self._after_check: Callable[[], None] | None = None
@@ -95,7 +95,7 @@ class LiveDraft(Screen[None]):
         raise NotImplementedError
 
     def show_estimate(self, estimate: Any, say: str) -> None:
-        """Show an estimate (of a shaft its equilibrium), or what is being done about it."""
+        """Show an estimate, or the progress of its computation."""
         raise NotImplementedError
 
     def _check_now(self) -> None:
@@ -128,7 +128,7 @@ class LiveDraft(Screen[None]):
         self.check, self.checked_in, self._checked_changes = found, took, changes
         self.around.learn(found.values)
         self.show_check()
-        if found.resolved is not None:
+        if found.model is not None:
             self.run_worker(self._estimator.ask(deepcopy(self.draft.tables), self.draft.folder), group="estimate")
         if self.is_checked and self._after_check is not None:
             then, self._after_check = self._after_check, None

@@ -150,8 +150,3 @@ def about(root: type[BaseModel], table: Keys, *, own: bool = True) -> str:
         return str(table_model(root, table[:-1]).model_fields[table[-1]].description)
     text = (table_model(root, table).__doc__ or "").strip().split("\n")[0]
     return text[:1].lower() + text[1:].rstrip(".") if text else ""
-
-
-def form_node(root: type[BaseModel], key: str, title: str, table: Keys) -> Node:
-    """Return the node of a table with all its options."""
-    return Node(key, title, about(root, table), [Group("", table, tuple(plain_fields(root, table)))])

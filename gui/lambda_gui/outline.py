@@ -1,18 +1,27 @@
-"""The model tree of one bearing: which nodes there are, and which options of the case stand on which node.
+"""Build the model tree: its nodes, and the options of the case on each of them.
 
-The order is that in which a multibody model is set up. Every declared option has one place;
-a new option of a section appears on that section's node by itself.
+The order is that in which a multibody model is set up. Every declared option has one place. A new option appears on the
+node of its section, and a new section gets a node, without a change here.
 """
 
 from __future__ import annotations
 
-from pydantic import BaseModel
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, get_origin
 
-from lambda_core.api import Case
+from lambda_core.api import InlineMaterial
 from lambda_core.domain.elements import DOFS
+from lambda_core.domain.option_tree import members, model_at
 from lambda_core.domain.roles import MOTION_ROLES, ROLES
-from lambda_gui.nodes import Group, Keys, Named, Names, Node, about, form_node, plain_fields, table_model
+from lambda_gui.nodes import Group, Keys, Named, Names, Node, about, is_freedom, plain_fields, table_model
 
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+    from lambda_core.api import Draft
+
+SECTIONS = "shaft.sections"
 BODIES = {"inner_ring": "Inner ring", "outer_ring": "Outer ring", "cage": "Cage"}
 ELEMENTS = {
     "ball_inner": "Ball - inner",
@@ -23,8 +32,7 @@ ELEMENTS = {
     "cage_outer": "Cage - outer",
     "fluid_drag": "Oil on the balls",
 }
-
-# Titles of roles where the tree is narrow: one word beside the name of the law
+# Titles of roles where the tree is narrow: one word before the name of the law
 SHORT = {
     "normal_contact": "contact",
     "film_thickness": "film",
@@ -39,199 +47,336 @@ SHORT = {
     "cage_contact": "cage",
     "fluid_drag": "drag",
 }
-
-
+_PIECES = Named("Shaft", "pieces of one diameter each, from the left end at x = 0", "piece", {})
 NAMED = {
-    "markers": Named("Markers", "named points whose motion is written", "marker", {"body": "inner_ring"}),
-    "elements": Named(
-        "Between bodies", "springs, dampers, pulls between two bodies, or a body and the ground, by laws", "element",
-        {"law": "bushing", "second": "inner_ring"},
-    ),
+    "bearings": Named("Bearings", "type, position and seat of each bearing", "bearing", {},
+                      usual=("left", "right", "middle", "fourth", "fifth", "sixth")),
+    "gears": Named("Gears", "forces from the power that a mesh transmits", "gear", {}, usual=("gear", "pinion")),
+    "discs": Named("Discs", "wheels and rotors: mass, inertia, unbalance", "disc", {}, usual=("wheel", "rotor")),
+    "bodies": Named("Bodies", "housings that give way: mass, inertia, support", "body", {}, usual=("housing", "cover")),
+    "markers": Named("Markers", "named points on bodies; the result has their motion", "marker", {},
+                     usual=("foot", "seat")),
+    "connections": Named("Connections", "springs, dampers, bushings between shaft, bodies and ground", "connection", {},
+                         usual=("spring", "damper", "mount")),
+    "loads": Named("Loads", "forces and moments at a place, over time", "load", {}, usual=("belt", "load")),
+    "elements": Named("Between bodies", "springs, dampers, pulls between two bodies, or a body and the ground, by laws",
+                      "element", {"law": "bushing", "second": "inner_ring"}),
     "observers": Named("Observers", "channels of plugins in the result", "observer", {}, "observer"),
-    "events": Named("Events", "what ends a run, or is recorded, found by plugins", "event", {}, "event"),
+    "events": Named("Events", "conditions of plugins that end a run, or are recorded", "event", {}, "event"),
 }  # fmt: skip
+_TITLES = {
+    "operation": "Drive",
+    "surface": "Surfaces",
+    "life": "Rating life",
+    "thermal": "Thermal network",
+    "depth": "Modelling depth",
+    "output": "Outputs",
+    "electric": "Electric circuit",
+}
+# Options that come first on the form of a table
+_FIRST: dict[str, tuple[str, ...]] = {
+    "bearings": ("designation", "at", "outer", "takes", "preload", "preload_force"),
+    "markers": ("body", "x", "y", "z"),
+    "bodies": ("x", "y", "z", "mass", "polar_inertia", "transverse_inertia"),
+    "connections": ("at", "to"),
+}
+# Tables of a bearing that have a form of their own
+_OF_A_BEARING = {
+    "geometry": "Inner geometry",
+    "fits": "Fits",
+    "temperatures": "Temperatures",
+    "lubricant": "Its oil",
+    "lubricant.properties": "Properties of its oil",
+    "elastic.outer_ring": "Elastic outer ring",
+    "elastic.inner_ring": "Elastic inner ring",
+    "elastic.cage": "Elastic cage",
+}
+_OF_THE_CIRCUIT = {
+    "inverter": "Inverter",
+    "sine": "Sine",
+    "step": "Step",
+    "series": "Measured series",
+    "machine": "Machine",
+    "grounding": "Grounding",
+    "film": "Films",
+    "cage": "Cage",
+}
+_IN_FILE = {"electric": ("bearings",), "thermal": ("nodes", "links")}  # tables that have no form
 
 
-def outline(names: Names | None = None) -> list[Node]:
-    """Return the top nodes of the tree of a case with these names in its named sections."""
-    names = names or {}
-    return [
-        Node(
-            "case",
-            "Case",
-            "name, description, what its author assumed",
-            [Group("", (), tuple(_case_fields()))],
-            in_file=[("fit", name) for name in table_model(Case, ("fit",)).model_fields],  # the command fit writes it
-        ),
-        _bearing(),
-        _bodies(),
-        named_node("markers", names),
-        _forces(names),
-        _loads(),
-        _lubricant(),
-        _form("requirements", "Requirements", ("requirements",)),
-        _form("life", "Rating life", ("life",)),
-        _form("depth", "Modelling depth", ("depth",)),
-        _form("solver", "Solver", ("solver",)),
-        _output(names),
-        electric_node(Case),
-    ]
-
-
-def _output(names: Names) -> Node:
-    node = _form("output", "Outputs", ("output",))
-    node.children = [named_node("observers", names), named_node("events", names)]
-    return node
-
-
-def _bearing() -> Node:
-    node = _form("bearing", "Bearing", ("bearing",))
-    node.children = [
-        _form("bearing.geometry", "Inner geometry", ("bearing", "geometry")),
-        _form("bearing.fits", "Fits", ("bearing", "fits")),
-    ]
-    return node
-
-
-def _bodies() -> Node:
-    parts = {"inner_ring": "inner", "outer_ring": "outer", "cage": "cage"}
-    nodes = []
-    for body, title in BODIES.items():
-        own = [name for name in plain_fields(Case, ("bodies", body)) if name not in DOFS]
-        groups = [Group("", ("bodies", body), tuple(own)), Group("Material", ("materials",), (parts[body],))]
-        node = Node(f"bodies.{body}", title, about(Case, ("bodies", body)), groups)
-        node.children = [_form(f"elastic.{body}", "Elastic", ("elastic", body))]
-        nodes.append(node)
-    balls = Node("bodies.balls", "Balls", "number and size are the bearing's", [Group("", ("materials",), ("balls",))])
-    nodes.insert(2, balls)
-    return Node("bodies", "Bodies", "rings, balls and cage: masses, materials, the cage's type", children=nodes)
-
-
-def named_node(section: str, names: Names) -> Node:
-    """Return the node of a section of named tables, one below it for each name."""
-    what = NAMED[section]
-    nodes = []
-    for name in names.get(section, ()):
-        node = Node(f"{section}.{name}", name, what.about, kind="item", section=what, table=(section, name))
-        if section == "markers":
-            node.groups = [Group("", (section, name), tuple(plain_fields(Case, (section, name))))]
-        elif section == "elements":
-            node.groups = [Group("", (section, name), ("first", "second"))]
-            node.role, node.element = "force_element", name
-        nodes.append(node)
-    return Node(section, what.title, what.about, children=nodes, kind="named", section=what, table=(section,))
-
-
-def _forces(names: Names) -> Node:
-    every = Node(
-        "models",
-        "All elements",
-        "one choice for every force element that has the role",
-        kind="roles",
-        children=[_role("", role) for role in MOTION_ROLES],
-    )
-    nodes = [every, *force_elements(), named_node("elements", names)]
-    return Node("forces", "Force elements", "every contact and the model that fills each role", children=nodes)
-
-
-def force_elements(bearing: Keys = ()) -> list[Node]:
-    """Return a node for every force element with its roles below, of the case's bearing or of one among several.
+def outline(root: type[BaseModel], names: Names | None = None) -> list[Node]:
+    """Return the top nodes of the tree of a case.
 
     Parameters
     ----------
-    bearing : tuple of str
-        Where one among several is written.
+    root : type of BaseModel
+        The class of the case.
+    names : mapping
+        What the case has in its sections of named tables, and the numbers of the pieces of its shaft.
     """
-    nodes = []
-    for element, title in ELEMENTS.items():
-        words = f"{about(Case, ('forces', element), own=False)}: models of its own before the general ones"
-        roles = [_role(element, role.name, bearing) for role in MOTION_ROLES.values() if element in role.elements]
-        key = ".".join((*bearing, "forces", element))
-        nodes.append(Node(key, title, words, kind="roles", element=element, children=roles))
-    return nodes
+    return _Outline(root, names or {}).nodes()
 
 
-def _role(element: str, role: str, bearing: Keys = ()) -> Node:
-    key = ".".join((*bearing, "forces", element, role)) if element else f"models.{role}"
-    title, told = role.replace("_", " "), ROLES[role].summary
-    heading = " · ".join((*bearing[1:], ELEMENTS.get(element, "All elements"), title))
-    return Node(
-        key, title, told, kind="role", role=role, element=element, heading=heading, short=SHORT.get(role, ""),
-        table=bearing,
-    )  # fmt: skip
+def section_names(draft: Draft) -> dict[str, tuple[str, ...]]:
+    """Return the names in the sections of named tables of a draft, and the numbers of the pieces of its shaft."""
+    found: dict[str, tuple[str, ...]] = {}
+    for section, info in draft.root.model_fields.items():
+        tables = draft.get(section)
+        if get_origin(info.annotation) is dict and isinstance(tables, dict):
+            found[section] = tuple(name for name, table in tables.items() if isinstance(table, dict))
+    pieces = draft.get(*SECTIONS.split("."))
+    if isinstance(pieces, list):
+        found[SECTIONS] = tuple(map(str, range(len(pieces))))
+    return found
 
 
-def _loads() -> Node:
-    own = [name for name in plain_fields(Case, ("loads",)) if name not in BODIES]
-    nodes = [
-        Node("operation", "Drive", about(Case, ("operation",)), [_group(("operation",))]),
-        Node("loads", "Loads", "external loads on the inner ring over time", [Group("", ("loads",), tuple(own))]),
-    ]
-    for body, title in BODIES.items():
-        freedoms = Group("", ("bodies", body), tuple(name for name in DOFS))
-        more = Group("Further loads", ("loads", body), tuple(plain_fields(Case, ("loads", body))))
-        text = f"boundary conditions of the {title.lower()}: free, locked, or moved; further loads on it"
-        nodes.append(Node(f"boundary.{body}", title, text, [freedoms, more], heading=f"{title} · boundary conditions"))
-    nodes.append(Node("gravity", "Gravity", about(Case, ("gravity",)), [_group(("gravity",))]))
-    return Node("motion", "Loads and motion", "what drives, loads and holds the bodies", children=nodes)
+@dataclass(frozen=True)
+class _Outline:
+    """The tree of one class of cases with these names in it."""
+
+    root: type[BaseModel]
+    names: Names
+
+    def nodes(self) -> list[Node]:
+        """Return the top nodes, and one for each section that none of them has."""
+        told = (
+            self._case(), self._shaft(), self._bearing(), self._of("gears"), self._of("discs"), self._bodies(),
+            self._of("markers"), self._of("connections"), self._forces(), self._motion(), self._of("housing"),
+            self._lubricant(), self._of("requirements"), self._of("life"), self._of("depth"), self._of("solver"),
+            self._output(), self._circuit(),
+        )  # fmt: skip
+        found = [node for node in told if node is not None]
+        known = {place[0] for top in found for node in top.walk() for place in node.places}
+        others = (self._of(section) for section in self.root.model_fields if section not in (*known, "parameters"))
+        return [*found, *(node for node in others if node is not None)]
+
+    # -- sections --
+
+    def has(self, section: str) -> bool:
+        """Tell whether the case has a section."""
+        return section in self.root.model_fields
+
+    def is_named(self, section: str) -> bool:
+        """Tell whether a section has tables under names of its own."""
+        return self.has(section) and get_origin(self.root.model_fields[section].annotation) is dict
+
+    def _of(self, section: str, key: str = "") -> Node | None:
+        """Return the node of a section, None where the case has none."""
+        if not self.has(section):
+            return None
+        if self.is_named(section):
+            return self._named(section)
+        return self._form(key or section, _title(section), (section,))
+
+    def _form(self, key: str, title: str, table: Keys, heading: str = "") -> Node:
+        """Return the node of a table with all its options."""
+        node = Node(key, title, about(self.root, table), [self._group(table)], heading=heading)
+        inner = [name for name in _IN_FILE.get(table[-1], ()) if name in table_model(self.root, table).model_fields]
+        if inner:
+            node.in_file = [(*table, name) for name in inner]
+            node.help += f"; {' and '.join(inner)} are written in the file"
+        return node
+
+    def _case(self) -> Node:
+        fields = tuple(name for name in plain_fields(self.root, ()) if name != "parameters" and not self.is_named(name))
+        node = Node("case", "Case", "name, description, assumptions of its author", [Group("", (), fields)])
+        if self.has("fit"):  # the command fit writes it
+            node.in_file = [("fit", name) for name in table_model(self.root, ("fit",)).model_fields]
+        return node
+
+    def _shaft(self) -> Node | None:
+        if not self.has("shaft"):
+            return None
+        table = tuple(SECTIONS.split("."))
+        pieces = [
+            Node(f"{SECTIONS}.{number}", f"piece {int(number) + 1}", about(self.root, (*table, number)),
+                 [self._group((*table, number))], kind="item", section=_PIECES, table=(*table, number))
+            for number in self.names.get(SECTIONS, ())
+        ]  # fmt: skip
+        node = Node("shaft", "Shaft", about(self.root, ("shaft",)), [self._group(("shaft",))], pieces, kind="named",
+                    section=_PIECES, table=table)  # fmt: skip
+        node.in_file = [("shaft", "temperatures")]
+        return node
+
+    def _bearing(self) -> Node | None:
+        if not self.has("bearing"):
+            return self._of("bearings")
+        node = self._form("bearing", "Bearing", ("bearing",))
+        node.children = self._below(("bearing",))
+        return node
+
+    def _bodies(self) -> Node | None:
+        """Return the bodies: those that the case names, or rings, cage and balls of its bearing."""
+        if self.is_named("bodies"):
+            return self._named("bodies")
+        parts = {"inner_ring": "inner", "outer_ring": "outer", "cage": "cage"}
+        nodes = []
+        for body, title in BODIES.items():
+            own = [name for name in plain_fields(self.root, ("bodies", body)) if name not in DOFS]
+            groups = [Group("", ("bodies", body), tuple(own)), Group("Material", ("materials",), (parts[body],))]
+            node = Node(f"bodies.{body}", title, about(self.root, ("bodies", body)), groups)
+            node.children = [self._form(f"elastic.{body}", "Elastic", ("elastic", body))]
+            nodes.append(node)
+        balls = [Group("", ("materials",), ("balls",))]
+        nodes.insert(2, Node("bodies.balls", "Balls", "their material; the bearing has number and size", balls))
+        return Node("bodies", "Bodies", "rings, balls and cage: masses, materials, type of the cage", children=nodes)
+
+    def _forces(self) -> Node:
+        """Return the laws of contacts, of single ones too where the case has one bearing."""
+        every = Node("models", "All elements", "one law for every force element that has the role", kind="roles",
+                     children=[self._role("", role) for role in MOTION_ROLES])  # fmt: skip
+        nodes = [every, *(self._elements() if self.has("forces") else ())]
+        nodes += [self._named("elements")] if self.has("elements") else []
+        if len(nodes) == 1:
+            every.title = every.heading = every.short = "Laws of contacts"
+            return every
+        return Node("forces", "Force elements", "every contact and the model that fills each role", children=nodes)
+
+    def _motion(self) -> Node:
+        told = [self._of("operation"), self._loads(), *self._boundaries(), self._of("gravity")]
+        nodes = [node for node in told if node is not None]
+        return Node("motion", "Loads and motion", "drive, loads and supports", children=nodes)
+
+    def _loads(self) -> Node | None:
+        if self.is_named("loads"):
+            return self._named("loads")
+        own = [name for name in plain_fields(self.root, ("loads",)) if name not in BODIES]
+        return Node("loads", "Loads", "external loads on the inner ring over time", [Group("", ("loads",), tuple(own))])
+
+    def _boundaries(self) -> Iterator[Node]:
+        for body, title in {} if self.is_named("bodies") else BODIES.items():
+            freedoms = Group("", ("bodies", body), tuple(DOFS))
+            more = Group("Further loads", ("loads", body), tuple(plain_fields(self.root, ("loads", body))))
+            text = f"boundary conditions of the {title.lower()}: free, locked, or moved; further loads on it"
+            yield Node(f"boundary.{body}", title, text, [freedoms, more], heading=f"{title} · boundary conditions")
+
+    def _lubricant(self) -> Node:
+        node = self._form("lubricant", "Lubricant", ("lubricant",))
+        own = self._form("lubricant.properties", "Own properties", ("lubricant", "properties"))
+        told = [own, self._of("surface"), self._of("thermal")]
+        node.children = [inner for inner in told if inner is not None]
+        return node
+
+    def _output(self) -> Node:
+        node = self._form("output", "Outputs", ("output",))
+        node.children = [self._named("observers"), self._named("events")]
+        return node
+
+    def _circuit(self) -> Node:
+        node = self._form("electric", "Electric circuit", ("electric",))
+        node.children = [
+            self._form(f"electric.{name}", title, ("electric", name)) for name, title in _OF_THE_CIRCUIT.items()
+        ]
+        node.children += [self._film_law("breakdown", "Breakdown"), self._film_law("discharge", "Arcs")]
+        return node
+
+    def _film_law(self, role: str, title: str) -> Node:
+        """Return the node of a law in a section of its own that has further options."""
+        table = ("electric", role)
+        names = tuple(name for name in plain_fields(self.root, table) if name not in ("law", "parameters"))
+        return Node(f"electric.{role}", title, ROLES[role].summary, [Group("", table, names)] if names else [],
+                    kind="role", role=role, heading=f"Electric circuit · {title.lower()}")  # fmt: skip
+
+    # -- named tables --
+
+    def _named(self, section: str) -> Node:
+        """Return the node of a section of named tables, one below it for each name."""
+        words = str(self.root.model_fields[section].description)
+        what = NAMED.get(section) or Named(_title(section), words, section.rstrip("s").replace("_", " "), {})
+        if section == "markers" and not self.is_named("bodies"):
+            what = replace(what, begins={"body": "inner_ring"}, usual=())
+        nodes = [self._item((section, name), what) for name in self.names.get(section, ())]
+        return Node(section, what.title, what.about, children=nodes, kind="named", section=what, table=(section,))
+
+    def _item(self, table: Keys, what: Named) -> Node:
+        section, name = table
+        node = Node(".".join(table), name, what.about, kind="item", section=what, table=table)
+        if what.installed:
+            return node
+        node.heading = f"{what.one} {name}"
+        if section == "elements":
+            node.groups, node.role, node.element = [Group("", table, ("first", "second"))], "force_element", name
+            return node
+        node.help = about(self.root, table)
+        is_bearing = section == "bearings"
+        below = {inner.split(".")[0] for inner in _OF_A_BEARING} | {"forces"} if is_bearing else set()
+        node.groups = [self._group(table)]
+        node.groups += [
+            Group(_title(inner), (*table, inner), tuple(self._options((*table, inner))))
+            for inner in self._tables(table) if inner not in below
+        ]  # fmt: skip
+        if is_bearing:
+            words = "laws of this bearing alone, by contact, before the general ones: a defect in one of its raceways"
+            node.children = self._below(table, heading=f"{name} · ")
+            node.children.append(
+                Node(".".join((*table, "forces")), "Laws of its own", words, children=self._elements(table))
+            )
+            node.in_file = [(*table, "thermal", "nodes"), (*table, "thermal", "links")]
+        return node
+
+    def _below(self, bearing: Keys, heading: str = "") -> list[Node]:
+        """Return the nodes of the tables in a bearing that have forms of their own."""
+        nodes = []
+        for inner, title in _OF_A_BEARING.items():
+            table = (*bearing, *inner.split("."))
+            if model_at(self.root, table) is not None:
+                words = f"{heading}{title[:1].lower() + title[1:]}" if heading else title
+                nodes.append(self._form(".".join(table), title, table, words))
+        return nodes
+
+    # -- laws --
+
+    def _elements(self, bearing: Keys = ()) -> list[Node]:
+        """Return a node for every force element with its roles below.
+
+        `bearing` is where the bearing is written, () where the case has one.
+        """
+        nodes = []
+        for element, title in ELEMENTS.items():
+            words = (
+                f"{about(self.root, (*bearing, 'forces', element), own=False)}: its own laws before the general ones"
+            )
+            roles = [
+                self._role(element, role.name, bearing) for role in MOTION_ROLES.values() if element in role.elements
+            ]
+            key = ".".join((*bearing, "forces", element))
+            nodes.append(Node(key, title, words, kind="roles", element=element, children=roles))
+        return nodes
+
+    def _role(self, element: str, role: str, bearing: Keys = ()) -> Node:
+        key = ".".join((*bearing, "forces", element, role)) if element else f"models.{role}"
+        title = role.replace("_", " ")
+        heading = " · ".join((*bearing[1:], ELEMENTS.get(element, "All elements"), title))
+        return Node(key, title, ROLES[role].summary, kind="role", role=role, element=element, heading=heading,
+                    short=SHORT.get(role, ""), table=bearing)  # fmt: skip
+
+    # -- options --
+
+    def _group(self, table: Keys) -> Group:
+        """Return the options of a table, the usual ones first."""
+        names = self._options(table)
+        first = [name for name in _FIRST.get(table[0], ()) if name in names] if len(table) > 1 else []
+        return Group("", table, (*first, *(name for name in names if name not in first)))
+
+    def _options(self, table: Keys) -> list[str]:
+        """Return the options of a table; a material or a degree of freedom is one."""
+        plain = plain_fields(self.root, table)
+        fields = table_model(self.root, table).model_fields
+        return [
+            name
+            for name, info in fields.items()
+            if name in plain or any(_is_one(inner) for inner in members(info.annotation))
+        ]
+
+    def _tables(self, table: Keys) -> list[str]:
+        """Return the tables in a table that are no options."""
+        options = self._options(table)
+        return [name for name in table_model(self.root, table).model_fields if name not in options]
 
 
-def _lubricant() -> Node:
-    node = _form("lubricant", "Lubricant", ("lubricant",))
-    node.children = [
-        _form("lubricant.properties", "Own properties", ("lubricant", "properties")),
-        _form("surface", "Surfaces", ("surface",)),
-        _form("bearing.temperatures", "Temperatures", ("bearing", "temperatures")),
-        _thermal(),
-    ]
-    return node
+def _is_one(table: type[BaseModel]) -> bool:
+    return table is InlineMaterial or is_freedom(table)
 
 
-def _thermal() -> Node:
-    node = _form("thermal", "Thermal network", ("thermal",))
-    node.help += "; nodes and links are written in the file"
-    node.in_file = [("thermal", "nodes"), ("thermal", "links")]
-    return node
-
-
-def electric_node(root: type[BaseModel]) -> Node:
-    """Return the node of the circuit of one bearing or of a machine."""
-    node = form_node(root, "electric", "Electric circuit", ("electric",))
-    tables = {
-        "inverter": "Inverter",
-        "sine": "Sine",
-        "step": "Step",
-        "series": "Measured series",
-        "machine": "Machine",
-        "grounding": "Grounding",
-        "film": "Films",
-        "cage": "Cage",
-    }
-    node.children = [form_node(root, f"electric.{name}", title, ("electric", name)) for name, title in tables.items()]
-    laws = (("breakdown", "Breakdown"), ("discharge", "Arcs"))
-    node.children += [_film_law(root, role, title) for role, title in laws]
-    return node
-
-
-def _film_law(root: type[BaseModel], role: str, title: str) -> Node:
-    """Return the node of a law in a section of its own that has further options."""
-    table = ("electric", role)
-    names = tuple(name for name in plain_fields(root, table) if name not in ("law", "parameters"))
-    return Node(
-        f"electric.{role}", title, ROLES[role].summary, [Group("", table, names)] if names else [],
-        kind="role", role=role, heading=f"Electric circuit · {title.lower()}",
-    )  # fmt: skip
-
-
-def _form(key: str, title: str, table: Keys) -> Node:
-    return form_node(Case, key, title, table)
-
-
-def _group(table: Keys) -> Group:
-    return Group("", table, tuple(plain_fields(Case, table)))
-
-
-def _case_fields() -> list[str]:
-    """Return the options that stand before the first table of the file."""
-    elsewhere = ("parameters", *(section for section, what in NAMED.items() if what.installed))
-    return [name for name in plain_fields(Case, ()) if name not in elsewhere]
+def _title(section: str) -> str:
+    return _TITLES.get(section, section.replace("_", " ").capitalize())

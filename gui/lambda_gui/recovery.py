@@ -34,7 +34,12 @@ class Rescue:
     path: Path | None  # of the case
     text: str
     when: float
-    is_shaft: bool
+
+    @property
+    def has_shaft(self) -> bool:
+        """Whether the case has a shaft, not one bearing alone."""
+        tables = tomllib.loads(self.text)
+        return "shaft" in tables or "bearings" in tables
 
     def age(self) -> str:
         """Return how long ago it was kept, for people."""
@@ -60,7 +65,6 @@ class Keeper:
         content = {
             "path": str(draft.path.resolve()) if draft.path else None,
             "text": draft.text(),
-            "shaft": draft.is_shaft,
             "when": time.time(),
             "process": this_process(),
         }
@@ -89,7 +93,7 @@ def rescues(path: Path | None) -> list[Rescue]:
             if content["path"] != wanted or _is_in_use(content["process"]):
                 continue
             tomllib.loads(content["text"])
-            found.append(Rescue(file, path, content["text"], float(content["when"]), content.get("shaft", False)))
+            found.append(Rescue(file, path, content["text"], float(content["when"])))
         except (OSError, ValueError, KeyError, TypeError):
             continue  # half a file of a full disk, or none of ours
     return sorted(found, key=lambda rescue: -rescue.when)

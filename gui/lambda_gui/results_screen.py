@@ -17,7 +17,7 @@ from textual.widgets.option_list import Option
 
 from lambda_core.domain.errors import LambdaError
 from lambda_core.views.other_units import in_units
-from lambda_gui.charts import lines_of, notes_text, shape_of, widget_for
+from lambda_gui.charts import rows_of
 from lambda_gui.dialogs import AskText
 from lambda_gui.export import DIFFERENCES, SUMMARY, ExportScreen
 from lambda_gui.pictures import NONE_HERE
@@ -347,16 +347,8 @@ class ResultsScreen(ExportScreen):
 
     def _show_data(self, data: ViewData) -> None:
         self.say(f"{data.title}   {data.source}")
-        content = self.query_one("#content", VerticalScroll)
-        side, height = shape_of(data.panels, data.columns, content.size.width, content.size.height)
-        rows = []
-        for first in range(0, len(data.panels), side):
-            beside = data.panels[first : first + side]
-            row = Horizontal(*map(widget_for, beside), classes="row")
-            bars = [lines_of(panel, content.size.width // side) for panel in beside]
-            row.styles.height = max(bars) + 1 if all(bars) else max(height, *bars)
-            rows.append(row)
-        self.run_worker(self._put(*rows, Static(notes_text(data.notes))), exclusive=True, group="put")
+        room = self.query_one("#content", VerticalScroll).size
+        self.run_worker(self._put(*rows_of(data, room.width, room.height)), exclusive=True, group="put")
 
     async def _put(self, *widgets: Widget) -> None:
         content = self.query_one("#content", VerticalScroll)

@@ -1,9 +1,9 @@
-"""The bearing's cross-section to scale, in colour: two pixels per character cell."""
+"""Draw the bearing, or the shaft in its bearings, to scale: two pixels per character cell."""
 
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lambda_db.drawing import AIR, BALL, RING, Section
 from rich.text import Text
@@ -11,19 +11,24 @@ from textual.color import Color
 from textual.widgets import Static
 
 from lambda_gui.axes import SIGNS, axes_sketch
+from lambda_gui.machine_drawing import drawn_machine
 
 if TYPE_CHECKING:
-    from lambda_core.api import Geometry
+    from lambda_core.api import Geometry, MachineEquilibrium, MachineModel
     from lambda_gui.checking import Check
     from lambda_gui.nodes import Node
 
 _POINTS = 4  # along each side of a pixel, for smooth edges
 _WITH_AXES = ("motion", "operation", "loads", "boundary", "gravity", "markers")
+_NOTHING = "the shaft is drawn here as soon as it has a piece, a bearing, a speed and an oil"
 _MARKS = 17  # room for the diameters beside a section
 
 
 class Sketch(Static):
-    """The upper half-section of the bearing of the case; axes and signs for forms about loads and motion."""
+    """The upper half-section of the bearing, or the shaft; axes and signs for forms about loads and motion.
+
+    With mistakes in the case the last drawing stays.
+    """
 
     DEFAULT_CSS = """
     Sketch { width: 1fr; padding: 0 1; }
@@ -32,12 +37,22 @@ class Sketch(Static):
     def __init__(self) -> None:
         super().__init__(id="sketch")
         self._section: Section | None = None
+        self._machine: MachineModel | None = None
+        self._equilibrium: MachineEquilibrium | None = None
         self._is_about_axes = False
 
     def show_check(self, check: Check) -> None:
-        """Take the geometry of a resolved case; one with mistakes leaves the last."""
-        if check.model is not None:
-            self._section = section_of_geometry(check.model.geometry)
+        """Take a resolved case; the equilibrium of the case before does not belong to it."""
+        if check.alone is not None:
+            self._section = section_of_geometry(check.alone.geometry)
+        elif check.machine is not None:
+            self._machine, self._equilibrium = check.machine, None
+        self.draw()
+
+    def show_estimate(self, estimate: Any) -> None:
+        """Take the equilibrium of a machine: the drawing shows the deflection of its shaft."""
+        if self._machine is not None and estimate is not None:
+            self._equilibrium = estimate.equilibrium
             self.draw()
 
     def show_node(self, node: Node) -> None:
@@ -52,16 +67,18 @@ class Sketch(Static):
         self.draw()
 
     def draw(self) -> None:
-        """Draw section or axes, in the colours of the theme."""
-        colours = self.app.theme_variables
-        if self.size.height < 6:  # a narrow screen has no room for it
+        """Draw section, shaft or axes, in the colours of the theme."""
+        colours, width, height = self.app.theme_variables, self.size.width - 2, self.size.height
+        if height < 5 or width < 16:  # a narrow screen has no room for it
             return
-        if self._is_about_axes:
+        if self._machine is not None:
+            self.update(drawn_machine(self._machine, self._equilibrium, width, height, colours))
+        elif self.screen.has_class("-drawing-below"):
+            self.update(Text(_NOTHING, style="dim"))
+        elif self._is_about_axes:
             self.update(axes_sketch(colours).append(f"\n{SIGNS}", style="dim"))
-        elif self._section is None:
-            self.update("")
-        else:
-            self.update(drawn(self._section, min(self.size.height - 2, 22), self.size.width - 2, colours))
+        elif self._section is not None:
+            self.update(drawn(self._section, min(height - 2, 22), width, colours))
 
 
 def section_of_geometry(geometry: Geometry) -> Section:

@@ -1,8 +1,8 @@
-"""A study of the open case: what varies, what is asked, what it will take; F5 runs it."""
+"""Set up a study of the open case: options that vary, responses, cost; F5 runs it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 from rich.text import Text
@@ -23,10 +23,10 @@ from lambda_gui.option_help import OptionHelp
 from lambda_gui.places import Held
 from lambda_gui.presence import is_here
 from lambda_gui.rows import Edited, Row, Rows, Surroundings
-from lambda_gui.study_values import ASKED, MODES, POINTS, Values, card, card_of, first_values, studied, study_tables
+from lambda_gui.study_values import MODES, POINTS, Values, asked, card, card_of, first_values, studied, study_tables
 
 if TYPE_CHECKING:
-    from lambda_core.api import BearingModel, Draft, FieldCard
+    from lambda_core.api import BearingModel, Draft, FieldCard, MachineModel
 
 _CHECK_AFTER = 0.5  # of quiet [s]: the first point is solved each time
 _OPTION = "option"
@@ -35,9 +35,12 @@ _OPTION = "option"
 class _Names(Surroundings):
     """Completes the paths of options."""
 
+    def __init__(self, paths: Sequence[str]) -> None:
+        self._paths = list(paths)
+
     def names(self, kind: str) -> list[str]:
         """Return the paths that can vary."""
-        return list(studied()) if kind == _OPTION else []
+        return self._paths if kind == _OPTION else []
 
 
 class StudyScreen(Screen[None]):
@@ -47,8 +50,10 @@ class StudyScreen(Screen[None]):
     ----------
     draft : Draft
         The case that is studied.
-    model : BearingModel
+    model : BearingModel or MachineModel
         The same, resolved.
+    options : sequence of str
+        Paths of the options that the case has.
     path : str
         Option that varies first, "" to leave that open.
     written : str
@@ -75,10 +80,20 @@ class StudyScreen(Screen[None]):
     StudyScreen #cost { height: 6; padding: 0 1; border-top: hkey $border-blurred; }
     """
 
-    def __init__(self, draft: Draft, model: BearingModel, path: str = "", written: str = "") -> None:
+    def __init__(
+        self,
+        draft: Draft,
+        model: BearingModel | MachineModel,
+        options: Sequence[str],
+        path: str = "",
+        written: str = "",
+    ) -> None:
         super().__init__()
         self._draft, self._model = draft, model
-        self.values: Values = first_values(model.name, path, written)
+        self._usual = asked(bearing.name for bearing in getattr(model, "bearings", ()))
+        self._around = _Names(studied(draft.root, options))
+        varies = path if path in self._around.names(_OPTION) else ""
+        self.values: Values = first_values(model.name, varies, written)
         self._helper = Helper(self._say, lambda: is_here(self))
         self._timer: Timer | None = None
         self.is_fine = False
@@ -88,17 +103,17 @@ class StudyScreen(Screen[None]):
         title = Text.assemble((f"A study of {self._model.name}", "bold"), ("   one or two of its options vary", "dim"))
         yield Static(title, classes="title")
         with Rows():
-            for number, group in (("0", "What varies"), ("1", "and across it, if anything")):
+            for number, group in (("0", "Option that varies"), ("1", "Second option, if two vary")):
                 yield Static(group, classes="group")
                 yield from self._parameter(number)
-            yield Static("What is asked", classes="group")
+            yield Static("Responses", classes="group")
             yield from self._asked()
         yield OptionHelp()
         yield Static("checking ...", id="cost")
         yield Footer()
 
     def _parameter(self, number: str) -> Iterator[Row]:
-        around = _Names()
+        around = self._around
         option = card("option", "path of an option of the case, as everywhere; type its beginning, Enter completes it")
         yield TextRow(Held(self.values, (number, "path")), option, around, kind=_OPTION)
         for name, about in (("from", "first value"), ("to", "last value")):
@@ -110,16 +125,18 @@ class StudyScreen(Screen[None]):
 
     def _value_card(self, number: str, name: str, about: str) -> FieldCard:
         """Return the card of an end of a range: it takes the units of the option that varies."""
-        units = card_of(str(self.values.get((number, "path")) or "")).units
+        units = card_of(self._draft.root, str(self.values.get((number, "path")) or "")).units
         return card(name, about).model_copy(update={"units": units, "kind": "quantity" if units else "text"})
 
     def _asked(self) -> Iterator[Row]:
-        around = _Names()
+        around = self._around
         mode = card(
             "mode", "equilibria, or runs to convergence: seconds for each point", choices=MODES, default=MODES[0]
         )
         yield row_for(Held(self.values, ("mode",)), mode, around)
-        about = f"names with commas, of methods too (METHOD/GROUP/ROW); where nothing is written: {', '.join(ASKED)}"
+        about = (
+            f"names with commas, of methods too (METHOD/GROUP/ROW); where nothing is written: {', '.join(self._usual)}"
+        )
         responses = card("responses", about, default="the usual ones")
         yield row_for(Held(self.values, ("responses",)), responses, around)
         yield row_for(Held(self.values, ("name",)), card("name", "of the study, and of its folder"), around)
@@ -170,7 +187,7 @@ class StudyScreen(Screen[None]):
 
     @work(exclusive=True, group="check")
     async def _check(self) -> None:
-        study = study_tables(self.values)
+        study = study_tables(self.values, self._usual)
         if not study["parameters"]:
             self._tell("choose what varies: an option, and its first and last value", "dim")
             return
@@ -178,7 +195,7 @@ class StudyScreen(Screen[None]):
             found, fault = await self._helper.ask("study_cost", study=study, case_toml=self._model.case_toml), ""
         except LambdaError as error:
             found, fault = "", str(error)
-        if study != study_tables(self.values):
+        if study != study_tables(self.values, self._usual):
             return  # typed on meanwhile: checked again soon
         self.is_fine = not fault
         self._tell(fault or found, self.app.theme_variables["error"] if fault else "")
@@ -193,7 +210,7 @@ class StudyScreen(Screen[None]):
         if not self.is_fine:
             self.notify("the study is not checked, or something is wrong with it: see below", severity="warning")
             return
-        self.app.run_study(study_tables(self.values), self._model.case_toml)  # type: ignore[attr-defined]
+        self.app.run_study(study_tables(self.values, self._usual), self._model.case_toml)  # type: ignore[attr-defined]
 
     def action_save(self) -> None:
         """Write the study into a file of its own in the folder of the case."""
@@ -201,7 +218,7 @@ class StudyScreen(Screen[None]):
         if path is None or self._draft.is_changed():
             self.notify("a study file names the case's file: save the case first (Esc, Ctrl+S)", severity="warning")
             return
-        study = study_tables(self.values) | {"case": path.name}
+        study = study_tables(self.values, self._usual) | {"case": path.name}
         target = path.with_name(f"{study['name']}.toml")
         question = AskText("Save the study as", str(target))
         self.app.push_screen(question, lambda text: save_beside(self, study, text, "lambda-bearing study run"))

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import re
-from functools import cache
-from typing import Any
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
 
-from lambda_core.api import Case, FieldCard, Kind, field_card
-from lambda_core.domain.option_tree import field_at, model_at, option_paths
+from lambda_core.api import FieldCard, Kind, field_card
+from lambda_core.domain.option_tree import model_at
 from lambda_gui.nodes import Keys
 
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
 MODES = ("quasi-static", "dynamic")
-# What is asked where nothing else is: the simulation, catalogues beside it on one axis, film, pressure, life.
-ASKED = (
+# Responses of a bearing where none are written: the simulation and catalogues on one axis, losses, film, pressure
+_OF_A_BEARING = (
     "friction_torque_Nmm",
     "skf/friction/total",
     "schaeffler/friction/total",
@@ -20,23 +23,40 @@ ASKED = (
     "min_film_parameter",
     "max_pressure_GPa",
 )
+_OF_A_MACHINE = ("friction_torque_Nmm", "power_loss_W", "system_life_h", "max_deflection_um")
+_OF_EACH = ("radial_load_N", "friction_torque_Nmm", "skf/friction/total", "min_film_parameter", "max_pressure_GPa")
 POINTS = 11  # of a range where none are said
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)")
 Values = dict[Keys, Any]
 
 
-@cache
-def studied() -> tuple[str, ...]:
-    """Return the paths of the options that a study can vary: numbers with or without unit, and names."""
+def asked(bearings: Iterable[str]) -> tuple[str, ...]:
+    """Return the responses of a study where none are written, of one bearing or of a machine with these bearings."""
+    names = list(bearings)
+    if not names:
+        return _OF_A_BEARING
+    return (*_OF_A_MACHINE, *(f"{name}.{response}" for name in names for response in _OF_EACH))
+
+
+def studied(root: type[BaseModel], paths: Iterable[str]) -> tuple[str, ...]:
+    """Return those paths of a case that a study can vary: numbers with or without unit, and names.
+
+    Parameters
+    ----------
+    root : type of BaseModel
+        The class of the case.
+    paths : iterable of str
+        Options that the case has.
+    """
     kinds = ("quantity", "number", "integer", "choice", "signal", "text")
     texts = ("name", "description")
-    return tuple(path for path in option_paths(Case) if path not in texts and card_of(path).kind in kinds)
+    return tuple(path for path in paths if path not in texts and card_of(root, path).kind in kinds)
 
 
-def card_of(path: str) -> FieldCard:
+def card_of(root: type[BaseModel], path: str) -> FieldCard:
     """Return the card of an option of the case; of a plain text where there is none at this path."""
     *parents, name = path.split(".")
-    table = model_at(Case, parents)
+    table = model_at(root, [int(key) if key.isdecimal() else key for key in parents])
     if table is None or name not in table.model_fields:
         return card("value", "")
     return field_card(table, name)
@@ -73,7 +93,7 @@ def first_values(case: str, path: str, written: str) -> Values:
         Its value now, "" where there is none.
     """
     values: Values = {("name",): f"{case}-{path.rpartition('.')[2] or 'study'}".replace("_", "-")}
-    if path in studied():
+    if path:
         values["0", "path"] = path
         match = _NUMBER.fullmatch(written)
         if match is not None and float(match[1]) > 0.0 and match[2] != "degC":
@@ -82,15 +102,23 @@ def first_values(case: str, path: str, written: str) -> Values:
     return values
 
 
-def study_tables(values: Values) -> dict[str, Any]:
-    """Return the study as it would stand in a file; what is missing or wrong is for its check to say."""
-    asked = [name.strip() for name in str(values.get(("responses",)) or ", ".join(ASKED)).split(",")]
+def study_tables(values: Values, usual: Iterable[str]) -> dict[str, Any]:
+    """Return the study as it would stand in a file, right or wrong.
+
+    Parameters
+    ----------
+    values : dict
+        Of the form.
+    usual : iterable of str
+        Responses where none are written.
+    """
+    responses = [name.strip() for name in str(values.get(("responses",)) or ", ".join(usual)).split(",")]
     mode = str(values.get(("mode",)) or MODES[0])
     study: dict[str, Any] = {
         "name": str(values.get(("name",)) or "study"),
         "case": "case.toml",
         "mode": mode,
-        "responses": [name for name in asked if name],
+        "responses": [name for name in responses if name],
         "parameters": [_parameter(values, number) for number in ("0", "1") if values.get((number, "path"))],
     }
     return study
@@ -98,7 +126,6 @@ def study_tables(values: Values) -> dict[str, Any]:
 
 def _parameter(values: Values, number: str) -> dict[str, Any]:
     path = str(values[number, "path"])
-    info = field_at(Case, path)
     found: dict[str, Any] = {"path": path}
     listed = str(values.get((number, "values")) or "")
     if listed:
@@ -106,8 +133,7 @@ def _parameter(values: Values, number: str) -> dict[str, Any]:
     else:
         ends = [values.get((number, end)) for end in ("from", "to")]
         found |= {"range": [_plain(str(end)) for end in ends if end is not None], "points": _points(values, number)}
-    if info is not None:
-        found["label"] = path.rpartition(".")[2].replace("_", " ")
+    found["label"] = path.rpartition(".")[2].replace("_", " ")
     return found
 
 

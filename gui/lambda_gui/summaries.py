@@ -8,11 +8,30 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.roles import DEFAULT_MODELS
 from lambda_gui.nodes import Keys, Node, table_model
-from lambda_gui.shaft_summaries import of_shaft
 
 if TYPE_CHECKING:
     from lambda_core.api import Draft
     from lambda_gui.around import CaseAround
+
+
+# Options that tell most of a table, in order: of named tables, and of sections
+_TELL = {
+    "bearings": ("designation", "at", "takes"),
+    "gears": ("at", "power", "torque"),
+    "discs": ("at", "mass"),
+    "bodies": ("x", "mass", "length", "diameter"),
+    "markers": ("body", "x", "y", "z"),
+    "loads": ("at", "force_z", "force_y", "force_x", "moment_x", "moment_y", "moment_z"),
+    "connections": ("at", "to", "z", "y", "x"),
+    "elements": ("law",),
+    "events": ("action",),
+    "bearing": ("designation", "maker"),
+    "operation": ("speed",),
+    "lubricant": ("name", "temperature"),
+    "housing": ("temperature", "reduced"),
+    "life": ("contamination",),
+    "requirements": ("life", "static_safety"),
+}
 
 
 def summary(node: Node, draft: Draft, around: CaseAround) -> str:
@@ -21,26 +40,20 @@ def summary(node: Node, draft: Draft, around: CaseAround) -> str:
     Parts after a tab are left out where the room is short.
     """
     key = node.key
-    if draft.is_shaft and node.kind != "role":
-        return of_shaft(node, draft, around)
     if node.kind == "role":
         written = draft.get(*node.law_places[0])
         shared = draft.get("models", node.role) if node.table else None
         return str(written or around.resolved(node.law_places[0]) or shared or DEFAULT_MODELS[node.role])
+    if node.kind == "named":
+        return str(len(node.children) or "none")
+    if node.kind == "item":
+        return _item(node, draft)
     if key == "case":
         return _text(draft.get("name"))
-    if key == "bearing":
-        return _parts(draft.get("bearing", "designation"), draft.get("bearing", "maker"))
-    if key == "motion":
-        return ""
     if key == "loads":
         return _loads(draft.get("loads"))
-    if key == "operation":
-        return _signal(draft.get("operation", "speed"))
     if key.startswith("boundary."):
         return _freedoms(node, draft)
-    if key == "lubricant":
-        return _parts(draft.get("lubricant", "name"), draft.get("lubricant", "temperature"))
     if key == "surface":
         return _known(draft, around, "surface", "roughness")
     if key == "bodies.cage":
@@ -53,35 +66,39 @@ def summary(node: Node, draft: Draft, around: CaseAround) -> str:
         return _depth(draft.get("depth") or {})
     if key == "solver":
         return _text(draft.get("solver", "duration")) or "until converged"
-    if node.kind == "named":
-        return str(len(node.children) or "none")
-    if node.kind == "item":
-        written = draft.get(*node.table)
-        told = {"markers": "body", "elements": "law", "events": "action"}.get(key.partition(".")[0], "")
-        return _text(written.get(told)).replace("_", " ") if isinstance(written, Mapping) else ""
     if key in ("bearing.geometry", "bearing.fits", "bearing.temperatures", "lubricant.properties"):
         written = draft.get(*key.split("."))
         return f"{len(written)} set" if isinstance(written, Mapping) and written else "catalogue"[: 9 * ("geo" in key)]
-    return ""
+    return _parts(*(draft.get(key, name) for name in _TELL.get(key, ())))
+
+
+def _item(node: Node, draft: Draft) -> str:
+    """Return a few words about a named table, or a piece of the shaft."""
+    written = draft.get(*node.table)
+    table: Mapping[str, Any] = written if isinstance(written, Mapping) else {}
+    section = node.table[0]
+    if section == "shaft":
+        return f"⌀ {_text(table.get('diameter')) or '?'}\tx {_text(table.get('length')) or '?'}"
+    words = _parts(*(table.get(name) for name in _TELL.get(section, ())))
+    return words.replace("_", " ") if section in ("markers", "elements") else words
 
 
 def _text(value: Any) -> str:
-    return "" if value is None or isinstance(value, Mapping | list) else str(value)
+    """Return a value as it stands in the file, the kind of a time function; "" for any other table."""
+    if isinstance(value, Mapping):
+        return str(value.get("kind", ""))
+    return "" if value is None or isinstance(value, list) else str(value)
 
 
 def _parts(*values: Any) -> str:
     return "\t".join(filter(None, map(_text, values)))
 
 
-def _signal(value: Any) -> str:
-    return str(value.get("kind", "")) if isinstance(value, Mapping) else _text(value)
-
-
 def _loads(loads: Any) -> str:
     if not isinstance(loads, Mapping):
         return "none"
     names = ("radial", "axial", "moment_y", "moment_z")
-    found = [f"{_signal(loads[name])} {name.split('_')[0]}" for name in names if name in loads]
+    found = [f"{_text(loads[name])} {name.split('_')[0]}" for name in names if name in loads]
     return "\t".join(found) or "none"
 
 

@@ -13,8 +13,7 @@ from textual.widgets.tree import TreeNode
 
 from lambda_gui.checking import node_of
 from lambda_gui.nodes import Keys, Node
-from lambda_gui.outline import NAMED, outline
-from lambda_gui.shaft_outline import shaft_names, shaft_outline
+from lambda_gui.outline import outline, section_names
 from lambda_gui.summaries import summary
 
 if TYPE_CHECKING:
@@ -36,7 +35,6 @@ _OPEN = (
     "gears",
     "discs",
     "loads",
-    "bodies",
     "connections",
 )
 
@@ -77,8 +75,8 @@ class ModelTree(Tree[Node]):
     def _plant(self) -> None:
         is_open = {line.data.key: line.is_expanded for line in self._tree_nodes.values() if line.data is not None}
         self.clear()
-        self._names = _names(self.draft)
-        for node in (shaft_outline if self.draft.is_shaft else outline)(self._names):
+        self._names = section_names(self.draft)
+        for node in outline(self.draft.root, self._names):
             self._add(self.root, node, is_open)
         self.root.expand()
         self.cursor_line = 0
@@ -97,7 +95,7 @@ class ModelTree(Tree[Node]):
 
     def refresh_marks(self, problems: Sequence[Problem]) -> None:
         """Count the mistakes of each node and say what is set; named tables that came or went are taken in."""
-        if _names(self.draft) != self._names:
+        if section_names(self.draft) != self._names:
             self._plant()
         nodes = self.all_nodes()
         self._wrong = {}
@@ -214,11 +212,3 @@ def _fitting(parts: list[str], room: int) -> str:
             break
         shown += f" · {part}"
     return shown
-
-
-def _names(draft: Draft) -> dict[str, tuple[str, ...]]:
-    """Return what stands in the sections of named tables."""
-    if draft.is_shaft:
-        return shaft_names(draft)
-    found = {section: draft.get(section) for section in NAMED}
-    return {section: tuple(tables) for section, tables in found.items() if isinstance(tables, dict)}

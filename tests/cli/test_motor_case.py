@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 import time
 from pathlib import Path
 
@@ -39,6 +40,8 @@ def test_the_case_is_remembered(
     tmp_path: Path, user_folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "temporary").mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))  # the folder of the tests is in the usual one
     assert main(["recent"]) == 0
     said = capsys.readouterr()
     assert (said.out, "init NAME --template" in said.err) == ("", True)

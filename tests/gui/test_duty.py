@@ -11,6 +11,7 @@ from lambda_gui.dialogs import AskText
 from lambda_gui.duty_screen import DutyScreen
 from lambda_gui.duty_values import Phase, cycle_tables, cycle_view
 from reading import cut_on
+from rich.table import Table
 from textual.widgets import Input
 
 from lambda_core.domain.unit_systems import US
@@ -40,7 +41,9 @@ def test_the_sum_is_told_in_the_persons_units() -> None:
         mean_load_N=2000.0, mean_speed_rpm=3000.0, mean_power_loss_W=31.4, energy_loss_kJ=113.0,
         energy_loss_kWh_per_year=275.0, assumptions=["damages add"],
     )  # fmt: skip
-    table, words = cycle_view(found, US, "red")
+    tables, words = cycle_view(found, US, "red")
+    table = tables[0]
+    assert isinstance(table, Table)
     assert [column.header for column in table.columns][3] == "P lbf"
     assert list(table.columns[3].cells) == ["449.6", "449.6"]
     assert "20 000 h (ISO/TS 16281)   21 000 h (ISO 281)" in words.plain

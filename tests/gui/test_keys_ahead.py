@@ -172,7 +172,7 @@ async def test_a_study_typed_on_is_not_checked(hand_written: Path, monkeypatch: 
 async def test_a_cycle_typed_on_leaves_its_sums_those_of_another(
     hand_written: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("lambda_gui.duty_screen.cycle_view", lambda *_: ("sums", "words"))
+    monkeypatch.setattr("lambda_gui.duty_screen.cycle_view", lambda *_: (["sums"], "words"))
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
         await pilot.press("f4")

@@ -14,7 +14,7 @@ from lambda_core.domain.roles import ROLES
 
 
 def nodes(**names: tuple[str, ...]) -> list[Node]:
-    return [node for top in outline(names) for node in top.walk()]
+    return [node for top in outline(Case, names) for node in top.walk()]
 
 
 def has_role(path: str) -> bool:
@@ -34,7 +34,7 @@ def test_every_option_has_exactly_one_place() -> None:
 
 
 def test_the_tree_mirrors_the_set_up() -> None:
-    titles = [node.title for node in outline()]
+    titles = [node.title for node in outline(Case)]
     assert titles == [
         "Case",
         "Bearing",
@@ -91,7 +91,7 @@ def test_a_mistake_finds_its_node(where: str, key: str) -> None:
 
 
 def test_an_empty_model_says_what_it_needs() -> None:
-    found = Checker().check(api.draft().tables, None)
+    found = Checker(Case).check(api.draft().tables, None)
     assert found.model is None
     assert [problem.where for problem in found.problems] == [
         "bearing.designation",
@@ -112,7 +112,7 @@ def test_a_mistake_stands_once_at_the_innermost_row() -> None:
 
 def test_a_good_case_resolves() -> None:
     draft = api.draft("6208-axial-1300")
-    found = Checker().check(draft.tables, draft.folder)
+    found = Checker(Case).check(draft.tables, draft.folder)
     assert not found.problems
     assert found.model is not None
     assert found.values

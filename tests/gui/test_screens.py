@@ -71,6 +71,7 @@ def test_axes_stand_inside_their_sketch() -> None:
 
 def test_every_screen_has_its_own_help() -> None:
     from lambda_gui import (
+        answer_screen,
         catalogue,
         choice,
         dialogs,
@@ -78,14 +79,11 @@ def test_every_screen_has_its_own_help() -> None:
         own_row,
         results_screen,
         run_screen,
-        shaft_answer_screen,
-        shaft_screen,
         study_screen,
     )
 
     modules = (
-        catalogue, choice, dialogs, duty_screen, own_row, results_screen, run_screen, shaft_answer_screen, shaft_screen,
-        study_screen,
+        answer_screen, catalogue, choice, dialogs, duty_screen, own_row, results_screen, run_screen, study_screen,
     )  # fmt: skip
     found = {
         name

@@ -13,11 +13,13 @@ from lambda_gui.dialogs import AskText
 from lambda_gui.results_screen import ResultsScreen
 from lambda_gui.run_screen import RunScreen
 from lambda_gui.study_screen import StudyScreen
-from lambda_gui.study_values import ASKED, first_values, studied, study_tables
+from lambda_gui.study_values import asked, first_values, studied, study_tables
 from reading import cut_on
 from textual.widgets import OptionList
 
 from lambda_core import api
+from lambda_core.case.case import Case
+from lambda_core.domain.option_tree import option_paths
 from lambda_core.study.definition import read_study, validate_study
 from lambda_core.study.store import FILE
 
@@ -29,13 +31,13 @@ if TYPE_CHECKING:
 
 def test_a_form_begins_with_the_option_under_the_keyboard() -> None:
     values = first_values("fan", "operation.speed", "3000 rpm")
-    study = validate_study(study_tables(values))
+    study = validate_study(study_tables(values, asked(())))
     assert study.name == "fan-speed"
-    assert study.responses == list(ASKED)
+    assert study.responses == list(asked(()))
     (parameter,) = study.parameters
     assert (parameter.path, parameter.range, parameter.points) == ("operation.speed", ["1500 rpm", "6000 rpm"], 11)
     assert ("0", "from") not in first_values("fan", "lubricant.temperature", "70 degC")  # no zero to start from
-    assert ("0", "path") not in first_values("fan", "description", "a fan")
+    assert ("0", "path") not in first_values("fan", "", "")
 
 
 def test_a_list_counts_before_a_range_and_both_parameters_do() -> None:
@@ -46,10 +48,13 @@ def test_a_list_counts_before_a_range_and_both_parameters_do() -> None:
         ("mode",): "dynamic",
         ("responses",): "friction_torque_Nmm",
     }
-    study = validate_study(study_tables(values))
+    study = validate_study(study_tables(values, asked(())))
     assert [parameter.values for parameter in study.parameters] == [None, ["mineral-vg32", "mineral-vg68"]]
     assert (study.mode, study.responses) == ("dynamic", ["friction_torque_Nmm"])
-    assert {"operation.speed", "loads.radial", "bearing.clearance", "surface.roughness"} <= set(studied())
+    assert {"operation.speed", "loads.radial", "bearing.clearance", "surface.roughness"} <= set(
+        studied(Case, option_paths(Case))
+    )
+    assert "description" not in studied(Case, option_paths(Case))
 
 
 def test_a_folder_is_a_study_by_the_file_that_makes_it_one(tmp_path: Path) -> None:

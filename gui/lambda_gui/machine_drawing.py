@@ -1,4 +1,4 @@
-"""A shaft in its bearings drawn to scale, two pixels per character, and below it how it bends."""
+"""Draw a shaft in its bearings to scale, two pixels per character, and its deflection below."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ class _Scale:
         return (self.axis + near, self.axis + far) if below else (self.axis - far, self.axis - near)
 
 
-def drawn_shaft(
+def drawn_machine(
     model: MachineModel, report: MachineEquilibrium | None, width: int, height: int, colours: Mapping[str, str]
 ) -> Text:
     """Draw sections, bearings, bodies, gears, discs and loads to scale, names around them, and the bend below.

@@ -1,0 +1,160 @@
+"""Answer questions about the case as it stands, without a run: equilibrium, temperatures, currents, friction."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from dataclasses import replace
+from typing import TYPE_CHECKING, ClassVar
+
+from rich.text import Text
+from textual import work
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical, VerticalScroll
+from textual.screen import Screen
+from textual.widget import Widget
+from textual.widgets import Footer, OptionList, Static
+from textual.widgets.option_list import Option
+
+from lambda_core.domain.errors import LambdaError
+from lambda_core.views.other_units import in_units
+from lambda_gui.charts import rows_of
+from lambda_gui.helper import Helper
+from lambda_gui.presence import is_here
+
+if TYPE_CHECKING:
+    from lambda_core.api import Draft
+    from lambda_core.domain.unit_systems import UnitSystem
+    from lambda_core.views.chart import ViewData
+
+# Question, and the words in the list; the helper process has a function for each question
+QUESTIONS = {
+    "equilibrium": "equilibrium",
+    "temperatures": "temperatures",
+    "currents": "bearing currents",
+    "friction": "friction over speed",
+    "assumptions": "assumptions",
+}
+
+
+class AnswerScreen(Screen[None]):
+    """Questions at the left, the answer to the one under the cursor at the right.
+
+    Parameters
+    ----------
+    draft : Draft
+        The case, without mistakes; later changes of it do not count.
+    """
+
+    HORIZONTAL_BREAKPOINTS = [(0, "-narrow"), (112, "-wide")]  # noqa: RUF012
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("f1", "app.help", "Help", priority=True),
+        Binding("pagedown,space", "scroll(1)", "Scroll", priority=True),
+        Binding("pageup", "scroll(-1)", show=False, priority=True),
+        Binding("escape,f10,ctrl+g", "app.pop_screen", "Back", key_display="Esc"),
+    ]
+    DEFAULT_CSS = """
+    AnswerScreen { background: $background; }
+    AnswerScreen OptionList { width: 23; height: 1fr; background: $background; border: none; padding: 0 1;
+        border-right: vkey $border-blurred; }
+    AnswerScreen OptionList:focus { border: none; border-right: vkey $border; }
+    AnswerScreen #title { height: 2; padding: 0 1; width: 1fr; }
+    AnswerScreen #content { height: 1fr; padding: 0 1; scrollbar-size-vertical: 1; }
+    AnswerScreen #content Static { width: 1fr; height: auto; }
+    AnswerScreen .row { width: 1fr; }
+    AnswerScreen.-wide OptionList { width: 30; }
+    """
+
+    def __init__(self, draft: Draft) -> None:
+        super().__init__()
+        self._name = str(draft.get("name") or "")
+        self._case = {"tables": deepcopy(draft.tables), "folder": str(draft.folder) if draft.folder else None}
+        self._found: dict[str, tuple[str, list[ViewData]]] = {}
+        self._helper = Helper(self._say, lambda: is_here(self))
+
+    def compose(self) -> ComposeResult:
+        """Lay out the questions at the left of the answer."""
+        with Horizontal():
+            yield OptionList(*(Option(words, id=name) for name, words in QUESTIONS.items()), markup=False)
+            with Vertical():
+                yield Static(id="title")
+                yield VerticalScroll(id="content", can_focus=False)
+        yield Footer()
+
+    def on_mount(self) -> None:
+        """Take the keyboard; a change of the theme draws the answer anew."""
+        self.query_one(OptionList).focus()
+        self.app.theme_changed_signal.subscribe(self, lambda _: self._show())
+
+    async def on_unmount(self) -> None:
+        """End the helper."""
+        await self._helper.close()
+
+    def on_resize(self) -> None:
+        """Draw for the new size."""
+        self._show()
+
+    def on_option_list_option_highlighted(self, event: OptionList.OptionHighlighted) -> None:
+        """Answer the question under the cursor."""
+        self._show()
+
+    @property
+    def question(self) -> str:
+        """The question under the cursor."""
+        at = self.query_one(OptionList).highlighted
+        return list(QUESTIONS)[at or 0]
+
+    @property
+    def is_answered(self) -> bool:
+        """Whether the answer to the question under the cursor is known."""
+        return self.question in self._found
+
+    def _say(self, words: str) -> None:
+        if is_here(self):
+            title = Text(f"{self._name}  {QUESTIONS[self.question]}", style="bold")
+            self.query_one("#title", Static).update(title.append(f"\n{words}", style="dim not bold"))
+
+    @work(exclusive=True, group="answer")
+    async def _show(self) -> None:
+        question, units = self.question, self._units
+        if question not in self._found:
+            self._say("solving ...")
+            await self._put()
+            try:
+                found = await self._helper.ask("answer", question=question, units=units.name, **self._case)
+            except LambdaError as error:
+                self._say("no answer")
+                await self._put(Static(Text(str(error), style=self.app.theme_variables["error"])))
+                return
+            self._found[question] = found
+        text, views = self._found[question]
+        self._say("the case as it stands, without a run")
+        room = self.query_one("#content", VerticalScroll).size
+        shown: list[Widget] = [Static(Text(text))]
+        for view in views:
+            shown += rows_of(_drawn(in_units(view, units)), room.width - 2, room.height)
+        await self._put(*shown)
+
+    @property
+    def _units(self) -> UnitSystem:
+        found: UnitSystem = self.app.units  # type: ignore[attr-defined]
+        return found
+
+    async def _put(self, *widgets: Widget) -> None:
+        content = self.query_one("#content", VerticalScroll)
+        async with self.batch():
+            await content.remove_children()
+            if is_here(self):
+                await content.mount(*widgets)
+                content.scroll_home(animate=False)
+
+    def action_scroll(self, by: int) -> None:
+        """Scroll by a screen."""
+        content = self.query_one("#content", VerticalScroll)
+        content.scroll_relative(y=by * max(1, content.size.height - 1), animate=False)
+
+
+def _drawn(view: ViewData) -> ViewData:
+    """Return a view without the panels that draw the shaft itself, which the builder shows."""
+    panels = tuple(panel for panel in view.panels if panel.arrows is None)
+    return replace(view, panels=panels, notes=view.notes[-1:])
