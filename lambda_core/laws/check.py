@@ -31,6 +31,7 @@ from lambda_core.laws.probe import WRENCHES, draw, open_contact, trial_context
 from lambda_core.laws.runaway import runaways
 from lambda_core.laws.shear_limit import SHEAR_LIMIT, limitless_sentence, stress_ratio
 from lambda_core.laws.state import ROLE as STATES
+from lambda_core.laws.state import names_behind
 from lambda_core.laws.thresholds import trials_at_thresholds
 
 RTOL = 1e-9  # machine code against plain Python: a few roundings of exp and pow
@@ -169,7 +170,7 @@ def _faults(model: Law, par: FloatArray, compiled: CompiledKernel | None, sample
             yield f"{model.label} {outcome.error}: {f'write {words}' if words else 'it has none'}"
             return
         if outcome.error:
-            yield f"{model.label} {outcome.error} {_where(role, arguments)}"
+            yield f"{model.label} {outcome.error} {_where(model, role, arguments)}"
             return
         plain.append(outcome)
     machine = compiled or compile_kernel(model)
@@ -177,7 +178,7 @@ def _faults(model: Law, par: FloatArray, compiled: CompiledKernel | None, sample
     for arguments, expected, outcome in zip(trials, plain, outcomes, strict=True):
         message = _fault_of(model, role, arguments, expected, outcome)
         if message:
-            yield f"{model.label} {message} {_where(role, arguments)}"
+            yield f"{model.label} {message} {_where(model, role, arguments)}"
             return
     if all(outcome.status != 1 for outcome in outcomes):
         sentence = model.errors.get(outcomes[0].status, "")
@@ -256,7 +257,7 @@ def _cell_faults(model: Law, role: Role, machine: CompiledKernel, trials: list[l
         if whole.status == single.status == 1:
             pieces = tuple(values[cell : cell + 1] for values in whole.outputs)
             if relative_difference(single.outputs, pieces) > RTOL:
-                yield f"{model.label} is not elementwise: a cell computed alone differs {_where(role, part)}"
+                yield f"{model.label} is not elementwise: a cell computed alone differs {_where(model, role, part)}"
                 return
     name = role.vanishes_with
     if name:
@@ -290,18 +291,21 @@ def _slope_faults(
         if smooth and abs(found - fine) > 0.02 * abs(fine) + 1e-9:
             yield (
                 f"{model.label} returns {role.outputs[index]} = {found:.4g}, but by differences it is {fine:.4g} "
-                f"{_where(role, arguments)}"
+                f"{_where(model, role, arguments)}"
             )
             return
 
 
-def _where(role: Role, arguments: list[Any]) -> str:
-    """Write the inputs of a call: scalars, and the ends of arrays."""
+def _where(model: Law, role: Role, arguments: list[Any]) -> str:
+    """Write the inputs of a call: scalars, the ends of arrays, and the states of the contact."""
     words = []
     for argument, value in zip(role.arguments, arguments, strict=True):
-        if argument.output or argument.name == "par":
+        if argument.output:
             continue
-        if argument.kind == "f":
+        if argument.name == "par":
+            states = names_behind(model)
+            words += [f"par.{name} = {value[len(value) - len(states) + i]:.4g}" for i, name in enumerate(states)]
+        elif argument.kind == "f":
             words.append(f"{argument.name} = {value:.4g}")
         else:
             words.append(f"{argument.name} = {np.min(value):.4g}..{np.max(value):.4g}")

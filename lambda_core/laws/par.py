@@ -94,6 +94,10 @@ def make_par(law: Law, parameters: BaseModel, context: Context) -> FloatArray:
         raise PluginError(f"{law.label}: prepare returns a {type(made).__name__}, its annotation is {wanted.__name__}")
     if not all(map(math.isfinite, states)):
         raise PluginError(f"{law.label}: a state does not start with a finite number")
+    for state, value in zip(law.states, states[len(law.reads) :], strict=True):
+        if not state.lower <= value <= state.upper:
+            limits = f"{state.lower:g} to {state.upper:g} {state.unit}"
+            raise PluginError(f"{law.label}: its state {state.name} starts at {value:g}; allowed: {limits}")
     try:
         return np.append(flatten(layout_of(wanted), made), states)
     except RecordError as error:

@@ -37,6 +37,9 @@ class State:
         A change that matters, in this unit: the integrator allows `solver.tolerance` times it as error per step.
     start : float or callable
         Value at the start; or ``start(parameters, context)``, which returns it.
+    lower, upper : float
+        Bounds that the program holds: no law reads a value outside them, and a rate that points outwards at a bound
+        counts as zero.
     """
 
     name: str
@@ -44,6 +47,8 @@ class State:
     meaning: str
     scale: float
     start: float | Callable[[Any, Context], float] = 0.0
+    lower: float = -math.inf
+    upper: float = math.inf
 
     @property
     def channel(self) -> Channel:
@@ -87,6 +92,8 @@ def state_fault(law: Law) -> str:
             return f"has the state {state.name} in {fault}"
         if not (state.scale > 0.0 and math.isfinite(state.scale)):
             return f"has the state {state.name} of the scale {state.scale}: a positive number is due"
+        if not state.lower < state.upper:
+            return f"has the state {state.name} between {state.lower:g} and {state.upper:g}: lower must be below upper"
     return _reads_fault(law.reads)
 
 

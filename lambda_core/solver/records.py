@@ -227,6 +227,8 @@ WAVE = record(  # a pattern of waves round an elastic ring or cage, whose orders
 SLOT = record(
     ("state", i8),  # which one of its contact
     ("place", i8),  # where it stands in Bundle.par
+    ("lower", f8),  # its bounds, in its unit
+    ("upper", f8),
 )
 LAND = record(
     ("cage", i8),  # body

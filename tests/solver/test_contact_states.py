@@ -204,3 +204,72 @@ def test_a_rate_that_is_no_number_is_blamed() -> None:
     assert not ended.ok
     assert "contact_state/broken" in ended.message
     assert "ball 1, ball - inner" in ended.message
+
+
+DEPTH = State("wear_depth", "m", "depth worn off", scale=1e-9, lower=0.0)
+
+
+@law("contact_state", "worn", role_api=2, reference="own work", states=(DEPTH,))
+def worn(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):  # type: ignore[no-untyped-def]
+    """Wear that starts at zero and grows with the root of itself, but is polished away in the first half millisecond."""
+    out[0] = -1e-6 if t < 0.5e-3 else 1e-9 * power / (1e-9 + par.wear_depth)
+    return OK
+
+
+@law("traction", "rough", role_api=2, reference="own work", reads={"wear_depth": 1e-9})
+def rough(slip, p, T, ln_eta, h, par, tau):  # type: ignore[no-untyped-def]
+    """A stress that reads the root of a depth: no number where the depth is below zero."""
+    for i in range(tau.size):
+        tau[i] = 0.03 * p[i] * slip[i] / (slip[i] + 0.01) / (1.0 + par.wear_depth**0.5)
+    return OK
+
+
+def test_a_state_stays_within_its_bounds_where_laws_read_it() -> None:
+    """The rate points below the lower bound for half a millisecond; the root of the state stays a number."""
+    run = engine({"contact_state": worn, "traction": rough})
+    ended = run.advance(1e-3)
+    assert ended.ok, ended.message
+    found = run.samples()
+    early = found["time"] < 0.45e-3
+    assert np.all(found["wear_depth"][early] == 0.0)
+    assert found["wear_depth"].min() == 0.0
+    assert found["wear_depth"][-1].max() > 0.0
+
+
+def test_check_tries_readers_of_states_at_their_start() -> None:
+    @law("traction", "divides", role_api=2, reference="own work", reads={"wear_depth": 1e-9})
+    def divides(slip, p, T, ln_eta, h, par, tau):  # type: ignore[no-untyped-def]
+        for i in range(tau.size):
+            tau[i] = 1e-12 * p[i] * slip[i] / par.wear_depth
+        return OK
+
+    (problem,) = api.law_problems(api.check(api.case(NAME).with_(models={"contact_state": worn, "traction": divides})))
+    assert problem.where == "models.traction"
+    assert "par.wear_depth = 0" in problem.message
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ({"lower": 2.0, "upper": 1.0}, "lower must be below upper"),
+        ({"lower": 2.0}, "starts at 0; allowed: 2 to inf -"),
+    ],
+)
+def test_bounds_that_are_refused(more: dict[str, float], words: str) -> None:
+    from dataclasses import replace
+
+    from lambda_core.discovery.collect import law_fault
+    from lambda_core.laws.context import Context
+    from lambda_core.laws.law import law_of
+    from lambda_core.laws.par import make_par
+    from lambda_core.laws.parameter import NoParameters
+
+    made = law_of(worn)
+    assert made is not None
+    made = replace(made, states=(State("wear_depth", "-", "depth", scale=1.0, **more),))
+    if fault := law_fault(made):
+        assert words in fault
+        return
+    context: Any = Context
+    with pytest.raises(PluginError, match=words):
+        make_par(made, NoParameters(), context)

@@ -7,13 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import Problem
 from lambda_core.domain.installed import OWN, project_of
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import RACEWAYS
 from lambda_core.laws.check import check_choice, check_model
-from lambda_core.laws.context import Oil
+from lambda_core.laws.context import Context, Oil
 from lambda_core.laws.par import flat_kernel
+from lambda_core.laws.state import ROLE as STATES
+from lambda_core.laws.state import names_behind
 from lambda_core.model.bearing_model import BearingModel, ChosenLaw
 from lambda_core.model.laws.law_context import ContactFrame, build_context, prepare
 
@@ -63,10 +66,24 @@ def _fault(model: BearingModel, element: str, law: ChosenLaw, frame: ContactFram
     try:
         if law.model.role != "rheology":
             oil = _with_viscosity(model, element if element in RACEWAYS else RACEWAYS[0], frame)
-        check_choice(law.model, prepare(law, build_context(model, element, frame, oil)))
+        context = build_context(model, element, frame, oil)
+        par = prepare(law, context)
+        check_choice(law.model, par)
+        if law.model.reads:
+            check_choice(law.model, _at_the_start(model, element, law, par, context))
     except PluginError as error:
         return str(error)
     return ""
+
+
+def _at_the_start(model: BearingModel, element: str, law: ChosenLaw, par: FloatArray, context: Context) -> FloatArray:
+    """Return the parameters of a law with the states that it reads at their start."""
+    keeper = model.laws[element][STATES]
+    starts = {state.name: state.at_start(keeper.parameters, context) for state in keeper.model.states}
+    found, names = par.copy(), names_behind(law.model)
+    for place, name in enumerate(law.model.reads):
+        found[par.size - len(names) + place] = starts[name]
+    return found
 
 
 def _frame(model: BearingModel) -> ContactFrame:

@@ -1,7 +1,8 @@
 """States that contacts keep of their own: handed to the laws that read them, and their rates.
 
 They stand behind the motion in the state vector: stepped, controlled and sampled with it. A law reads one behind its
-parameters, where it is written before every call, so that laws without states know nothing of it.
+parameters, where it is written before every call, so that laws without states know nothing of it. Rounding may carry
+the number in the state vector past its bounds; laws never see that, and at a bound no rate points outwards.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ def hand_states(raceway, j, bundle):
     first = first_state(raceway, j)
     for i in range(raceway.slots[0], raceway.slots[1]):
         slot = bundle.slots[i]
-        bundle.par[slot.place] = bundle.states[first + slot.state]
+        bundle.par[slot.place] = min(max(bundle.states[first + slot.state], slot.lower), slot.upper)
 
 
 @helper
@@ -63,6 +64,18 @@ def _rates(t, raceway, kin, contact, power, law, par, out, n, fault):
 
 
 @helper
+def _stop_at_bounds(raceway, par_end, n, bundle, out):
+    """Set rates to zero that would carry a state past the bound at which it is."""
+    for i in range(raceway.slots[0], raceway.slots[1]):
+        slot = bundle.slots[i]
+        s = slot.place - (par_end - n)
+        if 0 <= s < n:
+            at = bundle.par[slot.place]
+            if (out[s] < 0.0 and at <= slot.lower) or (out[s] > 0.0 and at >= slot.upper):
+                out[s] = 0.0
+
+
+@helper
 def state_rates(t, raceway, j, power, bundle):
     """Write the rates of the states of a contact, and their slopes with them; returns 1 when well.
 
@@ -79,13 +92,17 @@ def state_rates(t, raceway, j, power, bundle):
     if _rates(t, raceway, kin, contact, power, law, par, out, n, fault) != 1:
         fault.ball = j
         return 0
+    end = raceway.parameters.contact_state[1]
+    _stop_at_bounds(raceway, end, n, bundle, out)
     for s in range(n):
         bundle.state_rates[first + s] = out[s]
     for c in range(n):
         place, step = par.size - n + c, bundle.state_steps[first + c]
+        here = par[place]
         par[place] += step
         ok = _rates(t, raceway, kin, contact, power, law, par, out, n, fault)
-        par[place] = bundle.states[first + c]
+        _stop_at_bounds(raceway, end, n, bundle, out)
+        par[place] = here
         if ok != 1:
             fault.ball = j
             return 0

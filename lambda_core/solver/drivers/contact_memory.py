@@ -62,7 +62,7 @@ def channels_of_states(model: BearingModel, tails: FloatArray) -> dict[str, Floa
         states, row = states_of(model, raceway.element), slice(raceway.row * z, (raceway.row + 1) * z)
         own = tails[:, begin : begin + z * len(states)].reshape(count, z, len(states))
         for k, state in enumerate(states):
-            found[state.name][:, row, i % places] = own[:, :, k]
+            found[state.name][:, row, i % places] = np.clip(own[:, :, k], state.lower, state.upper)
         begin += z * len(states)
     return found
 

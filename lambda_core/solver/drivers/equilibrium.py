@@ -17,7 +17,9 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import INNER, LANDS, OUTER
 from lambda_core.domain.errors import EquilibriumError, SolverError
+from lambda_core.laws.law import Law
 from lambda_core.laws.shear_limit import SHEAR_LIMIT, limitless_sentence, stress_ratio
+from lambda_core.laws.state import names_behind
 from lambda_core.model.bearing_model import BearingModel, Geometry
 from lambda_core.model.checks.operating_limits import operating_point, operating_warnings
 from lambda_core.model.geometry.raceways import raceways, raceways_of_a_ball
@@ -385,9 +387,19 @@ def fault_sentence(context: SolverContext, time: float | None = None) -> str:
     if element not in LANDS and role not in _WHOLE:
         place = f"ball {ball + 1}, {place}"
     names = [_state_of(context, element) if name == "state" else name for name in INPUTS[role]]
-    inputs = ", ".join(f"{name} {value:.6g}" for name, value in zip(names, fault.inputs, strict=False))
+    given = [*zip(names, fault.inputs, strict=False), *_states_read(context, role, model, int(fault.place))]
+    inputs = ", ".join(f"{name} {value:.6g}" for name, value in given)
     sentence = f"{model.label} {what} ({place}; {inputs})"
     return f"{bearing.name}: {sentence}" if bearing.name else sentence
+
+
+def _states_read(context: SolverContext, role: str, law: Law, place: int) -> list[tuple[str, float]]:
+    """Return the states of the contact that a law read when it refused, by name."""
+    if not law.reads:
+        return []
+    end = int(context.bundle.raceways[place]["parameters"][role][1])
+    names = names_behind(law)
+    return list(zip(names, map(float, context.bundle.par[end - len(names) : end]), strict=True))
 
 
 def _faulty(assembly: Assembly, role: str, ball: int, place: int) -> tuple[int, str, int]:

@@ -283,14 +283,17 @@ def _keep_states(model: BearingModel, raceways: Any, span: BearingSpan, before: 
     before : int
         Slots of the bearings before.
     """
-    slots: list[tuple[int, int]] = []
+    slots: list[tuple[int, int, float, float]] = []
     count, each = span.first_state, model.geometry.ball_count
     for record, groove in zip(raceways, raceways_of(model.geometry), strict=True):
-        kept = [state.name for state in states_of(model, groove.element)]
+        states = states_of(model, groove.element)
+        kept = [state.name for state in states]
         begin = len(slots)
         for role in R.RACEWAY_ROLES:
             names, end = names_behind(model.laws[groove.element][role].model), int(record["parameters"][role][1])
-            slots += [(kept.index(name), end - len(names) + i) for i, name in enumerate(names)]
+            for i, name in enumerate(names):
+                state = states[kept.index(name)]
+                slots.append((kept.index(name), end - len(names) + i, state.lower, state.upper))
         # compiled code counts the balls of all rows
         record["states"], record["slots"] = len(kept), (before + begin, before + len(slots))
         record["first_state"] = count - (span.first_ball + groove.row * each) * len(kept)
