@@ -16,7 +16,8 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-_HEARD = (signal.SIGINT, signal.SIGTERM)
+from lambda_core.domain.processes import STOP_SIGNALS
+
 _SOON = 0.02  # [s]
 _GRACE = 0.5  # [s] for the program's own way out, which is the better one
 
@@ -68,7 +69,7 @@ def _watch(ours: socket.socket, left: threading.Event, code: int) -> None:
             numbers = ours.recv(64)
             if not numbers:
                 return
-            heard += sum(number in _HEARD for number in numbers)
+            heard += sum(number in STOP_SIGNALS for number in numbers)
     if not left.wait(_GRACE):
         with contextlib.suppress(OSError):
             os.write(2, b"interrupted: what was written is kept\n")

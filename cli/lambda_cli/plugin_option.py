@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import shlex
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+
+from lambda_core.domain.processes import command_line
 
 _HELP = "Use the laws of a file, too; may be repeated. Without it no file is read but those of your plugin folder."
 
@@ -26,7 +27,7 @@ def take_plugins(files: list[str] | None) -> None:
 
 def taken_options() -> str:
     """Return the options of the files that this command was given, for a command that goes on with its work."""
-    return "".join(f" --plugin {shlex.quote(file)}" for file in dict.fromkeys(_taken))
+    return "".join(f" {command_line(['--plugin', file])}" for file in dict.fromkeys(_taken))
 
 
 def _with_option(

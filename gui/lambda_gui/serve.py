@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import ipaddress
-import shlex
 import sys
 from collections.abc import Callable
 
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.processes import command_line
 
 LOOPBACK = "localhost"
 
@@ -52,6 +52,6 @@ def serve(case: str | None, host: str, port: int, announce: Callable[[str], None
     command = [sys.executable, "-P", "-m", "lambda_cli", "gui", *([case] if case else [])]
     try:
         with contextlib.redirect_stdout(sys.stderr):  # the server talks; stdout is for data
-            LockedServer(shlex.join(command), host, port, "lambda-bearing", names, announce).serve()
+            LockedServer(command_line(command), host, port, "lambda-bearing", names, announce).serve()
     except OSError as error:
         raise UsageError(f"cannot serve at {host}:{port}: {error.strerror}") from None

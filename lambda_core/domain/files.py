@@ -11,9 +11,11 @@ from pathlib import Path
 from tempfile import NamedTemporaryFile
 
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.processes import ON_WINDOWS
 
 LARGEST_TEXT = 64 * 2**20  # [byte] of a case, a table, a document
 _NUL = "no name of a file holds a NUL character"
+_DEVICES = {"CON", "PRN", "AUX", "NUL", *(f"{port}{number}" for port in ("COM", "LPT") for number in range(1, 10))}
 _KINDS = (
     (stat.S_ISDIR, "a folder"),
     (stat.S_ISFIFO, "a pipe"),
@@ -42,6 +44,8 @@ def check_target(path: Path) -> Path:
     """
     if "\0" in str(path):
         raise UsageError(f'cannot write "{path}": {_NUL}')
+    if path.name.partition(".")[0].rstrip().upper() in _DEVICES and ON_WINDOWS:
+        raise UsageError(f'cannot write "{path}": Windows keeps the name for a device')
     kind = kind_of(path)
     if kind:
         raise UsageError(f'cannot write "{path}": it is {kind}, and only regular files are written')

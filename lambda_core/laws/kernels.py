@@ -23,6 +23,7 @@ from typing import Any
 from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.installed import OWN, project_of
 from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.domain.processes import locked
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws.compiler_words import gist
 from lambda_core.laws.jit import binding
@@ -276,21 +277,12 @@ def host_folder(key: str) -> Path:
 def _one_at_a_time(folder: Path) -> Iterator[None]:
     """Let one process compile into an empty folder while others wait and then load what it left.
 
-    Without a lock (Windows, a cache that cannot be written) each compiles for itself, which is only slower.
+    Without a lock (a cache that cannot be written) each compiles for itself, which is only slower.
     """
     if any(folder.rglob("*.nbc")):
         yield
         return
-    try:
-        import fcntl
-
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        handle = (folder.parent / f"{folder.name}.lock").open("w")
-    except (ImportError, OSError):
-        yield
-        return
-    with handle:
-        fcntl.flock(handle, fcntl.LOCK_EX)
+    with locked(folder.parent / f"{folder.name}.lock"):
         yield
 
 

@@ -13,9 +13,10 @@ from pathlib import Path
 import h5py
 
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.processes import exists
 from lambda_core.results import file_format as layout
 from lambda_core.results.integrity import is_cut
-from lambda_core.results.run_status import Rows, exists
+from lambda_core.results.run_status import Rows
 
 _LOOKS = 24  # pauses of 1 ns and twice as long each time: 17 ms in all, a writer takes less
 METADATA = 1 << 20  # more than HDF5 needs for indexes and headers at a time [byte]

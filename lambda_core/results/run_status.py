@@ -7,10 +7,10 @@ import os
 import socket
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
-from pathlib import Path
 from typing import Any, Literal
 
 from lambda_core.domain.printable import printable
+from lambda_core.domain.processes import exists, started
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ class Status:
         if self.state != "running" or self.process.get("host") != socket.gethostname():
             return False
         pid = int(self.process["pid"])
-        return _started(pid) == self.process["start"] and exists(pid)
+        return started(pid) == self.process["start"] and exists(pid)
 
 
 def this_process() -> dict[str, str]:
@@ -111,32 +111,4 @@ def this_process() -> dict[str, str]:
 
 def process_identity(pid: int) -> dict[str, str]:
     """Return what identifies a process on this host."""
-    return {"host": socket.gethostname(), "pid": str(pid), "start": _started(pid)}
-
-
-def _started(pid: int) -> str:
-    """Return when a process started, in the system's own count; "" where that is not known."""
-    fields = _fields(pid)
-    return fields[19] if fields else ""
-
-
-def _fields(pid: int) -> list[str]:
-    """Return what Linux says about a process, from its state on; nothing where that is not known."""
-    try:
-        text = Path(f"/proc/{pid}/stat").read_text()
-    except OSError:
-        return []
-    return text.rpartition(")")[2].split()
-
-
-def exists(pid: int) -> bool:
-    """Tell whether a process runs on this host; one that has ended does not, though nobody may have waited for it."""
-    if os.name == "nt":  # signal 0 means Ctrl+C there: do not ask
-        return False
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    except OSError:
-        pass  # somebody else's
-    return _fields(pid)[:1] not in (["Z"], ["X"])
+    return {"host": socket.gethostname(), "pid": str(pid), "start": started(pid)}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import PartialResultError, UsageError
 from lambda_core.domain.files import check_target, taken
+from lambda_core.domain.processes import ON_WINDOWS
 from lambda_core.results import file_format as layout
 from lambda_core.results import hdf5
 from lambda_core.results.averages import INTEGRALS, spans
@@ -94,8 +96,11 @@ class ResultWriter:
             with h5py.File(made, "w", libver="latest") as file:
                 hdf5.reserve(file, 0)
                 layout.create(file, provenance, channels)
+            if ON_WINDOWS:  # no file can be renamed there while it is open
+                _publish(made, path, force)
+                return cls(_growing(path), path, status)
             # Under its name only when SWMR is on: from its first moment it can be read, whatever happens.
-            writer = cls(h5py.File(made, "r+", libver="latest", rdcc_nbytes=_CACHE), path, status)
+            writer = cls(_growing(made), path, status)
             _publish(made, path, force)
             return writer
         except (OSError, RuntimeError) as error:
@@ -111,11 +116,15 @@ class ResultWriter:
         of `status` are written over.
         """
         made = hdf5.copy(path, kept, compress=False)
-        file = h5py.File(made, "r+", libver="latest", rdcc_nbytes=_CACHE)
+        if ON_WINDOWS:
+            os.replace(made, path)
+            made = path
+        file = _growing(made)
         sums = sums_of(file, status.rows)
         writer = cls(file, path, status)
         writer._sums = sums
-        os.replace(made, path)
+        if made != path:
+            os.replace(made, path)
         return writer
 
     def add_samples(self, samples: Samples) -> None:
@@ -300,7 +309,19 @@ class ResultWriter:
         try:
             yield
         except (OSError, RuntimeError) as error:
-            raise DiskError(self.path, hdf5.reason(error)) from None
+            broken = DiskError(self.path, hdf5.reason(error))
+            self._give_up(str(broken))
+            raise broken from None
+
+    def _give_up(self, message: str) -> None:
+        """Leave the file after a failed write: say so in it where it takes that much, and close it."""
+        self.closed = True
+        with contextlib.suppress(OSError, RuntimeError, ValueError):
+            left = replace(self._status, rows=self._written, state="interrupted", message=message)
+            self._file[layout.STATUS][()] = left.to_bytes(layout.STATUS_BYTES)
+            self._file.flush()
+        with contextlib.suppress(OSError, RuntimeError, ValueError):
+            self._file.close()
 
 
 def _identity(path: Path) -> tuple[int, int] | None:
@@ -310,6 +331,11 @@ def _identity(path: Path) -> tuple[int, int] | None:
     except OSError:
         return None
     return found.st_dev, found.st_ino
+
+
+def _growing(path: Path) -> h5py.File:
+    """Open a file to add rows."""
+    return h5py.File(path, "r+", libver="latest", rdcc_nbytes=_CACHE)
 
 
 def _publish(made: Path, path: Path, force: bool) -> None:

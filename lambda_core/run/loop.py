@@ -8,11 +8,15 @@ file is flushed, so a resumed run writes what an uninterrupted one would have wr
 from __future__ import annotations
 
 import glob
+import os
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.handed_laws import digest_of
+from lambda_core.domain.processes import locked
+from lambda_core.laws.kernels import cache_folder
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results import hdf5
 from lambda_core.results.checkpoint import Position
@@ -71,17 +75,18 @@ def run(
     attached = attached or Attachments.of(provenance, None)
     channels = attached.channels(engine)
     writer = ResultWriter.create(path, provenance, channels, Status(process=this_process()), force=force)
-    return _begin(engine, provenance, writer, report, attached)
+    return _begun(engine, provenance, writer, report, attached).drive()
 
 
-def _begin(
+def _begun(
     engine: RunEngine, provenance: Provenance, writer: ResultWriter, report: Report | None, attached: Attachments
-) -> Result:
+) -> Session:
+    """Return the first stretch of a run."""
     start = records_of(engine)
     known = {name: [row] for name, row in start.items()}
     writer.add_record(start, known)
     position = Position(0, Rows(), 0.0)
-    return Session(engine, _models(provenance), writer, known, start, position, report, attached).drive()
+    return Session(engine, _models(provenance), writer, known, start, position, report, attached)
 
 
 def resume(
@@ -106,6 +111,20 @@ def resume(
     UsageError
         When the disk has no room to go on.
     """
+    with locked(_lock_of(path)):  # of two that resume one file at the same moment, the second finds the first at work
+        session = _reopened(engine, provenance, path, report, attached)
+    return session.drive()
+
+
+def _lock_of(path: Path) -> Path:
+    """Return the file whose lock a process holds while it takes a result over."""
+    return cache_folder().parent / "locks" / f"{digest_of(os.fsencode(path.resolve()))}.lock"
+
+
+def _reopened(
+    engine: RunEngine, provenance: Provenance, path: Path, report: Report | None, attached: Attachments | None
+) -> Session:
+    """Return the next stretch of a run, its file open for this process."""
     result = Result(path)
     status = result.status()
     if status.alive():
@@ -115,7 +134,7 @@ def resume(
     attached = attached or Attachments.of(provenance, None)
     if checkpoint is None:  # killed before the first one: the beginning is as good
         writer = ResultWriter.continued(path, Status(process=this_process()), Rows())
-        return _begin(engine, provenance, writer, report, attached)
+        return _begun(engine, provenance, writer, report, attached)
     position = checkpoint.position
     check_rows(path, position)
     engine.restore(checkpoint.state)
@@ -133,7 +152,7 @@ def resume(
     # Convergence is looked at where a revolution ends: a run that was killed right behind that has nothing left to do.
     if any(len(rows) > 1 and known[name][-1][0] > rows[-2][0] for name, rows in records.items()):
         session.judge()
-    return session.drive()
+    return session
 
 
 def _models(provenance: Provenance) -> dict[str, BearingModel]:

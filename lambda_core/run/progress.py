@@ -11,6 +11,7 @@ from types import FrameType
 from pydantic import BaseModel, ConfigDict
 
 from lambda_core.domain.number_text import plus_minus
+from lambda_core.domain.processes import STOP_SIGNALS
 
 
 class Progress(BaseModel):
@@ -76,7 +77,7 @@ def stop_request() -> Iterator[StopRequest]:
             raise KeyboardInterrupt
         request.signal_number = number
 
-    before = {number: signal.signal(number, note) for number in (signal.SIGINT, signal.SIGTERM)}
+    before = {number: signal.signal(number, note) for number in STOP_SIGNALS}
     try:
         yield request
     finally:

@@ -177,8 +177,6 @@ class Session:
             advance = self._advance(pause)
             if not advance.ok:
                 return "failed", advance.message
-            if self._attached.is_prompt:
-                self._collect()
             if ended_by := self._attached.ended_by:
                 return "finished", ended_by
             self._housekeeping()
@@ -195,13 +193,32 @@ class Session:
         engine = self._engine
         before = engine.time
         target = next_multiple(before, self._interval)
-        advance = engine.advance(min(target, self._end), pause)
+        advance = self._advance_to(min(target, self._end), pause)
         if advance.ok and engine.time <= before:
             if pause():  # asked to before its first step was through: that is no failure
                 return advance
             advance = Advance(False, f"the engine does not get past t = {before:.9g} s")
         self._keep(target)
         return advance
+
+    def _advance_to(self, until: float, pause: Callable[[], bool]) -> Advance:
+        """Advance the engine; where an event may end the run, from sample to sample, to stop behind the right one."""
+        engine = self._engine
+        if not self._attached.is_prompt:
+            return engine.advance(until, pause)
+        paused = False
+
+        def noted() -> bool:
+            nonlocal paused
+            paused = pause()
+            return paused
+
+        while True:
+            before = engine.time
+            advance = engine.advance(min(until, next_multiple(before, engine.sample_interval)), noted)
+            self._collect()
+            if not advance.ok or paused or self._attached.ended_by or not before < engine.time < until:
+                return advance
 
     def _keep(self, target: float) -> None:
         """Keep a record of now; `target` is the time of the grid that it stands for [s]."""

@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.processes import APART
 
 HERE = "here"  # in this process
 _PATIENCE = 20.0  # with a scheduler that does not answer [s]
@@ -123,9 +124,7 @@ def _workers_variables() -> Iterator[None]:
 def start_apart(command: Sequence[str], folder: Path, said: Path, answer: Path) -> subprocess.Popen[bytes]:
     """Start a program that outlives this process; errors and answers go to files. OSError when it cannot be started."""
     with said.open("wb") as errors, answer.open("wb") as output:
-        return subprocess.Popen(
-            command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output, stderr=errors, start_new_session=True
-        )
+        return subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output, stderr=errors, **APART)
 
 
 class Dask(Pool):

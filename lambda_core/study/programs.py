@@ -6,13 +6,12 @@ What such a program says goes to files in a folder of its own, so that a later p
 from __future__ import annotations
 
 import json
-import os
-import signal
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, Future
 from pathlib import Path
 from typing import Any
 
+from lambda_core.domain.processes import ask_to_stop
 from lambda_core.results.run_status import Status, process_identity
 from lambda_core.study.pool import Pool, start_apart
 
@@ -56,7 +55,7 @@ class Program:
 
     def interrupt(self) -> None:
         """Ask it to stop; OSError when that cannot be done."""
-        os.kill(int(self._process["pid"]), signal.SIGINT if os.name != "nt" else signal.SIGTERM)
+        ask_to_stop(int(self._process["pid"]))
 
 
 class Programs(Pool, Executor):

@@ -211,7 +211,7 @@ DEPTH = State("wear_depth", "m", "depth worn off", scale=1e-9, lower=0.0)
 
 @law("contact_state", "worn", role_api=2, reference="own work", states=(DEPTH,))
 def worn(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):  # type: ignore[no-untyped-def]
-    """Wear that starts at zero and grows with the root of itself, but is polished away in the first half millisecond."""
+    """Wear that starts at zero, is polished away for half a millisecond, and grows then."""
     out[0] = -1e-6 if t < 0.5e-3 else 1e-9 * power / (1e-9 + par.wear_depth)
     return OK
 

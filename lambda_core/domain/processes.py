@@ -1,0 +1,80 @@
+"""Processes of this host, and locks between them, on every system.
+
+Which process writes a file is known by its number and its start: numbers are given out again.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+ON_WINDOWS = os.name == "nt"
+# A process that is to hear a request to stop, and outlive the one that starts it.
+APART = {"creationflags": 0x200} if ON_WINDOWS else {"start_new_session": True}  # CREATE_NEW_PROCESS_GROUP
+# Requests to stop, from the keyboard or from another program.
+STOP_SIGNALS: tuple[int, ...] = tuple(
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGBREAK") if hasattr(signal, name)
+)
+
+
+def started(pid: int) -> str:
+    """Return when a process started, in the system's own count; "" where there is none."""
+    import psutil
+
+    try:
+        text = Path(f"/proc/{pid}/stat").read_text()  # an exact count: a time of day moves with the clock
+    except OSError:
+        try:
+            return repr(psutil.Process(pid).create_time())
+        except psutil.Error:
+            return ""
+    return text.rpartition(")")[2].split()[19]
+
+
+def exists(pid: int) -> bool:
+    """Tell whether a process runs on this host; one that has ended does not, though nobody may have waited for it."""
+    import psutil
+
+    try:
+        return psutil.Process(pid).status() not in (psutil.STATUS_ZOMBIE, psutil.STATUS_DEAD)
+    except psutil.NoSuchProcess:
+        return False
+    except psutil.AccessDenied:  # somebody else's
+        return True
+
+
+def ask_to_stop(pid: int) -> None:
+    """Ask a process that :data:`APART` started to stop at a good point; OSError when that cannot be done."""
+    os.kill(pid, getattr(signal, "CTRL_BREAK_EVENT", signal.SIGINT) if ON_WINDOWS else signal.SIGINT)
+
+
+def command_line(words: Sequence[str]) -> str:
+    """Write a command as one line for the shell of this system."""
+    import shlex
+
+    return subprocess.list2cmdline(words) if ON_WINDOWS else shlex.join(words)
+
+
+@contextmanager
+def locked(path: Path) -> Iterator[None]:
+    """Hold a lock that one process of this host has at a time; the file stays, empty.
+
+    Where no lock can be made (a folder that takes no file), the work goes on without it.
+    """
+    from filelock import FileLock
+
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        lock = FileLock(path)
+        lock.acquire()
+    except (OSError, NotImplementedError):
+        yield
+        return
+    try:
+        yield
+    finally:
+        lock.release()
