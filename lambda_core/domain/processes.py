@@ -11,10 +11,11 @@ import subprocess
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 ON_WINDOWS = os.name == "nt"
-# A process that is to hear a request to stop, and outlive the one that starts it.
-APART = {"creationflags": 0x200} if ON_WINDOWS else {"start_new_session": True}  # CREATE_NEW_PROCESS_GROUP
+# Of a process that outlives the one that starts it (CREATE_NEW_PROCESS_GROUP on Windows).
+APART: dict[str, Any] = {"creationflags": 0x200} if ON_WINDOWS else {"start_new_session": True}
 # Requests to stop, from the keyboard or from another program.
 STOP_SIGNALS: tuple[int, ...] = tuple(
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGBREAK") if hasattr(signal, name)
