@@ -1,0 +1,298 @@
+"""Quasi-static equilibrium of a row of rollers that move, tilt and touch ribs between rigid rings.
+
+Every roller has three degrees of freedom in its plane, the inner ring five. All contacts are springs that only push:
+laminae of ISO 16281 on both raceways, Hertz's point contact at ribs. Their energy is convex in the displacements, so
+that the equilibrium is its only minimum; a damped Newton method with the exact Hessian finds it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.hertz import stiffness_constant
+from lambda_core.elements.roller.line_contact import ISO_CONSTANT, ISO_EXPONENT
+from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.slices import slice_positions
+
+_POINT_EXPONENT = 1.5
+_MOST_STEPS = 200
+_SETTLED = 1e-9  # imbalance over the largest force
+_SOFT = 1e-9  # of the stiffest direction: holds rollers that nothing touches
+_LONGEST = 50e-6  # longest step of a displacement [m]
+_STEEL = 2.0 / (2.0 * (1.0 - 0.3**2) / 206e9)  # E' of steel on steel [Pa], behind the constant of ISO 16281
+
+
+@dataclass(frozen=True)
+class RollerEquilibrium:
+    """Where rings and rollers are, and what they carry.
+
+    Attributes
+    ----------
+    ring : array
+        Displacement of the inner ring: x, y, z [m], tilt about y and z [rad], (5,).
+    rollers : array
+        Displacement of the rollers: a, r [m], tilt in their plane [rad], (Z, 3).
+    azimuths : array
+        Of the rollers from y towards z [rad], (Z,).
+    inner, outer : array
+        Loads of the slices [N], (Z, n).
+    ribs : array
+        Loads of the ribs [N], (Z, ribs), in the order of :attr:`RollerBearing.ribs`.
+    loads : array
+        Forces x, y, z [N] and moments about y, z [N m] that the rollers take from the inner ring, (5,).
+    steps : int
+        Newton steps.
+    """
+
+    ring: FloatArray
+    rollers: FloatArray
+    azimuths: FloatArray
+    inner: FloatArray
+    outer: FloatArray
+    ribs: FloatArray
+    loads: FloatArray
+    steps: int
+
+
+@dataclass(frozen=True)
+class _Springs:
+    """Contacts of one roller: penetration = rollers @ u + ring @ v - gap, energy c/(p + 1) penetration^(p + 1)."""
+
+    roller: FloatArray  # (m, 3)
+    ring: FloatArray  # (m, 3), of the inner ring's motion in the roller's plane
+    gap: FloatArray  # (m,)
+    constant: FloatArray  # (m,)
+    exponent: FloatArray  # (m,)
+
+    def forces(self, penetration: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return forces and stiffnesses, (..., m)."""
+        closed = np.maximum(penetration, 0.0)
+        force = self.constant * closed**self.exponent
+        slope = self.constant * self.exponent * closed ** (self.exponent - 1.0)
+        return force, np.where(penetration > 0.0, slope, 0.0)
+
+    def energy(self, penetration: FloatArray) -> float:
+        """Return the elastic energy of all contacts [J]."""
+        closed = np.maximum(penetration, 0.0)
+        return float(np.sum(self.constant / (self.exponent + 1.0) * closed ** (self.exponent + 1.0)))
+
+
+def single_contact_constant(length: float) -> float:
+    """Return c of Q = c delta^(10/9) of ONE raceway [N/m^(10/9)].
+
+    ISO 16281's c_L holds for both raceways in series; alike, each takes half of the approach: c = c_L 2^(10/9).
+    """
+    return float(ISO_CONSTANT * (length * 1e3) ** (8.0 / 9.0) * (2.0 * 1e3) ** ISO_EXPONENT)
+
+
+def balance(
+    bearing: RollerBearing,
+    loads: FloatArray,
+    *,
+    held: tuple[bool, bool, bool, bool, bool] = (False, False, False, True, True),
+    displacement: FloatArray | None = None,
+    inertial: FloatArray | None = None,
+    slices: int = 40,
+    first_angle: float = 0.0,
+) -> RollerEquilibrium:
+    """Find the equilibrium of all rollers and the inner ring; the outer ring stands still.
+
+    Parameters
+    ----------
+    bearing : RollerBearing
+        Geometry.
+    loads : array
+        On the inner ring: forces x, y, z [N] and moments about y, z [N m] through the rollers' middle plane, (5,).
+        Thrust on the inner ring is positive along x.
+    held : tuple of bool
+        Which displacements of the inner ring are prescribed.
+    displacement : array, optional
+        Prescribed ones [m, rad], (5,); zero by default.
+    inertial : array, optional
+        Centrifugal force and gyroscopic moment on every roller in its plane: a, r [N], moment from a to r [N m], (3,).
+    slices : int
+        Laminae of a contact.
+    first_angle : float
+        Azimuth of the first roller [rad].
+
+    Raises
+    ------
+    ValueError
+        For thrust that the kind of bearing does not take.
+    ArithmeticError
+        When no equilibrium is found: a free direction that nothing holds, or loads beyond all stiffness.
+    """
+    _refuse(bearing, loads, held)
+    springs = _springs(bearing, slices)
+    azimuths = first_angle + 2.0 * math.pi * np.arange(bearing.count) / bearing.count
+    carry = _carry(azimuths)
+    free = ~np.array(held)
+    ring = np.zeros(5) if displacement is None else np.asarray(displacement, dtype=np.float64).copy()
+    outside = np.zeros(3) if inertial is None else inertial
+    ring, rollers = _start(bearing, loads, free, ring, azimuths)
+    merit = np.inf
+    size = max(float(np.max(np.abs(loads[:3]))), abs(float(np.max(np.abs(loads[3:])))) / bearing.length, 1e-3)
+    # a shadow stiffness: what moves nothing stays where it is, what is in balance does not feel it
+    for step in range(_MOST_STEPS):
+        plane = np.einsum("zpq,q->zp", carry, ring)
+        penetration = rollers @ springs.roller.T + plane @ springs.ring.T - springs.gap
+        force, slope = springs.forces(penetration)
+        merit = springs.energy(penetration) - float(np.sum(rollers @ outside)) - float(loads @ ring)
+        roller_left = force @ springs.roller - outside
+        ring_left = np.einsum("zm,mp,zpq->q", force, springs.ring, carry) - loads
+        left = max(
+            float(np.max(np.abs(roller_left[:, :2]))),
+            float(np.max(np.abs(roller_left[:, 2]))) / bearing.length,
+            float(np.max(np.abs(np.where(free, ring_left, 0.0)[:3]))),
+            float(np.max(np.abs(np.where(free, ring_left, 0.0)[3:]))) / bearing.length,
+        )
+        if left < _SETTLED * size:
+            n = slices
+            return RollerEquilibrium(
+                ring, rollers, azimuths, force[:, n : 2 * n], force[:, :n], force[:, 2 * n :], ring_left + loads, step
+            )
+        move_ring, move_rollers = _newton(springs, slope, carry, free, roller_left, ring_left)
+        longest = max(
+            float(np.max(np.abs(move_rollers[:, :2]))),
+            float(np.max(np.abs(move_ring[:3]))),
+            float(np.max(np.abs(move_rollers[:, 2]))) * bearing.length,
+            float(np.max(np.abs(move_ring[3:]))) * bearing.length,
+        )
+        share = min(1.0, _LONGEST / longest) if longest > 0.0 else 1.0
+        descent = float(np.sum(roller_left * move_rollers)) + float(ring_left @ move_ring)
+        while share > 1e-12:
+            new_ring, new_rollers = ring + share * move_ring, rollers + share * move_rollers
+            moved = new_rollers @ springs.roller.T + np.einsum("zpq,q->zp", carry, new_ring) @ springs.ring.T
+            value = springs.energy(moved - springs.gap) - float(np.sum(new_rollers @ outside)) - float(loads @ new_ring)
+            if value <= merit + 1e-4 * share * descent + 1e-14 * abs(merit):
+                break
+            share *= 0.5
+        ring, rollers = ring + share * move_ring, rollers + share * move_rollers
+    raise ArithmeticError(
+        f"no equilibrium of the rollers after {_MOST_STEPS} steps: imbalance {left / size:.1e} of the load; "
+        "check loads, clearance and what holds the inner ring"
+    )
+
+
+def _refuse(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> None:
+    """Raise ValueError for thrust that nothing takes."""
+    thrust = float(loads[0])
+    if held[0]:
+        return
+    if bearing.kind == "tapered" and thrust <= 0.0:
+        raise ValueError("a tapered roller bearing needs thrust on the inner ring along x, above zero")
+    if thrust == 0.0:
+        return
+    rings = {(rib.ring, rib.end) for rib in bearing.ribs}
+    end = -1 if thrust > 0.0 else 1
+    if bearing.kind != "tapered" and not {("inner", end), ("outer", -end)} <= rings:
+        raise ValueError(f"a roller bearing of kind {bearing.kind} takes no thrust in this direction")
+
+
+def _springs(bearing: RollerBearing, slices: int) -> _Springs:
+    """Return all contacts of one roller: outer slices, inner slices, ribs."""
+    angles, half = bearing.angles, 0.5 * bearing.diameter
+    inner, outer, axis = angles.inner, angles.outer, angles.roller
+    along = slice_positions(bearing.effective_length, slices)
+    up = np.array([math.sin(axis), math.cos(axis)])
+    places = [
+        half * up + np.outer(along, [-math.cos(outer), math.sin(outer)]),
+        -half * up + np.outer(along, [-math.cos(inner), math.sin(inner)]),
+    ]
+    normals = [
+        np.tile([-math.sin(outer), -math.cos(outer)], (slices, 1)),
+        np.tile([math.sin(inner), math.cos(inner)], (slices, 1)),
+    ]
+    ribs = bearing.ribs
+    if ribs:
+        places.append(np.array([rib.place for rib in ribs]))
+        normals.append(np.array([rib.normal for rib in ribs]))
+    place, normal = np.concatenate(places), np.concatenate(normals)
+    turned = normal[:, 1] * place[:, 0] - normal[:, 0] * place[:, 1]
+    from_axis = place + np.array([0.0, bearing.centre])
+    ring_turned = normal[:, 1] * from_axis[:, 0] - normal[:, 0] * from_axis[:, 1]
+    is_inner = np.array([False] * slices + [True] * slices + [rib.ring == "inner" for rib in ribs])
+    ring = np.column_stack([normal, ring_turned]) * is_inner[:, None]
+    drop = bearing.drops(slices)
+    clearance = 0.25 * bearing.clearance  # half of the diametral clearance, shared by both contacts
+    line = single_contact_constant(bearing.effective_length) / slices
+    constants = [np.full(2 * slices, line)]
+    constants += [np.array([stiffness_constant(r.contact.radius_x, r.contact.radius_y, _STEEL) for r in ribs])]
+    return _Springs(
+        roller=-np.column_stack([normal, turned]),
+        ring=ring,
+        gap=np.concatenate([drop + clearance, drop + clearance, [rib.gap for rib in ribs]]),
+        constant=np.concatenate(constants),
+        exponent=np.concatenate([np.full(2 * slices, ISO_EXPONENT), np.full(len(ribs), _POINT_EXPONENT)]),
+    )
+
+
+def _carry(azimuths: FloatArray) -> FloatArray:
+    """Return the motion of the inner ring in the plane of every roller, (Z, 3, 5)."""
+    cosine, sine = np.cos(azimuths), np.sin(azimuths)
+    carry: FloatArray = np.zeros((len(azimuths), 3, 5))
+    carry[:, 0, 0] = 1.0
+    carry[:, 1, 1], carry[:, 1, 2] = cosine, sine
+    carry[:, 2, 3], carry[:, 2, 4] = -sine, cosine
+    return carry
+
+
+def _start(
+    bearing: RollerBearing, loads: FloatArray, free: NDArray[np.bool_], ring: FloatArray, azimuths: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return a first guess in which the loaded rollers touch both raceways and the loaded ribs."""
+    radial = float(np.hypot(loads[1], loads[2]))
+    cosine = math.cos(bearing.contact_angle)
+    largest = 4.08 * radial / (bearing.count * cosine)
+    drop = float(np.min(bearing.drops(40)))
+    constant = single_contact_constant(bearing.effective_length)
+    reach = 2.0 * (largest / constant) ** (1.0 / ISO_EXPONENT) + 2.0 * drop + 0.5 * bearing.clearance
+    if radial > 0.0:
+        for index in (1, 2):
+            if free[index]:
+                ring[index] = reach * loads[index] / radial
+    if bearing.kind == "tapered":
+        even = max(float(loads[0]), 0.0) / (bearing.count * math.sin(bearing.contact_angle))
+        middle = 2.0 * (even / constant) ** (1.0 / ISO_EXPONENT) + 2.0 * drop
+        if free[0]:
+            ring[0] = middle / math.sin(bearing.contact_angle)
+    elif loads[0] != 0.0 and free[0]:
+        ring[0] = math.copysign(bearing.end_play + 1e-6, float(loads[0]))
+    elif free[0]:
+        free[0] = False  # no thrust: nothing presses, and the ring stays in the middle
+    rollers: FloatArray = np.zeros((bearing.count, 3))
+    rollers[:, 0] = 0.5 * ring[0]
+    rollers[:, 1] = 0.5 * (ring[1] * np.cos(azimuths) + ring[2] * np.sin(azimuths))
+    return ring, rollers
+
+
+def _newton(
+    springs: _Springs,
+    slope: FloatArray,
+    carry: FloatArray,
+    free: NDArray[np.bool_],
+    roller_left: FloatArray,
+    ring_left: FloatArray,
+) -> tuple[FloatArray, FloatArray]:
+    """Return the Newton step of ring and rollers: rollers eliminated first, one 3 x 3 block each."""
+    own = np.einsum("zm,mi,mj->zij", slope, springs.roller, springs.roller)
+    mixed = np.einsum("zm,mi,mp->zip", slope, springs.roller, springs.ring) @ carry
+    outer = np.einsum("zpq,zm,mp,mr,zrs->qs", carry, slope, springs.ring, springs.ring, carry)
+    scale = np.maximum(np.einsum("zii->zi", own).max(axis=0), 1.0)
+    own = own + _SOFT * np.diag(scale)
+    solved = np.linalg.solve(own, np.concatenate([mixed, roller_left[:, :, None]], axis=2))
+    condensed = outer - np.einsum("zip,ziq->pq", mixed, solved[:, :, :-1])
+    right = ring_left - np.einsum("zip,zi->p", mixed, solved[:, :, -1])
+    index = np.flatnonzero(free)
+    step: FloatArray = np.zeros(5)
+    if len(index):
+        block = condensed[np.ix_(index, index)]
+        block = block + _SOFT * np.diag(np.maximum(np.diag(outer)[index], 1.0))
+        step[index] = -np.linalg.solve(block, right[index])
+    move = -(solved[:, :, -1] + np.einsum("zip,p->zi", solved[:, :, :-1], step))
+    return step, move

@@ -1,0 +1,295 @@
+"""Friction torque of a roller bearing in its quasi-static equilibrium: raceways, ribs and the oil bath.
+
+Rolling resistance of the inlets, losses in the solids, sliding of the raceways that carries the traction, sliding of
+roller ends on ribs, drag of rollers in the oil bath. The cage is left out. Every torque is a dissipated power over the
+speed of one ring against the other.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.hertz import HertzContact, hertz_contact
+from lambda_core.elements.roller import line_film
+from lambda_core.elements.roller.line_contact import half_width, peak_pressure
+from lambda_core.elements.roller.rib import rib_film
+from lambda_core.elements.roller.roller_bearing import Rib, Ring, RollerBearing
+from lambda_core.elements.roller.roller_drag import bath_drag
+from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium
+from lambda_core.elements.roller.roller_motion import RollerMotion
+from lambda_core.elements.roller.rolling import rolling_force
+from lambda_core.elements.roller.slices import slice_positions
+
+# K_L and K_Z of SKF's friction model (SKF, Rolling bearings, 2018, "Friction"), remembered: K_Z of the replenishment
+# factor, both of the drag.
+SKF_CONSTANTS = {"cylindrical": (0.65, 5.1), "full complement": (0.7, 6.2), "tapered": (0.7, 6.0), "needle": (0.5, 5.5)}
+_CELLS = 24  # of a rib contact along each axis
+
+
+@dataclass(frozen=True)
+class OilState:
+    """The oil at its bulk temperature, SI."""
+
+    viscosity: float  # at ambient pressure [Pa s]
+    density: float  # [kg/m3]
+    pressure_viscosity: float  # alpha [1/Pa]
+    temperature_slope: float  # beta = -d ln(eta)/dT [1/K]
+    conductivity: float  # [W/(m K)]
+
+    @property
+    def kinematic(self) -> float:
+        """Kinematic viscosity [m2/s]."""
+        return self.viscosity / self.density
+
+
+@dataclass(frozen=True)
+class FrictionParameters:
+    """What friction depends on apart from geometry, load, speed and oil."""
+
+    raceway_roughness: float = 0.16e-6  # composite rms [m]: Wingertszahn et al. 2023, Lubricants 11, 369
+    rib_roughness: float = 0.24e-6  # composite rms [m]: the same
+    raceway_asperities: tuple[float, float] = (2.32, 0.97)  # B, C of the asperities' share: the same
+    rib_asperities: tuple[float, float] = (1.90, 0.99)  # the same
+    boundary_friction: float = 0.12  # SKF, Rolling bearings, 2018, "Friction": mu_bl of a running bearing
+    eyring_stress: float = 8e6  # [Pa], class value of mineral oils
+    limit_ratio: float = 0.065  # limiting shear stress over pressure, class value of mineral oils
+    loss_factor: float = 0.03  # of the elastic work, as for balls: the material is the same
+    inlet_heat: float = 0.29  # Aihara 1987
+    replenishment: float = 3e-8  # SKF's K_rs of oil bath at low level and oil jet; zero: flooded
+    oil_height: float = 0.0  # H above the lowest point of the outer raceway [m]; zero: no bath
+    e_eff: float = 226e9  # E' of steel on steel [Pa]
+
+
+@dataclass(frozen=True)
+class RollerFriction:
+    """Torque and its parts [N m], films and tractions."""
+
+    rolling: dict[str, float] = field(default_factory=dict)  # of the inlets, by ring
+    hysteresis: dict[str, float] = field(default_factory=dict)
+    sliding: dict[str, float] = field(default_factory=dict)
+    rib: float = 0.0
+    drag: float = 0.0
+    film: dict[str, FloatArray] = field(default_factory=dict)  # central film of every slice [m], (Z, n); NaN unloaded
+    film_parameter: dict[str, float] = field(default_factory=dict)  # smallest Lambda under load by ring
+    pressure: dict[str, float] = field(default_factory=dict)  # largest Hertz pressure by ring [Pa]
+    rib_film: float = math.nan  # smallest of the loaded ribs [m]
+    rib_friction: float = math.nan  # coefficient of the most loaded rib
+    rib_pressure: float = 0.0  # largest [Pa]
+    heat_factor: float = 1.0  # on rolling resistance
+    supply_factor: float = 1.0  # on rolling resistance
+
+    @property
+    def raceways(self) -> float:
+        """Torque of both raceways [N m]."""
+        return sum(sum(part.values()) for part in (self.rolling, self.hysteresis, self.sliding))
+
+    @property
+    def total(self) -> float:
+        """All parts [N m]."""
+        return self.raceways + self.rib + self.drag
+
+
+def friction(
+    bearing: RollerBearing,
+    state: RollerEquilibrium,
+    motion: RollerMotion,
+    oil: OilState,
+    given: FrictionParameters | None = None,
+) -> RollerFriction:
+    """Return the friction torque in an equilibrium.
+
+    Parameters
+    ----------
+    bearing : RollerBearing
+        Geometry.
+    state : RollerEquilibrium
+        Loads of slices and ribs.
+    motion : RollerMotion
+        Kinematics; the rings must turn against each other.
+    oil : OilState
+        At the inlet.
+    given : FrictionParameters, optional
+        Surfaces, laws' constants and bath.
+
+    Raises
+    ------
+    ValueError
+        When nothing turns.
+    """
+    if motion.relative == 0.0:
+        raise ValueError("friction torque needs rings that turn against each other")
+    par = given or FrictionParameters()
+    heat = float(
+        line_film.inlet_heat_rolling(
+            motion.entrainment, oil.viscosity, oil.temperature_slope, oil.conductivity, par.inlet_heat
+        )
+    )
+    supply = replenishment(bearing, motion.relative, oil.kinematic, par.replenishment)
+    loads: dict[Ring, FloatArray] = {"inner": state.inner, "outer": state.outer}
+    found = {ring: _raceway(bearing, ring, load, motion, oil, par) for ring, load in loads.items()}
+    per_speed = 1.0 / abs(motion.relative)
+    ribs = [_rib(rib, state.ribs[:, i], bearing, motion, oil, par) for i, rib in enumerate(bearing.ribs)]
+    loaded = [rib for rib in ribs if rib is not None]
+    worst = max(loaded, key=lambda rib: rib[3].p_max, default=None)
+    drag = bath_drag(bearing, abs(motion.relative), oil.kinematic, par.oil_height, SKF_CONSTANTS[skf_kind(bearing)])
+    return RollerFriction(
+        rolling={ring: heat * supply * part.rolling * per_speed for ring, part in found.items()},
+        hysteresis={ring: part.hysteresis * per_speed for ring, part in found.items()},
+        sliding={ring: part.sliding(heat * supply) * per_speed for ring, part in found.items()},
+        rib=sum(rib[0] for rib in loaded) * per_speed,
+        drag=drag,
+        film={ring: part.film for ring, part in found.items()},
+        film_parameter={
+            ring: float(np.nanmin(part.film)) / par.raceway_roughness if np.any(loads[ring] > 0.0) else math.nan
+            for ring, part in found.items()
+        },
+        pressure={ring: float(part.pressure.max()) for ring, part in found.items()},
+        rib_film=min((rib[1] for rib in loaded), default=math.nan),
+        rib_friction=worst[2] if worst else math.nan,
+        rib_pressure=worst[3].p_max if worst else 0.0,
+        heat_factor=heat,
+        supply_factor=supply,
+    )
+
+
+def skf_kind(bearing: RollerBearing) -> str:
+    """Return the name of a bearing in SKF's friction model."""
+    if bearing.full_complement:
+        return "full complement"
+    return bearing.kind if bearing.kind in ("tapered", "needle") else "cylindrical"
+
+
+def replenishment(bearing: RollerBearing, speed: float, viscosity: float, constant: float) -> float:
+    """Return phi_rs = exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))), mm, mm2/s, 1/min (SKF 2018, "Friction")."""
+    _, k_z = SKF_CONSTANTS[skf_kind(bearing)]
+    d, D = 1e3 * bearing.bore, 1e3 * bearing.outside
+    rpm = abs(speed) * 30.0 / math.pi
+    return math.exp(-constant * 1e6 * viscosity * rpm * (d + D) * math.sqrt(k_z / (2.0 * (D - d))))
+
+
+@dataclass(frozen=True)
+class _Raceway:
+    """Powers [W] of one raceway without factors of heat and supply, and what belongs to them."""
+
+    rolling: float
+    hysteresis: float
+    film: FloatArray
+    pressure: FloatArray
+    traction: FloatArray  # shear force of the contact [N], (Z,), without heat and supply
+    ease: FloatArray  # slip per force [m/(s N)], (Z,)
+    largest: FloatArray  # shear force that the film can carry [N], (Z,)
+
+    def sliding(self, factor: float) -> float:
+        """Return the power of the slip that carries the traction [W]: force times slip, a Newtonian film."""
+        return float(np.sum(np.minimum(factor * self.traction, self.largest) ** 2 * self.ease))
+
+
+def _raceway(
+    bearing: RollerBearing, ring: Ring, loads: FloatArray, motion: RollerMotion, oil: OilState, par: FrictionParameters
+) -> _Raceway:
+    """Return the powers and films of one raceway, slice by slice.
+
+    Losses in the solids: the couple (2/(3 pi)) alpha w b per length of a cylinder (Johnson, Contact Mechanics, 1985,
+    eq. 9.2 for line contact) against the roller's speed relative to the raceway. The film carries the traction that
+    balances the rolling resistance, at most `limit_ratio` of the load. Its slip per length is T over eta_p 2 b/h + eta
+    pi sqrt(2 R/h): the flat of the contact with the viscosity at half of the peak pressure (Barus' law, at most 1 MPa
+    s), and Couette flow between the rigid surfaces around it, the integral of 1/(h + x^2/(2 R)).
+    """
+    count = loads.shape[1]
+    width = bearing.effective_length / count
+    line_load = loads / width
+    along = slice_positions(bearing.effective_length, count)
+    share = 1.0 + along * math.tan(bearing.angles.half) / (0.5 * bearing.diameter)
+    radius = bearing.radius(ring) * share
+    speed = motion.entrainment * share
+    carried = line_load > 0.0
+    load = np.where(carried, line_load, 1.0)
+    force = np.where(carried, rolling_force_along(load, radius, speed, oil.viscosity, par.e_eff), 0.0)
+    half = np.where(carried, half_width(load, radius, par.e_eff), 0.0)
+    peak = np.where(carried, peak_pressure(load, radius, par.e_eff), 0.0)
+    film = line_film.moes_line_film(load, radius, speed, oil.viscosity, oil.pressure_viscosity, par.e_eff)
+    film = film * line_film.inlet_heat_film(
+        speed, 0.0, peak, par.e_eff, oil.viscosity, oil.temperature_slope, oil.conductivity
+    )
+    couple = 2.0 / (3.0 * math.pi) * par.loss_factor * line_load * half
+    thick = np.minimum(oil.viscosity * np.exp(np.minimum(oil.pressure_viscosity * 0.5 * peak, 60.0)), 1e6)
+    shear = thick * 2.0 * half / film + oil.viscosity * math.pi * np.sqrt(2.0 * radius / film)
+    per_slip = np.sum(np.where(carried, shear * width, 0.0), axis=1)
+    return _Raceway(
+        rolling=float(2.0 * np.sum(force * speed) * width),
+        hysteresis=float(np.sum(couple) * width * motion.roller_speed(ring)),
+        film=np.where(carried, film, np.nan),
+        pressure=peak,
+        traction=np.sum(force, axis=1) * width,
+        ease=np.where(per_slip > 0.0, 1.0 / np.where(per_slip > 0.0, per_slip, 1.0), 0.0),
+        largest=par.limit_ratio * np.sum(loads, axis=1),
+    )
+
+
+def rolling_force_along(
+    line_load: FloatArray, radius: FloatArray, speed: FloatArray, viscosity: float, e_eff: float
+) -> FloatArray:
+    """Return :func:`rolling_force` per length with one speed per slice [N/m]."""
+    columns = [
+        rolling_force(line_load[..., k], radius[k], float(speed[k]), viscosity, e_eff) for k in range(len(speed))
+    ]
+    return np.stack(columns, axis=-1)
+
+
+def _rib(
+    rib: Rib, loads: FloatArray, bearing: RollerBearing, motion: RollerMotion, oil: OilState, par: FrictionParameters
+) -> tuple[float, float, float, HertzContact] | None:
+    """Return power of all rollers [W], smallest film [m], friction and contact of the most loaded; None unloaded."""
+    if not np.any(loads > 0.0):
+        return None
+    power, film = 0.0, math.inf
+    largest = float(loads.max())
+    rates: dict[float, tuple[float, float, float, HertzContact]] = {}
+    for load in loads[loads > 1e-9 * largest]:
+        key = float(f"{load:.9g}")
+        if key not in rates:
+            rates[key] = _rib_contact(rib, float(load), bearing, motion, oil, par)
+        power, film = power + rates[key][0], min(film, rates[key][1])
+    top = rates[float(f"{largest:.9g}")]
+    return power, film, top[2], top[3]
+
+
+def _rib_contact(
+    rib: Rib, load: float, bearing: RollerBearing, motion: RollerMotion, oil: OilState, par: FrictionParameters
+) -> tuple[float, float, float, HertzContact]:
+    """Return power [W], film [m], mean friction and Hertz contact of one roller end.
+
+    Slip is that of two bodies that turn against each other about their common generatrix: omega_rel times the distance
+    from it, cell by cell over the ellipse; the axis x of the contact is along sliding. Shear of the film tau_E
+    asinh(eta v/(h tau_E)), at most `limit_ratio` p (Ree and Eyring; Barus' viscosity), asperities mu p; shares after
+    Zhou and Hoeprich.
+    """
+    contact = hertz_contact(load, rib.contact.radius_x, rib.contact.radius_y, par.e_eff)
+    entrainment, turning = motion.rib(rib, bearing)
+    slide = turning * rib.contact.height
+    film = rib_film(load, rib.contact, entrainment, oil.viscosity, oil.pressure_viscosity, par.e_eff)
+    film *= float(
+        line_film.inlet_heat_film(
+            entrainment, slide, contact.p_max, par.e_eff, oil.viscosity, oil.temperature_slope, oil.conductivity
+        )
+    )
+    share = float(line_film.asperity_share(film / par.rib_roughness, *par.rib_asperities))
+    middles = 2.0 * (np.arange(_CELLS) + 0.5) / _CELLS - 1.0
+    x, y = np.meshgrid(middles, middles)
+    inside = x**2 + y**2 < 1.0
+    shape = np.sqrt(np.maximum(1.0 - x**2 - y**2, 0.0))
+    pressure = load * shape / shape.sum()  # of a cell [N]
+    area = 4.0 * contact.semi_a * contact.semi_b / _CELLS**2
+    height = rib.contact.height + y * contact.semi_a
+    slip = turning * np.hypot(height, x * contact.semi_b)
+    local = pressure / area
+    viscosity = oil.viscosity * np.exp(oil.pressure_viscosity * local)
+    sheared = par.eyring_stress * np.arcsinh(viscosity * slip / (film * par.eyring_stress))
+    stress = (1.0 - share) * np.minimum(sheared, par.limit_ratio * local) + share * par.boundary_friction * local
+    power = float(np.sum(np.where(inside, stress * slip * area, 0.0)))
+    mean = float(np.sum(np.where(inside, stress * area, 0.0))) / load
+    return power, film, mean, contact
