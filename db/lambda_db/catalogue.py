@@ -11,7 +11,15 @@ from sqlalchemy import Connection, Engine, func, select, tuple_
 from sqlalchemy.orm import Session
 
 from lambda_core.catalogue.designation import without_suffixes
-from lambda_core.catalogue.protocol import BearingRow, CageRow, ClearanceRow, LubricantRow, MaterialRow, Shadow
+from lambda_core.catalogue.protocol import (
+    BearingRow,
+    CageRow,
+    ClearanceRow,
+    LubricantRow,
+    MaterialRow,
+    RollerRow,
+    Shadow,
+)
 from lambda_core.catalogue.suffixes import Suffix
 from lambda_core.domain.errors import CatalogueError, Problem, nearest, unknown_name
 from lambda_db import build, rows
@@ -33,6 +41,7 @@ from lambda_db.models import (
 )
 from lambda_db.overlay import attach_user, detach_user
 from lambda_db.paths import user_database
+from lambda_db.roller_design import RollerDesign
 from lambda_db.search import bearing_query
 from lambda_db.shadows import shadows
 
@@ -154,6 +163,12 @@ class SqlCatalogue:
         plain = without_suffixes(text, self.names("bearing"), self.suffixes())
         with self._session() as session:
             return self._bearing_rows(session, list(session.scalars(bearing_query(plain, limit))))
+
+    def rollers(self) -> list[RollerRow]:
+        """Return every roller bearing, by designation and maker."""
+        query = select(RollerDesign).order_by(RollerDesign.designation, RollerDesign.maker)
+        with self._session() as session:
+            return [rows.roller_row(row, self._sources) for row in session.scalars(query)]
 
     def _named_row(self, session: Session, kind: str, name: str) -> Any:
         """Return a row by name or alias, case ignored."""

@@ -25,14 +25,14 @@ class Base(DeclarativeBase):
     type_annotation_map = {str: Text(), float: Float().with_variant(REAL(), "sqlite"), int: Integer()}  # noqa: RUF012
 
 
-_STRICT = {"sqlite_strict": True}
+STRICT = {"sqlite_strict": True}
 
 
 class Source(Base):
     """A citation that rows name by its key."""
 
     __tablename__ = "source"
-    __table_args__ = (*named("key", "title"), _STRICT)
+    __table_args__ = (*named("key", "title"), STRICT)
 
     key: Mapped[Key]
     title: Mapped[str]
@@ -42,7 +42,7 @@ class Alias(Base):
     """Another spelling of a lubricant, material or cage."""
 
     __tablename__ = "alias"
-    __table_args__ = (one_of("kind", ("lubricant", "material", "cage")), *named("alias", "name"), _STRICT)
+    __table_args__ = (one_of("kind", ("lubricant", "material", "cage")), *named("alias", "name"), STRICT)
 
     kind: Mapped[Key]
     alias: Mapped[Key]
@@ -120,7 +120,7 @@ class Bearing(Base):
             "shoulder diameters must satisfy bore < inner shoulder < outer shoulder < outside diameter",
         ),
         *graded(),
-        _STRICT,
+        STRICT,
     )
 
     designation: Mapped[Key]
@@ -179,7 +179,7 @@ class Candidate(Base):
     """One ranked design for an inner geometry that no catalogue prints; written by the build, never imported."""
 
     __tablename__ = "candidate"
-    __table_args__ = (_STRICT,)
+    __table_args__ = (STRICT,)
 
     designation: Mapped[Key]
     maker: Mapped[Key]
@@ -205,7 +205,7 @@ class Clearance(Base):
             "clearance limits must satisfy 0 <= minimum_um < maximum_um",
         ),
         grade(),
-        _STRICT,
+        STRICT,
     )
 
     clearance_class: Mapped[Key]
@@ -229,7 +229,7 @@ class Material(Base):
         *positive(*_SOLID, "permittivity"),
         check("poisson_range", "poisson_ratio > 0 AND poisson_ratio < 0.5", "poisson_ratio must lie between 0 and 0.5"),
         grade(),
-        _STRICT,
+        STRICT,
     )
 
     name: Mapped[Key]
@@ -262,7 +262,7 @@ class Cage(Base):
         grade(),
         status(),
         together("temperature", ("maximum_temperature_degC",)),
-        _STRICT,
+        STRICT,
     )
 
     name: Mapped[Key]
@@ -291,7 +291,7 @@ class Suffix(Base):
     __table_args__ = (
         *named("written", "meaning"),
         one_of("kind", ("clearance", "cage", "balls", "design", "note")),
-        _STRICT,
+        STRICT,
     )
 
     written: Mapped[Key]
@@ -306,7 +306,7 @@ class Lubricant(Base):
     """A lubricant; its numbers are rows of :class:`LubricantProperty` and :class:`LubricantParameter`."""
 
     __tablename__ = "lubricant"
-    __table_args__ = (*named("name", "base_type", "rheology"), _STRICT)
+    __table_args__ = (*named("name", "base_type", "rheology"), STRICT)
 
     name: Mapped[Key]
     base_type: Mapped[str]
@@ -325,7 +325,7 @@ class LubricantProperty(Base):
         status(),
         *positive_names(),
         check("permittivity_range", "name <> 'permittivity' OR value >= 1", "permittivity must be at least 1"),
-        _STRICT,
+        STRICT,
     )
 
     lubricant: Mapped[Key]
@@ -346,7 +346,7 @@ class LubricantParameter(Base):
         grade(),
         *positive_names(),
         check("eps_r_range", "name <> 'eps_r' OR value >= 1", "eps_r must be at least 1"),
-        _STRICT,
+        STRICT,
     )
 
     lubricant: Mapped[Key]

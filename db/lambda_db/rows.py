@@ -15,6 +15,7 @@ from lambda_core.catalogue.protocol import (
     LubricantRow,
     MaterialRow,
     Parameter,
+    RollerRow,
     Status,
     Value,
 )
@@ -33,6 +34,7 @@ from lambda_db.models import (
 from lambda_db.models import (
     Suffix as SuffixRow,
 )
+from lambda_db.roller_design import RollerDesign
 from lambda_db.units import PROPERTIES, bare_name, column_si, to_si
 
 Sources = Mapping[str, str]
@@ -103,6 +105,36 @@ def bearing_row(row: Bearing, candidates: Iterable[Candidate], sources: Sources)
         rating_type=row.rating_type,
         kind=row.kind or "deep groove",
         candidates=designs,
+        layer=cast(Layer, row.layer),
+        **cast(dict[str, Any], values),
+    )
+
+
+# Columns of a roller bearing that share the source and grade of the catalogue, and those of the inner geometry.
+_ROLLER_CATALOGUE = (
+    *("bore_diameter_mm", "outside_diameter_mm", "width_mm"),
+    *("dynamic_rating_kN", "static_rating_kN", "fatigue_limit_kN"),
+)
+_ROLLER_GEOMETRY = (
+    *("roller_count", "roller_diameter_mm", "roller_length_mm", "effective_length_mm", "pitch_diameter_mm"),
+    *("contact_angle_deg", "rib_height_mm", "profile_scale", "profile_length_mm"),
+)
+
+
+def roller_row(row: RollerDesign, sources: Sources) -> RollerRow:
+    """Convert one roller bearing."""
+    cells = vars(row)
+    groups = (("catalogue", _ROLLER_CATALOGUE), ("geometry", _ROLLER_GEOMETRY))
+    values = {
+        bare_name(column): _value(cells, column, (f"{group}_source", f"{group}_grade", f"{group}_status"), sources)
+        for group, columns in groups
+        for column in columns
+    }
+    return RollerRow(
+        designation=row.designation,
+        maker=row.maker,
+        series=row.series,
+        kind=row.kind,
         layer=cast(Layer, row.layer),
         **cast(dict[str, Any], values),
     )

@@ -15,6 +15,7 @@ from lambda_db.models import (
     Source,
     Suffix,
 )
+from lambda_db.roller_design import RollerDesign
 
 # Tables that people bring rows for, in the order in which they are read.
 SEED_TABLES: dict[str, type[Base]] = {
@@ -23,6 +24,7 @@ SEED_TABLES: dict[str, type[Base]] = {
         Source,
         Alias,
         Bearing,
+        RollerDesign,
         Clearance,
         Material,
         Cage,

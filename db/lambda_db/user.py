@@ -33,8 +33,14 @@ def _renew_bearings(connection: Connection) -> None:
 
 
 def _with_seal(connection: Connection) -> None:
-    _renew_bearings(connection)  # what is sealed are the columns of today
+    _renew_bearings(connection)  # what is sealed are the columns and tables of today
+    Base.metadata.tables["roller_design"].create(connection, checkfirst=True)
     create_seal(connection)
+
+
+def _with_rollers(connection: Connection) -> None:
+    Base.metadata.tables["roller_design"].create(connection, checkfirst=True)
+    renew_seal(connection)
 
 
 # Steps from version n to n + 1; the newest schema is Base.metadata itself.
@@ -43,8 +49,9 @@ MIGRATIONS: dict[int, Callable[[Connection], None]] = {
     2: _with_seal,
     3: _renew_bearings,
     4: _renew_bearings,
+    5: _with_rollers,
 }
-SCHEMA_VERSION = 5
+SCHEMA_VERSION = 6
 
 
 @contextmanager

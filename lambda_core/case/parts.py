@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Tag, field_validator, model_validator
 
 from lambda_core.case.option import Section, option
+from lambda_core.case.rollers import InlineRollers
 from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.units import (
     Angle,
@@ -123,6 +124,7 @@ class Bearing(Section):
         None, "whose design, where several makers are in the catalogue", min_length=1, max_length=_LONGEST_NAME
     )
     geometry: InlineGeometry | None = option(None, "inner geometry written here")
+    rollers: InlineRollers | None = option(None, "rollers in place of balls, written here")
     clearance: str | None = option(
         None,
         'radial internal clearance (diametral measure): a class ("CN"; "C3L", "C3H", "C3M", "C3P": lower half, upper '

@@ -87,6 +87,31 @@ class BearingRow(Frozen):
     layer: Literal["core", "plugin", "user"] = "core"
 
 
+class RollerRow(Frozen):
+    """A roller bearing of one row: boundary dimensions, ratings and inner geometry (SI)."""
+
+    designation: str
+    maker: str
+    series: str
+    kind: str  # "NU", "NJ", "NUP", "N", "NCF", "needle", "tapered"
+    bore_diameter: Value
+    outside_diameter: Value
+    width: Value
+    dynamic_rating: Value  # C [N]
+    static_rating: Value  # C0 [N]
+    fatigue_limit: Value | None = None  # Cu [N]
+    roller_count: Value
+    roller_diameter: Value  # mean
+    roller_length: Value
+    effective_length: Value  # of the contacts
+    pitch_diameter: Value  # at the rollers' middle
+    contact_angle: Value | None = None  # of the outer raceway of tapered bearings [rad]
+    rib_height: Value | None = None  # of cylindrical rollers
+    profile_scale: Value | None = None  # of a logarithmic profile, over the roller's diameter
+    profile_length: Value | None = None
+    layer: Literal["core", "plugin", "user"] = "core"
+
+
 class ClearanceRow(Frozen):
     """Limits of the radial internal clearance of one class for one bore (ISO 5753-1), SI."""
 
@@ -160,6 +185,9 @@ class Catalogue(Protocol):
 
     def bearings(self, text: str = "", limit: int = 50) -> list[BearingRow]:
         """Return the rows that match `text` (designation, bore, series, maker), best first."""
+
+    def rollers(self) -> list[RollerRow]:
+        """Return every roller bearing, by designation and maker."""
 
     def lubricant(self, name: str) -> LubricantRow:
         """Return one lubricant by its name or one of its aliases."""

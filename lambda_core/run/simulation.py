@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.domain.errors import CaseError, Problem, SolverError
 from lambda_core.model.checking import resolve
 from lambda_core.run.answers import result
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.results.reader import Result
+    from lambda_core.results.roller_quasistatic import RollerQuasiStatic
     from lambda_core.run.crosscheck import CrossCheck
     from lambda_core.run.estimate import Estimate, MachineEstimate
     from lambda_core.run.progress import Progress
@@ -34,7 +36,7 @@ def quasistatic(
     overrides: Iterable[str] = (),
     *,
     announce: Callable[[str], None] | None = None,
-) -> QuasiStatic | MachineEquilibrium:
+) -> QuasiStatic | RollerQuasiStatic | MachineEquilibrium:
     """Solve the quasi-static equilibrium of a case at t = 0: loads, angles, films, friction; no time, no cage.
 
     Of a machine it is that of its elastic shaft in its bearings, with housing, preload and gear forces.
@@ -48,8 +50,8 @@ def quasistatic(
 
     Returns
     -------
-    QuasiStatic or MachineEquilibrium
-        Of one bearing, or of a machine of several; numbers in the units of their names.
+    QuasiStatic, RollerQuasiStatic or MachineEquilibrium
+        Of one bearing with balls or rollers, or of a machine of several; numbers in the units of their names.
 
     Raises
     ------
@@ -65,6 +67,9 @@ def quasistatic(
         machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
         with naming_laws(*(bearing.model for bearing in machine.bearings)):
             return machine_equilibrium(machine, announce=announce)
+    rollers = _roller_answer(source, overrides)
+    if rollers is not None:
+        return rollers
     from lambda_core.discovery.manager import registry
     from lambda_core.results.quasistatic import quasistatic_of
     from lambda_core.run.engineering import rating_of
@@ -74,6 +79,25 @@ def quasistatic(
     with naming_laws(model):
         found = solve(model, announce=announce)
         return quasistatic_of(found, rating_of(found, registry().methods))
+
+
+def _roller_answer(source: Any, overrides: Iterable[str]) -> RollerQuasiStatic | None:
+    """Return the answer of a roller bearing; None where the source is no case of one."""
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.roller_case import roller_model
+    from lambda_core.results.roller_quasistatic import roller_quasistatic
+
+    if isinstance(source, BearingModel):
+        return None
+    model = roller_model(source, overrides)
+    if model is None:
+        return None
+    try:
+        return roller_quasistatic(model)
+    except ValueError as error:
+        raise CaseError(model.name, [Problem("loads", str(error))]) from None
+    except ArithmeticError as error:
+        raise SolverError(f"{model.name}: {error}") from error
 
 
 @one_blas_thread()

@@ -1,7 +1,7 @@
 """Roller bearings of measured friction, each with the one set of parameters that it is compared with.
 
-The sets were written down before the first comparison with the measured torques. Where a paper prints constants they are
-the paper's; everything else has the default of :class:`FrictionParameters`.
+The sets were written down before the first comparison with the measured torques. Where a paper prints constants they
+are the paper's; everything else has the default of :class:`FrictionParameters`.
 """
 
 from __future__ import annotations

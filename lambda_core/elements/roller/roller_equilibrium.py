@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.hertz import stiffness_constant
 from lambda_core.elements.roller.line_contact import ISO_CONSTANT, ISO_EXPONENT
 from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.slices import slice_positions
+from lambda_core.formulas.hertz import stiffness_constant
 
 _POINT_EXPONENT = 1.5
 _MOST_STEPS = 200

@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.hertz import HertzContact, hertz_contact
 from lambda_core.elements.roller import line_film
 from lambda_core.elements.roller.line_contact import half_width, peak_pressure
 from lambda_core.elements.roller.rib import rib_film
@@ -23,6 +22,7 @@ from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium
 from lambda_core.elements.roller.roller_motion import RollerMotion
 from lambda_core.elements.roller.rolling import rolling_force
 from lambda_core.elements.roller.slices import slice_positions
+from lambda_core.formulas.hertz import HertzContact, hertz_contact
 
 # K_L and K_Z of SKF's friction model (SKF, Rolling bearings, 2018, "Friction"), remembered: K_Z of the replenishment
 # factor, both of the drag.

@@ -143,7 +143,7 @@ def oil_table(
                     permittivity=permittivity[1](pressure, temperature, rho) if permittivity else None,
                 )
             )
-        coefficients.append(_coefficients(law, temperature))
+        coefficients.append(coefficients_of(law, temperature))
     return OilTable(
         lubricant=row.name,
         rheology=law.name,
@@ -159,7 +159,8 @@ def _celsius(temperature: float) -> float:
     return round(temperature - _ZERO_CELSIUS, 9)
 
 
-def _coefficients(law: OilLaw, temperature: float) -> OilCoefficients:
+def coefficients_of(law: OilLaw, temperature: float) -> OilCoefficients:
+    """Return what follows from an oil law at one temperature [K]."""
     log_viscosity, step = law.log_viscosity(temperature), 0.01
     warmer, colder = (law.state(0.0, temperature + sign * step)[0] for sign in (1.0, -1.0))
     return OilCoefficients(

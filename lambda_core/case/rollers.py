@@ -1,0 +1,52 @@
+"""Rollers of a bearing, written in the case."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from lambda_core.case.option import Section, option
+from lambda_core.domain.units import Angle, Length, SmallLength
+
+
+class InlineRollers(Section):
+    """Roller bearing: inner geometry; with a designation it replaces single catalogue values."""
+
+    kind: Literal["NU", "NJ", "NUP", "N", "NCF", "needle", "tapered"] | None = option(
+        None,
+        "which ribs guide the rollers: NU, N, NJ, NUP with a cage, NCF full complement, needle or tapered rollers",
+        reference="ISO 5593; SKF, Rolling bearings, 2018",
+    )
+    roller_count: int | None = option(None, "number of rollers Z", ge=3, le=200)
+    roller_diameter: Length | None = option(None, "mean roller diameter D_we", gt=0.0)
+    roller_length: Length | None = option(None, "length of a roller", gt=0.0)
+    effective_length: Length | None = option(None, "length of the raceway contacts L_we", gt=0.0)
+    pitch_diameter: Length | None = option(None, "pitch diameter D_pw at the middle of the rollers", gt=0.0)
+    contact_angle: Angle | None = option(None, "angle of the outer raceway of tapered rollers", gt=0.0, le=0.7853981634)
+    rib_height: Length | None = option(None, "height of the ribs of cylindrical rollers above the raceway", gt=0.0)
+    contact_height: Length | None = option(
+        None,
+        "tapered: height of the rib contact above the inner raceway's line; absent: a sixth of the large end",
+        gt=0.0,
+    )
+    end_radius: Length | None = option(
+        None, "radius of the end faces; absent: 0.9 of the distance to the apex of tapered rollers", gt=0.0
+    )
+    end_play: SmallLength = option(
+        "50 um", "axial play of a roller between two ribs", reference="0.02 to 0.1 mm are usual", ge=0.0
+    )
+    rib_roughness: SmallLength = option(
+        "0.24 um",
+        "composite rms roughness of roller ends and ribs",
+        reference="Wingertszahn et al. 2023, Lubricants 11, 369",
+        gt=0.0,
+    )
+    profile: Literal["iso", "logarithmic", "none"] | None = option(
+        None,
+        'profile of the rollers: "iso" (ISO 16281), "logarithmic" (scale and length below) or "none"; absent: the '
+        "catalogue's, else iso",
+    )
+    profile_scale: float | None = option(
+        None, "scale of the logarithmic profile over the roller diameter", gt=0.0, lt=0.01, reference="Teutsch 2005"
+    )
+    profile_length: Length | None = option(None, "length of the logarithmic profile", gt=0.0)
+    slices: int = option(40, "laminae of a contact", ge=30, le=200, reference="ISO 16281 asks for 30 and more")

@@ -1,0 +1,347 @@
+"""From a case to a roller bearing: geometry, loads, oil and surfaces of a quasi-static answer."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from contextlib import closing
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lambda_core.case.case import Case
+from lambda_core.case.rollers import InlineRollers
+from lambda_core.catalogue.protocol import Catalogue, RollerRow, Value
+from lambda_core.catalogue.roller_designation import RollerDesignation, roller_designation
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import CaseError, LambdaError, Problem
+from lambda_core.domain.units import parse, show
+from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.roller_clearance import roller_clearance
+from lambda_core.elements.roller.roller_friction import FrictionParameters, OilState
+from lambda_core.elements.roller.roller_ratings import (
+    roller_dynamic_rating,
+    roller_fatigue_load_limit,
+    roller_static_rating,
+)
+from lambda_core.model.bodies.resolve_materials import is_grease, lubrication_of, resolve_lubricant, resolve_oil_level
+from lambda_core.model.checks.oil_table import OilLaw, coefficients_of
+from lambda_core.model.laws.time_functions import initial, time_function
+from lambda_core.model.ledger import Ledger
+
+if TYPE_CHECKING:
+    from lambda_core.case.case_io import Source
+    from lambda_core.discovery.registry import Registry
+
+_WHERE = "bearing.designation"
+_NEEDED = ("kind", "roller_count", "roller_diameter", "effective_length", "pitch_diameter")
+_BOUNDARY = ("bore_diameter", "outside_diameter", "width")
+_REPLENISHMENT = {"oil bath": 3e-8, "oil jet": 3e-8, "under-race": 3e-8, "grease": 6e-8, "oil-air": 6e-8}
+_SHORTER = 0.1  # effective length: roller less this share of the diameter at each end where nothing is known
+
+
+@dataclass(frozen=True)
+class RollerModel:
+    """A roller bearing at its operating point, SI.
+
+    Attributes
+    ----------
+    name, title : str
+        Of the case, and what the bearing is.
+    bearing : RollerBearing
+        Geometry at operating clearance.
+    loads : array
+        On the inner ring: forces x, y, z [N], moments y, z [N m], (5,).
+    held : tuple of bool
+        Which displacements of the inner ring are locked.
+    speeds : tuple of float
+        Of inner and outer ring [rad/s].
+    oil : OilState
+        At the inlet.
+    friction : FrictionParameters
+        Surfaces and supply.
+    lubricant : str
+        Name of the oil.
+    lubrication : str
+        How it gets to the rollers.
+    temperature : float
+        Of the oil [K].
+    slices : int
+        Laminae.
+    assumptions : tuple of str
+        In plain words.
+    """
+
+    name: str
+    title: str
+    bearing: RollerBearing
+    loads: FloatArray
+    held: tuple[bool, bool, bool, bool, bool]
+    speeds: tuple[float, float]
+    oil: OilState
+    friction: FrictionParameters
+    lubricant: str
+    lubrication: str
+    temperature: float
+    slices: int
+    assumptions: tuple[str, ...]
+
+
+def roller_model(source: Source, overrides: Iterable[str] = ()) -> RollerModel | None:
+    """Return the roller bearing of a case; None where the case is about balls or cannot be read as one bearing.
+
+    Raises
+    ------
+    CaseError
+        With everything that is missing, contradictory or impossible about the roller bearing.
+    """
+    from lambda_core.case.case_io import load_case
+    from lambda_core.discovery.manager import registry
+
+    try:
+        case = load_case(source, overrides)
+    except LambdaError:
+        return None  # the ordinary path says what is wrong with it
+    known = registry()
+    with closing(known.catalogue()) as catalogue:
+        return _model(case, catalogue, known)
+
+
+def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | None:
+    bearing, ledger = case.bearing, Ledger(assumptions=list(case.assumptions))
+    found = None
+    if bearing.designation is not None:
+        found = ledger.ask("bearing.", lambda: roller_designation(catalogue, str(bearing.designation), bearing.maker))
+    if found is None and bearing.rollers is None and not ledger.problems:
+        return None
+    geometry = _geometry(case, found, ledger)
+    row, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
+    state = None
+    if row is not None and oil is not None:
+        if case.lubricant.properties is not None:
+            ledger.problem("lubricant.properties", "roller bearings take an oil of the catalogue: write its name alone")
+        else:
+            law = ledger.ask("lubricant.name", lambda: OilLaw(row, known))
+            if law is not None:
+                state = _oil(law, case.lubricant.temperature, oil.thermal_conductivity)
+    level = resolve_oil_level(case.lubricant, row, geometry.diameter if geometry else 0.0, ledger)
+    held = _held(case, ledger)
+    ledger.check(case.name)
+    if geometry is None or state is None or row is None:
+        raise CaseError(case.name, [Problem(_WHERE, "is not a complete roller bearing")])
+    lubrication = lubrication_of(case.lubricant, row)
+    rollers = bearing.rollers or InlineRollers()
+    height = 0.0 if lubrication != "oil bath" or is_grease(row) else max(level + 0.5 * geometry.diameter, 0.0)
+    return RollerModel(
+        name=case.name,
+        title=_title(case, found, geometry),
+        bearing=geometry,
+        loads=_loads(case),
+        held=held,
+        speeds=(initial(time_function(case.operation.speed)), 0.0),
+        oil=state,
+        friction=FrictionParameters(
+            raceway_roughness=case.surface.roughness,
+            rib_roughness=rollers.rib_roughness,
+            replenishment=_REPLENISHMENT[lubrication],
+            oil_height=height,
+        ),
+        lubricant=row.name,
+        lubrication=lubrication,
+        temperature=case.lubricant.temperature,
+        slices=rollers.slices,
+        assumptions=tuple(ledger.assumptions),
+    )
+
+
+def _title(case: Case, found: RollerDesignation | None, geometry: RollerBearing) -> str:
+    if found is None:
+        return f"{case.name} (rollers of the case, {geometry.kind})"
+    edited = ", rollers edited" if case.bearing.rollers else ""
+    return f"{found.row.designation} ({found.row.maker}{edited})"
+
+
+def _geometry(case: Case, found: RollerDesignation | None, ledger: Ledger) -> RollerBearing | None:
+    """Return the geometry: the case's values first, then the catalogue's; None after a problem."""
+    rollers, row = case.bearing.rollers or InlineRollers(), found.row if found else None
+    boundary = _boundary(case, row, ledger)
+    values = {name: _pick(rollers, row, name, ledger) for name in (*_NEEDED[1:], "roller_length", "contact_angle")}
+    values["rib_height"] = _pick(rollers, row, "rib_height", ledger)
+    kind = rollers.kind or (row.kind if row else None)
+    missing = [name for name in _NEEDED[1:] if values[name] is None] + ([] if kind else ["kind"])
+    for name in missing:
+        ledger.problem(f"bearing.rollers.{name}", "is required: the catalogue has no such bearing")
+    if missing or boundary is None or kind is None:
+        return None
+    if (kind == "tapered") != (values["contact_angle"] is not None):
+        ledger.problem("bearing.rollers.contact_angle", "belongs to tapered rollers, and they need it")
+        return None
+    number = {name: float(value or 0.0) for name, value in values.items()}
+    length = number["roller_length"] or number["effective_length"] + 2.0 * _SHORTER * number["roller_diameter"]
+    shape: dict[str, Any] = {
+        "count": int(number["roller_count"]),
+        "roller_diameter": number["roller_diameter"],
+        "length": number["effective_length"],
+        "pitch_diameter": number["pitch_diameter"],
+        "contact_angle": number["contact_angle"],
+    }
+    dynamic, static, limit = _ratings(case, row, shape, ledger)
+    try:
+        return RollerBearing(
+            kind=kind,
+            count=shape["count"],
+            diameter=number["roller_diameter"],
+            length=length,
+            effective_length=number["effective_length"],
+            pitch_diameter=number["pitch_diameter"],
+            bore=boundary[0],
+            outside=boundary[1],
+            width=boundary[2],
+            dynamic_rating=dynamic,
+            static_rating=static,
+            fatigue_limit=limit,
+            contact_angle=number["contact_angle"],
+            clearance=0.0 if kind == "tapered" else _clearance(case, found, boundary[0], ledger),
+            end_play=rollers.end_play,
+            rib_height=number["rib_height"],
+            contact_height=rollers.contact_height or 0.0,
+            end_radius=rollers.end_radius or 0.0,
+            series=row.series if row else "",
+            **_profile(rollers, row, number["roller_diameter"], ledger),
+        )
+    except ValueError as error:
+        ledger.problem("bearing.rollers", str(error).replace("`", ""))
+        return None
+
+
+def _pick(rollers: InlineRollers, row: RollerRow | None, name: str, ledger: Ledger) -> float | None:
+    """Return a value of the case, else of the catalogue; an assumed or derived one is said."""
+    written: float | None = getattr(rollers, name)
+    if written is not None:
+        ledger.given(f"bearing.rollers.{name}", written)
+        return written
+    value: Value | None = getattr(row, name) if row else None
+    if value is None:
+        return None
+    if value.status != "published" and name == "roller_count":
+        ledger.assume(f"rollers of the catalogue, grade {value.grade}: {value.source}")
+    return value.value
+
+
+def _boundary(case: Case, row: RollerRow | None, ledger: Ledger) -> tuple[float, float, float] | None:
+    """Return bore, outside diameter and width [m]; None after a problem."""
+    inline, found = case.bearing.geometry, []
+    for name in _BOUNDARY:
+        value = getattr(inline, name, None) or (getattr(row, name).value if row else None)
+        if value is None:
+            ledger.problem(f"bearing.geometry.{name}", "is required: the catalogue has no such bearing")
+        else:
+            found.append(float(value))
+    return (found[0], found[1], found[2]) if len(found) == len(_BOUNDARY) else None
+
+
+def _ratings(case: Case, row: RollerRow | None, shape: dict[str, Any], ledger: Ledger) -> tuple[float, float, float]:
+    """Return C, C_0 and C_u [N]: the case's, the catalogue's, or those of ISO 281 and ISO 76 for the geometry."""
+    inline = case.bearing.geometry
+    dynamic = getattr(inline, "dynamic_rating", None) or (row.dynamic_rating.value if row else None)
+    static = getattr(inline, "static_rating", None) or (row.static_rating.value if row else None)
+    if dynamic is None:
+        dynamic = roller_dynamic_rating(**shape)
+        ledger.assume(f"dynamic rating {show(dynamic, 'force', 4)} after ISO 281 from the inner geometry")
+    if static is None:
+        static = roller_static_rating(**shape)
+        ledger.assume(f"static rating {show(static, 'force', 4)} after ISO 76 from the inner geometry")
+    if row is not None and row.fatigue_limit is not None:
+        return float(dynamic), float(static), row.fatigue_limit.value
+    return float(dynamic), float(static), roller_fatigue_load_limit(float(static), shape["pitch_diameter"])
+
+
+def _profile(rollers: InlineRollers, row: RollerRow | None, diameter: float, ledger: Ledger) -> dict[str, Any]:
+    """Return the profile's options: the case's, the catalogue's, else ISO 16281."""
+    scale = rollers.profile_scale or (row.profile_scale.value if row and row.profile_scale else None)
+    length = rollers.profile_length or (row.profile_length.value if row and row.profile_length else None)
+    name = rollers.profile or ("logarithmic" if scale and length else "iso")
+    if name == "logarithmic":
+        if not (scale and length):
+            ledger.problem("bearing.rollers.profile", "logarithmic needs profile_scale and profile_length")
+            return {}
+        return {"profile": name, "profile_scale": scale * diameter, "profile_length": length}
+    if rollers.profile is None:
+        ledger.assume("profile of the rollers after ISO 16281: none is given")
+    return {"profile": name}
+
+
+def _clearance(case: Case, found: RollerDesignation | None, bore: float, ledger: Ledger) -> float:
+    """Return the radial clearance [m]: a value, or of a class its value as picked."""
+    text = case.bearing.clearance or (found.clearance if found else None) or "CN"
+    if case.bearing.clearance is None and (found is None or found.clearance is None):
+        ledger.assume("radial clearance class CN")
+    if text[:1].isdigit() or text[:1] in "-+.":
+        return parse(text, "small_length")
+    if text == "geometry" or len(text) > 2:
+        ledger.problem("bearing.clearance", f'"{text}": roller bearings take a class C2 to C5 or a value')
+        return 0.0
+    limits = ledger.ask("bearing.clearance", lambda: _limits(bore, text))
+    if limits is None:
+        return 0.0
+    low, high = limits
+    return {"minimum": low, "middle": 0.5 * (low + high), "maximum": high}[case.bearing.clearance_pick]
+
+
+def _limits(bore: float, text: str) -> tuple[float, float]:
+    try:
+        return roller_clearance(bore, text)
+    except ValueError as error:
+        raise LambdaError(str(error)) from None
+
+
+def _loads(case: Case) -> FloatArray:
+    """Return the loads on the inner ring at t = 0, (5,)."""
+    loads = case.loads
+    numbers = {
+        name: initial(time_function(getattr(loads, name))) for name in ("radial", "axial", "moment_y", "moment_z")
+    }
+    direction = loads.radial_direction
+    found = np.array(
+        [
+            numbers["axial"],
+            numbers["radial"] * math.cos(direction),
+            numbers["radial"] * math.sin(direction),
+            numbers["moment_y"],
+            numbers["moment_z"],
+        ]
+    )
+    if loads.inner_ring is not None:
+        more = ("force_x", "force_y", "force_z", "moment_y", "moment_z")
+        found += [initial(time_function(getattr(loads.inner_ring, name))) for name in more]
+    return found
+
+
+def _held(case: Case, ledger: Ledger) -> tuple[bool, bool, bool, bool, bool]:
+    """Return which displacements of the inner ring are locked; tilts that the case leaves open are."""
+    ring, found = case.bodies.inner_ring, []
+    for name in ("x", "y", "z", "tilt_y", "tilt_z"):
+        holding = getattr(ring, name)
+        mode = "spring" if getattr(holding, "stiffness", None) else getattr(holding, "mode", holding)
+        written = name in ring.model_fields_set
+        if mode not in ("free", "locked"):
+            ledger.problem(f"bodies.inner_ring.{name}", "roller bearings take free or locked")
+        found.append(mode == "locked" or (name.startswith("tilt") and not written))
+    if not {"tilt_y", "tilt_z"} & ring.model_fields_set:
+        ledger.assume("the shaft holds the inner ring straight: tilts are locked where the case leaves them open")
+    x, y, z, tilt_y, tilt_z = found
+    return x, y, z, tilt_y, tilt_z
+
+
+def _oil(law: OilLaw, temperature: float, conductivity: float) -> OilState:
+    """Return the oil at a temperature [K] and ambient pressure."""
+    point, density = law.state(0.0, temperature)
+    found = coefficients_of(law, temperature)
+    return OilState(
+        viscosity=math.exp(point),
+        density=density,
+        pressure_viscosity=1e-9 * found.alpha_tangent_per_GPa,
+        temperature_slope=found.beta_per_K,
+        conductivity=conductivity,
+    )

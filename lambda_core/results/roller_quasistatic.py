@@ -1,0 +1,317 @@
+"""The quasi-static answer of a roller bearing in the words of the machine interface."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.number_text import hours, number
+from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.domain.units import show
+from lambda_core.domain.wrapping import wrapped
+from lambda_core.elements.roller.axial_limit import AxialLimit, axial_limit
+from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, balance
+from lambda_core.elements.roller.roller_friction import RollerFriction, friction
+from lambda_core.elements.roller.roller_life import lamina_life, roller_basic_life
+from lambda_core.elements.roller.roller_motion import RollerMotion, rolling_motion
+from lambda_core.elements.roller.roller_ratings import lamina_ratings, roller_equivalent_load, roller_static_load
+from lambda_core.formulas.life import life_hours, reference_viscosity
+from lambda_core.formulas.loading import CARRYING
+from lambda_core.results.averages import finite
+from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.text import line, warning_lines
+
+if TYPE_CHECKING:
+    from lambda_core.model.roller_case import RollerModel
+
+_RPM = 30.0 / math.pi
+_MOST_PRESSURE = 4e9  # [Pa], ISO 76: permanent deformation of 1e-4 of the roller's diameter
+_LEAST_KAPPA = 0.1  # of ISO 281's a_ISO
+_MISALIGNED = 1.2e-3  # [rad], 4 minutes of arc: SKF, Rolling bearings, 2018, cylindrical rollers of series 2
+
+
+class RollerLoad(Record):
+    """Loads of one roller."""
+
+    roller: int
+    azimuth_deg: float
+    inner_N: float
+    outer_N: float
+    rib_N: float = Field(description="largest load of a rib")
+    tilt_mrad: float = Field(description="of the roller in its plane")
+    max_line_load_N_mm: float = Field(description="largest load per length of a slice")
+
+
+class RollerQuasiStatic(Record):
+    """Loads, films, friction torque, lives and safety of a roller bearing without time; the cage is left out."""
+
+    interface: int = INTERFACE
+    case: str
+    title: str
+    headline: str
+    kind: str
+    loaded_rollers: int = Field(description="rollers that carry more than a thousandth of the largest load")
+    max_load_N: float = Field(description="largest load of a roller on a raceway")
+    max_pressure_GPa: float
+    friction_torque_Nmm: float | None = Field(description="dissipated power over the relative speed of the rings")
+    friction_breakdown_Nmm: dict[str, float] = Field(description="rolling, hysteresis, sliding by ring; rib; drag")
+    raceway_share: float | None = Field(description="of the raceways in the torque")
+    rib_share: float | None = Field(description="of the ribs in the torque")
+    heat_factor: float | None = Field(description="of inlet heating on the rolling resistance")
+    supply_factor: float | None = Field(description="of replenishment on the rolling resistance")
+    cage_speed_ratio: float | None = Field(description="of rollers that do not slide, over the inner ring's speed")
+    film_um: list[float] = Field(description="smallest and largest central film of the raceways under load")
+    film_parameter: float | None = Field(description="smallest film over roughness of the raceways")
+    rib_load_N: float = Field(description="largest load of a rib")
+    rib_pressure_GPa: float
+    rib_film_um: float | None
+    rib_friction: float | None = Field(description="coefficient of friction of the most loaded rib")
+    inner_ring_displacement_um: list[float]
+    inner_ring_tilt_mrad: list[float]
+    inner_ring_moment_Nm: list[float] = Field(description="about y and z, that the rollers put on the shaft")
+    equivalent_load_N: float | None = Field(description="P of ISO 281")
+    basic_life_h: float | None = Field(description="L_10h of ISO 281, exponent 10/3")
+    reference_life_h: float | None = Field(description="L_10rh of ISO 16281, from the load of every lamina")
+    static_safety: float | None = Field(description="C_0/P_0 of ISO 76")
+    viscosity_ratio: float | None = Field(description="kappa of ISO 281")
+    axial_limit_N: float | None = Field(description="permissible constant axial load of ribs of cylindrical rollers")
+    rollers: list[RollerLoad]
+    warnings: list[str]
+    iterations: int
+    assumptions: list[str]
+
+    def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
+        """Return the lines for people in some units, none longer than `width` where one is given."""
+        return _text(self, width, units)
+
+
+def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
+    """Solve a roller bearing and put it into the units of the interface.
+
+    Raises
+    ------
+    ValueError
+        For loads that the kind of bearing does not take.
+    ArithmeticError
+        When there is no equilibrium.
+    """
+    bearing = model.bearing
+    motion = rolling_motion(bearing, *model.speeds)
+    state = balance(bearing, model.loads, held=model.held, inertial=motion.inertial(bearing), slices=model.slices)
+    turning = motion.relative != 0.0
+    found = friction(bearing, state, motion, model.oil, model.friction) if turning else RollerFriction()
+    carried = np.maximum(state.inner.sum(axis=1), state.outer.sum(axis=1))
+    films = np.concatenate([film[np.isfinite(film)] for film in found.film.values()]) if turning else np.zeros(0)
+    radial, axial = float(np.hypot(state.loads[1], state.loads[2])), abs(float(state.loads[0]))
+    limit = _limit(model, radial, motion)
+    x, y, z, tilt_y, tilt_z = (float(value) for value in state.ring)
+    total = found.total
+    return RollerQuasiStatic(
+        case=model.name,
+        title=model.title,
+        headline=_headline(model, radial, axial),
+        kind=bearing.kind,
+        loaded_rollers=int(np.sum(state.inner.sum(axis=1) > CARRYING * carried.max())),
+        max_load_N=float(carried.max()),
+        max_pressure_GPa=1e-9 * _pressure(bearing, state, model),
+        friction_torque_Nmm=1e3 * total if turning else None,
+        friction_breakdown_Nmm=_parts(found) if turning else {},
+        raceway_share=found.raceways / total if turning and total > 0.0 else None,
+        rib_share=found.rib / total if turning and total > 0.0 else None,
+        heat_factor=found.heat_factor if turning else None,
+        supply_factor=found.supply_factor if turning else None,
+        cage_speed_ratio=motion.cage / motion.inner if motion.inner != 0.0 else None,
+        film_um=[1e6 * float(films.min()), 1e6 * float(films.max())] if len(films) else [],
+        film_parameter=finite(min(found.film_parameter.values(), default=math.nan)),
+        rib_load_N=float(state.ribs.max(initial=0.0)),
+        rib_pressure_GPa=1e-9 * found.rib_pressure,
+        rib_film_um=finite(1e6 * found.rib_film),
+        rib_friction=finite(found.rib_friction),
+        inner_ring_displacement_um=[1e6 * x, 1e6 * y, 1e6 * z],
+        inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
+        inner_ring_moment_Nm=[-float(state.loads[3]), -float(state.loads[4])],
+        **_lives(model, state, radial, axial, motion),
+        axial_limit_N=limit.continuous if limit else None,
+        rollers=_rollers(bearing, state),
+        warnings=_warnings(model, state, axial, limit),
+        iterations=state.steps,
+        assumptions=[*model.assumptions, "rollers roll without sliding; the cage is left out"],
+    )
+
+
+def _headline(model: RollerModel, radial: float, axial: float) -> str:
+    bearing = model.bearing
+    kind = {"tapered": "tapered", "needle": "needle"}.get(bearing.kind, f"cylindrical {bearing.kind}")
+    speed = model.speeds[0] * _RPM
+    return (
+        f"{model.name}: {model.title}, {kind} roller bearing, {bearing.count} rollers of "
+        f"{show(bearing.diameter, 'length', 4)} x {show(bearing.length, 'length', 4)}\n"
+        f"radial {show(radial, 'force', 4)}, axial {show(axial, 'force', 4)}, {speed:.5g} rpm, "
+        f"{model.lubricant} at {show(model.temperature, 'temperature', 4)} ({model.lubrication})"
+    )
+
+
+def _parts(found: RollerFriction) -> dict[str, float]:
+    """Return the parts of the torque [N mm] by name."""
+    by_ring = (("rolling", found.rolling), ("hysteresis", found.hysteresis), ("sliding", found.sliding))
+    parts = {f"{name}_{ring}": 1e3 * value for name, values in by_ring for ring, value in values.items()}
+    return {**parts, "rib": 1e3 * found.rib, "drag": 1e3 * found.drag}
+
+
+def _pressure(bearing: RollerBearing, state: RollerEquilibrium, model: RollerModel) -> float:
+    """Return the largest pressure of a raceway [Pa], also at rest."""
+    from lambda_core.elements.roller.line_contact import peak_pressure
+
+    width = bearing.effective_length / model.slices
+    loads = (("inner", state.inner), ("outer", state.outer))
+    return max(
+        float(peak_pressure(load.max() / width, bearing.radius(ring), model.friction.e_eff))  # type: ignore[arg-type]
+        for ring, load in loads
+    )
+
+
+def _lives(
+    model: RollerModel, state: RollerEquilibrium, radial: float, axial: float, motion: RollerMotion
+) -> dict[str, Any]:
+    """Return lives, static safety and viscosity ratio; None where a standard gives none."""
+    bearing = model.bearing
+    angle, gamma = bearing.contact_angle, bearing.diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
+    thrust = axial if angle > 0.0 else 0.0
+    equivalent = roller_equivalent_load(radial, thrust, angle).load
+    static = roller_static_load(radial, thrust, angle)
+    ratings = lamina_ratings(bearing.dynamic_rating, bearing.count, gamma, model.slices, contact_angle=angle)
+    mean = 0.5 * (state.inner + state.outer)
+    reference = lamina_life(mean, ratings, bearing.dynamic_rating).life
+    speed = abs(motion.relative)
+    basic = roller_basic_life(bearing.dynamic_rating, equivalent)
+    kappa = model.oil.kinematic / reference_viscosity(speed, bearing.pitch_diameter) if speed > 0.0 else math.nan
+    return {
+        "equivalent_load_N": equivalent,
+        "basic_life_h": finite(life_hours(basic, speed)),
+        "reference_life_h": finite(life_hours(reference, speed)),
+        "static_safety": finite(bearing.static_rating / static) if static > 0.0 else None,
+        "viscosity_ratio": finite(kappa),
+    }
+
+
+def _limit(model: RollerModel, radial: float, motion: RollerMotion) -> AxialLimit | None:
+    """Return the permissible axial loads of cylindrical rollers between ribs; None of other kinds and at rest."""
+    bearing = model.bearing
+    if bearing.kind not in ("NJ", "NUP", "NCF") or motion.relative == 0.0:
+        return None
+    return axial_limit(
+        radial,
+        motion.relative,
+        bore=bearing.bore,
+        outside=bearing.outside,
+        width=bearing.width,
+        static_rating=bearing.static_rating,
+        light_series=bearing.series == "2",
+        complement="full" if bearing.full_complement else "cage",
+        oil=model.lubrication != "grease",
+    )
+
+
+def _rollers(bearing: RollerBearing, state: RollerEquilibrium) -> list[RollerLoad]:
+    """Return the loads of every roller."""
+    width = bearing.effective_length / state.inner.shape[1]
+    inner, outer = state.inner.sum(axis=1), state.outer.sum(axis=1)
+    ribs: FloatArray = state.ribs.max(axis=1, initial=0.0)
+    most = np.maximum(state.inner.max(axis=1), state.outer.max(axis=1)) / width
+    return [
+        RollerLoad(
+            roller=j,
+            azimuth_deg=math.degrees(float(state.azimuths[j])),
+            inner_N=float(inner[j]),
+            outer_N=float(outer[j]),
+            rib_N=float(ribs[j]),
+            tilt_mrad=1e3 * float(state.rollers[j, 2]) if inner[j] > 0.0 else 0.0,
+            max_line_load_N_mm=1e-3 * float(most[j]),
+        )
+        for j in range(bearing.count)
+    ]
+
+
+def _warnings(model: RollerModel, state: RollerEquilibrium, axial: float, limit: AxialLimit | None) -> list[str]:
+    """Return what is beyond a limit."""
+    found = []
+    pressure = _pressure(model.bearing, state, model)
+    if pressure > _MOST_PRESSURE:
+        found.append(f"contact pressure {1e-9 * pressure:.3g} GPa is above the 4 GPa of the static rating (ISO 76)")
+    if limit is not None and axial > limit.continuous:
+        names = {limit.thermal: "heat", limit.mechanical: "strength of the ribs", limit.guidance: "guidance of rollers"}
+        found.append(
+            f"axial load {axial:.0f} N is above the permissible {limit.continuous:.0f} N "
+            f"({names[limit.continuous]}; SKF, Rolling bearings, 2018)"
+        )
+    tilt = float(np.hypot(state.ring[3], state.ring[4]))
+    if tilt > _MISALIGNED:
+        found.append(f"tilt of the rings {1e3 * tilt:.2f} mrad is above the 4 minutes of arc of rollers (SKF, 2018)")
+    return found
+
+
+def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str:
+    """Return the answer, a line per subject and a table of rollers."""
+    parts = found.friction_breakdown_Nmm
+    tilt_y, tilt_z = found.inner_ring_tilt_mrad
+    x, y, z = (units.number(value, "um", 2) for value in found.inner_ring_displacement_um)
+    lines = [
+        units.sentence(found.headline),
+        line(
+            "equilibrium",
+            f"{found.loaded_rollers} rollers loaded",
+            f"Q_max {units.text(found.max_load_N, 'N', 0)}",
+            f"p_max {units.text(found.max_pressure_GPa, 'GPa', 3)}",
+        ),
+        line("inner ring", f"x {x}  y {y}  z {z} {units.unit('um')}", f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad"),
+    ]
+    if found.friction_torque_Nmm is not None:
+        shares = f"raceways {100 * (found.raceway_share or 0.0):.0f} %, ribs {100 * (found.rib_share or 0.0):.0f} %"
+        lines += [
+            line("friction torque", units.text(found.friction_torque_Nmm, "N mm"), "(without cage)", shares),
+            *(_ring_line(ring, parts, units) for ring in ("inner", "outer")),
+            f"          rib {units.number(parts['rib'], 'N mm')}  drag {units.number(parts['drag'], 'N mm')}",
+            line("factors", f"heat {number(found.heat_factor, 3)}", f"supply {number(found.supply_factor, 3)}"),
+            line("cage speed", f"{number(found.cage_speed_ratio, 4)} of inner ring"),
+            line("film", units.interval(found.film_um, "um", 2), f"Lambda {number(found.film_parameter, 1)}"),
+        ]
+    if found.rib_load_N > 0.0:
+        film = "" if found.rib_film_um is None else f"film {units.text(found.rib_film_um, 'um', 2)}"
+        friction = "" if found.rib_friction is None else f"friction {number(found.rib_friction, 4)}"
+        lines.append(line("rib", f"load {units.text(found.rib_load_N, 'N', 0)}", film, friction))
+    lives = ((found.reference_life_h, "ISO 16281"), (found.basic_life_h, "ISO 281"))
+    lines += [
+        line("rating life", *(f"{hours(life)} ({standard})" for life, standard in lives if life is not None)),
+        line(
+            "safety",
+            f"static C0/P0 {number(found.static_safety)}" if found.static_safety is not None else "",
+            f"viscosity ratio kappa {number(found.viscosity_ratio, 1)}" if found.viscosity_ratio is not None else "",
+            f"axial limit {units.text(found.axial_limit_N, 'N', 0)}" if found.axial_limit_N is not None else "",
+        ),
+        *_table(found, units),
+        *warning_lines([units.sentence(warning) for warning in found.warnings], width),
+        line("assumed", f"{len(found.assumptions)} things: --json lists them"),
+    ]
+    return "\n".join(wrapped(lines, width))
+
+
+def _ring_line(ring: str, parts: dict[str, float], units: UnitSystem) -> str:
+    names = ("rolling", "hysteresis", "sliding")
+    return f"  {ring:<6}" + "".join(f"  {name} {units.number(parts[f'{name}_{ring}'], 'N mm')}" for name in names)
+
+
+def _table(found: RollerQuasiStatic, units: UnitSystem) -> list[str]:
+    """Return a row per roller."""
+    force = units.unit("N")
+    heads = (f"inner {force}", f"outer {force}", f"rib {force}", "tilt mrad", "N/mm")
+    table = [f"{'roller':>8}{'azimuth':>10}" + "".join(f"{head:>12}" for head in heads)]
+    for one in found.rollers:
+        loads = "".join(f"{units.value(load, 'N'):>12.1f}" for load in (one.inner_N, one.outer_N, one.rib_N))
+        row = f"{one.roller:>8}{one.azimuth_deg:>10.1f}{loads}{one.tilt_mrad:>12.4f}{one.max_line_load_N_mm:>12.1f}"
+        table.append(row)
+    return table

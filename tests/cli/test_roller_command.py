@@ -1,0 +1,119 @@
+"""Roller bearings from the command line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from lambda_cli.main import main
+
+CASE = """\
+name = "{name}"
+[bearing]
+designation = "{designation}"
+clearance_pick = "middle"
+[lubricant]
+name = "FVA3"
+temperature = "60 degC"
+[loads]
+radial = "6 kN"
+axial = "{axial}"
+[operation]
+speed = "3000 rpm"
+"""
+
+
+def case(folder: Path, designation: str, axial: str = "0 N", more: str = "") -> str:
+    path = folder / "case.toml"
+    path.write_text(CASE.format(name="case", designation=designation, axial=axial) + more)
+    return str(path)
+
+
+@pytest.mark.parametrize(
+    ("designation", "axial"),
+    [
+        ("SKF NU 208 ECP", "0 N"),
+        ("32216 J2/Q", "3 kN"),
+        ("NJ 208", "500 N"),
+        ("NA 4905", "0 N"),
+        ("NCF 3008 CV", "0 N"),
+    ],
+)
+def test_quasistatic(designation: str, axial: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["quasistatic", case(tmp_path, designation, axial), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["friction_torque_Nmm"] == pytest.approx(sum(found["friction_breakdown_Nmm"].values()))
+    assert found["loaded_rollers"] >= 3
+    assert found["basic_life_h"] > 0.0
+    assert (found["rib_load_N"] > 0.0) == (axial != "0 N")
+    assert (found["axial_limit_N"] is not None) == designation.startswith(("NJ", "NCF"))
+
+
+def test_the_text_names_shares_and_lives(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["quasistatic", case(tmp_path, "32216", "3 kN")]) == 0
+    out = capsys.readouterr().out
+    for words in ("raceways 9", "ribs", "ISO 16281", "static C0/P0", "rollers loaded"):
+        assert words in out
+
+
+def test_too_much_thrust_is_a_warning(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["quasistatic", case(tmp_path, "NJ 208", "3 kN")]) == 0
+    assert "above the permissible" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("designation", "axial", "more", "message"),
+    [
+        ("NU 208", "1 kN", "", "takes no thrust"),
+        ("NU 208-XYZ", "0 N", "", '"XYZ" is not a known suffix'),
+        ("32216", "0 N", "", "needs thrust"),
+        ("NU 208", "0 N", "[bearing.rollers]\nroller_count = 40\n", "do not fit"),
+        ("NU 208", "0 N", '[bodies.inner_ring]\nx = "20 N/um"\n', "free or locked"),
+    ],
+)
+def test_what_cannot_be(
+    designation: str, axial: str, more: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["quasistatic", case(tmp_path, designation, axial, more)]) == 3
+    assert message in capsys.readouterr().err
+
+
+def test_motion_says_what_computes_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", case(tmp_path, "NU 208")]) == 3
+    assert "is a roller bearing" in capsys.readouterr().err
+
+
+def test_own_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "own.toml"
+    path.write_text(
+        """\
+name = "own"
+[bearing.geometry]
+bore_diameter = "40 mm"
+outside_diameter = "80 mm"
+width = "18 mm"
+[bearing.rollers]
+kind = "N"
+roller_count = 14
+roller_diameter = "11 mm"
+effective_length = "9.6 mm"
+pitch_diameter = "60.5 mm"
+rib_height = "2 mm"
+profile = "logarithmic"
+profile_scale = 4e-4
+profile_length = "10 mm"
+[bearing]
+clearance = "20 um"
+[lubricant]
+name = "FVA3"
+temperature = "60 degC"
+[loads]
+radial = "4 kN"
+[operation]
+speed = "1500 rpm"
+"""
+    )
+    assert main(["quasistatic", str(path), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert any("ISO 76" in sentence for sentence in found["assumptions"])
