@@ -222,7 +222,7 @@ def target(picture: Picture) -> Path:
 
 def motor_case() -> str:
     """Return the case file of the tutorial."""
-    page = DOCS / "tutorial-first-bearing.md"
+    page = DOCS / "first-bearing.md"
     return next(
         str(step.text) for step in page_examples.steps(page) if step.kind == "file" and step.name == "motor.toml"
     )

@@ -33,7 +33,7 @@ def test_its_command_draws_what_there_is(picture: gallery.Picture) -> None:
 
 
 def test_the_tutorial_reaches_a_report_in_five_commands() -> None:
-    page = DOCS / "tutorial-first-bearing.md"
+    page = DOCS / "first-bearing.md"
     typed = [step.text for step in page_examples.steps(page) if step.kind == "command"]
     assert len(typed) <= 5
     assert typed[0].startswith("lambda-bearing init")
@@ -42,7 +42,7 @@ def test_the_tutorial_reaches_a_report_in_five_commands() -> None:
         assert sum(f"lambda-bearing {step} " in command for command in typed) == 1
 
 
-@pytest.mark.parametrize("name", ["index.md", "gallery.md", "tutorial-first-bearing.md"])
+@pytest.mark.parametrize("name", ["index.md", "gallery.md", "first-bearing.md"])
 def test_what_the_page_points_at_exists(name: str) -> None:
     """Also what stands in HTML, which the site's own check of links does not read."""
     text = (DOCS / name).read_text(encoding="utf-8")
