@@ -1,4 +1,4 @@
-"""The order of the house, counted: names that are unique, numbers that have names, rooms that stay small."""
+"""Test names, sizes and directions of modules."""
 
 from __future__ import annotations
 
