@@ -1,4 +1,4 @@
-"""What laws get wrong: the discrepancy between a fitted model and what would be measured.
+"""Model discrepancy: the part of measured values that no parameter explains.
 
 A fit finds the best values of its parameters under laws that are not exact. Measured values are taken as
 
