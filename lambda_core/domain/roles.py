@@ -320,3 +320,13 @@ DEFAULT_MODELS: dict[str, str] = {
     "breakdown": "statistical",
     "discharge": "resistance",
 }
+
+# Roles whose laws differ between ellipses and lines -> built-in default of line contacts; the others serve both.
+DEFAULT_LINE_MODELS: dict[str, str] = {
+    "normal_contact": "iso-line",
+    "damping": "squeeze-line",
+    "film_thickness": "moes-line",
+    "rolling_resistance": "biboulet-houpert-line",
+    "elastic_hysteresis": "johnson-line",
+    "capacitance": "line-gap",
+}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import KW_ONLY, dataclass, field
 from types import FunctionType, MappingProxyType
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar
 
 from pydantic import BaseModel
 
@@ -27,6 +27,9 @@ def _no_errors() -> Mapping[int, str]:
 
 def _no_states() -> Mapping[str, float]:
     return MappingProxyType({})
+
+
+Contact = Literal["point", "line", "any"]
 
 
 @dataclass(frozen=True)
@@ -60,6 +63,9 @@ class Law:
         What every contact keeps, for laws of the role ``contact_state``; the kernel reads it as ``par.NAME``.
     reads : mapping of str to float
         States of the contact that the kernel reads as ``par.NAME``, each with a value to try the law with.
+    contact : {"point", "line", "any"}
+        Shape of the contacts that it is about, in the roles of :data:`lambda_core.domain.roles.DEFAULT_LINE_MODELS`:
+        ellipses, lines of rollers, or either.
     distribution : str
         Package that brought it, with its version; filled in when it is registered.
     """
@@ -78,6 +84,7 @@ class Law:
     bibtex: str = ""
     states: tuple[State, ...] = ()
     reads: Mapping[str, float] = field(default_factory=_no_states)
+    contact: Contact = "point"
     distribution: str = ""
 
     def __post_init__(self) -> None:
@@ -133,6 +140,7 @@ def law(
     bibtex: str = "",
     states: tuple[State, ...] = (),
     reads: Mapping[str, float] | None = None,
+    contact: Contact = "point",
 ) -> Callable[[Kernel], Kernel]:
     """Make the function below a law.
 
@@ -162,6 +170,9 @@ def law(
         Of a law of the role ``contact_state``: what every contact keeps.
     reads : mapping of str to float, optional
         States that the kernel reads as ``par.NAME``, each with a value to try the law with.
+    contact : {"point", "line", "any"}
+        Shape of the contacts that the law is about. To a law of lines R_y is the contact's length, semi_a its half,
+        semi_b the half width; loads, forces and moments are those of the whole length.
 
     Examples
     --------
@@ -206,6 +217,7 @@ def law(
             bibtex=bibtex,
             states=states,
             reads=reads or {},
+            contact=contact,
         )
         if not isinstance(kernel, FunctionType):
             raise PluginError(

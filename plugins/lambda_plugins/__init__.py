@@ -19,12 +19,15 @@ _LAWS: dict[str, dict[str, str]] = {
     "normal_contact": {
         "hamrock-brewe": "normal_contact:hamrock_brewe",
         "hertz-exact": "normal_contact:hertz_exact",
+        "iso-line": "line_contact:iso_line",
+        "hertz-line": "line_contact:hertz_line_contact",
     },
     "damping": {
         "cubic": "damping:cubic",
         "hunt-crossley": "damping:hunt_crossley",
         "none": "damping:none",
         "squeeze-film": "damping:squeeze_film",
+        "squeeze-line": "line_contact:squeeze_line",
     },
     "rheology": {
         "vogel-dicke": "vogel_dicke:vogel_dicke",
@@ -35,6 +38,8 @@ _LAWS: dict[str, dict[str, str]] = {
     "film_thickness": {
         "chittenden": "film_thickness:chittenden",
         "hamrock-dowson": "film_thickness:hamrock_dowson",
+        "moes-line": "line_contact:moes_line",
+        "dowson-toyoda": "line_contact:dowson_toyoda",
     },
     "thermal_correction": {
         "murch-wilson": "thermal_correction:murch_wilson",
@@ -59,6 +64,7 @@ _LAWS: dict[str, dict[str, str]] = {
     },
     "rolling_resistance": {
         "biboulet-houpert": "rolling_resistance:biboulet_houpert",
+        "biboulet-houpert-line": "line_contact:biboulet_houpert_line",
         "biboulet-houpert-point": "rolling_fits:biboulet_houpert_point",
         "goksem-hargreaves": "rolling_resistance:goksem_hargreaves",
         "matsuyama": "rolling_fits:matsuyama",
@@ -69,6 +75,7 @@ _LAWS: dict[str, dict[str, str]] = {
     "elastic_hysteresis": {
         "loss-factor": "elastic_hysteresis:loss_factor",
         "houpert": "elastic_hysteresis:houpert",
+        "johnson-line": "line_contact:johnson_line",
         "scheuermann": "elastic_hysteresis:scheuermann",
         "none": "elastic_hysteresis:none",
     },
@@ -107,6 +114,7 @@ _LAWS: dict[str, dict[str, str]] = {
         "schneider": "capacitance:schneider",
         "constant-factor": "capacitance:constant_factor",
         "gap-integral": "capacitance:gap_integral",
+        "line-gap": "line_contact:line_gap",
     },
     "surface": {"none": "surface:none", "waviness": "surface:waviness", "defect": "surface:defect"},
     "breakdown": {

@@ -184,7 +184,7 @@ def hunt_crossley(delta: float, delta_dot: float, load: float, par: HuntCrossley
     return OK
 
 
-@law("damping", "none", role_api=2, reference="-")
+@law("damping", "none", role_api=2, reference="-", contact="any")
 def none(delta: float, delta_dot: float, load: float, par: NoParameters, out: FloatArray) -> int:
     """No damping."""
     out[0] = 0.0

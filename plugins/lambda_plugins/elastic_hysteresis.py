@@ -101,7 +101,7 @@ def scheuermann(
     return OK
 
 
-@law("elastic_hysteresis", "none", role_api=2, reference="-")
+@law("elastic_hysteresis", "none", role_api=2, reference="-", contact="any")
 def none(
     load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: NoParameters, out: FloatArray
 ) -> int:

@@ -185,7 +185,7 @@ def goksem_hargreaves(
     return OK
 
 
-@law("rolling_resistance", "none", role_api=2, reference="-")
+@law("rolling_resistance", "none", role_api=2, reference="-", contact="any")
 def none(
     u_mean: float,
     load: float,

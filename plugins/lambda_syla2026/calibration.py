@@ -58,7 +58,7 @@ def laws_of(role: str) -> list[str]:
     names = [
         name
         for name, law in registry().models(role).items()
-        if not any(field.is_required() for field in law.parameters.model_fields.values())
+        if law.contact != "line" and not any(field.is_required() for field in law.parameters.model_fields.values())
     ]
     left_out = {blind} | ({"none"} if role == "rolling_resistance" else set())
     return [blind, *(name for name in names if name not in left_out)]

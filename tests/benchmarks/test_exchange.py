@@ -14,7 +14,11 @@ from lambda_core.domain.roles import MOTION_ROLES
 
 
 def of_role(role: str) -> list[str]:
-    return [name for name in registry().names(role) if registry().origin(role, name).split(" ")[0] == OWN]
+    return [
+        name
+        for name, law in registry().models(role).items()
+        if registry().origin(role, name).split(" ")[0] == OWN and law.contact != "line"
+    ]
 
 
 def test_every_built_in_law_of_every_role_is_exchanged() -> None:

@@ -18,12 +18,24 @@ CLOSED, MIXED = "test_models_closed_form", "test_models_mixed_friction"
 SUPPLY, FILMS = "test_models_supply", "test_models_films"
 ROLLING = "test_models_rolling"
 SQUEEZED = "test_squeezed_films"
+LINES = "test_models_lines"
 BLOW, NOTHING = (CLOSED, "test_a_blow_against_a_guide_lasts_half_a_period"), (CLOSED, "test_none_is_nothing")
 
 # role/name of every law: (module, test) that calls it.
 CHECKED: dict[str, tuple[str, str]] = {
     "normal_contact/hamrock-brewe": (CONTACT, "test_error_of_the_hamrock_brewe_fit_is_the_stated_one"),
     "normal_contact/hertz-exact": (CONTACT, "test_exact_hertz_meets_the_table_of_dimensionless_numbers"),
+    "normal_contact/iso-line": (LINES, "test_two_raceways_in_series_are_iso_16281"),
+    "normal_contact/hertz-line": (LINES, "test_the_logarithm_is_lundbergs"),
+    "film_thickness/moes-line": (LINES, "test_films_of_lines"),
+    "film_thickness/dowson-toyoda": (LINES, "test_films_of_lines"),
+    "rolling_resistance/biboulet-houpert-line": (
+        LINES,
+        "test_rolling_resistance_of_a_light_line_is_dowson_and_higginsons",
+    ),
+    "elastic_hysteresis/johnson-line": (LINES, "test_hysteresis_is_the_work_on_the_front_half"),
+    "damping/squeeze-line": (LINES, "test_squeezed_film_of_a_cylinder"),
+    "capacitance/line-gap": (LINES, "test_capacitance_of_the_gap"),
     "damping/cubic": (CLOSED, "test_cubic_damping"),
     "damping/hunt-crossley": (CLOSED, "test_a_blow_rebounds_as_hunt_and_crossley_say"),
     "damping/squeeze-film": (SQUEEZED, "raceway_force"),

@@ -23,6 +23,8 @@ LAWS = [
 WITHOUT_YEAR = {
     "form of the viscosity inferred",
     "ASTM D341",
+    "ISO 16281:2025",
+    "Reynolds' equation of a cylinder",
     "Newton's law of viscosity",
     "Coulomb's law with a smooth start",
     "Schaeffler, Rolling bearings (catalogue)",

@@ -38,17 +38,16 @@ def moes_line_film(
     e_eff : float
         E' [Pa].
     """
-    stiffness = e_eff * np.asarray(radius)
-    flow = 2.0 * viscosity * np.asarray(speed) / stiffness
-    load = np.asarray(line_load) / stiffness / np.sqrt(flow)
+    stiffness = e_eff * radius
+    flow = 2.0 * viscosity * speed / stiffness
+    load = line_load / stiffness / np.sqrt(flow)
     material = pressure_viscosity * e_eff * flow**0.25
     rigid, piezo = 3.0 / load, 1.287 * material ** (2.0 / 3.0)
     elastic, both = 2.621 * load**-0.2, 1.311 * load**-0.125 * material**0.75
     blend = 0.2 * (7.0 + 8.0 * np.exp(-2.0 * elastic / rigid))
     isoviscous = (rigid ** (7.0 / 3.0) + elastic ** (7.0 / 3.0)) ** (3.0 * blend / 7.0)
     piezoviscous = (piezo**-3.5 + both**-3.5) ** (-2.0 * blend / 7.0)
-    found: FloatArray = radius * np.sqrt(flow) * (isoviscous + piezoviscous) ** (1.0 / blend)
-    return found
+    return radius * np.sqrt(flow) * (isoviscous + piezoviscous) ** (1.0 / blend)
 
 
 def dowson_toyoda_film(
@@ -94,9 +93,9 @@ def inlet_heat_film(
     conductivity : float
         k of the oil [W/(m K)].
     """
-    heat = viscosity * temperature_slope * np.asarray(speed) ** 2 / conductivity
-    share = np.minimum(np.abs(slide) / (np.asarray(speed) + 1e-9), 2.0)
-    top = np.maximum(1.0 - 13.2 * (np.asarray(peak) / e_eff) * heat**0.42, 0.05)
+    heat = viscosity * temperature_slope * speed**2 / conductivity
+    share = np.minimum(np.abs(slide) / (speed + 1e-9), 2.0)
+    top = np.maximum(1.0 - 13.2 * (peak / e_eff) * heat**0.42, 0.05)
     found: FloatArray = top / (1.0 + 0.213 * (1.0 + 2.23 * share**0.83) * heat**0.64)
     return found
 
@@ -109,7 +108,7 @@ def inlet_heat_rolling(
     L = eta beta u^2/k: Aihara 1987, J. Tribol. 109, 471, measured with tapered roller bearings. Parameters as for
     :func:`inlet_heat_film`; `factor` is the 0.29.
     """
-    heat = viscosity * temperature_slope * np.asarray(speed) ** 2 / conductivity
+    heat = viscosity * temperature_slope * speed**2 / conductivity
     found: FloatArray = 1.0 / (1.0 + factor * heat**0.78)
     return found
 

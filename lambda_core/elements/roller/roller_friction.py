@@ -208,7 +208,7 @@ def _raceway(
     speed = motion.entrainment * share
     carried = line_load > 0.0
     load = np.where(carried, line_load, 1.0)
-    force = np.where(carried, rolling_force_along(load, radius, speed, oil.viscosity, par.e_eff), 0.0)
+    force = np.where(carried, rolling_force(load, radius, speed, oil.viscosity, par.e_eff), 0.0)
     half = np.where(carried, half_width(load, radius, par.e_eff), 0.0)
     peak = np.where(carried, peak_pressure(load, radius, par.e_eff), 0.0)
     film = line_film.moes_line_film(load, radius, speed, oil.viscosity, oil.pressure_viscosity, par.e_eff)
@@ -228,16 +228,6 @@ def _raceway(
         ease=np.where(per_slip > 0.0, 1.0 / np.where(per_slip > 0.0, per_slip, 1.0), 0.0),
         largest=par.limit_ratio * np.sum(loads, axis=1),
     )
-
-
-def rolling_force_along(
-    line_load: FloatArray, radius: FloatArray, speed: FloatArray, viscosity: float, e_eff: float
-) -> FloatArray:
-    """Return :func:`rolling_force` per length with one speed per slice [N/m]."""
-    columns = [
-        rolling_force(line_load[..., k], radius[k], float(speed[k]), viscosity, e_eff) for k in range(len(speed))
-    ]
-    return np.stack(columns, axis=-1)
 
 
 def _rib(

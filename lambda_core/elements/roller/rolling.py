@@ -8,15 +8,19 @@ from lambda_core.domain.arrays import FloatArray
 
 
 def rolling_force(
-    line_load: FloatArray | float, radius: FloatArray | float, speed: float, viscosity: float, e_eff: float
+    line_load: FloatArray | float,
+    radius: FloatArray | float,
+    speed: FloatArray | float,
+    viscosity: float,
+    e_eff: float,
 ) -> FloatArray:
     """Return the rolling resistance per length on each surface [N/m].
 
     F/l = E' R 1.42 sqrt(U W)/[1 + (0.966 sqrt(M))^10]^0.1, U = 2 eta u/(E' R), W = w/(E' R), M = W/sqrt(U):
     Biboulet and Houpert 2010, Proc. IMechE J 224, 777, part 1, eq. 40-42. U holds the **sum** of the surface speeds,
     u the mean: with the mean in U the force would be 2^(3/4) = 1.68 times smaller under load. From rigid-isoviscous
-    (F grows with sqrt(w)) to elastic-isoviscous and piezoviscous-elastic (F hardly depends on w); fully flooded and
-    isothermal.
+    (F grows with sqrt(w); its start agrees with 4.58 eta u sqrt(R/h) on each surface, Dowson and Higginson 1966) to
+    elastic-isoviscous and piezoviscous-elastic (F hardly depends on w); fully flooded and isothermal.
 
     Parameters
     ----------
@@ -24,21 +28,18 @@ def rolling_force(
         Load per length w [N/m]; zero gives zero.
     radius : array or float
         Reduced radius R [m].
-    speed : float
-        Mean u of the surface speeds in the contact's frame [m/s], zero or more.
+    speed : array or float
+        Mean u of the surface speeds in the contact's frame [m/s], above zero.
     viscosity : float
         Dynamic viscosity of the inlet [Pa s].
     e_eff : float
         E' [Pa].
     """
-    stiffness = e_eff * np.asarray(radius)
-    load = np.asarray(line_load) / stiffness
-    if speed == 0.0:
-        return np.zeros_like(load)
+    stiffness = e_eff * radius
+    load = line_load / stiffness
     flow = 2.0 * viscosity * speed / stiffness
     regime = load / np.sqrt(flow)
-    found: FloatArray = stiffness * 1.42 * np.sqrt(flow * load) / (1.0 + (0.966 * np.sqrt(regime)) ** 10) ** 0.1
-    return found
+    return stiffness * 1.42 * np.sqrt(flow * load) / (1.0 + (0.966 * np.sqrt(regime)) ** 10) ** 0.1
 
 
 def rolling_torque(force: FloatArray, speed: float, ring_speed: float) -> float:

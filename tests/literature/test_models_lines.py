@@ -1,0 +1,153 @@
+"""Laws of line contacts against closed forms and the pure functions of rollers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from lambda_plugins import line_contact
+from lambda_plugins.damping import SqueezeFilm
+from lambda_plugins.elastic_hysteresis import LossFactor
+from lambda_plugins.film_thickness import FilmFloors
+from lambda_plugins.rolling_resistance import InletShear
+from scipy.integrate import quad
+
+from lambda_core.domain.roles import DEFAULT_LINE_MODELS
+from lambda_core.elements.roller import line_contact as theory
+from lambda_core.laws.law import Law, law_of
+from lambda_core.laws.probe import trial_context
+
+from .published import Published
+
+MODULUS, RADIUS, LENGTH = 226.37e9, 7e-3, 20e-3
+FLOORS = FilmFloors(1e-6, 1e-6, 1e-12, 1e-12)
+INLET = InletShear(thermal_coefficient=0.0)
+
+
+def outputs(count: int = 4) -> np.ndarray:
+    return np.full(count, np.nan)
+
+
+@pytest.mark.parametrize("name", ["iso_line", "hertz_line_contact"])
+def test_the_pressure_across_carries_the_load(name: str) -> None:
+    out = outputs()
+    getattr(line_contact, name)(5e-6, RADIUS, LENGTH, MODULUS, None, out)
+    load, half, width, peak = out
+    assert half == 0.5 * LENGTH
+    assert 0.5 * math.pi * width * peak * LENGTH == pytest.approx(load)
+    assert width == pytest.approx(float(theory.half_width(load / LENGTH, RADIUS, MODULUS)))
+
+
+def test_two_raceways_in_series_are_iso_16281() -> None:
+    """normal_contact, iso-line."""
+    out = outputs()
+    line_contact.iso_line(4e-6, RADIUS, LENGTH, MODULUS, None, out)
+    both = float(theory.iso_load(8e-6, LENGTH))
+    Published(both, "ISO 16281:2025, c_L = 35948 L^(8/9)", "E' of 206 GPa and 0.3", rel=1e-4).check(out[0])
+
+
+@pytest.mark.parametrize("load", [50.0, 2e3, 5e4])
+def test_the_logarithm_is_lundbergs(load: float) -> None:
+    """normal_contact, hertz-line."""
+    out = outputs()
+    approach = theory.finite_line_approach(load, LENGTH, RADIUS, MODULUS)
+    line_contact.hertz_line_contact(approach, RADIUS, LENGTH, MODULUS, None, out)
+    Published(load, "Lundberg 1939, inverted", "Newton's method to rounding", rel=1e-9).check(out[0])
+
+
+@pytest.mark.parametrize("name", ["iso_line", "hertz_line_contact"])
+def test_open_lines_carry_nothing_and_loads_grow(name: str) -> None:
+    loads = []
+    for delta in (-1e-6, 0.0, 1e-12, 1e-9, 1e-6, 2e-6, 5e-5):
+        out = outputs()
+        assert getattr(line_contact, name)(delta, RADIUS, LENGTH, MODULUS, None, out) == 1
+        loads.append(float(out[0]))
+    assert loads[:2] == [0.0, 0.0]
+    assert np.all(np.diff(loads[1:]) > 0.0)
+
+
+def test_films_of_lines() -> None:
+    """film_thickness, moes-line and dowson-toyoda.
+
+    A roller of the 32216: 70 N/mm, 5.5 m/s, 0.05 Pa s; Dowson and Toyoda by hand."""
+    moes, toyoda = outputs(2), outputs(2)
+    given = (5.5, 0.0, 70e3 * LENGTH, RADIUS, LENGTH, MODULUS, 0.05, 20e-9)
+    line_contact.moes_line(*given, FLOORS, moes)
+    line_contact.dowson_toyoda(*given, FLOORS, toyoda)
+    u, g, w = 0.05 * 5.5 / (MODULUS * RADIUS), 20e-9 * MODULUS, 70e3 / (MODULUS * RADIUS)
+    Published(3.06 * RADIUS * u**0.69 * g**0.56 * w**-0.10, "Dowson and Toyoda 1979", "floors", rel=1e-6).check(
+        toyoda[0]
+    )
+    Published(2.65 * RADIUS * u**0.70 * g**0.54 * w**-0.13, "Dowson 1968", "floors", rel=1e-6).check(toyoda[1])
+    Published(float(toyoda[0]), "Dowson and Toyoda 1979", "two fits to solved contacts", rel=0.15).check(moes[0])
+    assert 0.7 < moes[1] / moes[0] < 1.0
+    along = outputs(2)
+    line_contact.moes_line(5.5, 0.5 * math.pi, *given[2:], FLOORS, along)
+    assert along[0] < 1e-3 * moes[0]  # entrainment along the line makes no film
+
+
+def test_rolling_resistance_of_a_light_line_is_dowson_and_higginsons() -> None:
+    """rolling_resistance, biboulet-houpert-line."""
+    # 4.58 eta u sqrt(R/h) on each surface with Martin's h = 4.9 eta u R/w (Dowson and Higginson 1966)
+    out, load, speed, eta = outputs(1), 5.0, 3.0, 0.05
+    line_contact.biboulet_houpert_line(
+        speed, load, 0.5 * LENGTH, 1e-6, RADIUS, LENGTH, MODULUS, eta, 20e-9, 0.04, 0.13, INLET, out
+    )
+    film = 4.9 * eta * speed * RADIUS / (load / LENGTH)
+    by_hand = 4.58 * eta * speed * math.sqrt(RADIUS / film) * LENGTH
+    Published(by_hand, "Dowson and Higginson 1966", "the fit joins three regimes", rel=0.05).check(out[0])
+
+
+def test_hysteresis_is_the_work_on_the_front_half() -> None:
+    """elastic_hysteresis, johnson-line."""
+    # the pressure of the front half about the middle: int_0^b x p dx
+    out, width = outputs(1), 1e-4
+    line_contact.johnson_line(1e3, 0.5 * LENGTH, width, RADIUS, LENGTH, 8e-3, LossFactor(loss_factor=0.02), out)
+    peak = 2.0 * 1e3 / (math.pi * width)
+    moment = quad(lambda x: x * peak * math.sqrt(1.0 - (x / width) ** 2), 0.0, width)[0]
+    Published(0.02 * moment, "Johnson 1985, section 9.2", "quadrature", rel=1e-6).check(out[0])
+
+
+def test_squeezed_film_of_a_cylinder() -> None:
+    """damping, squeeze-line."""
+    context = replace(trial_context("ball_inner"), radius_x=RADIUS, radius_y=LENGTH)
+    par = line_contact.prepare_line_film(SqueezeFilm(), context)
+    out, eta, speed, gap = outputs(1), 0.05, 1e-3, 3e-6
+    line_contact.squeeze_line(-gap, speed, 0.0, 0.0, RADIUS, LENGTH, eta, 20e-9, par, out)
+
+    def pressure(x: float, rest: float) -> float:
+        return 6.0 * eta * speed * RADIUS / (rest + 0.5 * x * x / RADIUS) ** 2
+
+    film, room = par.touch + gap, par.touch + par.reach
+    force = [quad(pressure, -0.05, 0.05, args=(rest,), points=(0.0,), limit=200)[0] for rest in (film, room)]
+    reason = "the integral to 50 mm"
+    Published((force[0] - force[1]) * LENGTH, "Reynolds' equation, integrated", reason, rel=0.01).check(out[0])
+    pulled = outputs(1)
+    line_contact.squeeze_line(1e-6, -10.0, 5.0, 1e-5, RADIUS, LENGTH, eta, 20e-9, par, pulled)
+    assert pulled[0] == -5.0  # a film does not pull
+
+
+@pytest.mark.parametrize("width", [0.0, 5e-5, 2e-4])
+def test_capacitance_of_the_gap(width: float) -> None:
+    """capacitance, line-gap."""
+    out, film, vacuum = outputs(1), 0.5e-6, 8.8541878128e-12
+    line_contact.line_gap(1e-10, film, 0.5 * LENGTH, width, RADIUS, LENGTH, 0.0, 0.0, 0.0, 2.2, None, out)
+    side = quad(
+        lambda x: 1.0 / (film + (x * x - width * width) / (2.0 * RADIUS)),
+        width,
+        RADIUS,
+        points=(width + 1e-5, width + 1e-4, width + 1e-3),
+        limit=400,
+    )[0]
+    Published(1e-10 + 2.0 * vacuum * 2.2 * LENGTH * side, "quadrature", "closed form", rel=1e-4).check(out[0])
+
+
+def test_each_role_has_a_line_default() -> None:
+    from lambda_core.discovery.manager import registry
+
+    for role, name in DEFAULT_LINE_MODELS.items():
+        found: Law = registry().model(role, name)
+        assert found.contact == "line"
+    assert law_of(line_contact.iso_line).contact == "line"  # type: ignore[union-attr]
