@@ -11,41 +11,47 @@ from lambda_cli.options import BearingOption, ForceOption, Units, UnitsOption
 
 
 def report(
-    source: Annotated[Path, typer.Argument(metavar="RESULT|STUDY", help="Result file, or the folder of a study.")],
+    sources: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="RESULT|CASE|STUDY...",
+            help="Result files, case files (solved without time), folders of studies; several in one document.",
+        ),
+    ],
     out: Annotated[
         Path | None,
         typer.Option("--out", metavar="FILE", help="Page, .html or .pdf; default: name of the source with .html."),
     ] = None,
     project: Annotated[str, typer.Option("--project", metavar="TEXT", help="Project, for the head of the page.")] = "",
     author: Annotated[str, typer.Option("--author", metavar="TEXT", help="Who writes it, for the head.")] = "",
+    full: Annotated[bool, typer.Option("--full", help="All appendices after the standard pages.")] = False,
     appendices: Annotated[
         list[str] | None,
         typer.Option(
             "--appendix",
             metavar="NAME",
-            help="What follows the first page: tables, views, trust, inputs, assumptions, laws, references, origin, "
-            "or none; may be repeated; default: all.",
+            help="What follows the standard pages: tables, views, trust, inputs, assumptions, laws, references, "
+            "origin; may be repeated; default: nothing.",
         ),
     ] = None,
     bearing: BearingOption = None,
     units: UnitsOption = Units.SI,
     force: ForceOption = False,
 ) -> None:
-    """Write a report: results, views, convergence, inputs with sources, assumptions, references.
+    """Write a report: verdict with margins, sketch, loads, lives, losses, inputs and limits on four pages.
 
     One HTML file without anything from outside, or a PDF (--out x.pdf) where a browser or WeasyPrint is installed;
-    the extra "pdf" brings one.
+    the extra "pdf" brings one. A machine has its shaft first, then a page for each bearing.
     """
     from lambda_core import api
 
-    parts = None if not appendices else [name for name in appendices if name != "none"]
     written = api.report(
-        source,
+        sources,
         out,
         overwrite=force,
         project=project,
         author=author,
-        appendices=parts,
+        appendices=["all"] if full else appendices or [],
         units=units.value,
         bearing=bearing,
     )

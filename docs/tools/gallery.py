@@ -184,7 +184,7 @@ PICTURES = (
     Picture(
         "report",
         "The report",
-        "One HTML page to print: results first, then inputs with their sources, assumptions, references.",
+        "One HTML file to print: verdict with margins, sketch, loads, lives, losses, inputs, limits on four pages.",
         "lambda-bearing report motor.h5",
         "motor.html",
         "motor",

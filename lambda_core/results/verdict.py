@@ -44,6 +44,10 @@ class Margin(Record):
     share: float = Field(description="value over limit")
     basis: str = Field(description="where the number or the limit comes from")
 
+    def number(self, value: float, units: UnitSystem = SI) -> str:
+        """Write a number in the unit of this margin."""
+        return hours(value) if self.unit == "h" else _written(value, self.unit, units)
+
     def text(self, units: UnitSystem = SI) -> str:
         """Return name, share and limit in a few words."""
         limit = _written(self.limit, self.unit, units)

@@ -11,7 +11,7 @@ import pytest
 
 from lambda_core.discovery.collect import Collection, Entry
 from lambda_core.discovery.manager import registry
-from lambda_core.export.report.page import Cover, run_report
+from lambda_core.export.report.page import Cover, document, run_chapter
 from lambda_core.results.reader import Result
 from lambda_core.views.method import NotApplicable
 from lambda_core.views.section import ReportTable, Section
@@ -31,7 +31,8 @@ def section(content: Callable[[Any], Any] = largest, **changes: Any) -> Section:
 def page(result: Result, found: Section) -> str:
     models = copy.copy(registry())
     models.sections = {found.name: found}
-    return run_report(models, result, Cover(appendices=("tables",)))  # without the views, which take seconds to draw
+    cover = Cover(appendices=("tables",))  # without the views, which take seconds to draw
+    return document([run_chapter(models, result, cover)], cover)
 
 
 def test_texts_and_tables_stand_in_the_page(radial_run: Result) -> None:

@@ -107,7 +107,7 @@ def test_a_place_that_takes_no_file_is_refused_before_the_work(
     for place in (
         "run.launch.solve",
         "solver.drivers.equilibrium.solve",
-        "report.page.run_report",
+        "export.report.page.run_chapter",
         "discovery.shown.data_of",
     ):
         monkeypatch.setattr(f"lambda_core.{place}", worked)

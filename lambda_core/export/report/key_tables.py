@@ -14,16 +14,20 @@ from lambda_core.views.table import StudyTable
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import ResolvedValue
+    from lambda_core.results.verdict import Verdict
 
 
 _ROWS = 1000  # of a study's table
+_NOTHING = 1e-9  # a number in the units of the interface below which there is nothing
 
 
 # Sections of a case whose entries are parts: materials.inner, forces.ball_inner ...
 _IN_PARTS = ("materials", "forces", "bodies")
 
 
-_CONTACT = "contacts at the end state"
+_CONTACT = "contacts that carry load"
+_LEAST_PART = 5e-4  # of the friction torque that a mechanism has to have
+_LEAST_LOAD = 0.01  # of the largest load of a contact, as in `loaded balls`
 
 
 @dataclass(frozen=True)
@@ -35,28 +39,170 @@ class Table:
     rows: tuple[tuple[str, ...], ...]
 
 
-def key_figures(summary: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]]:
-    """Return what an engineer looks for first: loss, life, safety, lubrication; each name, number, unit."""
-    rating, torque = summary.rating, units.unit("N mm")
-    mean = units.plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm, "N mm").removesuffix(torque)
-    found = [("friction torque (95 %)", mean.strip(), torque), _figure("power loss", summary.power_loss_W, "W", units)]
+def key_figures(
+    found: Any, units: UnitSystem = SI, bands: Mapping[str, tuple[float, float]] | None = None
+) -> list[tuple[str, str, str]]:
+    """Return what an engineer looks for first: loss, life, safety, lubrication; each name, number, unit.
+
+    `bands` are 90 % model bands by field; `found` is a run, an equilibrium, or a bearing of one.
+    """
+    rating, torque = getattr(found, "rating", None), units.unit("N mm")
+    width = getattr(found, "friction_torque_ci_Nmm", None)
+    mean = units.plus_minus(found.friction_torque_Nmm, width, "N mm").removesuffix(torque)
+    name = "friction torque (95 %)" if width is not None else "friction torque"
+    rows = [(name, mean.strip(), torque)]
+    rows += _band("friction_torque_Nmm", "N mm", "friction torque, 90 % model band", units, bands)
+    rows.append(_figure("power loss", found.power_loss_W, "W", units))
+    rows += _band("power_loss_W", "W", "power loss, 90 % model band", units, bands)
     if rating is not None:
-        found += [
+        rows += [
             _figure("friction torque, SKF's catalogue", rating.skf_torque_Nmm, "N mm", units),
             _figure("friction torque, Schaeffler's catalogue", rating.schaeffler_torque_Nmm, "N mm", units),
-            ("rating life L10rh, ISO/TS 16281", _life(rating.reference_life_h), ""),
-            ("rating life L10h, ISO 281", _life(rating.basic_life_h), ""),
-            ("static safety C0/P0, ISO 76", rounded(rating.static_safety, 2), ""),
-            ("viscosity ratio kappa, ISO 281", rounded(rating.viscosity_ratio, 2), ""),
         ]
-    tilt = ", ".join(number(angle, 2) for angle in summary.inner_ring_tilt_mrad)
-    return [
-        *found,
-        _figure("smallest minimum film", summary.min_film_um, "um", units),
-        ("Lambda, central film over roughness", "..".join(rounded(v, 2) for v in summary.film_parameter), ""),
-        _figure("largest contact pressure", summary.max_pressure_GPa, "GPa", units),
-        ("tilt of the inner ring y, z", tilt, "mrad"),
+    rows += [(f"{text} {symbol}, {standard}", _life(life), "") for text, symbol, standard, life in _every_life(found)]
+    source = rating or found
+    rows += [
+        ("static safety C0/P0, ISO 76", rounded(source.static_safety, 2), ""),
+        ("viscosity ratio kappa, ISO 281", rounded(source.viscosity_ratio, 2), ""),
     ]
+    film = getattr(found, "min_film_um", None)
+    rows.append(
+        _figure("smallest minimum film", film, "um", units)
+        if film is not None
+        else _figure("smallest central film", min(found.film_um, default=None), "um", units)
+    )
+    lambdas = getattr(found, "film_parameter", [])
+    if lambdas:
+        rows.append(("Lambda, central film over roughness", "..".join(rounded(v, 2) for v in lambdas), ""))
+    tilts = getattr(found, "inner_ring_tilt_mrad", None) or getattr(found, "misalignment_mrad", [])
+    return [
+        *rows,
+        _figure("largest contact pressure", found.max_pressure_GPa, "GPa", units),
+        ("tilt of the inner ring y, z", ", ".join(number(angle, 2) for angle in tilts), "mrad"),
+    ]
+
+
+def _band(
+    field: str, unit: str, name: str, units: UnitSystem, bands: Mapping[str, tuple[float, float]] | None
+) -> list[tuple[str, str, str]]:
+    """Return the row of a model band, where there is one."""
+    if not bands or field not in bands:
+        return []
+    low, high = (units.value(value, unit) for value in bands[field])
+    return [(name, f"{rounded(low, 2)}..{rounded(high, 2)}", units.unit(unit))]
+
+
+def _every_life(found: Any) -> list[tuple[str, str, str, float | None]]:
+    """Return the rating lives: meaning, symbol, standard, hours."""
+    rating = getattr(found, "rating", None)
+    if rating is not None:
+        lives_h = (
+            rating.basic_life_h, rating.modified_life_h, rating.reference_life_h, rating.modified_reference_life_h,
+        )  # fmt: skip
+    elif hasattr(found, "basic_rating_life_h"):
+        lives_h = (
+            found.basic_rating_life_h, found.modified_basic_life_h, found.reference_rating_life_h,
+            found.modified_rating_life_h,
+        )  # fmt: skip
+    else:
+        return []
+    names = (
+        ("rating life", "L10h", "ISO 281"),
+        ("modified life", "Lnmh", "ISO 281"),
+        ("rating life", "L10rh", "ISO/TS 16281"),
+        ("modified life", "Lnmrh", "ISO/TS 16281"),
+    )
+    return [(*name, life) for name, life in zip(names, lives_h, strict=True)]
+
+
+def lives(found: Any, units: UnitSystem = SI) -> Table:
+    """Return rating lives with what they count."""
+    counts = {
+        "L10h": "catalogue's C and equivalent load",
+        "Lnmh": "with a_ISO: cleanliness, film, fatigue limit",
+        "L10rh": "load of every ball: clearance, tilt, preload",
+        "Lnmrh": "load of every ball, and a_ISO",
+    }
+    rows = [(symbol, _life(life), standard, counts[symbol]) for _, symbol, standard, life in _every_life(found)]
+    rating = getattr(found, "rating", None)
+    caption = "rating lives, 90 % reach them"
+    if rating is not None and rating.contamination is not None:
+        given = "" if rating.contamination_given else ", normal cleanliness: the case gives none"
+        caption += f" (e_C {rating.contamination:g}{given})"
+    return Table(caption, ("", "hours", "standard", "counts"), tuple(rows))
+
+
+def margins(verdict: Verdict, units: UnitSystem = SI) -> Table:
+    """Return every requirement and limit with number, limit and share."""
+    rows = tuple(
+        (
+            one.name if one.name != "load" else "load P, least",
+            one.number(one.value, units),
+            f"{one.side} {one.number(one.limit, units)}",
+            f"{100.0 * one.share:.3g} %" if one.side == "at most" else f"{rounded(one.share)} times",
+            "yes" if one.met else "NO",
+            one.basis,
+        )
+        for one in verdict.margins
+    )
+    return Table("", ("", "found", "limit", "of limit", "met", "from"), rows)
+
+
+def given_values(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> Table:
+    """Return what the case says and what the bearing is, without parameters of laws."""
+    rows = tuple(
+        (value.path, units.sentence(_shown(value)), value.source)
+        for value in values
+        if value.status == "given" or value.path.startswith(("bearing.", "lubricant."))
+    )
+    return Table("", ("", "value", "source"), rows)
+
+
+def machine_figures(found: Any, units: UnitSystem = SI) -> Table:
+    """Return the key numbers of the bearings of a machine, a column for each."""
+    each = found.bearings
+    head = ("", *(one.name for one in each))
+
+    def row(name: str, unit: str, values: Iterable[float | None], digits: int = 3) -> tuple[str, ...]:
+        shown = [None if value is None else units.value(value, unit) for value in values]
+        return (f"{name} {units.unit(unit)}".rstrip(), *(rounded(value, digits) for value in shown))
+
+    rows = [
+        ("bearing", *(one.title for one in each)),
+        row("position", "mm", (one.position_mm for one in each), 4),
+        row("radial load", "N", (one.radial_load_N for one in each)),
+        row("axial load", "N", (one.axial_load_N for one in each)),
+        *(
+            (f"{symbol}, {standard}", *(_life(_every_life(one)[i][3]) for one in each))
+            for i, (_, symbol, standard, _) in enumerate(_every_life(each[0]))
+        ),
+        row("static safety", "", (one.static_safety for one in each)),
+        row("largest pressure", "GPa", (one.max_pressure_GPa for one in each)),
+        row("friction torque", "N mm", (one.friction_torque_Nmm for one in each)),
+        row("power loss", "W", (one.power_loss_W for one in each)),
+        ("film um", *("..".join(rounded(v, 2) for v in one.film_um) for one in each)),
+    ]
+    life = _life(found.system_life_h)
+    return Table(f"life of all bearings together (L10rh, 90 %): {life}", head, tuple(rows))
+
+
+def machine_reactions(found: Any, units: UnitSystem = SI) -> Table:
+    """Return forces and moments of the bearings on the shaft, and the forces of gears."""
+    force, moment = units.unit("N"), units.unit("N m")
+    head = ("", f"x {force}", f"y {force}", f"z {force}", f"about y {moment}", f"about z {moment}")
+    rows = [
+        (
+            one.name,
+            *(rounded(units.value(value, "N")) for value in one.force_N),
+            *(rounded(units.value(value, "N m")) for value in one.moment_Nm),
+        )
+        for one in found.bearings
+    ]
+    rows += [
+        (f"gear {name}: F_t, F_r, F_a", *(rounded(units.value(value, "N")) for value in forces), "", "")
+        for name, forces in found.gears.items()
+    ]
+    return Table("forces and moments of the bearings on the shaft", head, tuple(rows))
 
 
 def _figure(name: str, value: float | None, unit: str, units: UnitSystem, digits: int = 3) -> tuple[str, str, str]:
@@ -123,19 +269,21 @@ def rounded(value: float | None, digits: int = 3) -> str:
     """Write a number to a few significant digits, thousands in groups; a dash for what does not exist."""
     if value is None or not math.isfinite(value):
         return "–"
-    short = float(f"{value:.{digits}g}")
+    short = float(f"{value:.{digits}g}") if abs(value) > _NOTHING else 0.0
     return f"{short:,.0f}".replace(",", " ") if abs(short) >= 1000.0 else f"{short:g}"
 
 
 def breakdown(summary: Any, units: UnitSystem = SI) -> Table:
     total = summary.friction_torque_Nmm
+    parts = getattr(summary, "friction_breakdown_Nmm", {})
     rows = [
         (
             name.replace("_", " "),
-            in_unit("", value, "N mm", units)[1],
+            rounded(None if value is None else units.value(value, "N mm")),
             f"{100.0 * value / total:.1f}" if total and value is not None else "",
         )
-        for name, value in summary.friction_breakdown_Nmm.items()
+        for name, value in parts.items()
+        if value is None or not total or abs(value) > _LEAST_PART * abs(total)
     ]
     return Table("friction torque by mechanism", ("mechanism", units.unit("N mm"), "%"), tuple(rows))
 
@@ -143,12 +291,14 @@ def breakdown(summary: Any, units: UnitSystem = SI) -> Table:
 def contacts(summary: Any, units: UnitSystem = SI) -> Table:
     load, film = units.unit("N"), units.unit("um")
     head = ("ball", "ring", "azimuth deg", f"load {load}", "contact angle deg", f"film {film}", "capacitance pF")
+    most = max((c.load_N for c in summary.contacts), default=0.0)
     rows = tuple(
         (
             str(c.ball), c.ring, f"{c.azimuth_deg:.1f}", f"{units.value(c.load_N, 'N'):.1f}",
-            f"{c.contact_angle_deg:.2f}", in_unit("", c.film_um, "um", units)[1], written(c.capacitance_pF),
+            number(c.contact_angle_deg, 2), in_unit("", c.film_um, "um", units)[1], written(c.capacitance_pF),
         )
         for c in summary.contacts
+        if c.load_N > _LEAST_LOAD * most
     )  # fmt: skip
     return Table(_CONTACT, head, rows)
 

@@ -1,4 +1,4 @@
-"""Reports: one self-contained, printable page about a run or a study."""
+"""Render reports: one self-contained, printable document about runs, cases and studies."""
 
 from __future__ import annotations
 
@@ -11,25 +11,26 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.discovery.registry import Registry
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.domain.files import check_target
 from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without
 from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.export.report.chapters import Chapter, Inputs, Picture, run_bearings, run_inputs
 from lambda_core.export.report.gallery import every
 from lambda_core.export.report.key_tables import (
     Table,
-    breakdown,
-    contacts,
     convergence,
     currents,
     in_unit,
-    key_figures,
-    law_table,
+    machine_figures,
+    machine_reactions,
+    rounded,
     run_figures,
     study_points,
-    value_tables,
     watched,
 )
+from lambda_core.export.report.sketch import shaft_sketch
+from lambda_core.model.checks.assumption_effects import by_effect
 from lambda_core.views.chart import ViewData
 from lambda_core.views.method import NotApplicable
 from lambda_core.views.other_units import in_units
@@ -39,24 +40,14 @@ from lambda_core.views.table import StudyTable
 log = logging.getLogger("lambda_core")
 
 if TYPE_CHECKING:
-    from lambda_core.results.citation import Citation
+    from collections.abc import Sequence
+
     from lambda_core.results.reader import Result
+    from lambda_core.results.side_by_side import SideBySide
 
 TEMPLATE = "page.html.jinja"
 # Views that stand in a chapter of their own.
 _TRUST = ("convergence", "energy-balance")
-# The view that stands on the first page: which balls carry how much.
-_SKETCH = "load-distribution"
-
-
-@dataclass(frozen=True)
-class Picture:
-    """One view on a page, or the reason why it shows nothing."""
-
-    name: str
-    svg: str
-    reason: str = ""
-
 
 # Name of an appendix -> what it is called; the tables have no heading of their own.
 _CHAPTERS = (
@@ -73,12 +64,12 @@ APPENDICES = ("tables", *(name for name, _ in _CHAPTERS))
 
 @dataclass(frozen=True)
 class Cover:
-    """What the person who reports says: project, author, day, which appendices follow the first page, which units."""
+    """What the person who reports says: project, author, day, which appendices follow the standard pages, units."""
 
     project: str = ""
     author: str = ""
     date: str = ""
-    appendices: tuple[str, ...] = APPENDICES
+    appendices: tuple[str, ...] = ()
     units: UnitSystem = SI
 
     @property
@@ -87,70 +78,78 @@ class Cover:
         return "   ".join(filter(None, (self.project, self.author, self.date)))
 
 
-@dataclass(frozen=True)
-class Inputs:
-    """What a run or a study starts from, ready to print."""
-
-    values: tuple[Table, ...]
-    assumptions: tuple[str, ...]
-    laws: Table
-    citation: Citation
-    case_toml: str
-    origin: tuple[tuple[str, str], ...]  # versions, plugins, hashes
-
-
 _NO_COVER = Cover()
 
 
-def run_report(registry: Registry, result: Result, cover: Cover = _NO_COVER) -> str:
-    """Return the page about one run."""
-    from lambda_core.results.citation import citation
-
+def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) -> Chapter:
+    """Return the chapter of one run, of a bearing or of a machine."""
     summary, units = result.summary(), cover.units
     pictures = _pictures(registry, result, "result", cover)
-    versions = [(name, version) for name, version in result.versions.items()]
-    hashes = dict(result.kernel_keys)
-    versions.append(("machine code", hashes.pop("code", "native")))
-    keys = [(f"code of {name}", key[:16]) for name, key in sorted(hashes.items())]
-    inputs = Inputs(
-        value_tables(result.values, units),
-        tuple(map(units.sentence, result.assumptions)),
-        law_table(result.laws),
-        citation(result),
-        result.case_toml,
-        (*versions, *(("plugin", name) for name in result.plugins), *keys),
-    )
-    return _render(
+    overview: tuple[Table, ...] = ()
+    sketch, shown = "", []
+    alone = summary.bearings[next(iter(summary.bearings))] if len(summary.bearings) == 1 else None
+    if result.is_machine and not result.bearing:
+        found = _start_of(result)
+        model = result.machine
+        sizes = {
+            name: tuple(float(one.model["geometry"][key]) for key in ("bore_diameter", "outside_diameter", "width"))
+            for name, one in result.bearings.items()
+        }
+        sketch = shaft_sketch(model, sizes, units)  # type: ignore[arg-type]
+        if found is not None:
+            overview = (machine_figures(found[1], units), machine_reactions(found[1], units))
+            shown = machine_drawings(registry, *found, cover)
+    tables = [run_figures(summary, units)] if alone is not None else []
+    for one in summary.bearings.values():
+        tables += [*currents(one), *watched(one)]
+    return Chapter(
         kind="run",
-        cover=cover,
         title=result.title,
-        headline=units.sentence(result.headline).splitlines(),
         subtitle=f"{summary.case}   {result.path.name}   {result.created}",
-        verdict="converged" if summary.converged else "not converged",
+        state="converged" if summary.converged else "not converged",
         good=summary.converged,
-        reasons=[units.sentence(reason) for reason in summary.reasons],
-        warnings=[units.sentence(warning) for warning in summary.warnings],
-        sketch=next((p for p in pictures if p.name == _SKETCH and p.svg), None),
-        figures=key_figures(summary, units),
-        tables=(
-            breakdown(summary, units),
-            run_figures(summary, units),
-            *currents(summary),
-            *watched(summary),
-            contacts(summary, units),
-        ),
+        bearings=run_bearings(result, units),
+        lines=tuple(units.sentence(result.headline).splitlines()),
+        reasons=tuple(units.sentence(reason) for reason in summary.reasons),
+        warnings=tuple(units.sentence(warning) for warning in summary.warnings),
+        sketch=sketch,
+        overview=overview,
+        shown=tuple(shown),
+        inputs=run_inputs(result, units),
+        tables=tuple(tables),
         sections=_sections(registry, result),
-        pictures=[p for p in pictures if p.name not in (*_TRUST, _SKETCH)],
-        trust=[p for p in pictures if p.name in _TRUST],
-        trust_tables=(convergence(summary, units),),
-        inputs=inputs,
+        pictures=tuple(p for p in pictures if p.name not in _TRUST),
+        trust=tuple(p for p in pictures if p.name in _TRUST),
+        trust_tables=(convergence(summary, units),) if alone is not None else (),
+        notes=("lives, safety and torques of catalogues are those of the loads at the start",),
     )
 
 
-def study_report(
+def _start_of(result: Result) -> tuple[Any, Any] | None:
+    """Return model and equilibrium of the case of a machine's run; None where it cannot be solved any more."""
+    from lambda_core.analysis.rotor.machine_answers import machine_equilibrium, machine_of
+    from lambda_core.case.case_io import toml_tables
+
+    try:
+        model = machine_of(toml_tables(result.case_toml, result.case))
+        return model, machine_equilibrium(model)
+    except LambdaError as error:
+        log.warning("the equilibrium at the start is not shown: %s", error)
+        return None
+
+
+def machine_drawings(registry: Registry, model: Any, found: Any, cover: Cover) -> list[Picture]:
+    """Draw deflection, bending moment and what else there is to see of a machine's equilibrium."""
+    from lambda_core.views.view import MachineData
+
+    drawn = every(registry, MachineData(model, found, None), "machine")
+    return [Picture(v.name, svg(registry, in_units(d, cover.units))) for v, d in drawn if isinstance(d, ViewData)]
+
+
+def study_chapter(
     registry: Registry, table: StudyTable, status: Any, inputs: Inputs, definition: str, cover: Cover = _NO_COVER
-) -> str:
-    """Return the page about one study.
+) -> Chapter:
+    """Return the chapter of one study.
 
     Parameters
     ----------
@@ -171,46 +170,40 @@ def study_report(
         units = table.units()
         rows = tuple(in_unit(name, value, units.get(name, ""), cover.units) for name, value in status.best.items())
         tables.insert(0, Table(f"best point ({status.message})", ("", "value", "unit"), rows))
-    return _render(
+    return Chapter(
         kind="study",
-        cover=cover,
         title=table.title,
-        headline=[f"{table.mode}, {table.design}: {', '.join(c.name for c in table.parameters)}"],
+        lines=(f"{table.mode}, {table.design}: {', '.join(c.name for c in table.parameters)}",),
         subtitle=table.name,
-        verdict="complete" if complete else "incomplete",
+        state="complete" if complete else "incomplete",
         good=complete,
-        reasons=status.reasons,
-        warnings=[],
-        sketch=None,
+        reasons=tuple(status.reasons),
         figures=figures,
-        tables=tuple(tables),
-        sections=[],
-        pictures=_pictures(registry, table, "study", cover),
-        trust=[],
-        trust_tables=(),
+        overview=tuple(tables),
+        shown=tuple(_pictures(registry, table, "study", cover, all_of_them=True)),
         inputs=inputs,
         definition=definition,
     )
 
 
-def case_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
-    """Return the inputs of a study from the resolved model of its case."""
-    from types import SimpleNamespace
+def document(chapters: Sequence[Chapter], cover: Cover = _NO_COVER, comparison: Sequence[Table] = ()) -> str:
+    """Return one page with all chapters; several begin with the tables that compare them."""
+    title = chapters[0].title if len(chapters) == 1 else f"{len(chapters)} results"
+    return _render(title=title, chapters=chapters, cover=cover, comparison=comparison)
 
-    from lambda_core.results.citation import citation
-    from lambda_core.results.provenance import Provenance
 
-    origin = Provenance.alone(model, {})
-    laws, versions = next(iter(origin.bearings.values())).laws(), origin.versions()
-    source: Any = SimpleNamespace(path=model.name, laws=laws, values=model.values, versions=versions)
-    return Inputs(
-        value_tables(model.values, units),
-        tuple(map(units.sentence, model.assumptions)),
-        law_table(laws),
-        citation(source),
-        model.case_toml,
-        (*versions.items(), *(("plugin", name) for name in model.plugins)),
+def comparison_tables(found: SideBySide, units: UnitSystem = SI) -> tuple[Table, ...]:
+    """Return differing inputs and key numbers of several results."""
+    inputs = tuple((one.option, *(units.sentence(v or "–") for v in one.values)) for one in found.inputs)
+    numbers = tuple(
+        (
+            f"{one.name} {units.unit(one.unit)}".rstrip(),
+            *(rounded(None if v is None else units.value(v, one.unit), 4) for v in one.values),
+        )
+        for one in found.numbers
     )
+    head = ("", *found.names)
+    return Table("inputs that differ", head, inputs), Table("results", head, numbers)
 
 
 def write_page(text: str, path: Path) -> Path:
@@ -252,11 +245,8 @@ def _render(**context: Any) -> str:
         lstrip_blocks=True,
     )
     environment.filters["breakable"] = _breakable
-    context |= {
-        "definition": context.get("definition", ""),
-        "parts": context["cover"].appendices,
-        "chapters": _CHAPTERS,
-    }
+    environment.filters["by_effect"] = by_effect
+    context |= {"parts": context["cover"].appendices, "appendices": _CHAPTERS}
     return environment.get_template(TEMPLATE).render(context)
 
 
@@ -267,12 +257,15 @@ def _breakable(path: str) -> Any:
     return Markup(re.sub(r"([._])", r"\1<wbr>", escape(path)))
 
 
-def _pictures(registry: Registry, subject: Any, kind: Any, cover: Cover) -> list[Picture]:
-    """Draw the views that the page shows; where pictures are no part of it only the one on its first page."""
-    left_out = {
-        *(_TRUST if "trust" not in cover.appendices else ()),
-        *(v for v in registry.views if "views" not in cover.appendices and v not in (*_TRUST, _SKETCH)),
-    }
+def _pictures(registry: Registry, subject: Any, kind: Any, cover: Cover, *, all_of_them: bool = False) -> list[Picture]:
+    """Draw the views that the appendices show."""
+    wanted = cover.appendices
+    if not all_of_them and "views" not in wanted and "trust" not in wanted:
+        return []
+    left_out = set() if all_of_them else {
+        *(_TRUST if "trust" not in wanted else ()),
+        *(v for v in registry.views if "views" not in wanted and v not in _TRUST),
+    }  # fmt: skip
     found = []
     for view, data in every(registry, subject, kind, without=left_out):
         try:

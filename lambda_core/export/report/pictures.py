@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
 from lambda_core.domain.files import check_folder, check_new, check_target
-from lambda_core.model.checking import resolve
+from lambda_core.model.checking import check
 from lambda_core.run.answers import result
 from lambda_core.study.study_runs import study_status
 
@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
     from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
     from lambda_core.analysis.rotor.machine_modes import MachineModes
+    from lambda_core.export.report.chapters import Chapter
     from lambda_core.export.report.gallery import ViewCard
+    from lambda_core.export.report.key_tables import Table
     from lambda_core.export.report.page import Cover
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
@@ -252,22 +254,26 @@ def animate(
 
 
 def report(
-    source: str | PathLike[str],
+    source: str | PathLike[str] | Sequence[str | PathLike[str]],
     out: str | Path | None = None,
     *,
     overwrite: bool = False,
     project: str = "",
     author: str = "",
-    appendices: Sequence[str] | None = None,
+    appendices: Sequence[str] = (),
     units: str = "si",
     bearing: str | None = None,
 ) -> Path:
-    """Write one self-contained page about a run or a study, as HTML or PDF.
+    """Write one self-contained document about runs, cases and studies, as HTML or PDF.
+
+    Four pages about one bearing: verdict with margins, sketch and key numbers; loads, lives and losses; inputs;
+    limits. A machine has its shaft first, then a page for each bearing.
 
     Parameters
     ----------
-    source : path-like
-        A result or its file, or the folder of a study.
+    source : path-like or sequence of them
+        A result or its file, a case file (solved at t = 0, without time), or the folder of a study; several stand in
+        one document after tables that compare the results.
     out : path-like, optional
         File whose ending says the format: ``.html``, or ``.pdf`` where a browser or WeasyPrint (extra ``pdf``) is
         installed; default: the name of the source with ``.html`` in the working directory.
@@ -276,8 +282,8 @@ def report(
     project, author : str
         What the head of the page says, except for the day.
     appendices : sequence of str, optional
-        What follows the first page: ``tables``, ``views``, ``trust``, ``inputs``, ``assumptions``, ``laws``,
-        ``references``, ``origin``; default: all of it.
+        What follows the standard pages: ``tables``, ``views``, ``trust``, ``inputs``, ``assumptions``, ``laws``,
+        ``references``, ``origin``, or ``all``; default: nothing.
     units : str
         ``si`` or ``us``: in which numbers are shown; the case stands as it was written.
     bearing : str, optional
@@ -294,11 +300,14 @@ def report(
         When the source is neither, an appendix is unknown, nothing can print a PDF, or the page exists or cannot be
         written.
     """
-    from lambda_core.discovery.manager import registry
-    from lambda_core.export.report.page import case_inputs, run_report, study_report, write_page
+    from lambda_core.export.report.page import comparison_tables, document, write_page
     from lambda_core.export.report.pdf import check_printer, write_pdf
+    from lambda_core.results.reader import Result
 
-    path = Path(out) if out is not None else Path(f"{view_stem([source], bearing)}.html")
+    sources = [source] if isinstance(source, str | PathLike | Result) else list(source)
+    if not sources:
+        raise UsageError("a report needs a result, a case or a study")
+    path = Path(out) if out is not None else Path(f"{view_stem(sources, bearing)}.html")
     cover = _cover(project, author, appendices, units)
     _refuse_existing(path, overwrite)
     is_pdf = path.suffix.lower() == ".pdf"
@@ -306,30 +315,73 @@ def report(
         raise UsageError(f"{path}: a report is written as {', '.join(_PAGES)} or .pdf")
     if is_pdf:
         check_printer()
-    subject, kind = subject_of(source, bearing)
-    if kind == "study":
-        from lambda_core.case.case_io import parse_case
-        from lambda_core.study.studies import files
+    chapters = [_chapter(one, bearing, cover) for one in sources]
+    runs = [one for one, chapter in zip(sources, chapters, strict=True) if chapter.kind == "run"]
+    compared: tuple[Table, ...] = ()
+    if len(runs) > 1:
+        from lambda_core.run.answers import side_by_side
 
-        definition, case_toml = files(Path(source))
-        inputs = case_inputs(resolve(parse_case(case_toml, str(source))), cover.units)
-        text = study_report(registry(), subject, study_status(Path(source)), inputs, definition, cover)
-    else:
-        text = run_report(registry(), subject.of_bearing(), cover)
+        compared = comparison_tables(side_by_side(runs), cover.units)
+    text = document(chapters, cover, compared)
     return write_pdf(text, path) if is_pdf else write_page(text, path)
 
 
-def _cover(project: str, author: str, appendices: Sequence[str] | None, units: str) -> Cover:
+def _chapter(source: str | PathLike[str], bearing: str | None, cover: Cover) -> Chapter:
+    """Return the chapter about a result, a case or a study."""
+    from lambda_core.discovery.manager import registry
+    from lambda_core.export.report.chapters import case_inputs
+    from lambda_core.export.report.page import run_chapter, study_chapter
+
+    if _is_case(source):
+        return _case_chapter(source, bearing, cover)
+    subject, kind = subject_of(source, bearing)
+    if kind == "result":
+        return run_chapter(registry(), subject, cover)
+    from lambda_core.case.case_io import is_machine, toml_tables
+    from lambda_core.export.report.chapters import machine_inputs
+    from lambda_core.study.studies import files
+
+    definition, case_toml = files(Path(source))
+    model = check(toml_tables(case_toml, str(source)), is_static=True)
+    inputs = machine_inputs(model, cover.units) if is_machine(model) else case_inputs(model, cover.units)
+    return study_chapter(registry(), subject, study_status(Path(source)), inputs, definition, cover)
+
+
+def _is_case(source: str | PathLike[str]) -> bool:
+    """Tell whether a source is a case file."""
+    return isinstance(source, str | PathLike) and Path(source).suffix.lower() == ".toml" and Path(source).is_file()
+
+
+def _case_chapter(source: str | PathLike[str], bearing: str | None, cover: Cover) -> Chapter:
+    """Return the chapter about a case at its operating point."""
+    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+    from lambda_core.analysis.thermal.temperatures import ready_model
+    from lambda_core.case.case_io import is_machine, refuse_bearing
+    from lambda_core.discovery.manager import registry
+    from lambda_core.export.report.chapters import case_chapter
+    from lambda_core.export.report.page import machine_drawings
+    from lambda_core.run.simulation import quasistatic
+
+    refuse_bearing(bearing)
+    if not is_machine(Path(source)):
+        model = ready_model(Path(source), is_static=True)
+        return case_chapter(model, quasistatic(model), cover.units)
+    machine = ready_machine_of(Path(source), ())
+    found = quasistatic(machine)
+    return case_chapter(machine, found, cover.units, machine_drawings(registry(), machine, found, cover))
+
+
+def _cover(project: str, author: str, appendices: Sequence[str], units: str) -> Cover:
     """Return the parts of the page other than the results; the day only where somebody signs."""
     from datetime import date
 
     from lambda_core.domain.unit_systems import unit_system
     from lambda_core.export.report.page import APPENDICES, Cover
 
-    chosen = tuple(APPENDICES if appendices is None else appendices)
+    chosen = tuple(APPENDICES if "all" in appendices else appendices)
     for name in chosen:
         if name not in APPENDICES:
-            raise UsageError(unknown_name("appendix", name, APPENDICES))
+            raise UsageError(unknown_name("appendix", name, ("all", *APPENDICES)))
     return Cover(project, author, date.today().isoformat() if project or author else "", chosen, unit_system(units))
 
 

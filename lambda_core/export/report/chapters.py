@@ -1,0 +1,292 @@
+"""Build the chapters of a report: a run, a case at its operating point, or a study."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.export.report.key_tables import (
+    Table,
+    breakdown,
+    contacts,
+    given_values,
+    key_figures,
+    law_table,
+    lives,
+    machine_figures,
+    machine_reactions,
+    margins,
+    value_tables,
+)
+from lambda_core.export.report.sketch import bearing_sketch, load_sketch, shaft_sketch
+from lambda_core.results.verdict import Verdict
+
+if TYPE_CHECKING:
+    from lambda_core.results.citation import Citation
+    from lambda_core.results.reader import Result
+
+_SIZES = ("bore_diameter", "outside_diameter", "width")
+
+
+@dataclass(frozen=True)
+class Picture:
+    """One view on a page, or the reason why it shows nothing."""
+
+    name: str
+    svg: str
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """What a run or a study starts from, ready to print."""
+
+    values: tuple[Table, ...]
+    assumptions: tuple[str, ...]
+    laws: Table
+    citation: Citation
+    case_toml: str
+    origin: tuple[tuple[str, str], ...]  # versions, plugins, hashes
+    given: Table  # what the case says and what the bearing is
+
+
+@dataclass(frozen=True)
+class BearingPart:
+    """What a report says of one bearing."""
+
+    name: str  # of a bearing of a machine; "" of one alone
+    title: str
+    lines: tuple[str, ...]
+    verdict: str
+    is_met: bool
+    margin_line: str
+    margins: Table | None
+    figures: Sequence[tuple[str, str, str]]
+    sketch: str
+    loads: str  # picture of the loads of its balls
+    tables: tuple[Table, ...]
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """One subject of a document: the pages of a run, of a case or of a study."""
+
+    kind: str  # "run", "case" or "study"
+    title: str
+    subtitle: str
+    state: str  # in a word: converged, complete ...
+    good: bool
+    bearings: tuple[BearingPart, ...] = ()
+    lines: tuple[str, ...] = ()
+    reasons: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+    figures: Sequence[tuple[str, str, str]] = ()
+    sketch: str = ""
+    overview: tuple[Table, ...] = ()  # of a machine: a column for each bearing
+    shown: tuple[Picture, ...] = ()  # pictures of the standard pages
+    inputs: Inputs | None = None
+    tables: tuple[Table, ...] = ()  # in the appendices
+    sections: Sequence[Mapping[str, Any]] = ()
+    pictures: tuple[Picture, ...] = ()
+    trust: tuple[Picture, ...] = ()
+    trust_tables: tuple[Table, ...] = ()
+    definition: str = ""
+    notes: tuple[str, ...] = field(default=())
+
+
+def bearing_part(
+    found: Any, geometry: Mapping[str, Any], *, name: str = "", loads: Sequence[float] = (), speed: str = "",
+    units: UnitSystem = SI, bands: Mapping[str, tuple[float, float]] | None = None,
+) -> BearingPart:  # fmt: skip
+    """Return what there is to say of one bearing.
+
+    Parameters
+    ----------
+    found : QuasiStatic, BearingEquilibrium, BearingSummary or Summary
+        Its numbers.
+    geometry : mapping
+        Of the resolved model, SI.
+    loads : sequence of float
+        Radial and axial load [N].
+    bands : mapping, optional
+        Field of `found` -> ends of the 90 % model band.
+    """
+    verdict: Verdict | None = found.verdict
+    tables = [table for table in (lives(found, units), breakdown(found, units), contacts(found, units)) if table.rows]
+    return BearingPart(
+        name=name,
+        title=found.title,
+        lines=tuple(units.sentence(getattr(found, "headline", "")).splitlines()),
+        verdict=units.sentence(verdict.sentence) if verdict is not None else "",
+        is_met=verdict is None or verdict.met,
+        margin_line="   ".join(verdict.lines(units)[1]) if verdict is not None else "",
+        margins=margins(verdict, units) if verdict is not None else None,
+        figures=key_figures(found, units, bands or {}),
+        sketch=bearing_sketch(geometry, loads, speed, units),
+        loads=load_sketch(found.contacts, units),
+        tables=tuple(tables),
+    )
+
+
+def case_chapter(model: Any, found: Any, units: UnitSystem = SI, pictures: Sequence[Picture] = ()) -> Chapter:
+    """Return the chapter of a case at its operating point: of one bearing, or of a machine.
+
+    Parameters
+    ----------
+    model : BearingModel or MachineModel
+        The resolved case.
+    found : QuasiStatic or MachineEquilibrium
+        Its equilibrium.
+    """
+    from lambda_core.results.provenance import plain
+
+    if hasattr(model, "bearings"):
+        return _machine_chapter(model, found, units, pictures)
+    loads = _applied(model)
+    speed = _speed(model)
+    part = bearing_part(
+        found, plain(model.geometry), loads=loads, speed=speed, units=units, bands=_bands(model.case_toml)
+    )
+    return Chapter(
+        kind="case", title=found.title, subtitle=f"{model.name}, quasi-static at t = 0", state="equilibrium found",
+        good=True, bearings=(part,), warnings=_sentences(found.warnings, units), inputs=case_inputs(model, units),
+        notes=(_QUASISTATIC,),
+    )  # fmt: skip
+
+
+def _machine_chapter(model: Any, found: Any, units: UnitSystem, pictures: Sequence[Picture]) -> Chapter:
+    """Return the chapter of a machine at its operating point."""
+    from lambda_core.results.provenance import machine_data, plain
+
+    parts = tuple(
+        bearing_part(
+            one, plain(seat.model.geometry), name=one.name, loads=(one.radial_load_N, one.axial_load_N), units=units
+        )
+        for one, seat in zip(found.bearings, model.bearings, strict=True)
+    )
+    sizes = {one.name: _size(plain(one.model.geometry)) for one in model.bearings}
+    warned = [*found.warnings, *(f"{one.name}: {text}" for one in found.bearings for text in one.warnings)]
+    return Chapter(
+        kind="case", title=f"{model.name}: {' + '.join(one.title.split(' (')[0] for one in found.bearings)}",
+        subtitle=f"{found.speed_rpm:.5g} 1/min, quasi-static at t = 0", state="equilibrium found", good=True,
+        bearings=parts, warnings=_sentences(warned, units), sketch=shaft_sketch(machine_data(model), sizes, units),
+        overview=(machine_figures(found, units), machine_reactions(found, units)), shown=tuple(pictures),
+        inputs=machine_inputs(model, units), notes=(_QUASISTATIC,),
+    )  # fmt: skip
+
+
+_QUASISTATIC = "quasi-static: without time, vibration and cage; no confidence interval of a simulation applies"
+
+
+def run_bearings(result: Result, units: UnitSystem) -> tuple[BearingPart, ...]:
+    """Return the parts of the bearings of a run."""
+    summary = result.summary()
+    several = result.is_machine and len(summary.bearings) > 1
+    bands = {} if result.is_machine else _bands(result.case_toml)
+    return tuple(
+        bearing_part(
+            one, result.of_bearing(name).model["geometry"] if result.is_machine else result.model["geometry"],
+            name=name if several else "", loads=_carried(one), units=units, bands=bands,
+        )
+        for name, one in summary.bearings.items()
+    )  # fmt: skip
+
+
+def _carried(found: Any) -> tuple[float, ...]:
+    """Return radial and axial load of a bearing from its contacts [N]."""
+    inner = [c for c in found.contacts if c.ring == "inner"]
+    angles = [(math.radians(c.contact_angle_deg), math.radians(c.azimuth_deg), c.load_N) for c in inner]
+    across = [q * math.cos(a) for a, _, q in angles]
+    y = sum(f * math.cos(psi) for f, (_, psi, _) in zip(across, angles, strict=True))
+    z = sum(f * math.sin(psi) for f, (_, psi, _) in zip(across, angles, strict=True))
+    return math.hypot(y, z), sum(q * math.sin(a) for a, _, q in angles)
+
+
+def _applied(model: Any) -> tuple[float, ...]:
+    """Return radial and axial load on the inner ring at the start [N]."""
+    from lambda_core.model.laws.time_functions import initial
+
+    x, y, z = (initial(force) for force in model.inner_ring.force)
+    return math.hypot(y, z), x
+
+
+def _speed(model: Any) -> str:
+    from lambda_core.model.checks.describe import function_text
+
+    return str(function_text(model.inner_ring.dofs["spin"].motion, "rotational_speed"))
+
+
+def _size(geometry: Mapping[str, Any]) -> tuple[float, float, float]:
+    bore, outside, width = (float(geometry[name]) for name in _SIZES)
+    return bore, outside, width
+
+
+def _sentences(lines: Sequence[str], units: UnitSystem) -> tuple[str, ...]:
+    return tuple(map(units.sentence, lines))
+
+
+@lru_cache(maxsize=8)
+def _bands(case_toml: str) -> Mapping[str, tuple[float, float]]:
+    """Return the 90 % model bands of a case by field; empty where there are none."""
+    from lambda_core.case.case_io import parse_case
+    from lambda_core.fit.band import model_band
+
+    try:
+        fields = model_band(parse_case(case_toml)).fields()
+    except LambdaError:
+        return {}
+    return {name.removesuffix("_band"): (low, high) for name, (low, high) in fields.items()}
+
+
+def run_inputs(result: Result, units: UnitSystem = SI) -> Inputs:
+    """Return the inputs of a run, from its file."""
+    from lambda_core.results.citation import citation
+
+    one = result.of_bearing(result.bearing_names[0]) if result.is_machine else result
+    hashes = dict(one.kernel_keys)
+    origin = [*result.versions.items(), ("machine code", hashes.pop("code", "native"))]
+    origin += [("plugin", name) for name in one.plugins]
+    keys = [(f"code of {name}", key[:16]) for name, key in sorted(hashes.items())]
+    return Inputs(
+        value_tables(one.values, units),
+        _sentences(result.whole().assumptions if result.is_machine else one.assumptions, units),
+        law_table(one.laws),
+        citation(one),
+        result.case_toml,
+        (*origin, *keys),
+        given_values(one.values, units),
+    )
+
+
+def case_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
+    """Return the inputs of a study or a case from the resolved model of one bearing."""
+    from types import SimpleNamespace
+
+    from lambda_core.results.citation import citation
+    from lambda_core.results.provenance import Provenance
+
+    origin = Provenance.alone(model, {})
+    laws, versions = next(iter(origin.bearings.values())).laws(), origin.versions()
+    source: Any = SimpleNamespace(path=model.name, laws=laws, values=model.values, versions=versions)
+    return Inputs(
+        value_tables(model.values, units),
+        _sentences(model.assumptions, units),
+        law_table(laws),
+        citation(source),
+        model.case_toml,
+        (*versions.items(), *(("plugin", name) for name in model.plugins)),
+        given_values(model.values, units),
+    )
+
+
+def machine_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
+    """Return the inputs of a machine: laws and values of its first bearing stand for those that all share."""
+    from dataclasses import replace
+
+    first = case_inputs(model.bearings[0].model, units)
+    return replace(first, assumptions=_sentences(model.assumptions, units), case_toml=model.case_toml)

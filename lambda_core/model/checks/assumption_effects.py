@@ -1,0 +1,80 @@
+"""Order assumptions by what they affect, and by how much they leave open."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+# Effect -> words that an assumption about it begins with or contains; the first match counts.
+_EFFECTS: tuple[tuple[str, str], ...] = (
+    ("motion", r"^damping\b"),
+    ("cage", r"^(cage|cage_contact|bodies\.cage)\b|pocket"),
+    ("electric", r"^(permittivity|capacitance|breakdown|discharge|electric)"),
+    (
+        "friction",
+        r"^(traction|rolling_resistance|elastic_hysteresis|asperity_load|boundary_friction|mixing|fluid_drag)\b|drag"
+        r"|friction|oil level",
+    ),
+    (
+        "film",
+        r"^(film_thickness|supply|thermal_correction|rheology|contact_temperature|surface|lubricant)\b|film|roughness"
+        r"|viscosity",
+    ),
+    (
+        "load and life",
+        r"^(bearing|normal_contact|materials)\b|clearance|shoulder|rings and balls|contact angle|preload|e_C |C_0|fit",
+    ),
+    ("temperature", r"temperature|heat|thermal"),
+    ("motion", r"mass|inertia|tilt|gravity"),
+)
+_OTHER = "other"
+_NAMES = re.compile(r"^[^:(]*[^:(\s]: (?=\S)")  # of the bearings of a machine that share an assumption
+# A parameter of a law: law, parameter with value, source
+_PARAMETER = re.compile(r"^(?P<law>(?:[^(]*: )?\w+ [\w-]+): (?P<value>[^,(]+)(?:, (?:default|lubricant \S+))? \(")
+_PUBLISHED, _NUMERICAL = re.compile(r"published\)$"), re.compile(r"numerical\)$")
+_GRADED = re.compile(
+    r"^((?:[\w-]+(?:, [\w-]+)*: (?=\w+\.))?.*?): .* \(grade (\w)\)$"
+)  # a value, where it comes from, its grade
+_OPEN, _KNOWN, _SMALL = range(3)
+
+
+def weight(assumption: str) -> int:
+    """Return 0 for what nobody knows, 1 for published values, 2 for numerical settings."""
+    return _SMALL if _NUMERICAL.search(assumption) else _KNOWN if _PUBLISHED.search(assumption) else _OPEN
+
+
+def effect(assumption: str) -> str:
+    """Return what an assumption affects most."""
+    bare = _NAMES.sub("", assumption) if re.match(r"^[\w-]+(, [\w-]+)*: (?!\w+ \d)", assumption) else assumption
+    found = (name for text in (bare, assumption) for name, words in _EFFECTS if re.search(words, text))
+    return next(found, _OTHER)
+
+
+def by_effect(assumptions: Sequence[str], heaviest_only: bool = True) -> list[tuple[str, list[str]]]:
+    """Group assumptions by what they affect: load and life first, then friction, film and the rest.
+
+    Parameters
+    ----------
+    assumptions : sequence of str
+        Sentences of a resolved model.
+    heaviest_only : bool
+        Leave out published values and numerical settings.
+    """
+    names = ("load and life", "friction", "film", "temperature", "cage", "motion", "electric", _OTHER)
+    found: dict[str, list[str]] = {name: [] for name in names}
+    for sentence in assumptions:
+        if not heaviest_only or weight(sentence) == _OPEN:
+            found[effect(sentence)].append(sentence)
+    return [(name, _joined(sorted(sentences, key=weight))) for name, sentences in found.items() if sentences]
+
+
+def _joined(sentences: Sequence[str]) -> list[str]:
+    """Join parameters of one law, and leave out where values come from."""
+    found: dict[str, list[str]] = {}
+    for sentence in sentences:
+        parameter, graded = _PARAMETER.match(sentence), _GRADED.match(sentence)
+        if parameter:
+            found.setdefault(parameter["law"], []).append(parameter["value"].strip())
+        else:
+            found.setdefault(f"{graded[1]} (grade {graded[2]})" if graded else sentence, [])
+    return [f"{law}: {', '.join(values)}" if values else law for law, values in found.items()]
