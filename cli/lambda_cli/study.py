@@ -158,9 +158,12 @@ def _finish(status: StudyStatus, as_json: bool) -> None:
     from lambda_core.domain.errors import PartialResultError
 
     typer.echo(status.model_dump_json(indent=2) if as_json else printable(status.text()))
-    if status.pending:
-        typer.echo(f"interrupted; go on with: lambda-bearing study resume {status.folder}{taken_options()}", err=True)
+    resume = f"go on with: lambda-bearing study resume {status.folder}{taken_options()}"
+    if status.interrupted:
+        typer.echo(f"interrupted; {resume}", err=True)
         raise typer.Exit(130)
+    if status.pending:
+        raise PartialResultError(f"{status.pending} of {status.points} points wait for another process; {resume}")
     lacks = [(status.failed, "have no result"), (status.partial, "have not converged")]
     short = [f"{count} of {status.points} points {what}" for count, what in lacks if count]
     if short:

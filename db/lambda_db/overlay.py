@@ -15,7 +15,7 @@ from lambda_db.engine import at_one_moment, file_uri
 from lambda_db.models import Base
 from lambda_db.seal import ChangedError, check_seal
 from lambda_db.seed_tables import CHILDREN, VIEWED
-from lambda_db.soundness import ADVICE, UNREADABLE, DamagedError, check_sound, is_damage, reason_of
+from lambda_db.soundness import ADVICE, UNREADABLE, DamagedError, check_sound, is_damage, is_denied, reason_of
 
 log = logging.getLogger("lambda_db")
 
@@ -70,6 +70,8 @@ def attach_user(connection: Connection, path: Path, schema_version: int) -> bool
             break
         except UNREADABLE as error:
             trouble = f"{reason_of(error)}; {ADVICE}" if is_damage(error) else reason_of(error)
+            if not is_denied(error):  # read as immutable, rows that another process has just written are missing
+                break
         else:
             return True
     log.warning("your own catalogue %s cannot be read (%s); only the built-in catalogue is used", path, trouble)

@@ -56,3 +56,9 @@ def is_damage(error: DatabaseError | UnicodeDecodeError) -> bool:
     """Tell damage from what passes: a lock, a missing right."""
     reason = reason_of(error)
     return isinstance(error, UnicodeDecodeError) or "malformed" in reason or "not a database" in reason
+
+
+def is_denied(error: DatabaseError | UnicodeDecodeError) -> bool:
+    """Tell a missing right to write in the folder, which SQLite needs for what several processes share."""
+    reason = reason_of(error)
+    return "unable to open" in reason or "readonly" in reason

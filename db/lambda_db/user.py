@@ -16,7 +16,7 @@ from lambda_db.engine import file_uri, sqlite_engine
 from lambda_db.models import Base
 from lambda_db.seal import ChangedError, check_seal, create_seal, differences, renew_seal
 from lambda_db.seed_tables import VIEWED
-from lambda_db.soundness import ADVICE, UNREADABLE, DamagedError, check_sound, is_damage, reason_of
+from lambda_db.soundness import ADVICE, UNREADABLE, DamagedError, check_sound, is_damage, is_denied, reason_of
 
 
 def _renew_bearings(connection: Connection) -> None:
@@ -66,8 +66,11 @@ def changing(path: Path) -> Iterator[Connection]:
     engine = open_user_database(path)
     try:
         with engine.begin() as connection:
+            check_seal(connection, "main")  # again: others may have changed it since it was opened
             yield connection
             renew_seal(connection)
+    except ChangedError as error:
+        raise CatalogueError(str(path), [Problem("", f"cannot be written: {error}")]) from error
     except UNREADABLE as error:
         raise unwritable(path, error) from error
     finally:
@@ -147,7 +150,7 @@ def _damaged(path: Path, reason: str) -> CatalogueError:
 def unwritable(path: Path, error: DatabaseError | UnicodeDecodeError) -> CatalogueError:
     """Say why the user's database takes no rows."""
     reason = reason_of(error)
-    if "readonly" in reason or "unable to open" in reason:
+    if is_denied(error):
         reason = "the file or its folder is read-only; make it writable or set LAMBDA_BEARING_DATA to another folder"
     elif is_damage(error):
         return _damaged(path, reason)

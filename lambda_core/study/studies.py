@@ -52,6 +52,7 @@ class StudyStatus(BaseModel):
     reasons: list[str] = Field(description="why points failed, are partial or were left, the first few")
     best: dict[str, Any] | None = Field(description="the best point of an optimisation")
     message: str = Field(description="how an optimisation ended")
+    interrupted: bool = Field(False, description="whether somebody stopped this session; else pending points wait")
 
     def text(self) -> str:
         """Return the lines for people."""
@@ -206,6 +207,7 @@ def _work(
     """Work until every point has an outcome."""
     from lambda_core.results.hdf5 import sweep
 
+    stop = False
     with manifest.directed():
         sweep(manifest.folder / RUNS)  # a worker that was killed while it packed a finished run
         todo = manifest.pending(retry)
@@ -228,7 +230,7 @@ def _work(
                 manifest.write_meta("wall", repr(float(manifest.meta("wall") or 0.0) + wall))
                 spent = manifest.seconds() - before
                 manifest.write_meta("efficiency", repr(spent / (wall * workers_pool.workers)) if wall > 0.0 else "")
-    return _status(manifest)
+    return _status(manifest).model_copy(update={"interrupted": stop})
 
 
 def _tasks(manifest: Manifest, todo: list[tuple[int, tuple[str, ...]]], names: tuple[str, ...]) -> Iterator[Task]:

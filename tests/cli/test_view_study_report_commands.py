@@ -166,3 +166,23 @@ def test_failed_points_end_with_5(call: Call, tmp_path: Path) -> None:
     assert code == 5
     assert "1 failed" in out
     assert "1 of 2 points have no result" in err
+
+
+def test_points_that_wait_for_another_process_are_no_interruption(
+    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from lambda_core import api
+    from lambda_core.study.studies import StudyStatus
+
+    status = StudyStatus(
+        name="pair", title="pair", folder="pair", mode="dynamic", design="grid", points=2, done=1, partial=0, failed=0,
+        pending=1, worker_seconds=1.0, wall_s=1.0, parallel_efficiency=None, reasons=[], best=None, message="",
+    )  # fmt: skip
+    monkeypatch.setattr(api, "study_resume", lambda *_, **__: status, raising=False)
+    code, _, err = call("study", "resume", "pair", "--quiet")
+    assert code == 5
+    assert "1 of 2 points wait for another process; go on with: lambda-bearing study resume pair" in err
+    assert "interrupted" not in err
+    stopped = status.model_copy(update={"interrupted": True})
+    monkeypatch.setattr(api, "study_resume", lambda *_, **__: stopped, raising=False)
+    assert call("study", "resume", "pair", "--quiet")[0] == 130

@@ -8,13 +8,14 @@ import shutil
 import sqlite3
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
-from lambda_db import user
+from lambda_db import overlay, user
 from lambda_db.catalogue import SqlCatalogue, open_catalogue
 from lambda_db.paths import user_database
 from lambda_db.transfer import add_row, export_rows, rows_of
+from sqlalchemy.exc import OperationalError
 
 from lambda_core.domain.errors import CatalogueError
 
@@ -319,6 +320,46 @@ def test_c3_a_row_changed_by_others_is_named_until_it_is_accepted(
     add_row(again, "bearing", ROW | {"designation": "X9"})
     assert user.accept(user_database()) == []
     again.close()
+
+
+def test_a_row_changed_between_opening_and_writing_is_not_sealed(
+    catalogue: SqlCatalogue, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another program changes a row after the file was checked and before this one writes."""
+    add_row(catalogue, "bearing", ROW)
+    checked = user.open_user_database
+
+    def opened(path: Path, *, changed: bool = False) -> Any:
+        engine = checked(path, changed=changed)
+        _edit("UPDATE bearing SET width_mm = 19")
+        return engine
+
+    monkeypatch.setattr(user, "open_user_database", opened)
+    with pytest.raises(CatalogueError, match="bearing 6208 NSK is changed"):
+        add_row(catalogue, "bearing", ROW | {"designation": "X9"})
+
+
+def test_a_catalogue_that_is_locked_is_not_read_without_its_newest_rows(
+    catalogue: SqlCatalogue, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Read as a file that never changes, it would lack what stands in SQLite's log: it is left out and named."""
+    add_row(catalogue, "bearing", ROW)
+    tried: list[str] = []
+    uri = overlay.file_uri
+
+    def locked(connection: Any, *_: Any) -> None:
+        raise OperationalError("SELECT", {}, sqlite3.OperationalError("database is locked"))
+
+    def noted(path: Path, mode: str) -> str:
+        tried.append(mode)
+        return uri(path, mode)
+
+    monkeypatch.setattr(overlay, "file_uri", noted)
+    monkeypatch.setattr(overlay, "_check", locked)
+    other = open_catalogue()
+    other.close()
+    assert tried == ["ro"]
+    assert "database is locked" in caplog.records[0].getMessage()
 
 
 def test_nothing_is_accepted_of_a_damaged_catalogue(catalogue: SqlCatalogue) -> None:
