@@ -23,7 +23,8 @@ from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, Problem
 from lambda_core.domain.units import show
 from lambda_core.formulas.elastic.beam import NODE
-from lambda_core.formulas.elastic.body import Disc, ElasticBody, shaft_body, with_discs
+from lambda_core.formulas.elastic.body import Disc, ElasticBody, elements_of, shaft_body, with_discs
+from lambda_core.formulas.elastic.merged_sections import SHORT, merged_sections
 from lambda_core.formulas.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.formulas.fits import REFERENCE_TEMPERATURE
 from lambda_core.formulas.gear_forces import GearForces, gear_forces
@@ -52,6 +53,7 @@ from lambda_core.model.settings.machine_heat import check_heat, resolve_heat, st
 from lambda_core.model.settings.machine_solver import changing, refuse_settings, with_settings
 from lambda_core.model.settings.resolve_electric import resolve_machine_electric, with_circuits
 
+_MOST_ELEMENTS = 250  # of a shaft: three nodes each, in full matrices
 _SLENDEREST = 200  # diameters; elements are as long as thick, and matrices of more take minutes
 
 
@@ -195,7 +197,9 @@ def _shaft(
         refuse_idle_dampers(bearings, housing, ledger)
     if found or ledger.problems or material is None or around is None or len(bearings) < len(case.bearings):
         return None
-    body = _body(case, stand, material, discs) if outside is None else with_discs(outside, discs)
+    body = _body(case, stand, material, discs, ledger) if outside is None else with_discs(outside, discs)
+    if body is None:
+        return None
     heat = resolve_heat(case, [one.name for one in bearings], body, (material, around), ledger)
     shared: dict[str, list[str]] = {}
     for name, model in models.items():
@@ -339,13 +343,30 @@ def _drawn(body: ElasticBody, bearings: Iterable[MountedBearing]) -> tuple[tuple
     return ((float(body.positions[0]), float(body.positions[-1]), bore, 0.0),)
 
 
-def _body(case: ShaftCase, stand: Places, material: BodyMaterial, discs: list[Disc]) -> ElasticBody:
-    sections = [(s.length, RoundSection(s.diameter, s.bore, material)) for s in case.shaft.sections]
+def _body(
+    case: ShaftCase, stand: Places, material: BodyMaterial, discs: list[Disc], ledger: Ledger
+) -> ElasticBody | None:
+    """Return the shaft as a beam; None where its mesh would be too large, which the ledger says then."""
+    given = [(s.length, RoundSection(s.diameter, s.bore, material)) for s in case.shaft.sections]
     held = [place.point[0] for place in stand.of.values() if place.body == SHAFT]
     held += [place.point[0] for place in stand.markers.values() if place.body == SHAFT]
     held += [spring.place for spring in case.connections.values() if stand.carrier(spring.to) == SHAFT]
     drive = [] if case.shaft.drive is None else [case.shaft.drive]
-    return shaft_body(sections, places=[*held, *drive], discs=discs)
+    sections, places = merged_sections(given), [*held, *drive]
+    if len(sections) < len(given):
+        ledger.assume(
+            f"short pieces of the shaft are merged into sections that bend like them: {len(given)} given, "
+            f"{len(sections)} left"
+        )
+    count = elements_of(sections, [*places, *(disc.position for disc in discs)]).size - 1
+    if count > _MOST_ELEMENTS:
+        ledger.problem(
+            "shaft.sections",
+            f"and the places on the shaft make {count} elements, {_MOST_ELEMENTS} at most: leave out details; only "
+            f"pieces shorter than {SHORT:g} of their diameter are merged",
+        )
+        return None
+    return shaft_body(sections, places=places, discs=discs)
 
 
 def _growth(case: ShaftCase, body: ElasticBody, material: BodyMaterial) -> FloatArray:

@@ -100,6 +100,17 @@ def mesh(ends: Sequence[float], places: Sequence[float], longest: Sequence[float
     return np.array(nodes)
 
 
+def elements_of(
+    sections: Sequence[tuple[float, RoundSection]], places: Sequence[float], fineness: float = 1.0
+) -> FloatArray:
+    """Return the ends of the elements of a shaft [m]; arguments as for :func:`shaft_body`, discs among the places."""
+    return mesh(_ends(sections), places, [fineness * section.outside_diameter for _, section in sections])
+
+
+def _ends(sections: Sequence[tuple[float, RoundSection]]) -> list[float]:
+    return [0.0, *np.cumsum([length for length, _ in sections]).tolist()]
+
+
 def shaft_body(
     sections: Sequence[tuple[float, RoundSection]],
     *,
@@ -121,9 +132,8 @@ def shaft_body(
         Longest element over the outside diameter of its section. Deflections do not depend on it; at 1 the first five
         bending modes of a shaft eight diameters long are good to 0.1 %.
     """
-    ends = [0.0, *np.cumsum([length for length, _ in sections]).tolist()]
-    longest = [fineness * section.outside_diameter for _, section in sections]
-    marks = mesh(ends, [*places, *(disc.position for disc in discs)], longest)
+    ends = _ends(sections)
+    marks = elements_of(sections, [*places, *(disc.position for disc in discs)], fineness)
     inside = [begin + (end - begin) * SPOTS[:-1] for begin, end in itertools.pairwise(marks)]
     nodes = np.concatenate([*inside, marks[-1:]])
     size = NODE * nodes.size
