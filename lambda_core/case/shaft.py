@@ -138,6 +138,12 @@ class Support(Section):
 class ShaftBearing(Bearing, Placed):
     """A bearing on the shaft: which one it is, as in the case of one bearing, and how it sits."""
 
+    INSTEAD: ClassVar[Mapping[str, str]] = {
+        **Placed.INSTEAD,
+        **{f"hold_{dof}": f'write support.{dof} = "locked", "free" or a stiffness' for dof in POSE},
+        **{f"motion_{dof}": f"write support.{dof} = {{ motion = ... }}" for dof in POSE},
+    }
+
     outer: str = option(
         "ground", "what carries its outer ring: ground, one of [bodies], or a marker there", min_length=1
     )

@@ -21,6 +21,11 @@ def hours(life: float) -> str:
     return f"{number(float(f'{life:.2g}'), 0)} h" if life < _LONG_LIFE else f"above {number(_LONG_LIFE, 0)} h"
 
 
+def hours_alone(life: float | None) -> str:
+    """Write a rating life in a column that has the unit in its head; a dash for none."""
+    return NONE if life is None else hours(life).removesuffix(" h")
+
+
 def plus_minus(value: float | None, half_width: float | None) -> str:
     """Write a mean with its confidence, to two digits of the latter."""
     if value is None or half_width is None or half_width <= 0.0:

@@ -25,6 +25,8 @@ _US: dict[str, tuple[str, float, float]] = {
     "N mm": ("lbf in", 1e-3 / (POUND_FORCE * INCH), 0.0),
     "N m/mrad": ("lbf in/mrad", 1.0 / (POUND_FORCE * INCH), 0.0),
     "N/um": ("lbf/in", 1e6 * INCH / POUND_FORCE, 0.0),
+    "N s/m": ("lbf s/in", INCH / POUND_FORCE, 0.0),
+    "N m s/rad": ("lbf in s/rad", 1.0 / (POUND_FORCE * INCH), 0.0),
     "MPa": ("ksi", 1e3 / PSI, 0.0),
     "GPa": ("ksi", 1e6 / PSI, 0.0),
     "kg": ("lb", 1.0 / POUND, 0.0),

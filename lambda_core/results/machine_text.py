@@ -96,8 +96,8 @@ def _catalogues(ratings: Sequence[Rating | None], units: UnitSystem) -> list[tup
     heads = {
         "skf_torque_Nmm": f"  SKF {units.unit('N mm')}",
         "schaeffler_torque_Nmm": f"  Schaeffler {units.unit('N mm')}",
-        "reference_life_h": "rating life (16281)",
-        "basic_life_h": "rating life (281)",
+        "reference_life_h": "L_10rh (ISO/TS 16281)",
+        "basic_life_h": "L_10h (ISO 281)",
         "static_safety": "static safety C0/P0",
         "viscosity_ratio": "viscosity ratio kappa",
     }

@@ -27,7 +27,7 @@ from lambda_core.discovery.manager import registry
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, Problem, SolverError, UsageError
 from lambda_core.domain.files import read_text
-from lambda_core.domain.number_text import hours, number
+from lambda_core.domain.number_text import hours_alone, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import Time
 from lambda_core.model.checks.operating_limits import operating_warnings
@@ -341,18 +341,14 @@ def _mean_load(phases: Sequence[PhaseResult], mean_speed: float) -> float | None
     return float((weighted / mean_speed) ** (1.0 / _EXPONENT))
 
 
-def _life(life: float | None) -> str:
-    return "-" if life is None else hours(life).removesuffix(" h")
-
-
 def _row(phase: PhaseResult, units: UnitSystem) -> tuple[str, ...]:
     return (
         phase.name,
         number(100.0 * phase.share),
         number(phase.speed_rpm, 0),
         units.number(phase.equivalent_load_N, "N", 0),
-        _life(phase.basic_life_h),
-        _life(phase.reference_life_h),
+        hours_alone(phase.basic_life_h),
+        hours_alone(phase.reference_life_h),
         number(None if phase.damage is None else 100.0 * phase.damage),
         units.number(phase.friction_torque_Nmm, "N mm"),
         units.number(phase.power_loss_W, "W"),
@@ -366,8 +362,8 @@ def _sum_row(found: DutyCycle, units: UnitSystem) -> tuple[str, ...]:
         "100.0",
         number(found.mean_speed_rpm, 0),
         units.number(found.mean_load_N, "N", 0),
-        _life(found.basic_life_h),
-        _life(found.reference_life_h),
+        hours_alone(found.basic_life_h),
+        hours_alone(found.reference_life_h),
         "",
         "",
         units.number(found.mean_power_loss_W, "W"),

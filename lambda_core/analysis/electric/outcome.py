@@ -204,6 +204,8 @@ def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[s
         What broke down, for the share of it that the floor of breakdown decided.
     """
     options, found = bearing.options, []
+    if not any((options.inverter, options.sine, options.step, options.series)):
+        found.append(f"the case names no source: {source_words(options)} feeds the circuit")
     written = options.machine.model_fields_set
     for name, words in (("winding_rotor", "C_wr"), ("rotor_frame", "C_rf")):
         if name not in written:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.number_text import NONE
+from lambda_core.domain.number_text import NONE, hours, hours_alone
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.model.checks.operating_limits import operating_warnings
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 _HEAD, _COLUMN = 24, 14
 _FAR = 10  # times the running speed: critical speeds beyond it are counted only
-_LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
 
 
 def _digits(value: float | None, digits: int = 4) -> str:
@@ -31,13 +30,6 @@ def _digits(value: float | None, digits: int = 4) -> str:
 
 def _span(values: list[float], digits: int = 3) -> str:
     return "..".join(f"{value:.{digits}g}" for value in dict.fromkeys(values)) or NONE
-
-
-def hours(value: float | None) -> str:
-    """Write a life."""
-    if value is None:
-        return NONE
-    return f"> {_LONG_LIFE:.0f}" if value > _LONG_LIFE else f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"
 
 
 @dataclass(frozen=True)
@@ -84,10 +76,10 @@ _ROWS = (
     _Row("Q_max", "N", lambda b: b.max_load_N),
     _Row("p_max", "GPa", lambda b: b.max_pressure_GPa, 3),
     _Row("contact angles", "deg", lambda b: list(b.contact_angle_deg), 3),
-    _Row("L_10h", "h", lambda b: hours(b.basic_rating_life_h)),
-    _Row("L_nmh", "h", lambda b: hours(b.modified_basic_life_h)),
-    _Row("L_10rh", "h", lambda b: hours(b.reference_rating_life_h)),
-    _Row("L_nmrh", "h", lambda b: hours(b.modified_rating_life_h)),
+    _Row("L_10h", "h", lambda b: hours_alone(b.basic_rating_life_h)),
+    _Row("L_nmh", "h", lambda b: hours_alone(b.modified_basic_life_h)),
+    _Row("L_10rh", "h", lambda b: hours_alone(b.reference_rating_life_h)),
+    _Row("L_nmrh", "h", lambda b: hours_alone(b.modified_rating_life_h)),
     _Row("static safety", "", lambda b: b.static_safety, 3),
     _Row("friction torque", "N mm", lambda b: b.friction_torque_Nmm, 3),
     _Row("power loss", "W", lambda b: b.power_loss_W, 3),
@@ -173,10 +165,11 @@ def _shaft_lines(report: MachineEquilibrium) -> list[str]:
         ((y * y + z * z) ** 0.5, place)
         for (y, z), place in zip(report.bending_moment_Nm, report.cut_positions_mm, strict=True)
     )
+    life = NONE if report.system_life_h is None else hours(report.system_life_h)
     lines = [
         f"{'deflection':<{HEAD}}{largest[0]:.3g} um at {largest[1]:.4g} mm",
         f"{'bending moment':<{HEAD}}{moment[0]:.4g} N m at {moment[1]:.4g} mm",
-        f"{'system life':<{HEAD}}{hours(report.system_life_h)} h (L_10rh of all bearings)",
+        f"{'system life':<{HEAD}}{life} (L_10rh of all bearings)",
         f"{'friction torque':<{HEAD}}{_digits(report.friction_torque_Nmm)} N mm of all bearings",
         f"{'drive torque':<{HEAD}}{_digits(report.drive_torque_Nm)} N m",
     ]

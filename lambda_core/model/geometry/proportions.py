@@ -44,12 +44,13 @@ def proportion_warnings(g: Geometry) -> Iterator[str]:
             f"{g.ball_count} balls of {ball * 1e3:.6g} mm side by side span {angle:.0f} deg of the pitch circle: "
             f"bearings of the catalogue are filled to {fewest:g} to {most:g} deg"
         )
+    less = " less the distance of the rows" if g.row_distance else ""
     inner = 0.5 * (g.race_diameter_inner - g.bore_diameter)
     outer = 0.5 * (g.outside_diameter - g.race_diameter_outer)
     for what, size, (least, most) in (
         ("the wall of the inner ring under its groove", inner, walls),
         ("the wall of the outer ring under its groove", outer, walls),
-        ("the width", g.width - g.row_distance, broad),
+        (f"the width{less}", g.width - g.row_distance, broad),
     ):
         if not least * ball <= size <= most * ball:
             yield (
