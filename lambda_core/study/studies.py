@@ -52,7 +52,7 @@ class StudyStatus(BaseModel):
     reasons: list[str] = Field(description="why points failed, are partial or were left, the first few")
     best: dict[str, Any] | None = Field(description="the best point of an optimisation")
     message: str = Field(description="how an optimisation ended")
-    interrupted: bool = Field(False, description="whether somebody stopped this session; else pending points wait")
+    interrupted: bool = Field(default=False, description="somebody stopped this session; otherwise pending points wait")
 
     def text(self) -> str:
         """Return the lines for people."""

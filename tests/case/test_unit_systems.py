@@ -62,7 +62,7 @@ def test_numbers_are_shown_in_customary_units_about_as_fine() -> None:
         ("middle of C3 (15 to 33 um)", "middle of C3 (591 to 1300 uin)"),
         ("8 x 15.081 mm", "8 x 0.59374 in"),  # 8 is a number of balls
         ("outside -20 to 200 degC", "outside -4 to 392 degF"),
-        ("0.137 W/(m K), 3 N s/m, 5 kJ", "0.137 W/(m K), 3 N s/m, 5 kJ"),  # no part of a longer unit
+        ("0.137 W/(m K), 3 N s/m, 5 kJ", "0.137 W/(m K), 0.0171 lbf s/in, 5 kJ"),  # no part of a longer unit
         ("12 000 N of C0 = 24 kN", "2697.7 lbf of C0 = 5400 lbf"),
     ],
 )
