@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.channels import LOSSES, RINGS
+from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.model.bearing_model import BearingModel, DofState, TimeFunction
@@ -23,8 +24,12 @@ from lambda_core.results.averages import estimate, finite
 from lambda_core.results.record import Record
 from lambda_core.run.cvode import integrate
 from lambda_core.solver.arrays import bundle as L
-from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.dynamics import MotionEngine, MotionStart, bearing_start
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.drivers.readings import Channels, MachineSamples
+
+if TYPE_CHECKING:
+    from lambda_core.model.machine_model import MachineModel
 
 _FINER = 1e-2  # tolerance of CVODE over ours where a trajectory is compared with a much finer one
 _OUTPUTS = 20
@@ -101,15 +106,31 @@ def with_locked_cage(model: BearingModel, start: Equilibrium) -> BearingModel:
     return replace(model, cage_body=replace(model.cage_body, dofs=dofs))
 
 
+@dataclass(frozen=True)
+class _Begun:
+    """A bearing or a machine at its start."""
+
+    name: str
+    motion: MotionStart[Any, Any]
+    duration: float | None  # that the case asks for [s]
+    orbit: float  # speed of the slowest cage [rad/s]
+
+    @property
+    def turn(self) -> float:
+        """Time of one turn of the slowest cage [s]."""
+        return 2.0 * math.pi / self.orbit
+
+
 def cross_check(
-    model: BearingModel, *, free_cage: bool = False, announce: Callable[[str], None] | None = None
+    model: BearingModel | MachineModel, *, free_cage: bool = False, announce: Callable[[str], None] | None = None
 ) -> CrossCheck:
     """Integrate a model with both integrators from its equilibrium and compare.
 
     Parameters
     ----------
-    model : BearingModel
-        Its `solver.duration` is simulated; half a cage turn when there is none, nine with a free cage.
+    model : BearingModel or MachineModel
+        Its `solver.duration` is simulated; half a cage turn when there is none, nine with a free cage. Of a machine
+        all bearings move with the shaft, and turns are those of the slowest cage.
     free_cage : bool
         Leave the cage free and compare mean powers over whole cage turns after the first.
 
@@ -120,27 +141,49 @@ def cross_check(
     SolverError
         When either integrator cannot go on, the rings stand still, or a free cage makes less than three turns.
     """
-    start = solve(model, announce=announce)
-    if start.relative_speed == 0.0:
-        raise SolverError("the rings stand still: there is no power to compare")
-    turn = 2.0 * math.pi / abs(start.orbit)
-    duration = model.solver.duration or _TURNS[free_cage] * turn
+    begun = (_bearing if isinstance(model, BearingModel) else _machine)(model, free_cage, announce)  # type: ignore[arg-type]
+    duration = begun.duration or _TURNS[free_cage] * begun.turn
     if free_cage:
-        return _means(model, start, turn, int(duration / turn + 1e-9))
-    led = with_locked_cage(model, start)
-    return _trajectories(led, solve(led, announce=announce), duration)
+        return _means(begun, int(duration / begun.turn + 1e-9))
+    return _trajectories(begun, duration)
 
 
-def _trajectories(model: BearingModel, start: Equilibrium, duration: float) -> CrossCheck:
-    tolerance = model.solver.tolerance
-    outputs = replace(model.output, interval=duration / _OUTPUTS)
-    engine = _advanced(BearingEngine(replace(model, output=outputs), equilibrium=start), duration)
+def _bearing(model: BearingModel, free_cage: bool, announce: Callable[[str], None] | None) -> _Begun:
+    """Return a bearing at its start, its cage led unless it is free."""
+    start = solve(model, announce=announce)
+    _check_turning(start.relative_speed)
+    orbit = abs(start.orbit)
+    if not free_cage:
+        model = with_locked_cage(model, start)
+        start = solve(model, announce=announce)
+    return _Begun(model.name, bearing_start(start, model), model.solver.duration, orbit)
+
+
+def _machine(machine: MachineModel, free_cage: bool, announce: Callable[[str], None] | None) -> _Begun:
+    """Return a machine at its start, its cages led unless they are free."""
+    from lambda_core.solver.drivers.machine_motion import machine_start
+
+    _check_turning(machine.speed)
+    start = machine_start(machine, announce, leads_cages=not free_cage)
+    orbit = min(abs(found.orbit) for found in start.equilibria)
+    return _Begun(machine.name, start.motion, machine.solver.duration, orbit)
+
+
+def _check_turning(speed: float) -> None:
+    if speed == 0.0:
+        raise SolverError("the rings stand still: there is no power to compare")
+
+
+def _trajectories(begun: _Begun, duration: float) -> CrossCheck:
+    tolerance, context = begun.motion.tolerance, begun.motion.context
+    engine = MotionEngine(replace(begun.motion, sample_interval=duration / _OUTPUTS))
+    _advanced(engine, duration)
     times, states = engine.buffered()
-    gripped = _gripped(engine.samples()["load"][:, :, RINGS.index("inner")])
-    lost, end = _lost(engine), engine.time
+    gripped = np.concatenate([_gripped(load) for load in _inner_loads(engine.samples())], axis=1)
+    lost, end = engine.spent()[0], engine.time
     grid = np.append(times[times < end], end)
-    same, fine = (integrate(start, grid, tolerance * share) for share in (1.0, _FINER))
-    unit = tolerance * start.context.scale
+    same, fine = (integrate(begun.motion, grid, tolerance * share) for share in (1.0, _FINER))
+    unit = tolerance * context.scale
     apart, theirs = ((found - fine.states[:-1]) / unit for found in (states[: grid.size - 1], same.states[:-1]))
     held = np.ones(apart.shape, dtype=bool)
     held[:, : L.NB * gripped.shape[1]] = np.repeat(gripped[: grid.size - 1], L.NB, axis=1)
@@ -152,7 +195,7 @@ def _trajectories(model: BearingModel, start: Equilibrium, duration: float) -> C
     ]
     off = float(lost / end / power - 1.0)
     return CrossCheck(
-        case=model.name,
+        case=begun.name,
         cage="locked",
         tolerance=tolerance,
         duration_s=end,
@@ -167,6 +210,12 @@ def _trajectories(model: BearingModel, start: Equilibrium, duration: float) -> C
     )
 
 
+def _inner_loads(samples: Channels | MachineSamples) -> list[FloatArray]:
+    """Return the loads of the inner contacts of every bearing, shape (time, ball) [N]."""
+    each = samples.bearings if isinstance(samples, MachineSamples) else [samples]
+    return [channels["load"][:, :, RINGS.index("inner")] for channels in each]
+
+
 def _gripped(load: FloatArray) -> NDArray[np.bool_]:
     """Say which balls the inner ring has pressed all along, shape (time, ball), from the inner contacts' loads."""
     pressed = load > CARRYING * load.max(axis=1, keepdims=True)
@@ -179,25 +228,27 @@ def _distance(apart: FloatArray, chosen: NDArray[np.bool_]) -> FloatArray:
     return total
 
 
-def _means(model: BearingModel, start: Equilibrium, turn: float, turns: int) -> CrossCheck:
+def _means(begun: _Begun, turns: int) -> CrossCheck:
+    turn, tolerance = begun.turn, begun.motion.tolerance
     if turns < 3:
         raise SolverError(
             f"the cage makes {turns} turns of {turn:.3g} s: at least 3 are needed for a confidence interval"
         )
     times = turn * np.arange(turns + 1, dtype=np.float64)
-    engine = BearingEngine(model, equilibrium=start)
+    engine = MotionEngine(begun.motion)
     ours = [(0.0, 0.0)]
     for time in times[1:]:
         _advanced(engine, float(time))
-        ours.append((engine.time, _lost(engine)))
-    run = integrate(start, times, model.solver.tolerance)
+        engine.forget_samples()
+        ours.append((engine.time, engine.spent()[0]))
+    run = integrate(begun.motion, times, tolerance)
     mine = np.diff([lost for _, lost in ours]) / np.diff([time for time, _ in ours])
     theirs = np.diff(run.dissipated()) / turn
     one, other = estimate(mine[1:]), estimate(theirs[1:])  # the first turn is the start's
     return CrossCheck(
-        case=model.name,
+        case=begun.name,
         cage="free",
-        tolerance=model.solver.tolerance,
+        tolerance=tolerance,
         duration_s=float(times[-1]),
         ours=_ours(engine, one.mean, one.half_width),
         cvode=Integration(
@@ -212,20 +263,13 @@ def _means(model: BearingModel, start: Equilibrium, turn: float, turns: int) -> 
     )
 
 
-def _advanced(engine: BearingEngine, until: float) -> BearingEngine:
+def _advanced(engine: MotionEngine[Any, Any], until: float) -> None:
     done = engine.advance(until)
     if not done.ok:
         raise SolverError(done.message)
-    return engine
 
 
-def _lost(engine: BearingEngine) -> float:
-    """Return the energy dissipated since the start [J]."""
-    found = engine.integrals()
-    return sum(found[f"loss.{name}"] for name in LOSSES)
-
-
-def _ours(engine: BearingEngine, power: float, half_width: float) -> Integration:
+def _ours(engine: MotionEngine[Any, Any], power: float, half_width: float) -> Integration:
     counters = engine.statistics()
     return Integration(
         power_W=power,

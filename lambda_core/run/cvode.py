@@ -8,15 +8,15 @@ iteration and linear algebra are CVODE's (Hindmarsh et al. 2005, ACM Trans. Math
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.solver.arrays import bundle as L
-from lambda_core.solver.drivers.dynamics import initial_state
-from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
+from lambda_core.solver.drivers.dynamics import MotionStart
+from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.right_hand_side import Handle
 
 _ENERGY = 1e-2  # [J], angle [rad] or displacement times time [m s]: scale of the integrals, times the tolerance
@@ -47,19 +47,24 @@ class CvodeRun:
 
     def dissipated(self) -> FloatArray:
         """Return the energy dissipated since the first time by all mechanisms together, shape (n,) [J]."""
-        lost: FloatArray = self.integrals[:, : len(LOSSES)].sum(axis=1)
+        lost: FloatArray = self.integrals[:, : self.integrals.shape[1] - L.BESIDE_LOSSES].sum(axis=1)
         return lost
 
 
 def integrate(
-    equilibrium: Equilibrium, times: FloatArray, tolerance: float, *, max_order: int = 2, own_jacobian: bool = False
+    begin: MotionStart[Any, Any],
+    times: FloatArray,
+    tolerance: float,
+    *,
+    max_order: int = 2,
+    own_jacobian: bool = False,
 ) -> CvodeRun:
-    """Integrate a bearing from its equilibrium with CVODE's BDF.
+    """Integrate a bearing or a machine from its equilibrium with CVODE's BDF.
 
     Parameters
     ----------
-    equilibrium : Equilibrium
-        Where the run starts, with the assembled model. Its workspaces are used: not for two runs at once.
+    begin : MotionStart
+        Where the run starts. The workspaces of its context are used: not for two runs at once.
     times : float64[:], shape (n,)
         Output times, increasing; the first is 0 [s].
     tolerance : float
@@ -80,7 +85,7 @@ def integrate(
         from sksundae.cvode import CVODE
     except ImportError:
         raise UsageError('CVODE comes with the extra "sundials": pip install "lambda-bearing[sundials]"') from None
-    context = equilibrium.context
+    context = begin.context
     handle, size = Handle(context), context.size
 
     def right_hand_side(t: float, y: FloatArray, out: FloatArray) -> int:
@@ -97,11 +102,11 @@ def integrate(
         rtol=0.0,  # errors are controlled on absolute scales, as in our integrator
         atol=tolerance * np.concatenate([context.scale, np.full(powers, _ENERGY)]),
         max_order=max_order,
-        max_step=context.model.solver.max_step,
+        max_step=begin.longest_step,
         max_num_steps=_STEPS,
         **({} if own_jacobian else {"jacfn": jacobian}),
     )
-    found = solver.solve(times, np.concatenate([initial_state(equilibrium), np.zeros(powers)]))
+    found = solver.solve(times, np.concatenate([begin.state, np.zeros(powers)]))
     if not found.success:
         fault = context.bundle.scratch[0].fault.role >= 0
         reason = fault_sentence(context, float(found.t[-1])) if fault else found.message

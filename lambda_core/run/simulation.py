@@ -317,10 +317,11 @@ def cross_check(
     source, overrides
         As for :func:`check`, or a resolved model.
     free_cage : bool
-        Leave the cage free and compare mean powers; otherwise it follows its kinematic path, where single
+        Leave cages free and compare mean powers; otherwise they follow their kinematic paths, where single
         trajectories can be compared.
     bearing : str, optional
-        Which one of a machine: alone, under the constant load that it carries there at t = 0.
+        One of a machine: alone, under the constant load that it carries there at t = 0; default: the machine, all
+        bearings moving with its shaft.
     announce : callable, optional
         Called with a sentence before something is compiled.
 
@@ -336,17 +337,16 @@ def cross_check(
     CaseError, SolverError
         With a sentence about the case, or about which integrator could not go on.
     """
+    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.run.crosscheck import cross_check as ask
 
-    if is_machine(source):
-        from lambda_core.analysis.rotor.bearing_alone import bearing_alone
-        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
-
-        machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
-        model = bearing_alone(machine, bearing, announce)
-    else:
+    model = _ready(source, overrides, announce)
+    if isinstance(model, BearingModel):
         refuse_bearing(bearing)
-        model = ready_model(source, overrides, announce)  # type: ignore[arg-type]
+    elif bearing is not None:
+        from lambda_core.analysis.rotor.bearing_alone import bearing_alone
+
+        model = bearing_alone(model, bearing, announce)
     return ask(model, free_cage=free_cage, announce=announce)
 
 

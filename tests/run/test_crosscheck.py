@@ -12,6 +12,7 @@ from lambda_core import api
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.run.crosscheck import with_locked_cage
 from lambda_core.run.cvode import integrate
+from lambda_core.solver.drivers.dynamics import bearing_start
 from lambda_core.solver.drivers.equilibrium import solve
 
 
@@ -95,7 +96,7 @@ def test_a_wrong_equation_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     def elsewhere(start: object, times: object, tolerance: float) -> object:
         other = api.check("6208-axial-1300", ["lubricant.temperature=40.2 degC"])
         led = with_locked_cage(other, solve(other))
-        return integrate(solve(led), times, tolerance)  # type: ignore[arg-type]
+        return integrate(bearing_start(solve(led), led), times, tolerance)  # type: ignore[arg-type]
 
     monkeypatch.setattr(crosscheck, "integrate", elsewhere)
     found = api.cross_check("6208-axial-1300", ["solver.duration=10 ms"])
@@ -106,7 +107,8 @@ def test_a_wrong_equation_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("sundials")
 def test_cvode_finds_the_same_with_its_own_jacobian() -> None:
     """Nothing hangs on our Jacobian: Newton's method only needs it to converge."""
-    start = solve(api.check("6319-cp10-1500"))
+    model = api.check("6319-cp10-1500")
+    start = bearing_start(solve(model), model)
     times = np.array([0.0, 5e-3])
     given, own = (integrate(start, times, 1e-5, own_jacobian=own).dissipated()[-1] for own in (False, True))
     assert own == pytest.approx(given, rel=1e-4)
@@ -134,3 +136,13 @@ def test_the_led_cage_turns_with_the_balls() -> None:
     (term,) = dofs["spin"].motion.terms
     assert term.values[0] == start.orbit
     assert math.isclose(start.orbit, 0.4 * 2750.0 * math.pi / 30.0, rel_tol=0.05)
+
+
+@pytest.mark.usefixtures("sundials")
+def test_a_shaft_in_two_bearings_moves_as_cvode_moves_it(tmp_path: Path) -> None:
+    """Both bearings with the shaft between them: one integrator's trajectory is the other's."""
+    box = api.init_case("box", template="geared-shaft", path=tmp_path / "box.toml")
+    found = api.cross_check(box, ["solver.duration=4 ms"])
+    assert found.agree
+    assert found.ours.calls > 50
+    assert found.ours.power_W == pytest.approx(float(api.quasistatic(box).power_loss_W), rel=0.1)

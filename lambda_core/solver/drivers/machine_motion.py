@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import CAGE, INNER, OUTER
+from lambda_core.domain.elements import CAGE, DOFS, INNER, OUTER, SPIN
 from lambda_core.formulas.elastic.beam import NODE
+from lambda_core.model.bearing_model import DofState, TimeFunction
 from lambda_core.model.bodies.locations import carried
 from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
-from lambda_core.solver.drivers.assembly import BearingSpan
+from lambda_core.solver.drivers.assembly import Assembly, BearingSpan
 from lambda_core.solver.drivers.compiled_laws import Announce, derive_oils
 from lambda_core.solver.drivers.dynamics import CAPACITY, MotionEngine, MotionStart, initial_state
 from lambda_core.solver.drivers.engine import usual_interval
@@ -66,13 +68,17 @@ class MachineStart:
         return math.nan if self.machine.has_changing_torque else self.state.drive_torque
 
 
-def machine_start(machine: MachineModel, announce: Announce = None, *, is_given: bool = False) -> MachineStart:
+def machine_start(
+    machine: MachineModel, announce: Announce = None, *, is_given: bool = False, leads_cages: bool = False
+) -> MachineStart:
     """Return a machine at t = 0, in its quasi-static equilibrium.
 
     Parameters
     ----------
     is_given : bool
         Whether another program gives loads and speed.
+    leads_cages : bool
+        Whether cages follow their kinematic paths: centred, at the mean orbital speed of the balls.
 
     Raises
     ------
@@ -82,7 +88,7 @@ def machine_start(machine: MachineModel, announce: Announce = None, *, is_given:
     state, shaft = solve_shaft(machine, announce), lump(machine)
     equilibria = tuple(ring.equilibrium() for ring in state.rings)
     alone = [_free(found.context) for found in equilibria]
-    return _begun(machine, shaft, state, equilibria, alone, is_given=is_given)
+    return _begun(machine, shaft, state, equilibria, alone, is_given=is_given, leads_cages=leads_cages)
 
 
 def changed_start(start: MachineStart, machine: MachineModel) -> MachineStart:
@@ -97,15 +103,16 @@ def changed_start(start: MachineStart, machine: MachineModel) -> MachineStart:
 
 def _begun(
     machine: MachineModel, shaft: LumpedShaft, state: ShaftState, equilibria: tuple[Equilibrium, ...],
-    alone: list[SolverContext], *, is_given: bool,
+    alone: list[SolverContext], *, is_given: bool, leads_cages: bool = False,
 ) -> MachineStart:  # fmt: skip
     """Return a machine at t = 0 in an equilibrium, each bearing with a context of its own."""
-    context = context_of(machine_assembly(machine, shaft, [(one.kernels, one.frame, one.oils) for one in alone]))
+    assembly = machine_assembly(machine, shaft, [(one.kernels, one.frame, one.oils) for one in alone])
+    context = context_of(_with_led_cages(assembly, equilibria, state.outer) if leads_cages else assembly)
     names = [bearing.name for bearing in machine.bearings]
     bearings = tuple(map(ReadBearing, names, alone, context.assembly.spans()))
     given = machine_given(machine, shaft, context) if is_given else None
     changes = any(term.kind != "constant" for function in machine.led for term in function.terms)
-    changes = changes or (given is not None and given.turns)
+    changes = changes or leads_cages or (given is not None and given.turns)
     solvers = [bearing.model.solver for bearing in machine.bearings]
     intervals = [
         one.model.output.interval or usual_interval(one.model, found.orbit)
@@ -168,6 +175,21 @@ def machine_engine(machine: MachineModel, announce: Announce = None) -> MachineE
         When there is no equilibrium to start from.
     """
     return MachineEngine(machine_start(machine, announce), announce)
+
+
+def _with_led_cages(
+    assembly: Assembly, equilibria: tuple[Equilibrium, ...], outer: Sequence[FloatArray]
+) -> Assembly:
+    """Return an assembly whose cages follow the balls: centred on them, at their mean orbital speed."""
+    members = list(assembly.members)
+    for bearing, found, pose in zip(assembly.bearings, equilibria, outer, strict=True):
+        number = bearing.members[CAGE]
+        x = float(np.mean(found.state[: L.NB * bearing.model.geometry.balls].view(R.BALL)["x"])) + float(pose[0])
+        dofs = dict.fromkeys(DOFS, DofState("locked"))
+        dofs |= {"x": DofState("prescribed", TimeFunction.constant(x))}
+        dofs |= {SPIN: DofState("prescribed", TimeFunction.constant(found.orbit))}
+        members[number] = replace(members[number], body=replace(members[number].body, dofs=dofs))
+    return replace(assembly, members=tuple(members))
 
 
 def _free(found: SolverContext) -> SolverContext:
