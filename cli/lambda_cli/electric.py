@@ -110,6 +110,7 @@ def risk_map(
         ),
     ],
     changes: SetOption = None,
+    bearing: BearingOption = None,
     speed: Annotated[
         str | None, typer.Option("--speed", metavar="FROM,TO", help='Of the inner ring, "500 rpm, 10000 rpm".')
     ] = None,
@@ -135,9 +136,10 @@ def risk_map(
 ) -> None:
     """Discharges over speed and temperature, on quasi-static films.
 
-    The circuit is the section electric of the case. Speeds are even in logarithm; without --speed they go from a tenth
-    to twice the speed of the case. With --folder the map is a study: after Ctrl+C or a kill, lambda-bearing
-    electric-map FOLDER does what is missing. Numbers do not depend on the workers.
+    The circuit is the section electric of the case; of a machine all bearings stand in it, and the map is of one.
+    Speeds are even in logarithm; without --speed they go from a tenth to twice the speed of the case. With
+    --folder the map is a study: after Ctrl+C or a kill, lambda-bearing electric-map FOLDER does what is missing.
+    Numbers do not depend on the workers.
     """
     from lambda_core import api
 
@@ -153,6 +155,7 @@ def risk_map(
             out=out,
             overwrite=force,
             folder=folder,
+            bearing=bearing,
             executor=executor,
             workers=workers,
             progress=speaker.update,

@@ -13,11 +13,14 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from lambda_core.analysis.electric.current_numbers import UNITS
+from lambda_core.analysis.rotor.bearing_alone import bearing_number
+from lambda_core.case.case_io import refuse_bearing
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.units import parse
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.study.definition import Parameter, Study
 from lambda_core.study.design import Plan
-from lambda_core.study.job import resolve_point
+from lambda_core.study.job import point_model
 from lambda_core.study.pool import HERE
 from lambda_core.study.store import Manifest, readable
 from lambda_core.study.studies import is_study, prepare, resume, start, status
@@ -25,6 +28,7 @@ from lambda_core.study.studies import is_study, prepare, resume, start, status
 if TYPE_CHECKING:
     from lambda_core.analysis.electric.risk_map import RiskMap
     from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
     from lambda_core.study.scheduler import StudyProgress
     from lambda_core.views.table import StudyTable
 
@@ -38,7 +42,7 @@ _ZERO_CELSIUS = 273.15
 
 
 def electric_map(
-    source: str | Path | Mapping[str, Any] | Case,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase,
     overrides: Iterable[str] = (),
     *,
     speed: str | None = None,
@@ -47,6 +51,7 @@ def electric_map(
     out: str | Path | None = None,
     overwrite: bool = False,
     folder: str | Path | None = None,
+    bearing: str | None = None,
     executor: str | Executor = "processes",
     workers: int | None = None,
     progress: Callable[[StudyProgress], None] | None = None,
@@ -73,6 +78,9 @@ def electric_map(
         Replace a file that stands there.
     folder : path-like, optional
         Keep the map there as a study, so that it can go on after a kill; default: it is gone when it is interrupted.
+    bearing : str, optional
+        Which one of a machine the map is of. All bearings stand in the machine's circuit and move with its shaft; the
+        folder of a map has all of them.
     executor, workers
         As for :func:`study_run`; default: this process alone where a map takes a few seconds.
     progress, announce : callable, optional
@@ -95,11 +103,11 @@ def electric_map(
     if isinstance(source, str | Path) and is_study(Path(source)):
         if folder is not None or speed is not None or list(overrides):
             raise UsageError(f"{source} is a map already: its case, speeds and folder cannot be changed")
-        found = _read_on(Path(source), executor, workers, progress)
+        found = _read_on(Path(source), bearing, executor, workers, progress)
     else:
         if folder is not None and is_study(Path(folder)):
             raise UsageError(f"{folder} already holds a study: go on with it (lambda-bearing electric-map {folder})")
-        case, study = _study(source, overrides, speed, temperature, points)
+        case, study = _study(source, overrides, bearing, speed, temperature, points)
         ready = prepare(study, workers, announce, case)
         if announce is not None:
             announce(ready.estimate.text())
@@ -107,21 +115,22 @@ def electric_map(
         where = HERE if executor == "processes" and workers is None and work < _ALONE else executor
         with _folder(folder) as path:
             start(ready, path, where=where, workers=workers, report=progress)
-            found = map_of(path)
+            found = map_of(path, bearing)
     if out is not None:
         found.write(Path(out))
     return found
 
 
 def _read_on(
-    folder: Path, executor: str | Executor, workers: int | None, progress: Callable[[StudyProgress], None] | None
-) -> RiskMap:
+    folder: Path, bearing: str | None, executor: str | Executor, workers: int | None,
+    progress: Callable[[StudyProgress], None] | None,
+) -> RiskMap:  # fmt: skip
     """Do what a map lacks, and read it."""
     if status(folder).pending:
         with closing(Manifest(folder)) as manifest, readable(folder):
             map_axes(manifest.table(), folder)  # before any work on another study
         resume(folder, where=executor, workers=workers, report=progress)
-    return map_of(folder)
+    return map_of(folder, bearing)
 
 
 @contextmanager
@@ -135,19 +144,29 @@ def _folder(folder: str | Path | None) -> Iterator[Path]:
 
 
 def _study(
-    source: str | Path | Mapping[str, Any] | Case,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase,
     overrides: Iterable[str],
+    bearing: str | None,
     speed: str | None,
     temperature: str,
     points: str,
-) -> tuple[Case, Study]:
+) -> tuple[Case | ShaftCase, Study]:
     """Return the case of a map, and the study that it is."""
-    from lambda_core.case.case_io import apply_overrides
-    from lambda_core.model.cases import case_of
+    from lambda_core.case.case import Case
+    from lambda_core.case.case_io import read_case
     from lambda_core.model.checking import model_of
     from lambda_core.model.laws.law_context import max_speed
+    from lambda_core.model.resolve_machine import check_shaft
 
-    case = apply_overrides(case_of(source), list(overrides))
+    case = read_case(source, list(overrides))
+    if isinstance(case, Case):
+        refuse_bearing(bearing)
+        model, responses = model_of(case), list(UNITS)
+    else:
+        machine = check_shaft(case)
+        bearing_number(machine, bearing)
+        model = machine.bearings[0].model
+        responses = [f"{one.name}.{name}" for one in machine.bearings for name in UNITS]
     fixed: dict[str, bool | int | float | str] = {"operation.temperatures": "given"}
     if case.electric is None or case.electric.duration is None:
         fixed["electric.duration"] = DURATION
@@ -156,8 +175,8 @@ def _study(
         title=f"{case.name}: bearing currents over speed and temperature",
         case="case.toml",
         set=fixed,
-        responses=list(UNITS),
-        parameters=list(map_parameters(speed, temperature, points, max_speed(model_of(case)))),
+        responses=responses,
+        parameters=list(map_parameters(speed, temperature, points, max_speed(model))),
     )
     return case, study
 
@@ -224,7 +243,8 @@ def map_axes(table: StudyTable, folder: Path) -> tuple[list[float], list[float]]
         When the study is no map.
     """
     wanted = {SPEED: "rotational_speed", TEMPERATURE: "temperature"}
-    missing = [name for name in UNITS if name not in {column.name for column in table.responses}]
+    known = {column.name for column in table.responses}
+    missing = [name for name in UNITS if not any(one == name or one.endswith(f".{name}") for one in known)]
     if {column.name for column in table.parameters} != set(wanted) or table.design != "crossed" or missing:
         raise UsageError(
             f"{folder} is no map of bearing currents: that is a crossed study of {SPEED} and {TEMPERATURE} with the "
@@ -237,8 +257,13 @@ def map_axes(table: StudyTable, folder: Path) -> tuple[list[float], list[float]]
     return (speed * 30.0 / np.pi).tolist(), (temperature - _ZERO_CELSIUS).tolist()
 
 
-def map_of(folder: Path) -> RiskMap:
+def map_of(folder: Path, bearing: str | None = None) -> RiskMap:
     """Read a map from the folder of its study, also while it is being worked on.
+
+    Parameters
+    ----------
+    bearing : str, optional
+        Which one of a machine.
 
     Raises
     ------
@@ -247,7 +272,7 @@ def map_of(folder: Path) -> RiskMap:
     SolverError
         When no point has a solution.
     """
-    from lambda_core.analysis.electric.circuit_bearing import of_model
+    from lambda_core.analysis.electric.circuit_bearing import of_machine, of_model
     from lambda_core.analysis.electric.outcome import assumptions, source_words
     from lambda_core.analysis.electric.risk_map import RiskMap, RiskPoint
 
@@ -255,6 +280,13 @@ def map_of(folder: Path) -> RiskMap:
         table, study, case_toml = manifest.table(), manifest.study, manifest.case_toml
         wall = float(manifest.meta("wall") or 0.0)
     speeds, temperatures = map_axes(table, folder)
+    model = point_model(case_toml, Plan(study).point(0).changes)
+    if isinstance(model, BearingModel):
+        refuse_bearing(bearing)
+        own, circuit = "", of_model(model)
+    else:
+        circuit = of_machine(model)[bearing_number(model, bearing)]
+        own = f"{circuit.name}."
     found = {}
     for row, speed, temperature in zip(table.rows(), speeds, temperatures, strict=True):
         message = {"pending": "not computed yet"}.get(row["state"], row["reason"])
@@ -262,21 +294,20 @@ def map_of(folder: Path) -> RiskMap:
             speed_rpm=speed,
             temperature_degC=temperature,
             message=message,
-            **{name: row[name] if row["state"] == "done" else None for name in UNITS},
+            **{name: row[own + name] if row["state"] == "done" else None for name in UNITS},
         )
     if all(point.message for point in found.values()):
         raise SolverError(f"no point of the map has an equilibrium; the first: {next(iter(found.values())).message}")
-    model = resolve_point(case_toml, Plan(study).point(0).changes)
-    bearing = of_model(model)
     rows, columns = sorted(set(speeds)), sorted(set(temperatures))
     return RiskMap(
         case=model.name,
-        source=source_words(bearing.options),
-        seed=bearing.options.seed,
-        simulated_s=bearing.options.duration,
+        bearing=own.removesuffix("."),
+        source=source_words(circuit.options),
+        seed=circuit.options.seed,
+        simulated_s=circuit.options.duration,
         wall_s=wall,
         speeds_rpm=rows,
         temperatures_degC=columns,
         points=[found[speed, temperature] for speed in rows for temperature in columns],
-        assumptions=assumptions(bearing),
+        assumptions=assumptions(circuit),
     )

@@ -1,7 +1,7 @@
 """Define the responses of a study of a machine: of the machine, and ``NAME.RESPONSE`` of each of its bearings.
 
 Every response of a study of one bearing exists for each bearing ("left.min_film_um"), as do the rows of comparison
-methods ("left.skf/friction/total"); bearing currents are those of the machine's circuit and are not among them.
+methods ("left.skf/friction/total"). Bearing currents are those of the machine's circuit with all its bearings.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lambda_core.analysis.electric.current_numbers import UNITS
+from lambda_core.analysis.electric.current_numbers import UNITS, CurrentNumbers, machine_numbers, meaning
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 from lambda_core.study.responses import RESPONSES, DynamicPoint, Number, Response, StaticPoint
 
@@ -64,6 +64,13 @@ class MachinePoint:
         from lambda_core.analysis.rotor.machine_modes import modes_of
 
         return modes_of(self.model, self.state)
+
+    @cached_property
+    def circuit(self) -> Mapping[str, CurrentNumbers]:
+        """Bearing currents of each bearing on quasi-static films, all in one circuit."""
+        return machine_numbers(
+            self.model, self.state, [self.kernels.of(bearing.model) for bearing in self.model.bearings]
+        )
 
     def bearing(self, name: str) -> StaticPoint:
         """Return one bearing as a point of its own."""
@@ -143,10 +150,12 @@ def _critical(point: Any) -> Number:
 
 
 def _of_bearing(name: str) -> list[Response]:
-    own = [
-        Response(f"{name}.{key}", unit, f"{name}: {meaning}", _field(name, key)) for key, unit, meaning in _OF_BEARING
+    own = [Response(f"{name}.{key}", unit, f"{name}: {words}", _field(name, key)) for key, unit, words in _OF_BEARING]
+    currents = [
+        Response(f"{name}.{key}", unit, f"{name}: {meaning(key)}", _current(name, key), _current(name, key))
+        for key, unit in UNITS.items()
     ]
-    return own + [
+    return own + currents + [
         Response(
             f"{name}.{one.name}", one.unit, f"{name}: {one.meaning}",
             None if one.static is None else _static(name, one.static),
@@ -160,6 +169,14 @@ def _of_bearing(name: str) -> list[Response]:
 def _field(name: str, key: str) -> Callable[[Any], Number]:
     def read(point: Any) -> Number:
         value: Number = getattr(point.summary.bearing(name), key)
+        return value
+
+    return read
+
+
+def _current(name: str, key: str) -> Callable[[Any], Number]:
+    def read(point: Any) -> Number:
+        value: Number = getattr(point.circuit[name], key)
         return value
 
     return read

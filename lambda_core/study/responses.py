@@ -14,7 +14,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.analysis.electric.current_numbers import UNITS, CurrentNumbers, meaning, run_numbers, static_numbers
+from lambda_core.analysis.electric.current_numbers import (
+    UNITS,
+    CurrentNumbers,
+    circuit_numbers,
+    meaning,
+    run_numbers,
+    static_numbers,
+)
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import CaseError, Problem, nearest, unknown_name
 from lambda_core.study import measures
@@ -58,6 +65,11 @@ class DynamicPoint:
     def currents(self) -> CurrentNumbers:
         """Bearing currents on the films of the run."""
         return run_numbers(self.result)
+
+    @cached_property
+    def circuit(self) -> Mapping[str, CurrentNumbers]:
+        """Bearing currents of each bearing of a machine on the films of its run."""
+        return circuit_numbers(self.result)
 
 
 @dataclass(frozen=True)
@@ -184,7 +196,7 @@ USUAL: Mapping[str, tuple[str, ...]] = {
 
 def asks_currents(names: Sequence[str]) -> bool:
     """Tell whether the electric circuit is among what is asked."""
-    return any(name in UNITS for name in names)
+    return any(name.rpartition(".")[2] in UNITS for name in names)
 
 
 def bearing_names(model: BearingModel | MachineModel) -> tuple[str, ...]:

@@ -26,6 +26,7 @@ from lambda_core.views.table import StudyTable
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
 
 Where = str | Executor
 
@@ -84,7 +85,7 @@ def prepare(
     source: str | Path | Mapping[str, Any] | Study,
     workers: int | None,
     announce: Announce = None,
-    case: Case | None = None,
+    case: Case | ShaftCase | None = None,
 ) -> Ready:
     """Read and check a study; errors as in :func:`lambda_core.study.study_check.check`, `case` as there."""
     folder: Path | None = None

@@ -13,7 +13,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lambda_core.analysis.electric.circuit_bearing import of_machine, of_model, of_run, own_options
-from lambda_core.analysis.electric.contacts import contacts_of_equilibria, contacts_of_run, default_duration, equilibria
+from lambda_core.analysis.electric.contacts import (
+    PHASES,
+    contacts_of_equilibria,
+    contacts_of_run,
+    default_duration,
+    equilibria,
+)
 from lambda_core.analysis.electric.simulation import CircuitSimulation, Simulation, simulate, simulate_circuit
 from lambda_core.analysis.electric.voltage_sources import reach
 from lambda_core.case.case_io import read_case, toml_tables
@@ -28,7 +34,7 @@ if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
-    from lambda_core.solver.drivers.compiled_laws import Announce
+    from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
 
 Span = tuple[float, float]
 _SECTION = "electric."
@@ -53,6 +59,8 @@ def electric_of_machine(
     announce: Announce = None,
     *,
     window: Span | None = None,
+    phases: int = PHASES,
+    kernels: Sequence[Kernels | None] = (),
 ) -> CircuitSimulation:
     """Compute all bearings of a machine in one circuit, on the films of their quasi-static equilibria.
 
@@ -61,6 +69,10 @@ def electric_of_machine(
     poses : sequence of float64[:], shape (5,)
         Of each inner ring against its outer ring, in the equilibrium of the machine. Balls pass while the rings keep
         their place.
+    phases : int
+        Positions of the balls within one pitch.
+    kernels : sequence of Kernels
+        Compiled laws of each bearing, where they are known.
 
     Raises
     ------
@@ -69,8 +81,8 @@ def electric_of_machine(
     """
     bearings = of_machine(machine)
     found = [
-        equilibria(held(mounted.model, pose.tolist()), announce=announce)
-        for mounted, pose in zip(machine.bearings, poses, strict=True)
+        equilibria(held(mounted.model, pose.tolist()), phases, announce, own)
+        for mounted, pose, own in zip(machine.bearings, poses, kernels or [None] * len(poses), strict=True)
     ]
     duration = bearings[0].options.duration or max(map(default_duration, found))
     contacts = [contacts_of_equilibria(each, duration) for each in found]

@@ -13,8 +13,11 @@ from lambda_core.results.record import Record
 
 if TYPE_CHECKING:
     from lambda_core.analysis.electric.simulation import Simulation
+    from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
+    from lambda_core.solver.drivers.compiled_laws import Kernels
     from lambda_core.solver.drivers.equilibrium import Equilibrium
+    from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 
 PHASES = 3  # equilibria per ball pitch: a map has many points
 
@@ -104,6 +107,35 @@ def static_numbers(found: Equilibrium, kernels: Any) -> CurrentNumbers:
     bearing = of_model(model)
     others = [solve(model, kernels, phase=k / PHASES) for k in range(1, PHASES)]
     return numbers_of(simulate(contacts_of_equilibria([found, *others], bearing.options.duration), bearing))
+
+
+def machine_numbers(machine: MachineModel, state: ShaftState, kernels: Sequence[Kernels]) -> dict[str, CurrentNumbers]:
+    """Compute the circuit of all bearings of a machine on quasi-static films, at three positions of the balls.
+
+    Parameters
+    ----------
+    state : ShaftState
+        The equilibrium of the machine.
+    kernels : sequence of Kernels
+        Compiled laws of each bearing.
+
+    Returns
+    -------
+    dict of str to CurrentNumbers
+        Of each bearing by its name.
+    """
+    from lambda_core.analysis.electric.case_or_run import electric_of_machine
+
+    poses = [state.pose(machine, number) for number in range(len(machine.bearings))]
+    found = electric_of_machine(machine, poses, phases=PHASES, kernels=kernels)
+    return {name: numbers_of(one) for name, one in found.bearings.items()}
+
+
+def circuit_numbers(result: Result) -> dict[str, CurrentNumbers]:
+    """Compute the circuit of a machine's run as :func:`run_numbers` does, each bearing by its name."""
+    from lambda_core.analysis.electric.case_or_run import circuit_of_run
+
+    return {name: numbers_of(one) for name, one in circuit_of_run(result).bearings.items()}
 
 
 def run_numbers(result: Result) -> CurrentNumbers:

@@ -48,6 +48,7 @@ class RiskMap(Record):
 
     interface: int = INTERFACE
     case: str
+    bearing: str = Field("", description="which one of a machine; empty for a case of one")
     source: str = Field(description="common-mode voltage")
     seed: int = Field(description="key of the random numbers")
     simulated_s: float | None = Field(description="at each point; absent: ten turns of the cage")
@@ -73,6 +74,11 @@ class RiskMap(Record):
         values = [getattr(point, name) for point in self.points]
         numbers = np.array([np.nan if value is None else value for value in values], dtype=np.float64)
         return numbers.reshape(len(self.speeds_rpm), len(self.temperatures_degC))
+
+    @property
+    def title(self) -> str:
+        """The case, and the bearing of a machine."""
+        return f"{self.case}, {self.bearing}" if self.bearing else self.case
 
     @property
     def span(self) -> str:
@@ -137,7 +143,7 @@ class RiskMap(Record):
             f"lines of J_b: {low:g} A/mm2, up to which no influence on life is published; {some:g} to {high:g} A/mm2 "
             "suspicious, above dangerous (Muetze and Binder 2007, not read in the original)",
         )
-        return ViewData("electric-map", "Bearing currents", f"{self.case}   {self.source}", tuple(panels), 2, notes)
+        return ViewData("electric-map", "Bearing currents", f"{self.title}   {self.source}", tuple(panels), 2, notes)
 
     def _empty(self, values: FloatArray) -> tuple[Series, ...]:
         """Return marks on the points that have no value, by the reason."""
@@ -171,6 +177,7 @@ def map_text(found: RiskMap) -> str:
         rows.append(f"{speed:9.5g}" + "".join(f"{cell:>10}" for cell in row))
     return "\n".join(
         [
+            *([line("bearing", f"{found.bearing}, in one circuit with all others")] if found.bearing else []),
             line("source", found.source),
             line("map", f"{len(found.points)} points", f"{found.span} each", f"{found.wall_s:.3g} s in all"),
             "",
