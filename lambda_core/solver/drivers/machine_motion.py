@@ -176,7 +176,7 @@ def machine_engine(machine: MachineModel, announce: Announce = None) -> MachineE
     return MachineEngine(machine_start(machine, announce), announce)
 
 
-def _with_led_cages(assembly: Assembly, equilibria: tuple[Equilibrium, ...], outer: Sequence[FloatArray]) -> Assembly:
+def _with_led_cages(assembly: Assembly, equilibria: tuple[Equilibrium, ...], outer: FloatArray) -> Assembly:
     """Return an assembly whose cages follow the balls: centred on them, at their mean orbital speed."""
     members = list(assembly.members)
     for bearing, found, pose in zip(assembly.bearings, equilibria, outer, strict=True):
