@@ -145,6 +145,7 @@ def check(
 
 def _case_toml(study: Study, folder: Path | None, case: Case | ShaftCase | None) -> str:
     """Return the study's case with its fixed changes, complete."""
+    from lambda_core.case.case import Case
     from lambda_core.case.case_io import apply_overrides, is_machine, load_case
     from lambda_core.case.case_writer import standalone_toml
     from lambda_core.discovery.manager import registry
@@ -159,6 +160,8 @@ def _case_toml(study: Study, folder: Path | None, case: Case | ShaftCase | None)
         if is_machine(source):
             return check_shaft(source, changes).case_toml
         case = load_case(source)
+    if not isinstance(case, Case):
+        return check_shaft(case, changes).case_toml
     return standalone_toml(with_packages(apply_overrides(case, changes) if changes else case, registry()))
 
 
