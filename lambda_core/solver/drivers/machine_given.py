@@ -115,10 +115,10 @@ def machine_given(machine: MachineModel, shaft: LumpedShaft, context: SolverCont
     names = list(loads)
     if all(term.kind == "constant" for term in machine.speed_over_time.terms):
         names.append(SHAFT_SPIN)
-    led = [PER_BODY * int(member) + MOTION + _SPIN for member in numbers.led]
+    turned = [PER_BODY * int(member) + MOTION + _SPIN for member in numbers.led]
     of_signal: dict[int, list[tuple[int, float]]] = {}
     for number, name in enumerate(names):
-        own = dict.fromkeys(led, 1.0) if name == SHAFT_SPIN else loads[name]
+        own = dict.fromkeys(turned, 1.0) if name == SHAFT_SPIN else loads[name]
         for signal, weight in own.items():
             of_signal.setdefault(signal, []).append((number, weight))
     values = np.zeros((len(names), 3))
@@ -128,8 +128,8 @@ def machine_given(machine: MachineModel, shaft: LumpedShaft, context: SolverCont
     terms, rows = context.bundle.terms, np.zeros(len(of_signal), R.TERM)
     rows["signal"], rows["kind"] = list(of_signal), R.GIVEN
     if SHAFT_SPIN in names:
-        terms = terms[~np.isin(terms["signal"], led)]
-        rows["value"][np.isin(rows["signal"], led)] = machine.speed
+        terms = terms[~np.isin(terms["signal"], turned)]
+        rows["value"][np.isin(rows["signal"], turned)] = machine.speed
     context.bundle = context.bundle._replace(terms=np.concatenate([terms, rows]))
     found.rows = context.bundle.terms[terms.size :]
     return found

@@ -106,7 +106,7 @@ def _begun(
 ) -> MachineStart:  # fmt: skip
     """Return a machine at t = 0 in an equilibrium, each bearing with a context of its own."""
     assembly = machine_assembly(machine, shaft, [(one.kernels, one.frame, one.oils) for one in alone])
-    context = context_of(_with_led_cages(assembly, equilibria, state.outer) if leads_cages else assembly)
+    context = context_of(_with_guided_cages(assembly, equilibria, state.outer) if leads_cages else assembly)
     names = [bearing.name for bearing in machine.bearings]
     bearings = tuple(map(ReadBearing, names, alone, context.assembly.spans()))
     given = machine_given(machine, shaft, context) if is_given else None
@@ -176,7 +176,7 @@ def machine_engine(machine: MachineModel, announce: Announce = None) -> MachineE
     return MachineEngine(machine_start(machine, announce), announce)
 
 
-def _with_led_cages(assembly: Assembly, equilibria: tuple[Equilibrium, ...], outer: FloatArray) -> Assembly:
+def _with_guided_cages(assembly: Assembly, equilibria: tuple[Equilibrium, ...], outer: FloatArray) -> Assembly:
     """Return an assembly whose cages follow the balls: centred on them, at their mean orbital speed."""
     members = list(assembly.members)
     for bearing, found, pose in zip(assembly.bearings, equilibria, outer, strict=True):
