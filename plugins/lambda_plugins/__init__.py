@@ -96,6 +96,7 @@ _LAWS: dict[str, dict[str, str]] = {
         "cylindrical-pocket": "cage_contact:cylindrical_pocket",
         "land-guidance": "cage_contact:land_guidance",
         "ball-ball": "cage_contact:ball_ball",
+        "roller-pocket": "roller_pocket:roller_pocket",
         "none": "cage_contact:none",
     },
     "force_element": {

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from lambda_plugins import line_contact
+from lambda_plugins import line_contact, roller_pocket
 from lambda_plugins.damping import SqueezeFilm
 from lambda_plugins.elastic_hysteresis import LossFactor
 from lambda_plugins.film_thickness import FilmFloors
+from lambda_plugins.roller_pocket import RollerPocket
 from lambda_plugins.rolling_resistance import InletShear
 from scipy.integrate import quad
 
@@ -127,6 +128,45 @@ def test_squeezed_film_of_a_cylinder() -> None:
     pulled = outputs(1)
     line_contact.squeeze_line(1e-6, -10.0, 5.0, 1e-5, RADIUS, LENGTH, eta, 20e-9, par, pulled)
     assert pulled[0] == -5.0  # a film does not pull
+
+
+def test_bars_and_ends_of_a_pocket() -> None:
+    """cage_contact, roller-pocket: k (e - e_0/2) beyond the play, at the roller's radius; ends at its axis."""
+    context = trial_context("ball_cage")
+    par = roller_pocket.prepare_roller(
+        RollerPocket(film_width=0.0, end_clearance="0.4 mm", mu_s=0.0, mu_d=0.0), context
+    )
+    still, out = np.zeros(3), outputs(6)
+    play, over, radius = 0.5 * context.pocket_clearance, 3e-6, 0.5 * context.ball_diameter
+    push = 5e6 * (over - 0.25e-6)
+    roller_pocket.roller_pocket(np.array([0.0, 1e-5, -play - over]), still, still, 0.05, par, out)
+    assert out[:3] == pytest.approx([0.0, 0.0, push])
+    assert out[3:] == pytest.approx([0.0, 1e-5, -play - over - radius])
+    roller_pocket.roller_pocket(np.array([0.2e-3 + over, 0.0, 0.0]), still, still, 0.05, par, out)
+    assert out == pytest.approx([-push, 0.0, 0.0, 0.2e-3 + over, 0.0, 0.0])
+    both = outputs(6)
+    roller_pocket.roller_pocket(np.array([0.2e-3 + over, 0.0, play + over]), still, still, 0.05, par, both)
+    assert both[:3] == pytest.approx([-push, 0.0, -push])
+    assert play + over < both[5] < play + over + radius
+    free = outputs(6)
+    roller_pocket.roller_pocket(np.array([0.0, 1e-3, 0.0]), still, still, 0.05, par, free)
+    assert not free.any()  # free along the radius
+
+
+def test_a_bar_squeezes_oil_as_a_cylinder_does() -> None:
+    context = trial_context("ball_cage")
+    par = roller_pocket.prepare_roller(RollerPocket(), context)
+    radius, gap, speed = 0.5 * context.ball_diameter, 20e-6, 0.01
+
+    def pressure(x: float) -> float:
+        h = gap + par.touch + 0.5 * x * x / radius
+        return 6.0 * 0.05 * speed * radius * (h**-2)
+
+    width = 0.2 * context.ball_diameter
+    total = quad(pressure, -width, width, points=(0.0,))[0] * context.cage_width
+    found = roller_pocket.squeezed_line(par, gap, speed, 0.05)
+    Published(total, "Reynolds' equation, integrated", "pressure at the bar's end is taken off", rel=0.05).check(found)
+    assert roller_pocket.squeezed_line(par, gap, -speed, 0.05) == 0.0
 
 
 @pytest.mark.parametrize("width", [0.0, 5e-5, 2e-4])

@@ -13,7 +13,6 @@ from lambda_core.case.case import Case
 from lambda_core.case.problems import problems
 from lambda_core.catalogue.protocol import LubricantRow
 from lambda_core.domain.elements import ELEMENTS
-from lambda_core.domain.elements import RACEWAYS as BALL_RACEWAYS
 from lambda_core.domain.errors import LambdaError, unknown_name
 from lambda_core.domain.installed import OWN
 from lambda_core.domain.lubrication import MIXTURES
@@ -111,7 +110,7 @@ class LawResolver:
         except LambdaError as error:
             self.ledger.problem(where, str(error))
             return None
-        if chosen.contact == "line" and element in BALL_RACEWAYS:
+        if chosen.contact == "line":
             self.ledger.problem(where, f'"{name}" is a law of line contacts: the contacts of balls are points')
             return None
         rows = self._lubricant_rows(role, chosen)
