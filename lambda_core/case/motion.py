@@ -13,7 +13,6 @@ from pydantic import field_validator
 from lambda_core.case.holding import InnerSpin, Spin, Tilt, Translation
 from lambda_core.case.option import Section, option
 from lambda_core.case.signals import ForceSignal, MomentSignal, SpeedSignal
-from lambda_core.domain.elements import BodyName
 from lambda_core.domain.units import (
     Acceleration,
     Angle,
@@ -98,17 +97,11 @@ class Load(Section):
     moment_z: MomentSignal = option("0 N m", "moment about z")
 
 
-class Loads(Section):
-    """External loads; the first four act on the inner ring."""
+class RadialLoad(Section):
+    """A force across the shaft by its size and its direction."""
 
-    radial: ForceSignal = option("0 N", "radial load on the inner ring")
+    radial: ForceSignal = option("0 N", "radial load")
     radial_direction: Angle = option("270 deg", "azimuth of the radial load, from +y to +z; 270 deg is down")
-    axial: ForceSignal = option("0 N", "axial load on the inner ring, along +x")
-    moment_y: MomentSignal = option("0 N m", "moment on the inner ring about y")
-    moment_z: MomentSignal = option("0 N m", "moment on the inner ring about z")
-    inner_ring: Load | None = option(None, "further loads on the inner ring")
-    outer_ring: Load | None = option(None, "loads on the outer ring")
-    cage: Load | None = option(None, "loads on the cage")
 
     @field_validator("radial_direction")
     @classmethod
@@ -116,6 +109,18 @@ class Loads(Section):
         if abs(angle) > 2.0 * math.pi:
             raise ValueError(f"must lie within a full turn, -360 deg to 360 deg, not {math.degrees(angle):.6g} deg")
         return angle
+
+
+class Loads(RadialLoad):
+    """External loads; the first four act on the inner ring."""
+
+    radial: ForceSignal = option("0 N", "radial load on the inner ring")
+    axial: ForceSignal = option("0 N", "axial load on the inner ring, along +x")
+    moment_y: MomentSignal = option("0 N m", "moment on the inner ring about y")
+    moment_z: MomentSignal = option("0 N m", "moment on the inner ring about z")
+    inner_ring: Load | None = option(None, "further loads on the inner ring")
+    outer_ring: Load | None = option(None, "loads on the outer ring")
+    cage: Load | None = option(None, "loads on the cage")
 
 
 class Operation(Section):
@@ -137,12 +142,23 @@ class Gravity(Section):
 
 
 class Marker(Section):
-    """A named point on a body whose motion is written to the result."""
+    """A named point on a body, and the axes of loads and connections there; its motion is written to the result.
 
-    body: BodyName = option(description="body that carries the point")
-    x: Length = option("0 mm", "position in the body's frame, axial")
-    y: Length = option("0 mm", "position in the body's frame, horizontal at t = 0")
-    z: Length = option("0 mm", "position in the body's frame, vertical at t = 0")
+    In the case of one bearing it stands in the body's frame, in that of a machine where it is drawn.
+    """
+
+    body: str = option(
+        "shaft",
+        'body that carries it: "shaft", of one bearing "inner_ring", "outer_ring" or "cage", of a machine "ground" or '
+        "one of [bodies]",
+        min_length=1,
+    )
+    x: Length = option("0 mm", "along the shaft: from the bearing's centre, in a machine from the shaft's left end")
+    y: Length = option("0 mm", "horizontal distance from the axis at t = 0")
+    z: Length = option("0 mm", "vertical distance from the axis at t = 0")
+    about_x: Angle = option("0 deg", "axes of springs and loads here: turned about x, then about y and z as they were")
+    about_y: Angle = option("0 deg", "likewise about y")
+    about_z: Angle = option("0 deg", "likewise about z")
 
 
 class BetweenBodies(Section):

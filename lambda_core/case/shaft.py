@@ -10,9 +10,10 @@ from pydantic import ValidationInfo, field_validator, model_validator
 from lambda_core.case.case import Written
 from lambda_core.case.elastic import Elastic
 from lambda_core.case.electric import MachineElectric
+from lambda_core.case.fitted import FitOrigin
 from lambda_core.case.holding import SeatTilt, SeatTranslation
 from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters, Solver
-from lambda_core.case.motion import CageShape, Gravity
+from lambda_core.case.motion import CageShape, Gravity, Marker
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, OwnLubricant, Surface
 from lambda_core.case.requirements import Life, Requirements
@@ -23,7 +24,7 @@ from lambda_core.case.shaft_parts import (
     PointLoad,
     ShaftBody,
     ShaftDisc,
-    ShaftMarker,
+    ShaftSupport,
 )
 from lambda_core.case.signals import SpeedSignal
 from lambda_core.case.thermal import BearingThermal, MachineThermal, PlaceTemperature, rising
@@ -47,6 +48,7 @@ SHARED = (
     "requirements",
 )
 OWN = ("elastic", "forces")  # tables of one of them
+REPLACED = ("materials", "surface", "depth", "models", "parameters")  # tables whose entries each may have of its own
 NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "connections")  # tables of named parts
 # Names that are there already; a bearing's result stands beside that of the whole, shaft.h5
 TAKEN = {"bearings": ("shaft",), "markers": ("shaft", "ground"), "bodies": ("shaft", "ground")}
@@ -86,6 +88,8 @@ class Shaft(Section):
     twists: bool = option(
         False, "in motion: whether the shaft twists; otherwise torques go to the coupling without delay"
     )
+
+    support: ShaftSupport = option({}, "what holds the shaft in addition to its bearings")
 
     _rising = field_validator("temperatures")(rising)
 
@@ -162,6 +166,11 @@ class ShaftBearing(Bearing, Placed):
     cage: CageShape = option({}, "cage, as bodies.cage in the case of one bearing")
     elastic: Elastic = option({}, "parts of the bearing that bend, as elastic in the case of one bearing")
     forces: Forces = option({}, "models of its own by force element, as forces in the case of one bearing: a defect")
+    materials: Materials = option({}, "what differs from [materials] in this bearing")
+    surface: Surface = option({}, "what differs from [surface]")
+    depth: Depth = option({}, "what differs from [depth]: the cage; all bearings have the same cells")
+    models: Models = option({}, "what differs from [models]")
+    parameters: Parameters = option({}, "what differs from [parameters], role by role")
 
     @model_validator(mode="after")
     def _sits(self) -> ShaftBearing:
@@ -193,13 +202,13 @@ class ShaftCase(Written):
 
     shaft: Shaft = option(description="the shaft")
     bearings: dict[str, ShaftBearing] = option(description="its bearings, by name", min_length=1)
-    markers: dict[str, ShaftMarker] = option({}, "named places on the shaft, on bodies and on the ground, by name")
+    markers: dict[str, Marker] = option({}, "named places on the shaft, on bodies and on the ground, by name")
     bodies: dict[str, ShaftBody] = option({}, "other rigid bodies, such as flexibly mounted housings, by name")
     discs: dict[str, ShaftDisc] = option({}, "rigid bodies on the shaft, by name")
     loads: dict[str, PointLoad] = option({}, "forces and moments on the shaft and on bodies, by name")
     gears: dict[str, Gear] = option({}, "gears on the shaft, by name")
     connections: dict[str, Connection] = option(
-        {}, "springs, dampers and bushings between shaft, bodies and ground, by name"
+        {}, "springs, dampers and laws of forces between shaft, bodies and ground, by name"
     )
     housing: Housing = option({}, "the housing")
     operation: ShaftOperation = option(description="what turns the shaft")
@@ -220,6 +229,7 @@ class ShaftCase(Written):
     output: Output = option({}, "what is written, in motion")
     observers: Parameters = option({}, "channels that plugins add to every bearing: a table per observer")
     events: Parameters = option({}, "what plugins look out for in every bearing: a table per event")
+    fit: FitOrigin | None = option(None, "where fitted values come from; written by the command fit")
 
 
 def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
@@ -238,6 +248,9 @@ def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
         **{table: given[table] for table in OWN if table in given},
         **{table: tables[table] for table in SHARED if table in tables},
     }
+    for table in (name for name in REPLACED if isinstance(given.get(name), Mapping)):
+        shared = tables.get(table, {})
+        found[table] = {**(shared if isinstance(shared, Mapping) else {}), **given[table]}
     return found | _own_oil(tables, given)
 
 
@@ -258,6 +271,6 @@ def place_in_machine(tables: Mapping[str, Any], name: str, where: str) -> str:
         return ".".join(("bearings", name, *rest))
     if where.startswith("bodies.cage"):
         return ".".join(("bearings", name, *where.split(".")[1:]))
-    oil = own.get("lubricant")
-    is_own_oil = first == "lubricant" and isinstance(oil, Mapping) and (not rest or rest[0] in oil)
-    return f"bearings.{name}.{where}" if first in OWN or is_own_oil else where
+    table = own.get(first) if first in (*REPLACED, "lubricant") else None
+    is_replaced = isinstance(table, Mapping) and (not rest or rest[0] in table)
+    return f"bearings.{name}.{where}" if first in OWN or is_replaced else where

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from typing import ClassVar, Literal, Self
+from typing import Any, ClassVar, Literal, Self
 
 from pydantic import PrivateAttr, field_validator, model_validator
 
 from lambda_core.case.holding import Roll, RotationSpring, Tilt, Translation, TranslationSpring
-from lambda_core.case.motion import Load
+from lambda_core.case.motion import Load, RadialLoad
 from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.parts import MaterialChoice
 from lambda_core.domain.units import (
@@ -25,6 +25,7 @@ from lambda_core.domain.units import (
 )
 
 _DOFS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
+BUSHING = "bushing"  # law of a connection that is springs and dampers
 _AT = 'write at = "85 mm", a place along the shaft, or at = "NAME", a marker or a bearing'
 
 
@@ -42,15 +43,15 @@ class Placed(Section):
 
     @field_validator("at")
     @classmethod
-    def _is_a_place(cls, at: str) -> str:
-        if not re.match(NAME_PATTERN, at):
+    def _is_a_place(cls, at: str | None) -> str | None:
+        if at is not None and not re.match(NAME_PATTERN, at):
             parse(at, "length")
         return at
 
     @property
     def along(self) -> float | None:
-        """Place along the shaft [m]; None where it is a name."""
-        return length_in(self.at)
+        """Place along the shaft [m]; None where it is a name, or none is given."""
+        return None if self.at is None else length_in(self.at)
 
     @property
     def place(self) -> float:
@@ -72,16 +73,28 @@ def length_in(text: str) -> float | None:
         return None
 
 
-class ShaftMarker(Section):
-    """A named place on the shaft, on another body or on the ground, and the axes of what acts there."""
+class ShaftSupport(Placed):
+    """How the ground holds the shaft at one place, for each degree of freedom but its rotation."""
 
-    body: str = option("shaft", 'body that carries it: "shaft", "ground" or one of [bodies]', min_length=1)
-    x: Length = option(description="place along the shaft, from its left end, where it is drawn")
-    y: Length = option("0 mm", "distance from the shaft's axis, horizontal")
-    z: Length = option("0 mm", "distance from the shaft's axis, vertical")
-    about_x: Angle = option("0 deg", "axes of springs and loads here: turned about x, then about y and z as they were")
-    about_y: Angle = option("0 deg", "likewise about y")
-    about_z: Angle = option("0 deg", "likewise about z")
+    at: str | None = option(  # type: ignore[assignment]
+        None,
+        "where: a place along the shaft, one of [markers], or a bearing; absent: where the coupling is",
+        quantity="length",
+        min_length=1,
+    )
+    x: Translation = option("free", 'axial: "free", "locked", a stiffness ("200 N/um") or a motion')
+    y: Translation = option("free", "horizontal, likewise")
+    z: Translation = option("free", "vertical, likewise")
+    tilt_y: Tilt = option("free", 'rotation about y: likewise, a stiffness being "50 N m/mrad"')
+    tilt_z: Tilt = option("free", "rotation about z, likewise")
+
+    @property
+    def is_used(self) -> bool:
+        """Whether it holds or damps the shaft."""
+        return any(
+            dof.mode != "free" or dof.stiffness or dof.damping
+            for dof in (self.x, self.y, self.z, self.tilt_y, self.tilt_z)
+        )
 
 
 class BodySupport(Section):
@@ -161,9 +174,10 @@ class ShaftDisc(Placed):
 
 
 class Connection(Placed):
-    """Spring and damper between a place and the ground or another body, without force where they are drawn.
+    """Force element between a place and the ground or another body: springs and dampers, or what a law says.
 
-    With six stiffnesses it is a bushing; its axes are those of its marker, and it acts at its place.
+    With six stiffnesses it is a bushing, without force where it is drawn; its axes are those of its marker, and it acts
+    at its place. A law acts between two places, on the one of `at`, along the axes of the case.
     """
 
     INSTEAD: ClassVar[Mapping[str, str]] = {
@@ -171,7 +185,7 @@ class Connection(Placed):
         **{f"damping_{dof}": f"write {dof} = {{ stiffness = ..., damping = ... }}" for dof in _DOFS},
     }
 
-    law: Literal["bushing"] = option("bushing", "linear springs and dampers; other laws only in cases of one bearing")
+    law: str = option(BUSHING, "springs and dampers, or a law of the role force_element", min_length=1)
     to: str = option(
         "ground", "what it holds its place to: ground, shaft, one of [bodies], or a marker there", min_length=1
     )
@@ -181,9 +195,22 @@ class Connection(Placed):
     tilt_x: RotationSpring = option("free", "against rotation about x; not of the shaft, which turns")
     tilt_y: RotationSpring = option("free", "against rotation about y")
     tilt_z: RotationSpring = option("free", "against rotation about z")
+    parameters: dict[str, Any] = option({}, "parameters of the law, in place of springs and dampers along x, y and z")
+
+    @model_validator(mode="after")
+    def _has_springs_or_parameters(self) -> Connection:
+        springs = [dof for dof in _DOFS if dof in self.model_fields_set]
+        if springs and (self.parameters or self.law != BUSHING):
+            raise ValueError(f'law = "{self.law}" takes parameters in place of {", ".join(springs)}')
+        return self
+
+    @property
+    def is_by_law(self) -> bool:
+        """Whether a law with its parameters gives the force, in place of springs and dampers written here."""
+        return self.law != BUSHING or bool(self.parameters)
 
 
-class PointLoad(Placed, Load):
+class PointLoad(Placed, RadialLoad, Load):
     """Force and moment on the shaft or another body at one place, over time; the equilibrium is that of t = 0.
 
     Along the axes of its marker, where it has one.

@@ -11,7 +11,6 @@ from lambda_core.case.shaft import OWN, SHARED
 from lambda_core.domain.units import show
 
 NAME = "bearing"  # of the one bearing
-LOCKED = 1e11  # [N/m] of what stands for a lock of the shaft: a hundred to a thousand times as stiff as a bearing
 # of a shaft that hardly bends, as light as a material may be
 _RIGID = {
     "youngs_modulus": "210000 GPa",
@@ -22,6 +21,13 @@ _RIGID = {
     "specific_heat": "460 J/(kg K)",
 }
 _FREEDOMS = ("x", "y", "z", "tilt_y", "tilt_z")
+_LOADS = {  # on the inner ring, and as loads at a place
+    "radial": "radial",
+    "radial_direction": "radial_direction",
+    "axial": "force_x",
+    "moment_y": "moment_y",
+    "moment_z": "moment_z",
+}
 _CAGE_FREEDOMS = (*_FREEDOMS, "spin")
 _NO_PLACE = {
     "operation.torque": "a torque that drives the inner ring: the shaft turns at its speed",
@@ -29,10 +35,9 @@ _NO_PLACE = {
     "bodies.outer_ring.spin": "an outer ring that turns",
     "loads.outer_ring": "loads on the outer ring: load the body that carries it",
     "loads.cage": "loads on the cage",
-    "elements": "force elements by law: write [connections.NAME] for springs and dampers",
     "thermal": "the network of temperatures",
     "electric": "the circuit",
-    "fit": "where fitted values come from",
+    "operation.temperatures": "temperatures computed by the network of one bearing",
 }
 
 
@@ -56,8 +61,8 @@ def expand(case: Case, *, bore: float, width: float, takes: Literal["+x", "-x"] 
     """Write the case of one bearing as a machine: the bearing on a rigid shaft, its outer ring in the ground.
 
     The bearing, its oil, laws, cage and elastic parts, the loads on its inner ring and the supports of both rings are
-    the same. A ring that is locked in one case is held by 100 kN/um in the other; the shaft has the mass that the case
-    gives it, on top of which the machine counts that of the ring.
+    the same. What holds the inner ring holds the shaft where the bearing is; the shaft has the mass that the case gives
+    it, on top of which the machine counts that of the ring.
 
     Parameters
     ----------
@@ -90,14 +95,17 @@ def expand(case: Case, *, bore: float, width: float, takes: Literal["+x", "-x"] 
         "bearings": {NAME: bearing},
         **{table: written[table] for table in SHARED if table in written},
     }
-    tables |= _loads(written.get("loads", {}), middle)
+    loads = _loads(written.get("loads", {}))
+    tables |= {"loads": loads} if loads else {}
     inner = bodies.get("inner_ring", {})
-    connection = _connection(case, inner, differences)
-    tables |= {"connections": {NAME: connection}} if connection else {}
+    support = {dof: inner[dof] for dof in _FREEDOMS if dof in inner}
+    tables["shaft"] |= {"support": {"at": NAME, **support}} if support else {}
+    connections = _connections(written.get("elements", {}), differences)
+    tables |= {"connections": connections} if connections else {}
     tables |= _disc(inner, middle, differences)
+    tables |= {"fit": written["fit"]} if "fit" in written else {}
     markers = _markers(written.get("markers", {}), width, case, differences)
-    if markers:
-        tables["markers"] = tables.get("markers", {}) | markers
+    tables |= {"markers": markers} if markers else {}
     return LongForm(tables, tuple(differences))
 
 
@@ -127,43 +135,26 @@ def _support(written: Mapping[str, Any], differences: list[str]) -> dict[str, An
     return {"support": support} if support else {}
 
 
-def _loads(written: Mapping[str, Any], middle: str) -> dict[str, Any]:
-    """Return the loads on the inner ring; the radial one acts along y of a marker that is turned to its direction."""
+def _loads(written: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the loads on the inner ring."""
     loads: dict[str, Any] = {}
-    plain = {"axial": "force_x", "moment_y": "moment_y", "moment_z": "moment_z"}
-    own = {new: written[old] for old, new in plain.items() if old in written}
+    own = {new: written[old] for old, new in _LOADS.items() if old in written}
     if own:
         loads["inner-ring"] = {"at": NAME, **own}
     if "inner_ring" in written:
         loads["further"] = {"at": NAME, **written["inner_ring"]}
-    if "radial" not in written:
-        return {"loads": loads} if loads else {}
-    loads["radial"] = {"at": "radial", "force_y": written["radial"]}
-    marker = {"x": middle, "about_x": written.get("radial_direction", "270 deg")}
-    return {"loads": loads, "markers": {"radial": marker}}
+    return loads
 
 
-def _connection(case: Case, written: Mapping[str, Any], differences: list[str]) -> dict[str, Any]:
-    """Return what holds the shaft where the bearing is; nothing where it is free."""
-    held: dict[str, Any] = {}
-    for dof in _FREEDOMS:
-        state = getattr(case.bodies.inner_ring, dof)
-        path = f"bodies.inner_ring.{dof}"
-        if state.mode == "prescribed":
-            differences.append(f"{path}: a prescribed motion of the shaft; a seat can have one")
-        if state.mode == "free" and (state.stiffness or state.damping):
-            held[dof] = written[dof]
-        elif state.mode != "free":
-            is_tilt = dof.startswith("tilt")
-            held[dof] = show(LOCKED * 1e-3 if is_tilt else LOCKED, "angular_stiffness" if is_tilt else "stiffness")
-            differences.append(f"{path}: held by {held[dof]}")
-    held = {dof: _plain(how) for dof, how in held.items()}
-    return {"at": NAME, **held} if held else {}
-
-
-def _plain(how: Any) -> Any:
-    """Return a support without its mode: a connection is stiffness and damping alone."""
-    return {key: value for key, value in how.items() if key != "mode"} if isinstance(how, Mapping) else how
+def _connections(written: Mapping[str, Any], differences: list[str]) -> dict[str, Any]:
+    """Return the force elements between the ground and the inner ring."""
+    found = {}
+    for name, element in written.items():
+        if element.get("first", "ground") != "ground" or element["second"] != "inner_ring":
+            differences.append(f"elements.{name}: its ends are others than the ground and the inner ring's centre")
+            continue
+        found[name] = {"at": NAME, **{key: element[key] for key in ("law", "parameters") if key in element}}
+    return found
 
 
 def _disc(written: Mapping[str, Any], middle: str, differences: list[str]) -> dict[str, Any]:
@@ -186,7 +177,7 @@ def _markers(written: Mapping[str, Any], width: float, case: Case, differences: 
     """Return the markers of the inner ring, on the shaft."""
     found = {}
     for name, marker in written.items():
-        if marker["body"] != "inner_ring":
+        if marker.get("body", "shaft") not in ("inner_ring", "shaft"):
             differences.append(f"markers.{name}: markers of a machine are on the shaft, on its bodies and the ground")
             continue
         x = show(0.5 * width + case.markers[name].x, "length", 9)

@@ -55,6 +55,8 @@ def ross_rotor(model: MachineModel, state: ShaftState | None = None, announce: A
         raise UsageError("a shaft from outside has no pieces that elements of ROSS could be made of")
     if any(SHAFT in (s.place.body, s.to) and GROUND not in (s.place.body, s.to) for s in model.springs):
         raise UsageError("springs between shaft and other bodies have no place in a rotor of ROSS")
+    if model.links or model.hold is not None:
+        raise UsageError("a shaft that is held, and connections by laws, have no place in a rotor of ROSS")
     found = state if state is not None else solve_shaft(model, announce)
     body = model.body
     shaft = [_piece(ross, body, node) for node in range(body.positions.size - 1)]

@@ -93,6 +93,34 @@ class ShaftSpring:
 
 
 @dataclass(frozen=True)
+class MachineLink:
+    """A connection between two places whose force a law gives; it acts on the second one."""
+
+    name: str
+    element: str  # its law among those of the first bearing
+    first: Place
+    second: Place
+
+
+@dataclass(frozen=True)
+class ShaftHold:
+    """Where the ground holds the shaft without giving way."""
+
+    position: float  # [m]
+    lead: tuple[TimeFunction | None, ...]  # in the order of POSE [m, rad]; None where it does not hold
+
+    @property
+    def held(self) -> tuple[int, ...]:
+        """Places in POSE that are held."""
+        return tuple(i for i, lead in enumerate(self.lead) if lead is not None)
+
+    @property
+    def shift(self) -> tuple[float, ...]:
+        """Where it is held at t = 0, 0 where it is free [m, rad]."""
+        return tuple(0.0 if lead is None else initial(lead) for lead in self.lead)
+
+
+@dataclass(frozen=True)
 class RigidBody:
     """A body beside the shaft, SI."""
 
@@ -141,6 +169,10 @@ class MachineModel:
         Of the shaft [rad/s].
     springs : tuple of ShaftSpring
         Between shaft, bodies and ground.
+    links : tuple of MachineLink
+        Connections by laws.
+    hold : ShaftHold or None
+        Where the ground holds the shaft.
     bodies : tuple of RigidBody
         Beside the shaft.
     markers : tuple of (str, Place)
@@ -175,6 +207,8 @@ class MachineModel:
     varying: tuple[tuple[int, TimeFunction], ...] = ()  # row of `loads` and its value over time
     twists: bool = False  # in motion
     springs: tuple[ShaftSpring, ...] = ()
+    links: tuple[MachineLink, ...] = ()
+    hold: ShaftHold | None = None
     bodies: tuple[RigidBody, ...] = ()
     markers: tuple[tuple[str, Place], ...] = ()
     housing_damping: FloatArray | None = None
@@ -187,7 +221,8 @@ class MachineModel:
     def led(self) -> list[TimeFunction]:
         """Everything that leads shaft, seats and bodies over time."""
         seats = [lead for mounted in self.bearings for lead in mounted.seating.lead]
-        return [self.speed_over_time, *seats, *(lead for body in self.bodies for lead in body.lead)]
+        shaft = [lead for lead in self.hold.lead if lead is not None] if self.hold else []
+        return [self.speed_over_time, *seats, *(lead for body in self.bodies for lead in body.lead), *shaft]
 
     @property
     def solver(self) -> Solver:
@@ -195,9 +230,11 @@ class MachineModel:
         return self.bearings[0].model.solver
 
     @property
-    def spring_places(self) -> tuple[float, ...]:
-        """Where springs hold the shaft [m]."""
-        return tuple(s.place.point[0] for s in self.springs if SHAFT in (s.place.body, s.to))
+    def held_places(self) -> tuple[float, ...]:
+        """Where springs, connections and supports hold the shaft [m]."""
+        springs = [s.place.point[0] for s in self.springs if SHAFT in (s.place.body, s.to)]
+        ends = [end.point[0] for link in self.links for end in (link.first, link.second) if end.body == SHAFT]
+        return (*springs, *ends, *([self.hold.position] if self.hold else []))
 
     @property
     def has_changing_torque(self) -> bool:

@@ -30,7 +30,6 @@ from lambda_core.model.bearing_model import (
     ChosenObserver,
     Depth,
     Geometry,
-    Marker,
     Output,
 )
 from lambda_core.model.bodies.resolve_bodies import (
@@ -58,7 +57,7 @@ from lambda_core.model.geometry.shadowed_data import tell_shadows
 from lambda_core.model.laws.interpolation import say_overshoot
 from lambda_core.model.laws.law_packages import with_packages
 from lambda_core.model.laws.resolve_laws import LawResolver, ModelSource
-from lambda_core.model.laws.resolve_links import resolve_links
+from lambda_core.model.laws.resolve_links import resolve_links, resolve_markers
 from lambda_core.model.laws.resolve_states import check_states
 from lambda_core.model.laws.time_functions import peak, time_function
 from lambda_core.model.laws.time_laws import resolve_time_laws, signals_of
@@ -116,7 +115,7 @@ def resolve(
     materials = {part: known.material for part, known in parts.items()}
     lubricant, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
     case = hold_tilts(case, bare[0], ledger) if bare else case
-    case, courses = resolve_time_laws(case, registry, ledger)
+    case, courses = resolve_time_laws(case, signals_of, registry, ledger)
     if not is_static:
         say_overshoot(signals_of(case), ledger)
     check_bodies(case, ledger)
@@ -125,6 +124,7 @@ def resolve(
     kind = bare[0].kind if bare else "deep groove"
     guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
     laws = LawResolver(case, registry, lubricant, guidance, ledger, kind).resolve() if lubricant else {}
+    markers = resolve_markers(case, ledger)
     between, more = resolve_links(case, registry, ledger)
     more |= courses
     electric = resolve_electric(case.electric.inlined(), registry, ledger) if case.electric else None
@@ -180,7 +180,7 @@ def resolve(
         plugins=_distributions(
             {**laws, **more, "electric": electric.laws if electric else {}}, [*observers.values(), *events.values()]
         ),
-        markers={name: Marker(m.body, (m.x, m.y, m.z)) for name, m in case.markers.items()},
+        markers=markers,
         thermal=case.thermal if case.operation.temperatures == "computed" else None,
         mounting=mounting,
         contradictions=tuple(ledger.contradictions),

@@ -28,7 +28,7 @@ from lambda_core.formulas.elastic.merged_sections import SHORT, merged_sections
 from lambda_core.formulas.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.formulas.fits import REFERENCE_TEMPERATURE
 from lambda_core.formulas.gear_forces import GearForces, gear_forces
-from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.bearing_model import BearingModel, ChosenLaw
 from lambda_core.model.bodies.elastic_housing import elastic_housing
 from lambda_core.model.bodies.fitting import fitting_warnings
 from lambda_core.model.bodies.locations import Places, places
@@ -40,15 +40,17 @@ from lambda_core.model.bodies.rigid_bodies import (
     connections,
     refuse_far_beyond,
     refuse_idle_dampers,
+    resolve_links,
     rigid_bodies,
+    shaft_hold,
 )
 from lambda_core.model.checking import resolve
 from lambda_core.model.checks.dependent_errors import independent, is_shape_known
 from lambda_core.model.laws.interpolation import say_overshoot
 from lambda_core.model.laws.time_functions import initial, planned_speed, time_function
-from lambda_core.model.laws.time_laws import refuse_laws
+from lambda_core.model.laws.time_laws import resolve_time_laws
 from lambda_core.model.ledger import Ledger
-from lambda_core.model.machine_model import GROUND, SHAFT, MachineModel, MountedBearing, Unbalance
+from lambda_core.model.machine_model import GROUND, SHAFT, MachineLink, MachineModel, MountedBearing, Unbalance
 from lambda_core.model.settings.machine_heat import check_heat, resolve_heat, stretch
 from lambda_core.model.settings.machine_solver import changing, refuse_settings, with_settings
 from lambda_core.model.settings.resolve_electric import resolve_machine_electric, with_circuits
@@ -166,7 +168,7 @@ def _shaft(
     _check_one_place(case, stand, ledger)
     for key, bearing in case.bearings.items():
         refuse_motion(key, bearing, case.housing.reduced is not None or stand.carrier(bearing.outer) != GROUND, ledger)
-    refuse_laws(changing(case), ledger)
+    case, laws = resolve_time_laws(case, changing, registry(), ledger)
     say_overshoot(changing(case), ledger)
     refuse_settings(case, ledger)
     check_heat(case, ledger)
@@ -176,6 +178,8 @@ def _shaft(
     discs = _discs(case, catalogue, ledger)
     bodies = rigid_bodies(case, catalogue, ledger)
     springs = connections(case, stand, ledger)
+    links, more = resolve_links(case, stand, registry(), ledger)
+    hold = shaft_hold(case, stand, ledger)
     electric = resolve_machine_electric(case.electric, list(case.bearings), registry(), ledger)
     models = with_circuits(models, electric)
     strain = around.thermal_expansion * (case.housing.temperature - REFERENCE_TEMPERATURE) if around else 0.0
@@ -187,6 +191,7 @@ def _shaft(
         ),
         key=lambda one: one.position,
     )
+    _check_cells(bearings, ledger)
     if len(bearings) == len(case.bearings):
         refuse_far_beyond(case, gears, bearings, ledger)
     housing, housing_damping = None, None
@@ -197,7 +202,8 @@ def _shaft(
         refuse_idle_dampers(bearings, housing, ledger)
     if found or ledger.problems or material is None or around is None or len(bearings) < len(case.bearings):
         return None
-    body = _body(case, stand, material, discs, ledger) if outside is None else with_discs(outside, discs)
+    bearings[0] = _with_laws(bearings[0], {**more, **laws})
+    body = _body(case, stand, material, links, discs, ledger) if outside is None else with_discs(outside, discs)
     if body is None:
         return None
     heat = resolve_heat(case, [one.name for one in bearings], body, (material, around), ledger)
@@ -232,6 +238,8 @@ def _shaft(
         varying=varying,
         twists=case.shaft.twists,
         springs=springs,
+        links=links,
+        hold=hold,
         bodies=bodies,
         markers=tuple(stand.markers.items()),
         electric=electric,
@@ -248,6 +256,11 @@ def _shaft(
             if disc.unbalance
         ),
     )
+
+
+def _with_laws(mounted: MountedBearing, laws: Mapping[str, Mapping[str, ChosenLaw]]) -> MountedBearing:
+    """Return a bearing that also has the laws of what is no part of a bearing: of connections, of loads over time."""
+    return replace(mounted, model=replace(mounted.model, laws={**mounted.model.laws, **laws})) if laws else mounted
 
 
 def _in_place(case: ShaftCase, stand: Places) -> ShaftCase:
@@ -291,6 +304,19 @@ def _check_one_place(case: ShaftCase, stand: Places, ledger: Ledger) -> None:
         other = seen.setdefault(round(bearing.place, 7), name)
         if other != name:
             ledger.problem(f"bearings.{name}.at", f'is also that of "{other}"; give each bearing a place of its own')
+
+
+def _check_cells(bearings: Sequence[MountedBearing], ledger: Ledger) -> None:
+    """Note bearings whose contacts are divided otherwise than those of the first: compiled code has one grid."""
+    for other in bearings[1:]:
+        one, two = bearings[0].model.depth, other.model.depth
+        for option in ("strips", "rows"):
+            if getattr(one, option) != getattr(two, option):
+                ledger.problem(
+                    f"bearings.{other.name}.depth.{option}",
+                    f'is {getattr(two, option)}, and {getattr(one, option)} of "{bearings[0].name}": '
+                    "all bearings of a machine need the same",
+                )
 
 
 def _gears(case: ShaftCase, ledger: Ledger) -> dict[str, GearForces]:
@@ -344,13 +370,15 @@ def _drawn(body: ElasticBody, bearings: Iterable[MountedBearing]) -> tuple[tuple
 
 
 def _body(
-    case: ShaftCase, stand: Places, material: BodyMaterial, discs: list[Disc], ledger: Ledger
-) -> ElasticBody | None:
+    case: ShaftCase, stand: Places, material: BodyMaterial, links: Sequence[MachineLink], discs: list[Disc],
+    ledger: Ledger,
+) -> ElasticBody | None:  # fmt: skip
     """Return the shaft as a beam; None where its mesh would be too large, which the ledger says then."""
     given = [(s.length, RoundSection(s.diameter, s.bore, material)) for s in case.shaft.sections]
     held = [place.point[0] for place in stand.of.values() if place.body == SHAFT]
     held += [place.point[0] for place in stand.markers.values() if place.body == SHAFT]
     held += [spring.place for spring in case.connections.values() if stand.carrier(spring.to) == SHAFT]
+    held += [link.first.point[0] for link in links if link.first.body == SHAFT]
     drive = [] if case.shaft.drive is None else [case.shaft.drive]
     sections, places = merged_sections(given), [*held, *drive]
     if len(sections) < len(given):

@@ -249,6 +249,7 @@ LINK = record(
     ("law", i8),  # row of Laws.links
     ("first_place", f8, (3,)),  # of its points, in the frames of the bodies [m]
     ("second_place", f8, (3,)),
+    ("apart", f8, (3,)),  # where the second body is drawn from the first one [m]
     ("parameters", i8, (2,)),
 )
 

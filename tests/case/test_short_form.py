@@ -56,9 +56,7 @@ def test_the_equilibrium_is_that_of_the_bearing() -> None:
     single = api.quasistatic("6208-axial-1300", changes)
     long = api.long_form("6208-axial-1300", changes)
     (bearing,) = api.quasistatic(long.tables).bearings
-    assert [difference.partition(":")[0] for difference in long.differences] == [
-        "bodies.inner_ring.tilt_y", "bodies.inner_ring.tilt_z",
-    ]  # fmt: skip
+    assert long.differences == ()
     assert bearing.force_N[0] == pytest.approx(-500.0, rel=1e-6)
     assert bearing.max_load_N == pytest.approx(single.max_load_N, rel=5e-3)
     assert bearing.friction_torque_Nmm == pytest.approx(single.friction_torque_Nmm, rel=1e-2)

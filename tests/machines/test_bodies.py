@@ -80,6 +80,6 @@ def test_mistakes_with_their_paths() -> None:
     assert {"connections.felt.z", "discs.wheel"} <= where
     with pytest.raises(api.CaseError, match=r"connections\.seal\.at") as found:
         check_shaft(tables(connections={"seal": {**SEAL, "at": "900 mm"}}))
-    law = {"kind": "law", "law": "chirp", "amplitude": "10 N"}
-    with pytest.raises(api.CaseError, match=r"loads\.push\.force_z"):
+    law = {"kind": "law", "law": "chip", "amplitude": "10 N"}
+    with pytest.raises(api.CaseError, match=r"loads\.push\.force_z\.law"):
         check_shaft(tables(loads={"push": {"at": "110 mm", "force_z": law}}))

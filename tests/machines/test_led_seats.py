@@ -159,9 +159,9 @@ def test_what_cannot_be_led() -> None:
             "write support.z = { motion = ... }",
         ),
         (
-            tables({"z": {"motion": {"kind": "law", "law": "chirp", "amplitude": "1 um"}}}, {}),
+            tables({"z": {"motion": {"kind": "law", "law": "chip", "amplitude": "1 um"}}}, {}),
             "support.z.motion.law",
-            "is no law yet",
+            "nearest: chirp",
         ),
     ):
         with pytest.raises(api.CaseError) as found:

@@ -147,7 +147,10 @@ def equilibrium_of(
         speed_rpm=rpm,
         bearings=bearings,
         gears={name: [g.tangential, g.radial, g.axial] for name, g in model.gears.items()},
-        springs={s.name: _listed(-(s.stiffness @ stretch(model, rows, s) @ state.motions)[:3]) for s in model.springs},
+        springs={
+            **{s.name: _listed(-(s.stiffness @ stretch(model, rows, s) @ state.motions)[:3]) for s in model.springs},
+            **{link.name: _listed(link.wrench[:3]) for link in state.links},
+        },
         bodies={body.name: _moved(moves) for body, moves in zip(model.bodies, state.bodies, strict=True)},
         markers={name: _moved(_at(model, state, place)) for name, place in model.markers},
         system_life_h=finite(system_life(lives)) if lives else None,

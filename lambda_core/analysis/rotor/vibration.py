@@ -13,9 +13,10 @@ from scipy.linalg import block_diag
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.formulas.elastic.whirl import Whirl, critical_speeds, whirls
-from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel
+from lambda_core.model.machine_model import GROUND, LOCKED, PLACES, SHAFT, MachineModel
 from lambda_core.solver.drivers.damping import damping_matrix
 from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.link_forces import SolvedLink
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 from lambda_core.solver.drivers.structure import Rows, static_rows, structure
 
@@ -43,7 +44,7 @@ def housed_stiffness(model: MachineModel, state: ShaftState) -> FloatArray:
 
     What the others add through an elastic housing is left out: it stands in :func:`supported`.
     """
-    return _of_each(_in_series(model, state.stiffness))
+    return _of_each(_in_series(model, state))
 
 
 def bearing_damping(model: MachineModel, equilibria: Sequence[Equilibrium]) -> FloatArray:
@@ -81,36 +82,46 @@ def _of_each(whole: FloatArray) -> FloatArray:
 def _damping_in_series(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
     """Return the damping that the shaft feels at all bearings together, shape (5 bearings, 5 bearings)."""
     speed = abs(model.speed) or 1.0
-    whole = _joined(model, state.stiffness, springs=False) + 1j * speed * _resisting(model, dampings, springs=False)
+    whole = _joined(model, state, springs=False) + 1j * speed * _resisting(model, state, dampings, springs=False)
     return np.asarray(_seen_by_shaft(model, whole).imag / speed)
 
 
-def _in_series(model: MachineModel, each: FloatArray) -> FloatArray:
+def _in_series(model: MachineModel, state: ShaftState) -> FloatArray:
     """Return the stiffness that the shaft feels at all bearings together, shape (5 bearings, 5 bearings).
 
     Rings and bodies behind the bearings follow without inertia.
     """
-    return np.asarray(_seen_by_shaft(model, _joined(model, each, springs=False)))
+    return np.asarray(_seen_by_shaft(model, _joined(model, state, springs=False)))
 
 
-def _joined(model: MachineModel, each: FloatArray, *, springs: bool = True) -> FloatArray:
+def _joined(model: MachineModel, state: ShaftState, *, springs: bool = True) -> FloatArray:
     """Return the stiffness of what joins shaft, outer rings and bodies: bearings, seats, housing, holds, springs."""
     rows = static_rows(model)
     found = structure(model if springs else _without_springs_of_the_shaft(model), rows)[0]
     if model.housing is not None:
         own = slice(rows.rings, rows.bodies)
         found[own, own] += model.housing
-    for i, k in enumerate(each):
+    for i, k in enumerate(state.stiffness):
         reach = _inner_against_outer(model, rows, i)
         found += reach.T @ k @ reach
+    for link in _links(state, springs=springs):
+        found += link.stiffness
+    if springs and model.hold is not None:
+        kept = rows.node(model.hold.position) + np.array(PLACES)[list(model.hold.held)]
+        found[kept, kept] += np.where(kept % NODE < _ABOUT_X, LOCKED, LOCKED * model.bearings[0].model.geometry.width ** 2)
     return found
+
+
+def _links(state: ShaftState, *, springs: bool) -> list[SolvedLink]:
+    """Return the connections by laws, with or without those of the shaft."""
+    return [link for link in state.links if springs or not link.is_on_shaft]
 
 
 def _without_springs_of_the_shaft(model: MachineModel) -> MachineModel:
     return replace(model, springs=tuple(s for s in model.springs if SHAFT not in (s.place.body, s.to)))
 
 
-def _resisting(model: MachineModel, dampings: FloatArray, *, springs: bool = True) -> FloatArray:
+def _resisting(model: MachineModel, state: ShaftState, dampings: FloatArray, *, springs: bool = True) -> FloatArray:
     """Return the damping likewise."""
     rows = static_rows(model)
     found = structure(model if springs else _without_springs_of_the_shaft(model), rows)[1]
@@ -120,6 +131,8 @@ def _resisting(model: MachineModel, dampings: FloatArray, *, springs: bool = Tru
     for i, c in enumerate(dampings):
         reach = _inner_against_outer(model, rows, i)
         found += reach.T @ c[np.ix_(PLACES, PLACES)] @ reach
+    for link in _links(state, springs=springs):
+        found += link.damping
     return found
 
 
@@ -158,7 +171,7 @@ def supported(model: MachineModel, state: ShaftState) -> FloatArray:
 
     Shape (rows of the shaft + free motions of bodies) squared; outer rings follow without inertia.
     """
-    found = _seen_by_masses(model, _joined(model, state.stiffness))
+    found = _seen_by_masses(model, _joined(model, state))
     size = model.body.stiffness.shape[0]
     found[:size, :size] += model.body.stiffness
     return np.asarray(0.5 * (found + found.T))
@@ -180,7 +193,7 @@ def _seen_by_shaft(model: MachineModel, whole: Any) -> Any:
 def damped(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
     """Return the damping of the shaft by its bearings, and of springs and seats, in the rows of :func:`supported`."""
     speed = abs(model.speed) or 1.0
-    whole = _joined(model, state.stiffness) + 1j * speed * _resisting(model, dampings)
+    whole = _joined(model, state) + 1j * speed * _resisting(model, state, dampings)
     found: FloatArray = _seen_by_masses(model, whole).imag / speed
     for bearing, own in zip(model.bearings, dampings, strict=True):
         turning = model.body.rows(bearing.position).start + _ABOUT_X

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from lambda_core.case.motion import Marker
 from lambda_core.case.shaft import ShaftCase
-from lambda_core.case.shaft_parts import ShaftMarker
+from lambda_core.case.shaft_parts import Placed
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.units import show
@@ -19,7 +20,8 @@ from lambda_core.model.ledger import Ledger
 from lambda_core.model.machine_model import GROUND, SHAFT, Place
 
 _PLACED = ("bearings", "discs", "gears", "loads", "connections")
-_ON_AXIS = ("bearings", "discs", "gears")  # stand on the shaft itself
+_ON_AXIS = ("bearings", "discs", "gears", "shaft")  # stand on the shaft itself
+SUPPORT = "shaft.support"
 _SAME = 1e-6  # [m]
 
 
@@ -66,29 +68,46 @@ def places(case: ShaftCase, outside: ElasticBody | None, ledger: Ledger) -> Plac
     for name, marker in case.markers.items():
         if name in nodes:
             ledger.problem(f"markers.{name}", "is the name of a node of the shaft already: choose another one")
+        if "x" not in marker.model_fields_set:
+            ledger.problem(f"markers.{name}.x", "is required: place along the shaft, from its left end")
         if marker.body not in carriers:
             ledger.problem(f"markers.{name}.body", unknown_name("body", marker.body, carriers))
         point = (marker.x, marker.y, marker.z)
         markers[name] = Place(carriers.get(marker.body, GROUND), point, _axes(marker))
     found: dict[str, Place] = {}
-    for table in _PLACED:
-        for name, part in getattr(case, table).items():
-            where = f"{table}.{name}"
-            if part.along is not None:
-                found[where] = Place(SHAFT, (part.along, 0.0, 0.0), np.eye(3))
-            elif part.at in markers:
-                found[where] = markers[part.at]
-                _fits(table, where, part.at, found[where], ledger)
-            elif table != "bearings" and part.at in case.bearings:
-                if f"bearings.{part.at}" in found:  # else that is what is wrong
-                    found[where] = Place(SHAFT, found[f"bearings.{part.at}"].point, np.eye(3))
-            elif not is_blind:
-                what, known = (
-                    ("marker", markers) if table == "bearings" else ("marker or bearing", [*markers, *case.bearings])
-                )
-                ledger.problem(f"{where}.at", _unknown(what, part.at, known))
+    for table, where, part in _placed(case):
+        if part.along is not None:
+            found[where] = Place(SHAFT, (part.along, 0.0, 0.0), np.eye(3))
+        elif part.at is None:
+            found[where] = Place(SHAFT, (_coupling(case, outside), 0.0, 0.0), np.eye(3))
+        elif part.at in markers:
+            found[where] = markers[part.at]
+            _fits(table, where, part.at, found[where], ledger)
+        elif table != "bearings" and part.at in case.bearings:
+            if f"bearings.{part.at}" in found:  # else that is what is wrong
+                found[where] = Place(SHAFT, found[f"bearings.{part.at}"].point, np.eye(3))
+        elif not is_blind:
+            what, known = (
+                ("marker", markers) if table == "bearings" else ("marker or bearing", [*markers, *case.bearings])
+            )
+            ledger.problem(f"{where}.at", _unknown(what, part.at, known))
     _ends(case, carriers, markers, found, ledger)
     return Places(found, carriers, markers)
+
+
+def _placed(case: ShaftCase) -> Iterator[tuple[str, str, Placed]]:
+    """Yield table, path and part of everything that stands somewhere."""
+    for table in _PLACED:
+        yield from ((table, f"{table}.{name}", part) for name, part in getattr(case, table).items())
+    if case.shaft.support.is_used:
+        yield "shaft", SUPPORT, case.shaft.support
+
+
+def _coupling(case: ShaftCase, outside: ElasticBody | None) -> float:
+    """Return where the coupling stands [m]."""
+    if case.shaft.drive is not None:
+        return case.shaft.drive
+    return 0.0 if outside is None else float(outside.positions[0])
 
 
 def carried(arm: Sequence[float] | FloatArray) -> FloatArray:
@@ -129,7 +148,8 @@ def _ends(
         if where not in found:
             continue
         body = carriers[other] if other in carriers else markers[other].body
-        if other not in carriers and math.dist(markers[other].point, found[where].point) > _SAME:
+        is_apart = where.startswith("connections.") and case.connections[where.partition(".")[2]].is_by_law
+        if other not in carriers and not is_apart and math.dist(markers[other].point, found[where].point) > _SAME:
             at = ", ".join(show(x, "length", 6) for x in found[where].point)
             ledger.problem(f"{where}.{option}", f'"{other}" stands elsewhere: both ends have to be at {at}')
         if option == "outer" and body == SHAFT:
@@ -138,7 +158,7 @@ def _ends(
             ledger.problem(f"{where}.{option}", "both ends are on the same body")
 
 
-def _axes(marker: ShaftMarker) -> FloatArray:
+def _axes(marker: Marker) -> FloatArray:
     """Return the axes of a marker as columns: turned about x, then about y and z as they were."""
     found: FloatArray = np.eye(3)
     for angle, (i, k) in ((marker.about_x, (1, 2)), (marker.about_y, (2, 0)), (marker.about_z, (0, 1))):

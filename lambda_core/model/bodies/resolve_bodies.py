@@ -231,7 +231,7 @@ def body_loads(name: BodyName, case: Case) -> tuple[Vector, Vector]:
     moment = [time_function(own.moment_x), time_function(own.moment_y), time_function(own.moment_z)]
     if name == "inner_ring":
         radial = time_function(loads.radial)
-        along_y, along_z = _direction(loads.radial_direction)
+        along_y, along_z = direction(loads.radial_direction)
         force[0] = added(force[0], time_function(loads.axial))
         force[1] = added(force[1], scaled(radial, along_y))
         force[2] = added(force[2], scaled(radial, along_z))
@@ -241,7 +241,7 @@ def body_loads(name: BodyName, case: Case) -> tuple[Vector, Vector]:
     return (force[0], force[1], force[2]), (moment[0], moment[1], moment[2])
 
 
-def _direction(azimuth: float) -> tuple[float, float]:
+def direction(azimuth: float) -> tuple[float, float]:
     """Return cosine and sine, exact at whole right angles so that "down" has no sideways part."""
     quarter = azimuth / (math.pi / 2.0)
     if abs(quarter - round(quarter)) < 1e-12:

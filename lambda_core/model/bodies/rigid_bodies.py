@@ -9,7 +9,7 @@ import numpy as np
 
 from lambda_core.case.holding import Dof
 from lambda_core.case.shaft import ShaftCase
-from lambda_core.case.shaft_parts import ShaftBody
+from lambda_core.case.shaft_parts import PointLoad, ShaftBody
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE
@@ -17,14 +17,29 @@ from lambda_core.domain.units import show
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.formulas.elastic.body import ElasticBody
 from lambda_core.formulas.gear_forces import GearForces
-from lambda_core.model.bearing_model import TimeFunction
-from lambda_core.model.bodies.locations import Places, carried
+from lambda_core.model.bearing_model import ELEMENT_PREFIX, ChosenLaw, TimeFunction
+from lambda_core.model.bodies.locations import SUPPORT, Places, carried
+from lambda_core.model.bodies.resolve_bodies import direction
 from lambda_core.model.bodies.resolve_materials import body_material
+from lambda_core.model.laws.given_parameters import law_by_name
+from lambda_core.model.laws.resolve_laws import ModelSource
 from lambda_core.model.laws.time_functions import added, initial, peak, scaled, time_function
 from lambda_core.model.ledger import Ledger
-from lambda_core.model.machine_model import GROUND, SHAFT, MountedBearing, Place, RigidBody, ShaftSpring
+from lambda_core.model.machine_model import (
+    GROUND,
+    PLACES,
+    SHAFT,
+    MachineLink,
+    MountedBearing,
+    Place,
+    RigidBody,
+    ShaftHold,
+    ShaftSpring,
+)
 
+FORCE_ELEMENT = "force_element"
 COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
+LOADS = (*COMPONENTS, "radial")  # what may change over time of a load at a place
 _DOFS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
 _ROUNDING = 1e-9
 _FARTHEST = 0.1  # [m, rad] that anything is led: seats and housings move by micrometres, milliradians
@@ -81,8 +96,8 @@ def connections(case: ShaftCase, stand: Places, ledger: Ledger) -> tuple[ShaftSp
     """Return springs, dampers and bushings, along the axes of the case."""
     found = []
     for name, given in case.connections.items():
-        if f"connections.{name}" not in stand.of:
-            continue  # said where places are sought
+        if f"connections.{name}" not in stand.of or given.is_by_law:
+            continue  # said where places are sought; or no spring
         place, to = stand.of[f"connections.{name}"], stand.carrier(given.to)
         matrices = []
         for kind in ("stiffness", "damping"):
@@ -91,7 +106,60 @@ def connections(case: ShaftCase, stand: Places, ledger: Ledger) -> tuple[ShaftSp
         if SHAFT in (place.body, to) and max(np.abs(matrix[3]).max() for matrix in matrices) > _ROUNDING:
             ledger.problem(f"connections.{name}.tilt_x", "would prevent rotation of the shaft; remove it")
         found.append(ShaftSpring(name, place, to, *matrices))
-    return tuple(found)
+    return (*found, *_elastic_support(case, stand))
+
+
+def _elastic_support(case: ShaftCase, stand: Places) -> list[ShaftSpring]:
+    """Return springs and dampers of the support of the shaft."""
+    support = case.shaft.support
+    held = [getattr(support, dof) for dof in POSE]
+    if SUPPORT not in stand.of or not any(one.stiffness or one.damping for one in held):
+        return []
+    matrices = []
+    for kind in ("stiffness", "damping"):
+        own = np.zeros(NODE)
+        own[list(PLACES)] = [getattr(one, kind) for one in held]
+        matrices.append(np.diag(own))
+    return [ShaftSpring("shaft support", stand.of[SUPPORT], GROUND, *matrices)]
+
+
+def shaft_hold(case: ShaftCase, stand: Places, ledger: Ledger) -> ShaftHold | None:
+    """Return where the ground holds the shaft without giving way; None where it is free."""
+    lead: list[TimeFunction | None] = []
+    for dof in POSE:
+        given: Dof = getattr(case.shaft.support, dof)
+        motion = time_function(getattr(given, "motion", None))
+        refuse_far(f"{SUPPORT}.{dof}.motion", dof, motion, ledger)
+        lead.append(None if given.mode == "free" else motion)
+    if SUPPORT not in stand.of or all(one is None for one in lead):
+        return None
+    return ShaftHold(stand.of[SUPPORT].point[0], tuple(lead))
+
+
+def resolve_links(
+    case: ShaftCase, stand: Places, registry: ModelSource, ledger: Ledger
+) -> tuple[tuple[MachineLink, ...], dict[str, dict[str, ChosenLaw]]]:
+    """Return connections by laws, and the laws as a model names them."""
+    links, laws = [], {}
+    for name, given in case.connections.items():
+        where = f"connections.{name}"
+        if not given.is_by_law:
+            continue
+        law = law_by_name(FORCE_ELEMENT, given.law, given.parameters, where, registry, ledger)
+        if law is None or where not in stand.of:
+            continue
+        second, to = stand.of[where], stand.carrier(given.to)
+        if second.body == GROUND:
+            ledger.problem(f"{where}.at", "the ground does not move: write it as `to`, and what moves as `at`")
+        first = stand.markers[given.to].point if given.to in stand.markers else second.point
+        if to == SHAFT and math.hypot(*first[1:]) > 0.0:
+            if given.to in stand.markers:
+                ledger.problem(f"{where}.to", f'"{given.to}" turns with the shaft off its axis: choose a place on it')
+            first = (first[0], 0.0, 0.0)
+        element = f"{ELEMENT_PREFIX}{name}"
+        links.append(MachineLink(name, element, Place(to, first, np.eye(3)), second))
+        laws[element] = {FORCE_ELEMENT: law}
+    return tuple(links), laws
 
 
 def _along(place: Place) -> FloatArray:
@@ -116,7 +184,7 @@ def all_loads(
             own = bodies[place.body - 1]
             first, arm = size + NODE * (place.body - 1), np.subtract(place.point, own.centre)
         share = carried(arm).T @ _along(place).T  # of each component at the place in each row of its body
-        functions = [time_function(getattr(load, component)) for component in COMPONENTS]
+        functions = _components(load)
         for i in range(NODE):
             total = added(*(scaled(f, float(c)) for f, c in zip(functions, share[i], strict=True)))
             found[first + i] += initial(total)
@@ -125,6 +193,16 @@ def all_loads(
     for name, forces in gears.items():
         found[body.rows(case.gears[name].place)] += [*forces.force, *forces.moment]
     return found, tuple((row, added(*functions)) for row, functions in varying.items())
+
+
+def _components(load: PointLoad) -> list[TimeFunction]:
+    """Return force and moment along the axes of a load."""
+    found = [time_function(getattr(load, component)) for component in COMPONENTS]
+    radial = time_function(load.radial)
+    if radial.terms:
+        for axis, share in enumerate(direction(load.radial_direction)):
+            found[1 + axis] = added(found[1 + axis], scaled(radial, share))
+    return found
 
 
 def refuse_far_beyond(
@@ -137,8 +215,8 @@ def refuse_far_beyond(
         for name, forces in gears.items()
     }
     for name, load in case.loads.items():
-        for component in COMPONENTS:
-            unit = "N" if component.startswith("force") else "N m"
+        for component in LOADS:
+            unit = "N m" if component.startswith("moment") else "N"
             sizes[f"loads.{name}.{component}"] = (peak(time_function(getattr(load, component))), unit)
     for where, (size, unit) in sizes.items():
         if not size <= _FAR_BEYOND * static:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from lambda_core.domain.elements import BODIES, BodyName
 from lambda_core.domain.errors import unknown_name
-from lambda_core.model.bearing_model import ELEMENT_PREFIX, ChosenLaw, Link
+from lambda_core.model.bearing_model import ELEMENT_PREFIX, ChosenLaw, Link, Marker
 from lambda_core.model.laws.given_parameters import law_by_name
 from lambda_core.model.ledger import Ledger
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 ROLE = "force_element"
 GROUND = "ground"
 _CENTRE = (0.0, 0.0, 0.0)
+_BODIES: dict[str, BodyName] = {**{name: name for name in BODIES}, "shaft": "inner_ring"}  # that carry markers
 End = tuple[BodyName | None, tuple[float, float, float]]
 
 
@@ -45,6 +46,21 @@ def resolve_links(
     return links, laws
 
 
+def resolve_markers(case: Case, ledger: Ledger) -> dict[str, Marker]:
+    """Return the named points of a bearing; what is wrong with them is noted."""
+    found = {}
+    for name, marker in case.markers.items():
+        body = _BODIES.get(marker.body)
+        if body is None:
+            ledger.problem(f"markers.{name}.body", unknown_name("body", marker.body, _BODIES))
+            continue
+        for axis in ("about_x", "about_y", "about_z"):
+            if getattr(marker, axis):
+                ledger.problem(f"markers.{name}.{axis}", "turns axes of a machine: nothing acts along these")
+        found[name] = Marker(body, (marker.x, marker.y, marker.z))
+    return found
+
+
 def _end(case: Case, name: str, where: str, ledger: Ledger) -> End | None:
     """Return the body and the place that a name stands for, None with a problem in the ledger."""
     if name in case.markers and name in (GROUND, *BODIES):
@@ -56,7 +72,9 @@ def _end(case: Case, name: str, where: str, ledger: Ledger) -> End | None:
     body = next((each for each in BODIES if each == name), None)
     if body is None and name in case.markers:
         marker = case.markers[name]
-        body, place = marker.body, (marker.x, marker.y, marker.z)
+        if marker.body not in _BODIES:
+            return None  # which is said of the marker
+        body, place = _BODIES[marker.body], (marker.x, marker.y, marker.z)
     if body is None:
         ledger.problem(where, unknown_name("body or marker", name, [GROUND, *BODIES, *case.markers]))
         return None

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -21,7 +21,10 @@ from lambda_core.model.ledger import Ledger
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
     from lambda_core.model.laws.resolve_laws import ModelSource
+
+    C = TypeVar("C", Case, ShaftCase)
 
 ROLE = "time_function"
 _USUAL, _LOOKS = 1.0, 4001  # time that is looked at where the case has no end [s]; how often
@@ -55,14 +58,20 @@ def _by_law(signals: Signals) -> Iterator[tuple[str, ByLaw[Any]]]:
 
 
 def resolve_time_laws(
-    case: Case, registry: ModelSource, ledger: Ledger
-) -> tuple[Case, dict[str, dict[str, ChosenLaw]]]:
-    """Return the case whose signals know their courses, and the laws as the model names them."""
-    if not any(True for _ in _by_law(signals_of(case))):
+    case: C, signals: Callable[[C], Signals], registry: ModelSource, ledger: Ledger
+) -> tuple[C, dict[str, dict[str, ChosenLaw]]]:
+    """Return the case whose signals know their courses, and the laws as the model names them.
+
+    Parameters
+    ----------
+    signals : callable
+        Path and value of everything in the case that may change over time.
+    """
+    if not any(True for _ in _by_law(signals(case))):
         return case, {}
     case = case.model_copy(deep=True)
     laws: dict[str, dict[str, ChosenLaw]] = {}
-    for path, signal in _by_law(signals_of(case)):
+    for path, signal in _by_law(signals(case)):
         law = law_by_name(ROLE, signal.law, signal.parameters, path, registry, ledger)
         if law is None:
             continue
@@ -75,12 +84,6 @@ def resolve_time_laws(
         laws[element] = {ROLE: law}
         signal.set_course((element, first, largest, frequency))
     return case, laws
-
-
-def refuse_laws(signals: Signals, ledger: Ledger) -> None:
-    """Refuse courses by laws where nothing takes them, as on a shaft."""
-    for path, _ in _by_law(signals):
-        ledger.problem(f"{path}.law", "the course of a shaft's load or speed is no law yet: write a table of points")
 
 
 def _look(law: ChosenLaw, until: float) -> tuple[float, float, float]:

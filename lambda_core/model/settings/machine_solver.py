@@ -8,7 +8,7 @@ from typing import Any
 
 from lambda_core.case.shaft import ShaftCase
 from lambda_core.domain.elements import POSE
-from lambda_core.model.bodies.rigid_bodies import COMPONENTS
+from lambda_core.model.bodies.rigid_bodies import LOADS
 from lambda_core.model.laws.time_functions import highest_frequency, peak, time_function
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.machine_model import MachineModel, MountedBearing
@@ -27,7 +27,8 @@ def changing(case: ShaftCase) -> list[tuple[str, Any]]:
     """Return the path of everything that loads or leads the shaft, and its value or course."""
     found: list[tuple[str, Any]] = [("operation.speed", case.operation.speed)]
     for key, load in case.loads.items():
-        found += [(f"loads.{key}.{name}", getattr(load, name)) for name in COMPONENTS]
+        found += [(f"loads.{key}.{name}", getattr(load, name)) for name in LOADS]
+    found += [(f"shaft.support.{dof}.motion", getattr(case.shaft.support, dof).motion) for dof in POSE]
     for key, bearing in case.bearings.items():
         found += [(f"bearings.{key}.support.{dof}.motion", getattr(bearing.support, dof).motion) for dof in POSE]
     for key, rigid in case.bodies.items():

@@ -12,12 +12,12 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, CAGE, INNER, OUTER
-from lambda_core.model.bearing_model import BearingModel, Body
+from lambda_core.model.bearing_model import ELEMENT_PREFIX, BearingModel, Body
 from lambda_core.model.geometry.raceways import raceways
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.state_channels import states_of
 from lambda_core.solver.drivers.compiled_laws import Kernels
-from lambda_core.solver.drivers.law_inputs import Oils, links
+from lambda_core.solver.drivers.law_inputs import Oils
 from lambda_core.solver.drivers.wave_tables import waves_of
 
 GROUND = -1  # number of the ground among the bodies that a link connects
@@ -79,6 +79,8 @@ class AssembledLink:
         Members; the first may be GROUND.
     first_place, second_place : tuple of 3 floats
         Of the points, in the frames of the members [m].
+    apart : tuple of 3 floats
+        Where the second member's origin is drawn from the first one's [m].
     """
 
     bearing: int
@@ -87,6 +89,7 @@ class AssembledLink:
     first_place: tuple[float, float, float]
     second: int
     second_place: tuple[float, float, float]
+    apart: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -180,9 +183,9 @@ def assembly_of(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils
         model.gravity,
         tuple(
             AssembledLink(
-                0, element, GROUND if link.first is None else numbers.index(link.first), link.first_place,
-                numbers.index(link.second), link.second_place,
+                0, f"{ELEMENT_PREFIX}{name}", GROUND if link.first is None else numbers.index(link.first),
+                link.first_place, numbers.index(link.second), link.second_place,
             )
-            for element, link in zip(links(model), model.links.values(), strict=True)
+            for name, link in model.links.items()
         ),
     )  # fmt: skip

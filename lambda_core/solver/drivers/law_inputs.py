@@ -16,7 +16,7 @@ def oil_of(oils: Oils, element: str) -> Oil:
 
 def links(model: BearingModel) -> tuple[str, ...]:
     """Return the force elements between bodies in the solver's order, as the laws of a model name them."""
-    return tuple(f"{ELEMENT_PREFIX}{name}" for name in model.links)
+    return tuple(element for element in model.laws if element.startswith(ELEMENT_PREFIX))
 
 
 def times(model: BearingModel) -> tuple[str, ...]:

@@ -78,7 +78,7 @@ def lump(model: MachineModel) -> LumpedShaft:
 def _places(model: MachineModel) -> FloatArray:
     """Return where lumps stand [m]: of a shaft from outside at the nodes that it names, by default at all."""
     body = model.body
-    held = [*(b.position for b in model.bearings), *model.spring_places]
+    held = [*(b.position for b in model.bearings), *model.held_places]
     mains = _distinct([*held, *(place for _, place in model.discs)])
     if not body.elements:
         named = body.lumps or range(body.positions.size)

@@ -21,8 +21,8 @@ from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bearing_model import ZERO, BearingModel, Body, DofState, TimeFunction
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.time_functions import initial, scaled
-from lambda_core.model.machine_model import GROUND, PLACES, MachineModel, RigidBody
-from lambda_core.solver.drivers.assembly import AssembledBearing, Assembly, Member, Ties
+from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel, Place, RigidBody
+from lambda_core.solver.drivers.assembly import AssembledBearing, AssembledLink, Assembly, Member, Ties
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.law_inputs import Oils
 from lambda_core.solver.drivers.lumps import LumpedShaft, unbalance_of_lumps
@@ -107,8 +107,32 @@ def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Fro
         tuple(members[number] for number in range(numbers.count)),
         tuple(bearings),
         machine.gravity,
+        _links(machine, shaft, numbers),
         ties=_ties(machine, shaft, numbers),
     )
+
+
+def _links(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) -> tuple[AssembledLink, ...]:
+    """Return the connections by laws, which stand among those of the first bearing."""
+    found = []
+    for link in machine.links:
+        (first, own), (second, other) = (_end(machine, shaft, numbers, place) for place in (link.first, link.second))
+        arms = (np.subtract(link.first.point, own).tolist(), np.subtract(link.second.point, other).tolist())
+        apart = np.subtract(other, own).tolist()
+        found.append(AssembledLink(0, link.element, first, tuple(arms[0]), second, tuple(arms[1]), tuple(apart)))
+    return tuple(found)
+
+
+def _end(
+    machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers, place: Place
+) -> tuple[int, tuple[float, float, float]]:
+    """Return the member that carries a place, and where its origin is drawn [m]."""
+    if place.body == GROUND:
+        return GROUND, (0.0, 0.0, 0.0)
+    if place.body == SHAFT:
+        lump = shaft.at(place.point[0])
+        return int(numbers.lumps[lump]), (float(shaft.positions[lump]), 0.0, 0.0)
+    return int(numbers.bodies[place.body - 1]), machine.bodies[place.body - 1].centre
 
 
 def _lumps(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) -> dict[int, Member]:
@@ -124,6 +148,9 @@ def _lumps(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) ->
                 mass, polar = mass + ring.mass, polar + ring.polar_inertia
                 transverse += ring.transverse_inertia
         dofs = _turned(machine, _FREE) if number in numbers.led else dict.fromkeys(DOFS, _FREE)
+        if machine.hold is not None and k == shaft.at(machine.hold.position):
+            held = zip(POSE, machine.hold.lead, strict=True)
+            dofs |= {name: _led(lead) for name, lead in held if lead is not None}
         body = _loaded(Body(mass, transverse, polar, dofs, unbalance=float(unbalances[k])), loads[k])
         found[number] = Member(f"shaft at {1e3 * float(shaft.positions[k]):.4g} mm", body)
     return found

@@ -251,6 +251,9 @@ def _standing(machine: MachineModel, shaft: LumpedShaft, context: SolverContext)
     numbers = member_numbers(machine, shaft)
     flat = np.zeros(context.bundle.shared.size)
     flat.view(R.BODY_STATE)["spin"][numbers.lumps] = machine.speed
+    if machine.hold is not None:
+        lump = int(numbers.lumps[shaft.at(machine.hold.position)])
+        flat[L.NS * lump + RING_STATES] = RING_SIGNS * machine.hold.shift
     for outer, bearing in zip(numbers.outer_rings, machine.bearings, strict=True):
         flat[L.NS * outer + RING_STATES] = RING_SIGNS * bearing.seating.shift
     for number, rigid in zip(numbers.bodies, machine.bodies, strict=True):

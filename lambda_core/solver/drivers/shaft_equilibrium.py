@@ -22,6 +22,7 @@ from lambda_core.model.machine_model import GROUND, PLACES, MachineModel
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
 from lambda_core.solver.drivers.first_state import free_contact_angle
 from lambda_core.solver.drivers.held_ring import HeldRing
+from lambda_core.solver.drivers.link_forces import SolvedLink, link_forces
 from lambda_core.solver.drivers.loose_motion import loose_motion
 from lambda_core.solver.drivers.structure import static_rows, structure
 
@@ -57,6 +58,8 @@ class ShaftState:
         Of the coupling on the shaft [N m].
     residual : float
         Largest unbalanced force over the loads.
+    links : list of SolvedLink
+        Connections by laws.
     """
 
     displacement: FloatArray
@@ -68,6 +71,7 @@ class ShaftState:
     drive_torque: float
     residual: float
     iterations: int
+    links: list[SolvedLink]
 
     @property
     def motions(self) -> FloatArray:
@@ -88,12 +92,15 @@ class _Whole:
     a rigid body leaves no rounding in them.
     """
 
-    def __init__(self, model: MachineModel, rings: list[HeldRing]) -> None:
+    def __init__(self, model: MachineModel, rings: list[HeldRing], kernels: Kernels) -> None:
         self.model, self.rings = model, rings
         rows = static_rows(model)
         self.size, count = rows.rings, rows.size
         self.outer = np.arange(rows.rings, rows.bodies).reshape(len(rings), len(POSE))
+        self.links = link_forces(model, rows, rings, kernels)
         frame = np.arange(NODE) + NODE * (model.drive // NODE)
+        if model.hold is not None:  # a rigid shaft turns with the coupling and moves with what holds it
+            frame[list(PLACES)] = model.body.rows(model.hold.position).start + np.array(PLACES)
         self.moves = np.eye(count)  # of shaft, rings and bodies with the unknowns
         self.moves[: self.size, : self.size] = _carried(model, frame)
         deflects = np.setdiff1d(np.arange(self.size), frame)
@@ -117,6 +124,10 @@ class _Whole:
         self.linear += self.moves.T @ ties @ self.moves
         self.given = self.moves.T @ (given + ties @ self.start)
         self.start[rows.bodies :] = np.ravel([body.shift for body in model.bodies])
+        if model.hold is not None:
+            own = frame[np.array(PLACES)[list(model.hold.held)]]
+            held += own.tolist()
+            self.start[own] = np.array(model.hold.shift)[list(model.hold.held)]
         self.free = np.setdiff1d(np.arange(count), held)
         # of every bearing, how its inner ring moves against its outer one, shape (bearings, 5, unknowns)
         self.reach = np.zeros((len(rings), len(POSE), count))
@@ -143,11 +154,21 @@ class _Whole:
         reactions = np.array([ring.reaction(pose) for ring, pose in zip(self.rings, self.poses(q), strict=True)])
         self.carried = float(np.abs(reactions[:, :3]).max())
         pushed = np.asarray(np.einsum("bij,bi->j", self.reach, reactions))
-        return self.given - self.linear @ q + pushed, reactions
+        return self.elastic(q) + pushed, reactions
 
-    def tangent(self, each: FloatArray) -> FloatArray:
+    def elastic(self, q: FloatArray) -> FloatArray:
+        """Return what is unbalanced without the bearings [N, N m]."""
+        found: FloatArray = self.given - self.linear @ q
+        for link in self.links:
+            found += self.moves.T @ link.force(self.moves @ q)
+        return found
+
+    def tangent(self, each: FloatArray, q: FloatArray) -> FloatArray:
         """Return the stiffness of the whole with one of (5, 5) at every bearing."""
-        return np.asarray(self.linear + sum(reach.T @ k @ reach for reach, k in zip(self.reach, each, strict=True)))
+        found = np.asarray(self.linear + sum(reach.T @ k @ reach for reach, k in zip(self.reach, each, strict=True)))
+        for link in self.links:
+            found = found + self.moves.T @ link.slope(self.moves @ q) @ self.moves
+        return found
 
     def merit(self, unbalanced: FloatArray) -> float:
         """Return the size of the residual over the loads."""
@@ -170,7 +191,7 @@ class _Whole:
 
 
 def _carried(model: MachineModel, frame: NDArray[np.int64]) -> FloatArray:
-    """Return how all rows move with the unknowns: of one node its pose, of the others the way beside a rigid shaft."""
+    """Return how all rows move with the unknowns: of a node its pose, of the others the way beside a rigid shaft."""
     found: FloatArray = np.eye(model.body.stiffness.shape[0])
     at = model.body.positions[frame[0] // NODE]
     for node, place in enumerate(model.body.positions):
@@ -219,7 +240,7 @@ def solve_shaft(model: MachineModel, announce: Announce = None, kernels: SharedK
     for m, takes in ((bearing.model, bearing.takes) for bearing in model.bearings):
         angle = free_contact_angle(m) if takes else m.geometry.resting_angle
         rings.append(HeldRing(m, angle, 1000.0, shared.of(m), announce))
-    whole = _Whole(model, rings)
+    whole = _Whole(model, rings, shared.of(model.bearings[0].model))
     _refuse_loose(whole)
     q = _first_guess(whole)
     iterations = 0
@@ -242,6 +263,7 @@ def solve_shaft(model: MachineModel, announce: Announce = None, kernels: SharedK
         drive_torque=torque,
         residual=whole.merit(unbalanced),
         iterations=iterations,
+        links=[link.solved(moved) for link in whole.links],
     )
 
 
@@ -249,13 +271,13 @@ def _first_guess(whole: _Whole) -> FloatArray:
     """Return a state in which every loaded bearing is in contact: springs first, then the way to touching rings."""
     model = whole.model
     springs = np.array([np.diag(_GUESS)] * len(whole.rings))
-    tangent, q = whole.tangent(springs), whole.start.copy()
+    tangent, q = whole.tangent(springs, whole.start), whole.start.copy()
     offset = np.zeros((len(whole.rings), len(POSE)))
     for i, bearing in enumerate(model.bearings):
         if bearing.takes:
             offset[i, 0] = -whole.start[whole.outer[i, 0]]
     for _ in range(2):
-        pull = whole.given - whole.linear @ whole.start
+        pull = whole.elastic(whole.start)
         forces = np.array([k @ o for k, o in zip(springs, offset, strict=True)])
         for i in range(len(whole.rings)):
             pull += whole.reach[i].T @ (forces[i] - springs[i] @ whole.reach[i] @ whole.start)
@@ -277,7 +299,7 @@ def _newton(whole: _Whole, q: FloatArray) -> tuple[FloatArray, int]:
             return q, iteration
         damping = min(_DAMPING, max(_LEAST_DAMPING, _DAMPING * merit))
         each = np.array([ring.stiffness() for ring in whole.rings])
-        move = whole.step(whole.tangent(each + damping * np.diag(_GUESS)), unbalanced)
+        move = whole.step(whole.tangent(each + damping * np.diag(_GUESS), q), unbalanced)
         longest = float(np.abs(whole.poses(move) * _ARMS).max())
         move *= min(1.0, _LONGEST / max(longest, 1e-300))
         q, unbalanced = _along(whole, q, move, unbalanced)
@@ -320,8 +342,9 @@ def _along(whole: _Whole, q: FloatArray, move: FloatArray, unbalanced: FloatArra
 
 def _refuse_loose(whole: _Whole) -> None:
     """Refuse a shaft or a body that nothing holds in a direction in which something pulls it."""
-    held = whole.tangent(np.array([np.diag(_GUESS)] * len(whole.rings)))[np.ix_(whole.free, whole.free)]
-    pull = (whole.given - whole.linear @ whole.start)[whole.free]
+    held = whole.tangent(np.array([np.diag(_GUESS)] * len(whole.rings)), whole.start)
+    held = held[np.ix_(whole.free, whole.free)]
+    pull = whole.elastic(whole.start)[whole.free]
     way = loose_motion(held, pull, whole.arms[whole.free], whole.scale)
     if way is not None:
         axis, what = _named(whole, int(whole.free[np.flatnonzero(np.abs(way) > 0.99)[0]]))

@@ -359,5 +359,6 @@ def _links(assembly: Assembly, number: int, offsets: _Offsets, parameters: _Para
         record["number"], record["law"] = i, offsets.links + k
         record["first"], record["second"] = link.first, link.second
         record["first_place"], record["second_place"] = link.first_place, link.second_place
+        record["apart"] = link.apart
         record["parameters"] = parameters.add(assembly.bearings[number], link.element, "force_element")
     return found

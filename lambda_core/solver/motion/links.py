@@ -32,7 +32,7 @@ def link_state(link, first, second, g):
     arm_1, axis_1, omega_1 = _point(first, link.first_place, g)
     arm_2, axis_2, omega_2 = _point(second, link.second_place, g)
     store(g.axial, cross(axis_1, axis_2))
-    apart = subtract(add(second.position, arm_2), first.position)
+    apart = subtract(add(add(second.position, link.apart), arm_2), first.position)
     store(g.origin, arm_2)
     store(g.place, subtract(apart, arm_1))
     carried = add(first.velocity, cross(omega_1, apart))
@@ -57,12 +57,12 @@ def link_wrench(t, link, bundle, g):
 
 
 @helper
-def link_apply(first, second, g, out, on_first, on_second):
+def link_apply(link, first, second, g, out, on_first, on_second):
     """Add the wrench of an element to its bodies: equal and opposite, at the second point."""
     force, couple = (out[0], out[1], out[2]), (out[3], out[4], out[5])
     increase(on_second.force, force)
     increase(on_second.moment, add(couple, cross(g.origin, force)))
-    arm = subtract(add(second.position, g.origin), first.position)
+    arm = subtract(add(add(second.position, link.apart), g.origin), first.position)
     decrease(on_first.force, force)
     decrease(on_first.moment, add(couple, cross(arm, force)))
 
@@ -85,7 +85,7 @@ def link_forces(t, bundle, running):
         if link_wrench(t, link, bundle, g) != 1:
             return 0
         on_first = scratch.on_ground if link.first < 0 else bundle.body_wrenches[link.first]
-        link_apply(first, second, g, out, on_first, bundle.body_wrenches[link.second])
+        link_apply(link, first, second, g, out, on_first, bundle.body_wrenches[link.second])
         running.input += dot((out[0], out[1], out[2]), g.velocity) + dot((out[3], out[4], out[5]), g.rotation)
     return 1
 
@@ -102,7 +102,7 @@ def _link_columns(t, link, bundle, bl):
         return 0
     clear(fm[0])
     clear(fm[1])
-    link_apply(first, second, g, out, fm[0], fm[1])
+    link_apply(link, first, second, g, out, fm[0], fm[1])
     for k in range(NS if link.first < 0 else 0, 2 * NS):  # the ground does not move
         c = k % NS
         column = NS * link.first + c if k < NS else NS * link.second + c
@@ -120,7 +120,7 @@ def _link_columns(t, link, bundle, bl):
             return 0
         clear(fm[2])
         clear(fm[3])
-        link_apply(near_first[0], near_second[0], g, out, fm[2], fm[3])
+        link_apply(link, near_first[0], near_second[0], g, out, fm[2], fm[3])
         if link.first >= 0:
             add_slope(bl.shared[link.first], column, fm[2], fm[0], step)
         add_slope(bl.shared[link.second], column, fm[3], fm[1], step)

@@ -1,0 +1,123 @@
+"""Put the forces of connections by laws into the equilibrium of a machine, and make them linear about it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import SolverError
+from lambda_core.formulas.elastic.beam import NODE
+from lambda_core.model.bodies.locations import carried
+from lambda_core.model.laws.law_context import build_context, prepare
+from lambda_core.model.machine_model import GROUND, SHAFT, MachineLink, MachineModel
+from lambda_core.solver.drivers.compiled_laws import Kernels
+from lambda_core.solver.drivers.held_ring import HeldRing
+from lambda_core.solver.drivers.structure import Rows, point_on
+
+ROLE = "force_element"
+_SHIFT, _TURN = 1e-8, 1e-7  # [m], [rad] of central differences
+_SWING = 1e-6  # [m/s], [rad/s] likewise
+
+
+@dataclass(frozen=True)
+class SolvedLink:
+    """A connection at the equilibrium.
+
+    Attributes
+    ----------
+    name : str
+    wrench : float64[:], shape (6,)
+        Force and moment on the place of the connection [N, N m].
+    is_on_shaft : bool
+        Whether one of its ends is.
+    stiffness, damping : float64[:, :]
+        In the rows of structure.static_rows.
+    """
+
+    name: str
+    wrench: FloatArray
+    is_on_shaft: bool
+    stiffness: FloatArray
+    damping: FloatArray
+
+
+class LinkForce:
+    """A connection whose law acts between two bodies, on the unknowns of an equilibrium.
+
+    Parameters
+    ----------
+    rows : Rows
+        Of the unknowns.
+    ring : HeldRing
+        Of the bearing among whose laws the connection's own stands.
+    """
+
+    def __init__(self, model: MachineModel, rows: Rows, link: MachineLink, ring: HeldRing, kernels: Kernels) -> None:
+        self.link, self._law = link, ring.model.laws[link.element][ROLE]
+        self._call = kernels.compiled[link.element, ROLE].dispatcher
+        self._parameters = prepare(self._law, build_context(ring.model, link.element, ring.frame, ring.model.oil))
+        # how the ends move, and how the place of the force moves as part of either body, shape (6, rows)
+        second = _moves(model, rows, link.second.body, link.second.point, link.second.point)
+        self._apart = second - _moves(model, rows, link.first.body, link.first.point, link.first.point)
+        self._acts = second - _moves(model, rows, link.first.body, link.first.point, link.second.point)
+        spin = np.array([model.speed, 0.0, 0.0])
+        self._spin = spin * ((link.second.body == SHAFT) - float(link.first.body == SHAFT))
+        self._drawn = np.subtract(link.second.point, link.first.point)
+
+    def force(self, motions: FloatArray) -> FloatArray:
+        """Return the force on the unknowns at motions of shaft, rings and bodies [N, N m]."""
+        return np.asarray(self._acts.T @ self._wrench(self._apart @ motions))
+
+    def slope(self, motions: FloatArray) -> FloatArray:
+        """Return -d(force)/d(motions)."""
+        at = self._apart @ motions
+        found = np.zeros((NODE, NODE))
+        for i, step in enumerate([_SHIFT] * 3 + [_TURN] * 3):
+            moved = np.eye(NODE)[i] * step
+            found[:, i] = (self._wrench(at - moved) - self._wrench(at + moved)) / (2.0 * step)
+        return np.asarray(self._acts.T @ found @ self._apart)
+
+    def solved(self, motions: FloatArray) -> SolvedLink:
+        """Return the connection at motions."""
+        at = self._apart @ motions
+        found = np.zeros((NODE, NODE))
+        for i in range(NODE):
+            swing = np.eye(NODE)[i] * _SWING
+            found[:, i] = (self._wrench(at, -swing) - self._wrench(at, swing)) / (2.0 * _SWING)
+        return SolvedLink(
+            self.link.name, self._wrench(at), SHAFT in (self.link.first.body, self.link.second.body),
+            self.slope(motions), np.asarray(self._acts.T @ found @ self._acts),
+        )  # fmt: skip
+
+    def _wrench(self, apart: FloatArray, swing: FloatArray | None = None) -> FloatArray:
+        """Return force and moment on the second point, by how it has moved and how fast it moves."""
+        velocity = np.zeros(NODE) if swing is None else swing
+        out = np.full(NODE, np.nan)
+        turned = np.array([0.0, apart[4], apart[5]])
+        place, rotation = self._drawn + apart[:3], self._spin + velocity[3:]
+        status = self._call(0.0, place, turned, velocity[:3].copy(), rotation, self._parameters, out)
+        if status != 1 or not np.isfinite(out).all():
+            model = self._law.model
+            what = "no finite force" if status == 1 else model.errors.get(status, f"status {status}")
+            raise SolverError(f"connections.{self.link.name}: {model.label} returned {what} in the equilibrium")
+        return out
+
+
+def _moves(model: MachineModel, rows: Rows, body: int, carrier: Sequence[float], point: Sequence[float]) -> FloatArray:
+    """Return how a point moves and turns as part of a body, by the shaft's node at `carrier`, shape (6, size)."""
+    found: FloatArray = np.zeros((NODE, rows.size))
+    if body == SHAFT:
+        own = rows.node(float(carrier[0])) + np.arange(NODE)
+        found[:, own] = carried(np.subtract(point, (carrier[0], 0.0, 0.0)))
+    elif body != GROUND:
+        own, moves = point_on(model, rows, body, point)
+        found[:, own] = moves
+    return found
+
+
+def link_forces(model: MachineModel, rows: Rows, rings: Sequence[HeldRing], kernels: Kernels) -> list[LinkForce]:
+    """Return the connections of a machine that have a law; the first bearing has the laws, compiled in `kernels`."""
+    return [LinkForce(model, rows, link, rings[0], kernels) for link in model.links]

@@ -1,0 +1,67 @@
+"""Test a shaft that the ground holds: locked, led or elastic, at a place of its own."""
+
+from __future__ import annotations
+
+import tomllib
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.analysis.rotor.vibration import supported
+from lambda_core.model.machine_model import MachineModel
+from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.solver.drivers.machine_motion import machine_engine
+from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+
+
+def machine(**support: Any) -> MachineModel:
+    """Return the machine that init writes, its shaft held."""
+    tables = tomllib.loads(geared_shaft("box"))
+    tables["shaft"]["support"] = support
+    found = api.check(tables)
+    assert isinstance(found, MachineModel)
+    return found
+
+
+def test_a_held_place_stays_where_it_is_led() -> None:
+    """Exactly; the rest of the shaft bends, and the torque of the coupling is that of the gear as before."""
+    model = machine(at="85 mm", y="locked", z={"motion": "10 um"}, tilt_y="locked")
+    state, free = solve_shaft(model), solve_shaft(machine())
+    moved = state.displacement[model.body.rows(0.085)]
+    assert moved[[1, 2, 4]] == pytest.approx([0.0, 10e-6, 0.0], abs=1e-18)
+    assert np.abs(state.displacement[model.body.rows(0.148)][1:3]).max() > 1e-7
+    assert state.drive_torque == pytest.approx(free.drive_torque, rel=1e-9)
+
+
+def test_a_very_stiff_support_is_a_lock() -> None:
+    """1e15 N/m give way by a picometre; reactions of the bearings agree to 1e-5."""
+    locked = solve_shaft(machine(at="60 mm", y="locked", z="locked"))
+    stiff = machine(at="60 mm", y="1000000000 N/um", z="1000000000 N/um")
+    found = solve_shaft(stiff)
+    assert found.reactions == pytest.approx(locked.reactions, rel=1e-5, abs=1e-3)
+    k = supported(stiff, found)
+    assert sorted(np.diag(k))[-2:] == pytest.approx([1e15, 1e15], rel=1e-3)
+
+
+def test_a_shaken_shaft_keeps_its_balance_of_energy() -> None:
+    """What leads the shaft is counted among the inputs: 1e-3 of what goes in."""
+    shaken = {"motion": {"kind": "harmonic", "amplitude": "3 um", "frequency": "50 Hz"}}
+    engine = machine_engine(machine(at="left", x=shaken, z=shaken))
+    assert engine.advance(4e-3).ok
+    for row in engine.integrals():
+        losses = sum(value for name, value in row.items() if name.startswith("loss"))
+        assert abs(row["input"] - losses - row["stored"]) < 1e-3 * row["input_abs"]
+
+
+def test_mistakes_of_a_support() -> None:
+    for support, where in (
+        ({"at": "900 mm", "y": "locked"}, "shaft.support.at"),
+        ({"at": "middle", "y": "locked"}, "shaft.support.at"),
+        ({"y": {"motion": "1 m"}}, "shaft.support.y.motion"),
+        ({"tilt_x": "locked"}, "shaft.support.tilt_x"),
+    ):
+        with pytest.raises(api.CaseError) as found:
+            machine(**support)
+        assert [problem.where for problem in found.value.problems] == [where]
