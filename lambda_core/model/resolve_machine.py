@@ -108,8 +108,6 @@ def check_shaft(
         models = _bearings(tables, folder, opened, found)
         ledger = Ledger(assumptions=list(case.assumptions) if case else [])
         resolved = _shaft(case, models, opened, ledger, found) if case else None
-    if case is not None and resolved is not None and not ledger.problems:
-        resolved = with_settings(case, resolved, ledger)
     if found or ledger.problems or resolved is None:
         raise CaseError(name, [*found, *independent(found, ledger.problems, tables)])
     return replace(resolved, case_toml=tables_toml(_anywhere(tables, folder)))
@@ -220,7 +218,7 @@ def _shaft(
     acting += [(name, gear.place) for name, gear in case.gears.items()]
     pulled = np.concatenate([body.weight(gravity), *(one.mass * np.array([*gravity, 0.0, 0.0, 0.0]) for one in bodies)])
     loads, varying = all_loads(case, stand, body, bodies, gears)
-    return MachineModel(
+    resolved = MachineModel(
         name=case.name,
         body=body,
         bearings=tuple(bearings),
@@ -256,6 +254,7 @@ def _shaft(
             if disc.unbalance
         ),
     )
+    return resolved if ledger.problems else with_settings(case, resolved, ledger)
 
 
 def _with_laws(mounted: MountedBearing, laws: Mapping[str, Mapping[str, ChosenLaw]]) -> MountedBearing:
