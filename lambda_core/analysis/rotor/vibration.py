@@ -108,7 +108,8 @@ def _joined(model: MachineModel, state: ShaftState, *, springs: bool = True) -> 
         found += link.stiffness
     if springs and model.hold is not None:
         kept = rows.node(model.hold.position) + np.array(PLACES)[list(model.hold.held)]
-        found[kept, kept] += np.where(kept % NODE < _ABOUT_X, LOCKED, LOCKED * model.bearings[0].model.geometry.width ** 2)
+        arm = model.bearings[0].model.geometry.width
+        found[kept, kept] += np.where(kept % NODE < _ABOUT_X, LOCKED, LOCKED * arm**2)
     return found
 
 
