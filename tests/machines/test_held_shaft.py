@@ -1,4 +1,4 @@
-"""Test a shaft that the ground holds: locked, led or elastic, at a place of its own."""
+"""Test a shaft that the ground holds: locked, moved or elastic, at one place."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def machine(**support: Any) -> MachineModel:
     return found
 
 
-def test_a_held_place_stays_where_it_is_led() -> None:
+def test_a_held_place_stays_where_it_is_moved() -> None:
     """Exactly; the rest of the shaft bends, and the torque of the coupling is that of the gear as before."""
     model = machine(at="85 mm", y="locked", z={"motion": "10 um"}, tilt_y="locked")
     state, free = solve_shaft(model), solve_shaft(machine())
@@ -46,7 +46,7 @@ def test_a_very_stiff_support_is_a_lock() -> None:
 
 
 def test_a_shaken_shaft_keeps_its_balance_of_energy() -> None:
-    """What leads the shaft is counted among the inputs: 1e-3 of what goes in."""
+    """What moves the shaft is counted among the inputs: 1e-3 of what goes in."""
     shaken = {"motion": {"kind": "harmonic", "amplitude": "3 um", "frequency": "50 Hz"}}
     engine = machine_engine(machine(at="left", x=shaken, z=shaken))
     assert engine.advance(4e-3).ok

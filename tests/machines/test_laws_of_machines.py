@@ -34,7 +34,7 @@ PARAMETERS = {
 
 
 def machine(**changes: Any) -> MachineModel:
-    """Return the machine that init writes with a body beside it, changed."""
+    """Return the machine that init writes with another body, changed."""
     found = api.check(tomllib.loads(geared_shaft("box")) | {"bodies": {"box": {**BOX, "support": STANDS}}} | changes)
     assert isinstance(found, MachineModel)
     return found
@@ -103,7 +103,7 @@ def test_mistakes_of_laws() -> None:
 
 
 def test_each_bearing_has_laws_and_surfaces_of_its_own() -> None:
-    """The one bearing has its own, the other those of the machine; a wrong value stands at its place."""
+    """The one bearing has its own, the other those of the machine; a wrong value is named with its place."""
     own = {"surface": {"roughness": "0.3 um"}, "materials": {"balls": "Si3N4"}, "models": {"cage_contact": "none"}}
     tables = tomllib.loads(geared_shaft("box"))
     tables["bearings"]["left"] |= own
