@@ -19,10 +19,10 @@ FIELDS = {
     "minimum film": "min_film_um",
     "maximum pressure": "max_pressure_GPa",
     "capacitance": "bearing_capacitance_nF",
-    "oil temperature": "oil_temperature_degC",
     "rating life": "reference_life_h",
 }
-QUANTITIES = ("friction torque", "power loss", "minimum film", "maximum pressure", "capacitance")
+QUANTITIES = tuple(FIELDS)
+_ENDS = "ends of the 90 % model band; empty without one"
 _NAMED = 3  # largest contributors
 
 
@@ -71,7 +71,7 @@ class Band(Record):
 
 
 class ModelBand(Record):
-    """The bands of the results of a case."""
+    """The bands of the results of a case, or of one bearing of a machine."""
 
     interface: int = INTERFACE
     case: str
@@ -102,6 +102,49 @@ class ModelBand(Record):
         """Return a heading and one line per result."""
         head = "model band, quasi-static, mean over the positions of the balls:"
         return "\n".join([head, *(band.text() for band in self.bands), *self.left_out])
+
+
+class Banded(Record):
+    """The model band of the numbers of a result, which has their names with ``_band``."""
+
+    friction_torque_Nmm_band: list[float] = Field(description=_ENDS, default=[])
+    power_loss_W_band: list[float] = Field(description=_ENDS, default=[])
+    min_film_um_band: list[float] = Field(description=_ENDS, default=[])
+    max_pressure_GPa_band: list[float] = Field(description=_ENDS, default=[])
+    bearing_capacitance_nF_band: list[float] = Field(description=_ENDS, default=[])
+    reference_life_h_band: list[float] = Field(description=_ENDS, default=[])
+    model_band: ModelBand | None = Field(
+        description="where the bands come from, quasi-static; null without them", default=None
+    )
+
+
+class MachineBand(Record):
+    """The bands of the results of each bearing of a machine, under its loads there."""
+
+    interface: int = INTERFACE
+    case: str
+    bearings: dict[str, ModelBand]
+
+    def fields(self) -> dict[str, list[float]]:
+        """Return the ends of the bands of torque and power loss of all bearings.
+
+        Their errors are those of the same laws: they add up.
+        """
+        each = [band.fields() for band in self.bearings.values()]
+        return {name: together([own.get(name) for own in each]) for name in ADDED}
+
+    def text(self) -> str:
+        """Return a heading and one line per result for each bearing."""
+        return "\n".join(f"{name}: {band.text()}" for name, band in self.bearings.items())
+
+
+ADDED = ("friction_torque_Nmm_band", "power_loss_W_band")  # bands that add up over the bearings of a machine
+
+
+def together(bands: Sequence[Sequence[float] | None]) -> list[float]:
+    """Return the sum of bands whose errors go together; empty where one is missing."""
+    known = [band for band in bands if band]
+    return [sum(band[end] for band in known) for end in (0, 1)] if len(known) == len(bands) and known else []
 
 
 def banded(value: float | None, ends: Sequence[float] | None, unit: str, units: UnitSystem = SI) -> str:

@@ -16,15 +16,18 @@ from lambda_core.analysis.band.graded import Exchange, Resolver, exchanges, grad
 from lambda_core.analysis.band.readings import POSITIONS, READ, UNITS_OF, read_values
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread
-from lambda_core.domain.errors import CaseError, SolverError
+from lambda_core.domain.errors import CaseError, LambdaError, SolverError
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.results.model_band import COVERAGE, QUANTITIES, Band, Contributor, ModelBand
+from lambda_core.results.model_band import COVERAGE, QUANTITIES, Band, Contributor, MachineBand, ModelBand
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve, solve_near
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
     from lambda_core.case.fitted import FitOrigin
+    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 
 _NORMAL = 1.6448536269514722  # standard deviations of a normal distribution within which 90 % lie
 _LEAST_SHARE = 0.02  # of the variance of a contributor that is named
@@ -64,12 +67,13 @@ class Effect:
 
 @one_blas_thread()
 def model_band(
-    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     quantities: Sequence[str] = QUANTITIES,
+    bearing: str | None = None,
     announce: Callable[[str], None] | None = None,
-) -> ModelBand:
+) -> ModelBand | MachineBand:
     """Return the 90 % band of quasi-static results of a case.
 
     Each parameter is taken as uniformly distributed over its range, each law of a role as equally likely, all
@@ -79,16 +83,18 @@ def model_band(
     Parameters
     ----------
     source, overrides
-        As for :func:`check`, or a resolved model of one bearing.
+        As for :func:`check`, or a resolved model.
     quantities : sequence of str
-        Results: "friction torque", "power loss", "minimum film", "maximum pressure", "capacitance".
+        Results: "friction torque", "power loss", "minimum film", "maximum pressure", "capacitance", "rating life".
+    bearing : str, optional
+        One of a machine's; by default all of them, each under its loads in the machine.
     announce : callable, optional
         Called with a sentence before something takes longer.
 
     Returns
     -------
-    ModelBand
-        ``text()`` has a line per result.
+    ModelBand or MachineBand
+        Of one bearing, or of all of a machine. ``text()`` has a line per result.
 
     Raises
     ------
@@ -99,12 +105,43 @@ def model_band(
     ----------
     First-order propagation with uniform distributions: JCGM 100:2008, sections 4.3.7 and 5.1.2.
     """
-    from lambda_core.analysis.thermal.temperatures import ready_model
+    from lambda_core.case.case_io import is_machine
 
-    model = ready_model(source, overrides, announce, is_static=True)
     if announce is not None:
         announce("computing the model band from the ranges of parameters and laws")
-    return band_of(model, quantities)
+    if is_machine(source):
+        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+
+        machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
+        return _of_machine(machine, quantities, bearing, announce)
+    from lambda_core.analysis.thermal.temperatures import ready_model
+
+    return band_of(ready_model(source, overrides, announce, is_static=True), quantities)  # type: ignore[arg-type]
+
+
+def _of_machine(
+    machine: MachineModel, quantities: Sequence[str], bearing: str | None, announce: Callable[[str], None] | None
+) -> ModelBand | MachineBand:
+    from lambda_core.analysis.rotor.bearing_alone import bearing_number
+    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+
+    number = None if bearing is None else bearing_number(machine, bearing)
+    bands = bands_of_machine(machine, solve_shaft(machine, announce), quantities, number)
+    return bands if bearing is None else bands.bearings[bearing]
+
+
+def bands_of_machine(
+    machine: MachineModel, state: ShaftState, quantities: Sequence[str] = QUANTITIES, number: int | None = None
+) -> MachineBand:
+    """Return the bands of the bearings of a solved machine, or of one of them.
+
+    The loads that shaft and gears put on a bearing count as known.
+    """
+    from lambda_core.analysis.rotor.bearing_alone import alone_under_load
+
+    chosen = range(len(machine.bearings)) if number is None else (number,)
+    bearings = {machine.bearings[i].name: band_of(alone_under_load(machine, state, i), quantities) for i in chosen}
+    return MachineBand(case=machine.name, bearings=bearings)
 
 
 def band_of(
@@ -126,7 +163,7 @@ def band_of(
     return ModelBand(
         case=model.name,
         coverage=COVERAGE,
-        bands=[_band(name, units[name], i, float(value[i]), effects) for i, name in enumerate(quantities)],
+        bands=[_band(name, units[name], i, float(value[i]), effects) for i, name in enumerate(found.names)],
         left_out=found.left_out,
     )
 
@@ -139,12 +176,14 @@ class Effects:
     model : BearingModel
         Resolved, at known temperatures.
     quantities : sequence of str
-        Keys of `readers`.
+        Keys of `readers`; results that the model does not have are left out.
     without : collection of str
         Paths of parameters that are not varied. Laws are exchanged none the less, but those of a fitted case.
 
     Attributes
     ----------
+    names : tuple of str
+        Results that there are.
     left_out : list of str
         What could not be varied, and why; after the effects were asked for.
     """
@@ -158,9 +197,10 @@ class Effects:
     ) -> None:
         from lambda_core.case.case_io import parse_case
 
-        self._model, self._names, self._readers = model, tuple(quantities), readers
+        self._model, self._readers = model, readers
         self._kernels = Kernels(model)
         self._base = solve(model, self._kernels, phase=POSITIONS[0])
+        self.names = tuple(name for name in quantities if self._has(name))
         self._values = self._read(self._base)
         self._fit = parse_case(model.case_toml, model.name).fit
         fitted = [row.path for row in self._fit.parameters] if self._fit is not None else []
@@ -170,7 +210,7 @@ class Effects:
 
     def values_at_all_positions(self) -> FloatArray:
         """Return the results of the model, averaged over the positions of the balls."""
-        return read_values(self._model, self._kernels, [self._readers[n] for n in self._names], self._base).mean(axis=0)
+        return read_values(self._model, self._kernels, [self._readers[n] for n in self.names], self._base).mean(axis=0)
 
     def all(self) -> Iterator[Effect]:
         """Yield the effects of all parameters and laws; what has no solution is left out and named."""
@@ -204,7 +244,7 @@ class Effects:
 
     def _exchanges(self, resolver: Resolver) -> Iterator[Effect]:
         wanted = [exchange for exchange in exchanges(self._model) if exchange.role not in self._kept]
-        found: dict[str, list[FloatArray]] = {exchange.role: [np.zeros(len(self._names))] for exchange in wanted}
+        found: dict[str, list[FloatArray]] = {exchange.role: [np.zeros(len(self.names))] for exchange in wanted}
         for role, law, other in self._others(wanted, resolver):
             try:
                 # Laws that carry normal force need the whole search; those of oil and friction do not.
@@ -282,8 +322,16 @@ class Effects:
         total = np.sqrt(np.sum(np.square(parts), axis=0))
         yield Effect("fitted values", f"fitted to {fit.file}", np.array([total, -total]), is_range=False)
 
+    def _has(self, name: str) -> bool:
+        """Tell whether a result exists: at rest there is no torque, and without load no film."""
+        try:
+            value = self._readers[name](self._base)
+        except (LambdaError, ValueError, ArithmeticError):
+            return False
+        return math.isfinite(value) and value != 0.0
+
     def _read(self, found: Equilibrium) -> FloatArray:
-        return np.array([self._readers[name](found) for name in self._names])
+        return np.array([self._readers[name](found) for name in self.names])
 
     def _logarithms(self, model: BearingModel, *, near: bool, other: bool = False) -> FloatArray:
         """Return ln of the results of a model over those of the case, at one position of the balls.

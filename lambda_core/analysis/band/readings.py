@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
@@ -9,8 +10,10 @@ import numpy as np
 from lambda_core.analysis.band.quantities import MEASURED
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
+from lambda_core.formulas.life import life_hours, reference_rating_life
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.checks.operating_limits import ratings
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.records import CONTACT_CHANNELS
@@ -19,7 +22,11 @@ from lambda_core.solver.records import CONTACT_CHANNELS
 # midpoints leave out all but the fourth harmonic of the ball pass.
 POSITIONS = (0.125, 0.375)
 _LOAD = CONTACT_CHANNELS.index("load")
-UNITS_OF = {**{name: measured.unit for name, measured in MEASURED.items()}, "maximum pressure": "GPa"}
+UNITS_OF = {
+    **{name: measured.unit for name, measured in MEASURED.items()},
+    "maximum pressure": "GPa",
+    "rating life": "h",
+}
 _SAME = 1e-6  # relative spread of the loads below which the position of the balls does not matter
 
 
@@ -65,6 +72,22 @@ def _capacitance(found: Equilibrium) -> float:
         return 1e9 * float((1.0 / (1.0 / each).sum(axis=1)).sum())
 
 
+def _life(found: Equilibrium) -> float:
+    """Return L_10rh of ISO/TS 16281, from the load of every ball."""
+    model = found.context.model
+    g = model.geometry
+    life = reference_rating_life(
+        *found.loads_by_row(),
+        dynamic_rating=ratings(model)[0],
+        gamma=g.ball_diameter * math.cos(g.contact_angle) / g.pitch_diameter,
+        inner_conformity=g.groove_radius_inner / g.ball_diameter,
+        outer_conformity=g.groove_radius_outer / g.ball_diameter,
+        nominal_angle=g.contact_angle,
+        rows=g.rated_rows,
+    ).life
+    return life_hours(life, found.relative_speed)
+
+
 def _displacement(axis: int) -> Callable[[Equilibrium], float]:
     return lambda found: 1e6 * float(found.displacement[axis])
 
@@ -75,5 +98,6 @@ READ: Mapping[str, Callable[[Equilibrium], float]] = {
     "minimum film": _film,
     "maximum pressure": _pressure,
     "capacitance": _capacitance,
+    "rating life": _life,
     **{f"displacement {axis}": _displacement(index) for index, axis in enumerate("xyz")},
 }
