@@ -25,6 +25,13 @@ class Units(StrEnum):
         return unit_system(self.value)
 
 
+class Bands(StrEnum):
+    """Which bands are computed with a result."""
+
+    MODEL = "model"
+    NONE = "none"
+
+
 CaseArgument = Annotated[str, typer.Argument(metavar="CASE", help="Case file (TOML) or name of a built-in case.")]
 SetOption = Annotated[
     list[str] | None,
@@ -38,6 +45,12 @@ UnitsOption = Annotated[
         envvar="LAMBDA_BEARING_UNITS",
         show_envvar=False,
         help="Units of what is printed; LAMBDA_BEARING_UNITS=us sets them for good. Files and --json stay in SI.",
+    ),
+]
+BandOption = Annotated[
+    Bands,
+    typer.Option(
+        "--band", help="Also tell how far the model itself may be off: 90 % band; none skips it and saves a second."
     ),
 ]
 BearingOption = Annotated[

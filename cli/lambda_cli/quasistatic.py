@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, JsonOption, SetOption, Units, UnitsOption
+from lambda_cli.options import BandOption, Bands, CaseArgument, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 from lambda_core.domain.files import check_folder
-from lambda_core.domain.wrapping import wrapped
 
 if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
@@ -21,17 +19,11 @@ DrawOption = Annotated[
 ]
 
 
-BandOption = Annotated[
-    bool,
-    typer.Option("--band", help="Also print the 90 % model band: what the ranges of parameters and laws leave open."),
-]
-
-
 def quasistatic(
     case: CaseArgument,
     changes: SetOption = None,
     draw: DrawOption = None,
-    band: BandOption = False,
+    band: BandOption = Bands.MODEL,
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
@@ -49,18 +41,12 @@ def quasistatic(
         if not several:
             raise api.UsageError("--draw goes with a machine; pictures of one bearing: lambda-bearing run, then view")
         check_folder(draw, made=True)
-    if band and several:
-        raise api.UsageError("--band goes with one bearing, not with a machine")
     with talk(progress, quiet) as speaker:
         model = api.check_shaft(source, changes or ()) if several else None
-        found = api.quasistatic(model or source, () if model else changes or (), announce=speaker.say)
-        bands = api.model_band(source, changes or (), announce=speaker.say) if band else None
-    if as_json and bands is not None:
-        typer.echo(json.dumps({**found.model_dump(mode="json"), **bands.fields()}, indent=2))
-    else:
-        typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
-        if bands is not None:
-            typer.echo("\n".join(wrapped(units.system.sentence(bands.text()).splitlines(), columns())))
+        found = api.quasistatic(
+            model or source, () if model else changes or (), band=band is Bands.MODEL, announce=speaker.say
+        )
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
     if draw is not None and model is not None:
         _draw(api.machine_pictures(model, equilibrium=found), draw, case, units)  # type: ignore[arg-type]
 

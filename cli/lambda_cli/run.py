@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, JsonOption, SetOption, Units, UnitsOption
+from lambda_cli.options import BandOption, Bands, CaseArgument, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.plugin_option import taken_options
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 
@@ -33,6 +33,7 @@ def run(
     force: Annotated[bool, typer.Option("--force", help="Overwrite an existing result file.")] = False,
     duration: DurationOption = None,
     max_wall: WallOption = None,
+    band: BandOption = Bands.MODEL,
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
@@ -55,7 +56,8 @@ def run(
     with talk(progress, quiet) as speaker:
         for line in [] if isinstance(model, api.MachineModel) else api.describe(model).headline:
             speaker.say(units.system.sentence(line))
-        result = api.run(model, out=out, force=force, progress=speaker.update, announce=speaker.say)
+        wanted = band is Bands.MODEL
+        result = api.run(model, out=out, force=force, band=wanted, progress=speaker.update, announce=speaker.say)
     finish(result, as_json, units)
 
 

@@ -218,6 +218,10 @@ def _inputs(group: h5py.Group, origin: BearingOrigin) -> None:
     group.create_dataset("model_json", data=origin.model_json(), dtype=_TEXT)
     if origin.rating is not None:
         group.create_dataset("rating_json", data=origin.rating.model_dump_json(), dtype=_TEXT)
+    if origin.band is not None:
+        group.create_dataset("model_band_json", data=origin.band.model_dump_json(), dtype=_TEXT)
+        for name, ends in origin.band.fields().items():
+            group.create_dataset(name, data=np.array(ends))
     _sentences(group, "assumptions", model.assumptions)
     _sentences(group, "warnings", operating_warnings(model, on_shaft=bool(origin.headline)))
     _table(group, "values", _VALUE_COLUMNS, origin.values())

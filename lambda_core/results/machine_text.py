@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.number_text import NONE, hours
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import wrapped
+from lambda_core.results.band_text import ends, named_sources
 from lambda_core.results.text import assumption_lines, line, small, warning_lines, watched_lines
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
     rest = [
         line("friction torque", f"{torque} of all bearings", verdict),
         *(line("not converged" if i == 0 else "", reason) for i, reason in enumerate(found.reasons)),
+        *_band_lines(found, units),
         line("power loss", f"{units.text(found.power_loss_W, 'W', 2)} of all bearings"),
         line("drive torque", units.text(found.drive_torque_Nm, "N m", 3)),
         *([line("rating life", f"{hours(found.system_life_h)} of all bearings together (ISO/TS 16281, 90 %)")]
@@ -62,6 +64,15 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
     return "\n".join([*lines, *wrapped(rest, width)])
 
 
+def _band_lines(found: Summary, units: UnitSystem) -> list[str]:
+    """Return the model band of the torque of all bearings, and what it comes from."""
+    if not found.friction_torque_Nmm_band:
+        return []
+    sources = named_sources({name: one.model_band for name, one in found.bearings.items()})
+    both = f"{ends(found.friction_torque_Nmm_band, 'N mm', units)} {units.unit('N mm')} of all bearings (90 %)"
+    return [line("" if i else "model band", text) for i, text in enumerate([both, *sources])]
+
+
 def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
     """Return a row for every number of the bearings: its name with unit, and a cell for each."""
     each = list(found.bearings.values())
@@ -74,6 +85,8 @@ def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
     rows = [
         (f"friction torque {torque}",
          [_pair(one.friction_torque_Nmm, one.friction_torque_ci_Nmm, "N mm", units) for one in each]),
+        *([("  model band", [ends(one.friction_torque_Nmm_band, "N mm", units) for one in each])]
+          if found.friction_torque_Nmm_band else []),
         (f"power loss {power}", of("W", [one.power_loss_W for one in each], 3)),
         *_catalogues(ratings, units),
         ("cage over inner ring", [_digits(one.cage_speed_ratio) for one in each]),

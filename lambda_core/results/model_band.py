@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from pydantic import Field
 
 from lambda_core.domain.number_text import rounded
-from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.record import INTERFACE, Record
 
 COVERAGE = 0.9  # of a model band
@@ -131,27 +130,15 @@ class MachineBand(Record):
         Their errors are those of the same laws: they add up.
         """
         each = [band.fields() for band in self.bearings.values()]
-        return {name: together([own.get(name) for own in each]) for name in ADDED}
+        added = ("friction_torque_Nmm_band", "power_loss_W_band")
+        return {name: sum_of_bands([own.get(name) for own in each]) for name in added}
 
     def text(self) -> str:
         """Return a heading and one line per result for each bearing."""
         return "\n".join(f"{name}: {band.text()}" for name, band in self.bearings.items())
 
 
-ADDED = ("friction_torque_Nmm_band", "power_loss_W_band")  # bands that add up over the bearings of a machine
-
-
-def together(bands: Sequence[Sequence[float] | None]) -> list[float]:
+def sum_of_bands(bands: Sequence[Sequence[float] | None]) -> list[float]:
     """Return the sum of bands whose errors go together; empty where one is missing."""
     known = [band for band in bands if band]
     return [sum(band[end] for band in known) for end in (0, 1)] if len(known) == len(bands) and known else []
-
-
-def banded(value: float | None, ends: Sequence[float] | None, unit: str, units: UnitSystem = SI) -> str:
-    """Return a number and its model band, both rounded to what the band leaves a meaning; nothing without a band."""
-    if value is None or not ends:
-        return ""
-    shown = [units.value(number, unit) for number in (value, *ends)]
-    half = 0.5 * abs(shown[2] - shown[1])
-    texts = [rounded(number, half) for number in shown]
-    return f"{texts[0]} {units.unit(unit)}   90 % model band {texts[1]} .. {texts[2]} {units.unit(unit)}"

@@ -25,6 +25,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.section_roles import FILMS
 from lambda_core.laws.law import Law
 from lambda_core.model.bearing_model import BearingModel
+from lambda_core.results.model_band import ModelBand
 from lambda_core.results.rating import Rating
 from lambda_core.results.samples import ALONE
 from lambda_core.views.observer import Event, Observer
@@ -57,6 +58,7 @@ class BearingOrigin:
     model: BearingModel
     kernel_keys: Mapping[str, str]  # "element/role/model", or a part of the core -> hash of the code
     rating: Rating | None = None  # what standards and catalogues say of the equilibrium that it starts from
+    band: ModelBand | None = None  # of the equilibrium, where it was asked for
     headline: str = ""  # of a bearing in a machine: under the load that it carries there; otherwise that of its model
 
     def laws(self) -> list[dict[str, str]]:

@@ -36,6 +36,7 @@ from lambda_core.results.run_status import Status
 from lambda_core.results.samples import TIME
 
 if TYPE_CHECKING:
+    from lambda_core.results.model_band import ModelBand
     from lambda_core.results.rating import Rating
     from lambda_core.results.summary import Summary
 
@@ -316,6 +317,15 @@ class Result:
         with opened(self.path) as file:
             text = self._inputs(file).get("rating_json")
             return Rating.model_validate_json(text.asstr()[()]) if text is not None else None
+
+    @cached_property
+    def model_band(self) -> ModelBand | None:
+        """The 90 % model band at the start, where the run was asked for it."""
+        from lambda_core.results.model_band import ModelBand
+
+        with opened(self.path) as file:
+            text = self._inputs(file).get("model_band_json")
+            return ModelBand.model_validate_json(text.asstr()[()]) if text is not None else None
 
     @cached_property
     def case_warnings(self) -> tuple[str, ...]:

@@ -37,6 +37,7 @@ from lambda_core.results.machine_numbers import (
     said_once,
     total,
 )
+from lambda_core.results.model_band import Banded, ModelBand, sum_of_bands
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.rolling import ROLLING, rolling_of
@@ -80,7 +81,7 @@ class Equilibrium(Record):
     max_pressure_GPa: float
 
 
-class BearingSummary(Record):
+class BearingSummary(Banded):
     """Averages of one bearing over whole cage revolutions, and its end state.
 
     A number that does not exist yet (an average before the first whole cage revolution) is null.
@@ -137,6 +138,13 @@ class BearingSummary(Record):
     equilibrium: Equilibrium
     assumptions: list[str]
 
+    def with_band(self, band: ModelBand | None) -> BearingSummary:
+        """Return the same with the model band around its numbers."""
+        if band is None:
+            return self
+        numbers = {**dict(self), "reference_life_h": self.rating.reference_life_h if self.rating else None}
+        return self.model_copy(update={**band.fields(numbers), "model_band": band})
+
 
 class Summary(Record):
     """Averages of a run and its end state: of the machine, and of each bearing.
@@ -160,6 +168,10 @@ class Summary(Record):
         description="95 % confidence half-width of friction_torque_Nmm; of several bearings the sum of theirs"
     )
     power_loss_W: float | None = Field(description="mean dissipated power of all bearings")
+    friction_torque_Nmm_band: list[float] = Field(
+        description="ends of the 90 % model band, of several bearings the sum of theirs; empty without one", default=[]
+    )
+    power_loss_W_band: list[float] = Field(description="the same of power_loss_W", default=[])
     bearings: dict[str, BearingSummary] = Field(description="each bearing by its name")
     speed_rpm: float | None = Field(description="of a machine's shaft at t = 0", default=None)
     drive_torque_Nm: float | None = Field(
@@ -245,6 +257,8 @@ def summarise(result: Result) -> Summary:
         friction_torque_Nmm=total(one.friction_torque_Nmm for one in known),
         friction_torque_ci_Nmm=total(one.friction_torque_ci_Nmm for one in known),
         power_loss_W=total(one.power_loss_W for one in known),
+        friction_torque_Nmm_band=sum_of_bands([one.friction_torque_Nmm_band for one in known]),
+        power_loss_W_band=sum_of_bands([one.power_loss_W_band for one in known]),
         bearings=bearings,
         plugin_faults=list(status.faults),
         warnings=alone.warnings if not of_machine else machine_warnings(result, bearings),
@@ -274,7 +288,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
     edges = _edges(result)
     carrying = end["load"] > CARRYING * end["load"].max()
     revolutions = whole.change("relative_angle") / (2.0 * math.pi)
-    return BearingSummary(
+    found = BearingSummary(
         title=result.title,
         headline=result.headline,
         converged=not reasons,
@@ -327,6 +341,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         equilibrium=_equilibrium(result),
         assumptions=list(result.assumptions),
     )
+    return found.with_band(result.model_band)
 
 
 def _iteration_residual(statistics: Mapping[str, float], whole: Interval) -> float | None:

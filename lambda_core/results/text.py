@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.number_text import NONE, hours, interval, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
+from lambda_core.results.band_text import banded, ends, source_lines
 
 if TYPE_CHECKING:
     from lambda_core.results.bent import Bent
     from lambda_core.results.currents import Currents
     from lambda_core.results.limits import Shoulder
+    from lambda_core.results.model_band import ModelBand
     from lambda_core.results.quasistatic import QuasiStatic, RingShape
     from lambda_core.results.rating import Rating
     from lambda_core.results.summary import BearingSummary, Summary
@@ -42,13 +44,13 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
     mean = units.plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm, "N mm")
     lines = [
         *verdict_lines(summary.verdict, units),
-        line("friction torque", mean, window, verdict),
+        *_torque_lines(summary, (mean, window, verdict), units),
         *breakdown_lines(summary.friction_breakdown_Nmm, units),
-        line("power loss", units.text(summary.power_loss_W, "W", _digits(summary.power_loss_W))),
-        *rating_lines(summary.rating, units),
+        line("power loss", _banded(summary, "power_loss_W", "W", _digits(summary.power_loss_W), units)),
+        *rating_lines(summary.rating, units, summary.reference_life_h_band),
         line(
             "film",
-            f"minimum {units.text(summary.min_film_um, 'um', 2)}",
+            f"minimum {_banded(summary, 'min_film_um', 'um', 2, units)}",
             f"central {units.interval(summary.film_um, 'um', 2)}",
             f"Lambda {interval(summary.film_parameter, 1)} (central)",
         ),
@@ -57,17 +59,18 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         line("cage speed", f"{number(summary.cage_speed_ratio, 4)} of inner ring", _slip(summary)),
         line("inner ring", f"{_place(summary.inner_ring_displacement_um, units)} (mean)", _tilt(summary)),
         *(line("" if i else "ovality", _oval(bent, units)) for i, bent in enumerate(summary.bent)),
-        line("pressure", f"p_max {units.text(summary.max_pressure_GPa, 'GPa', 2)}"),
+        line("pressure", f"p_max {_banded(summary, 'max_pressure_GPa', 'GPa', 2, units)}"),
         line(
             "capacitance",
             f"contacts {interval(summary.contact_capacitance_pF, 0)} pF",
-            f"bearing {number(summary.bearing_capacitance_nF, 3)} nF",
+            f"bearing {_banded(summary, 'bearing_capacitance_nF', 'nF', 3, units)}",
         ),
         *([line("", summary.capacitance_note)] if summary.capacitance_note else []),
         *_currents(summary.currents),
         *watched_lines(summary),
         *(line("failed" if index == 0 else "", fault) for index, fault in enumerate(summary.plugin_faults)),
         line("shoulders", *(_margin(edge, units) for edge in summary.shoulders)),
+        *band_lines(summary.model_band),
         line("energy residual", f"{small(summary.energy_residual)} of input", _iteration(summary)),
         *([line("vibrations", summary.vibrations.sentence())] if summary.vibrations else []),
         line("wall time", *_wall(summary)),
@@ -76,6 +79,31 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *(line("not converged" if index == 0 else "", reason) for index, reason in enumerate(summary.reasons)),
     ]
     return "\n".join(wrapped(lines, width))
+
+
+def _torque_lines(summary: Summary, plain: Sequence[str], units: UnitSystem) -> list[str]:
+    """Return the torque with the scatter of its average; with a model band the two stand apart."""
+    mean, window, verdict = plain
+    band = summary.friction_torque_Nmm_band
+    if not band:
+        return [line("friction torque", mean, window, verdict)]
+    width = summary.friction_torque_ci_Nmm
+    scatter = "" if width is None else f"± {units.value(width, 'N mm'):.2g} {units.unit('N mm')}"
+    return [
+        line("friction torque", banded(summary.friction_torque_Nmm, band, "N mm", mean, units), verdict),
+        line("  scatter", scatter or NONE, window),
+    ]
+
+
+def _banded(found: Summary | QuasiStatic, name: str, unit: str, digits: int, units: UnitSystem) -> str:
+    """Return a number with its model band, where there is one."""
+    value = getattr(found, name)
+    return banded(value, getattr(found, f"{name}_band"), unit, units.text(value, unit, digits), units)
+
+
+def band_lines(band: ModelBand | None) -> list[str]:
+    """Return what the model bands come from."""
+    return [line("" if i else "model band", text) for i, text in enumerate(source_lines(band))]
 
 
 def _iteration(summary: Summary) -> str:
@@ -115,7 +143,7 @@ def _four(value: float | None) -> str:
     return NONE if value is None else f"{value:.4g}"
 
 
-def rating_lines(rating: Rating | None, units: UnitSystem = SI) -> list[str]:
+def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Sequence[float] = ()) -> list[str]:
     """Return the ratings of standards and catalogues for the run; their numbers are those of the case at its start."""
     if rating is None:
         return []
@@ -132,6 +160,7 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI) -> list[str]:
     return [
         *([line("catalogues", f"{'   '.join(says)} {units.unit('N mm')}")] if says else []),
         *(line("" if i else "rating life", text) for i, text in enumerate(rated)),
+        *([line("", f"L_10rh by the model band {ends(life_band, 'h', units)} h")] if life_band else []),
         *([line("", contamination_text(rating))] if rating.modified_life_h is not None else []),
         line(
             "safety",
@@ -198,13 +227,13 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
             "equilibrium",
             f"{found.loaded_balls} balls loaded",
             f"Q_max {units.text(found.max_load_N, 'N', 0)} ({found.max_load_ring} ring)",
-            f"p_max {units.text(found.max_pressure_GPa, 'GPa', 3)}",
+            f"p_max {_banded(found, 'max_pressure_GPa', 'GPa', 3, units)}",
         ),
         line(
             "inner ring", _place(found.inner_ring_displacement_um, units), f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad"
         ),
         *(line("" if i else "shape of rings", *_bent(bent, units)) for i, bent in enumerate(found.ring_shapes)),
-        line("friction torque", units.text(found.friction_torque_Nmm, "N mm"), "(without cage)"),
+        line("friction torque", _banded(found, "friction_torque_Nmm", "N mm", 1, units), "(without cage)"),
         *breakdown_lines(found.friction_breakdown_Nmm, units),
         *([line("power loss", units.text(power, "W", _digits(power)))] if power is not None else []),
         *rating_lines(found.rating, units),
@@ -212,6 +241,7 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
         line("film", units.interval(found.film_um, "um", 2), f"Lambda {interval(found.film_parameter, 1)}"),
         line("shoulders", *(_margin(edge, units) for edge in found.shoulders)),
         *([line("capacitance", found.capacitance_note)] if found.capacitance_note else []),
+        *band_lines(found.model_band),
         *table,
         *warning_lines([units.sentence(warning) for warning in found.warnings], width),
         *assumption_lines(found.assumptions),

@@ -49,6 +49,7 @@ def launch(
     out: Path | None = None,
     *,
     force: bool = False,
+    band: bool = False,
     report: Report | None = None,
     announce: Announce | None = None,
 ) -> Result:
@@ -61,12 +62,16 @@ def launch(
         where that is taken.
     force : bool
         Overwrite `out`.
+    band : bool
+        Write the model band of each bearing.
     report, announce : callable, optional
         Called with the progress of the run; with a sentence before what takes a while.
     """
     path = destination(model, out, force)
     _check_end(model)
     engine, provenance, attached = prepared(model, announce)
+    if band:
+        provenance = _with_bands(model, provenance, announce)
     return run(engine, provenance, path, force=force, report=report, attached=attached)
 
 
@@ -156,6 +161,21 @@ def prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Pro
         for name, origin in provenance.bearings.items()
     }
     return engine, dataclasses.replace(provenance, bearings=origins), attached
+
+
+def _with_bands(model: Runnable, provenance: Provenance, announce: Announce | None) -> Provenance:
+    """Return where a run comes from with the model band of each bearing."""
+    from lambda_core.analysis.band.model_band import band_of, bands_of_machine
+    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+
+    if announce is not None:
+        announce("computing the model band from the ranges of parameters and laws")
+    if isinstance(model, BearingModel):
+        bands = dict.fromkeys(provenance.bearings, band_of(model))
+    else:
+        bands = bands_of_machine(model, solve_shaft(model)).bearings
+    origins = {name: dataclasses.replace(origin, band=bands[name]) for name, origin in provenance.bearings.items()}
+    return dataclasses.replace(provenance, bearings=origins)
 
 
 def _live(model: Runnable, announce: Announce | None) -> Live | None:

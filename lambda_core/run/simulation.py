@@ -35,6 +35,7 @@ def quasistatic(
     source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
+    band: bool = False,
     announce: Callable[[str], None] | None = None,
 ) -> QuasiStatic | RollerQuasiStatic | MachineEquilibrium:
     """Solve the quasi-static equilibrium of a case at t = 0: loads, angles, films, friction; no time, no cage.
@@ -45,6 +46,8 @@ def quasistatic(
     ----------
     source, overrides
         As for :func:`check`, or a resolved model.
+    band : bool
+        Also compute the 90 % model band, see :func:`model_band`; it costs less than a second for each bearing.
     announce : callable, optional
         Called with a sentence before something is compiled.
 
@@ -66,7 +69,7 @@ def quasistatic(
 
         machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
         with naming_laws(*(bearing.model for bearing in machine.bearings)):
-            return machine_equilibrium(machine, announce=announce)
+            return machine_equilibrium(machine, band=band, announce=announce)
     rollers = _roller_answer(source, overrides)
     if rollers is not None:
         return rollers
@@ -78,7 +81,12 @@ def quasistatic(
     model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
     with naming_laws(model):
         found = solve(model, announce=announce)
-        return quasistatic_of(found, rating_of(found, registry().methods))
+        answer = quasistatic_of(found, rating_of(found, registry().methods))
+        if not band:
+            return answer
+        from lambda_core.analysis.band.model_band import band_of
+
+        return answer.with_band(band_of(model))
 
 
 def _roller_answer(source: Any, overrides: Iterable[str]) -> RollerQuasiStatic | None:
@@ -144,6 +152,7 @@ def run(
     *,
     out: str | Path | None = None,
     force: bool = False,
+    band: bool = False,
     progress: Callable[[Progress], None] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Result:
@@ -157,6 +166,8 @@ def run(
         The result file; by default the case's name with ``.h5``, numbered where that is taken.
     force : bool
         Overwrite `out`.
+    band : bool
+        Also compute the 90 % model band, see :func:`model_band`; it costs less than a second for each bearing.
     progress : callable, optional
         Called some ten times a second.
     announce : callable, optional
@@ -175,7 +186,7 @@ def run(
     from lambda_core.run.launch import launch
 
     path = None if out is None else Path(out)
-    return launch(_ready(source, overrides, announce), path, force=force, report=progress, announce=announce)
+    return launch(_ready(source, overrides, announce), path, force=force, band=band, report=progress, announce=announce)
 
 
 def _ready(

@@ -17,7 +17,11 @@ if TYPE_CHECKING:
 
 @one_blas_thread()
 def machine_equilibrium(
-    source: Source | MachineModel, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
+    source: Source | MachineModel,
+    overrides: Iterable[str] = (),
+    *,
+    band: bool = False,
+    announce: Callable[[str], None] | None = None,
 ) -> MachineEquilibrium:
     """Solve a machine; :func:`lambda_core.api.quasistatic` for a machine of several bearings."""
     from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
@@ -25,7 +29,13 @@ def machine_equilibrium(
     from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 
     model = ready_machine_of(source, overrides, announce)
-    return equilibrium_of(model, solve_shaft(model, announce))
+    state = solve_shaft(model, announce)
+    found = equilibrium_of(model, state)
+    if not band:
+        return found
+    from lambda_core.analysis.band.model_band import bands_of_machine
+
+    return found.with_bands(bands_of_machine(model, state))
 
 
 @one_blas_thread()

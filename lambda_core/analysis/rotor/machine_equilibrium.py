@@ -22,6 +22,7 @@ from lambda_core.model.checks.operating_limits import load_warnings, operating_w
 from lambda_core.model.machine_model import MachineModel, MountedBearing, Place
 from lambda_core.results.averages import finite
 from lambda_core.results.limits import warnings
+from lambda_core.results.model_band import Banded, MachineBand
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import LOADED_BALLS, MAX_LOAD, Contact
@@ -31,7 +32,7 @@ from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 from lambda_core.solver.drivers.structure import point_on, static_rows, stretch
 
 
-class BearingEquilibrium(Record):
+class BearingEquilibrium(Banded):
     """One bearing of a machine at its operating point."""
 
     name: str
@@ -91,6 +92,9 @@ class MachineEquilibrium(Record):
     markers: dict[str, BodyMoved] = Field(default={}, description="named places")
     system_life_h: float | None = Field(description="of all bearings by their reference rating lives, 90 %")
     friction_torque_Nmm: float | None = Field(description="of all bearings")
+    friction_torque_Nmm_band: list[float] = Field(
+        default=[], description="ends of the 90 % model band, the sum of those of the bearings; empty without one"
+    )
     drive_torque_Nm: float = Field(description="of the coupling on the shaft, friction left out")
     shaft_mass_kg: float = Field(description="with its discs")
     positions_mm: list[float] = Field(description="of the nodes along the shaft")
@@ -104,6 +108,15 @@ class MachineEquilibrium(Record):
     residual: float = Field(description="largest unbalanced force over the loads")
     warnings: list[str] = Field(default=[], description="what cannot stand on the shaft as it is drawn")
     assumptions: list[str] = Field(description="values that nobody gave, and simplifications")
+
+    def with_bands(self, found: MachineBand) -> MachineEquilibrium:
+        """Return the same with the model bands of its bearings."""
+        each = [
+            one.model_copy(update={**found.bearings[one.name].fields(), "model_band": found.bearings[one.name]})
+            for one in self.bearings
+        ]
+        torque = found.fields()["friction_torque_Nmm_band"]
+        return self.model_copy(update={"bearings": each, "friction_torque_Nmm_band": torque})
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
         """Return the lines for people in some units, none longer than `width` where one is given."""

@@ -11,6 +11,7 @@ from lambda_core.domain.number_text import NONE, hours, hours_alone
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.model.checks.operating_limits import operating_warnings
+from lambda_core.results.band_text import ends, named_sources
 from lambda_core.results.text import line
 
 if TYPE_CHECKING:
@@ -82,6 +83,7 @@ _ROWS = (
     _Row("L_nmrh", "h", lambda b: hours_alone(b.modified_rating_life_h)),
     _Row("static safety", "", lambda b: b.static_safety, 3),
     _Row("friction torque", "N mm", lambda b: b.friction_torque_Nmm, 3),
+    _Row("  model band", "N mm", lambda b: list(b.friction_torque_Nmm_band), 2),
     _Row("power loss", "W", lambda b: b.power_loss_W, 3),
     _Row("film", "um", lambda b: list(b.film_um), 2),
     _Row("stiffness x", "N/um", lambda b: 1e-6 * b.stiffness[0][0], 3),
@@ -150,6 +152,15 @@ def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem 
     return "\n".join([*head, *wrapped(lines, width), *table, "", *matrices, *wrapped(notes, width)])
 
 
+def _band_lines(report: MachineEquilibrium) -> list[str]:
+    """Return the model band of the torque of all bearings, and what it comes from."""
+    if not report.friction_torque_Nmm_band:
+        return []
+    sources = named_sources({one.name: one.model_band for one in report.bearings})
+    sum_ = f"{ends(report.friction_torque_Nmm_band, 'N mm')} N mm of all bearings (90 %)"
+    return [f"{'' if i else 'model band':<{HEAD}}{text}" for i, text in enumerate([sum_, *sources])]
+
+
 def _grouped(speed: float) -> str:
     """Write a speed to five digits, without an exponent."""
     return f"{float(f'{speed:.5g}'):.0f}" if speed >= 1e5 else f"{speed:.5g}"
@@ -171,6 +182,7 @@ def _shaft_lines(report: MachineEquilibrium) -> list[str]:
         f"{'bending moment':<{HEAD}}{moment[0]:.4g} N m at {moment[1]:.4g} mm",
         f"{'system life':<{HEAD}}{life} (L_10rh of all bearings)",
         f"{'friction torque':<{HEAD}}{_digits(report.friction_torque_Nmm)} N mm of all bearings",
+        *_band_lines(report),
         f"{'drive torque':<{HEAD}}{_digits(report.drive_torque_Nm)} N m",
     ]
     for name, (tangential, radial, axial) in report.gears.items():

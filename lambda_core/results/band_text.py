@@ -1,0 +1,49 @@
+"""Write results with their model bands."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from lambda_core.domain.number_text import NONE, rounded
+from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.results.model_band import ModelBand
+
+
+def banded(value: float | None, ends: Sequence[float], unit: str, plain: str, units: UnitSystem = SI) -> str:
+    """Return a number with its model band, rounded to what the band leaves a meaning; `plain` without a band."""
+    if value is None or not ends:
+        return plain
+    low, high = (units.value(number, unit) for number in ends)
+    half, name = 0.5 * abs(high - low), units.unit(unit)
+    texts = [rounded(number, half) for number in (units.value(value, unit), low, high)]
+    return f"{texts[0]} {name} (model {texts[1]} .. {texts[2]})"
+
+
+def ends(found: Sequence[float], unit: str, units: UnitSystem = SI) -> str:
+    """Return the ends of a model band without unit, rounded to what it leaves a meaning; a dash for none."""
+    if not found:
+        return NONE
+    low, high = (units.value(number, unit) for number in found)
+    half = 0.5 * abs(high - low)
+    return f"{rounded(low, half)} .. {rounded(high, half)}"
+
+
+def named_sources(bands: Mapping[str, ModelBand | None]) -> list[str]:
+    """Return what the bands of a machine's bearings come from, the torque's alone."""
+    found = []
+    for name, band in bands.items():
+        torque = [one for one in band.bands if one.quantity == "friction torque"] if band is not None else []
+        found += [f"{name}: friction torque mostly {one.mostly()}" for one in torque if one.mostly()]
+    return found
+
+
+def source_lines(band: ModelBand | None) -> list[str]:
+    """Return what the bands come from, once for those of one origin, and what was left out."""
+    if band is None:
+        return []
+    reasons: dict[str, list[str]] = {}
+    for one in band.bands:
+        reasons.setdefault(one.mostly(), []).append(one.quantity)
+    share = f"{100.0 * band.coverage:.0f} %"
+    lines = [f"{' and '.join(names)}: {why}" for why, names in reasons.items() if why]
+    return [f"{share}, ranges of parameters and laws exchanged; mostly from", *lines, *band.left_out]
