@@ -11,7 +11,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from lambda_cli.options import ExecutorOption, ForceOption, JsonOption, Units, UnitsOption, WorkersOption
+from lambda_cli.options import (
+    BandOption,
+    Bands,
+    ExecutorOption,
+    ForceOption,
+    JsonOption,
+    Units,
+    UnitsOption,
+    WorkersOption,
+)
 from lambda_cli.plugin_option import taken_options
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.printable import cell_text, printable
@@ -66,6 +75,7 @@ def run(
     ] = None,
     workers: WorkersOption = None,
     executor: ExecutorOption = "processes",
+    band: BandOption = Bands.MODEL,
     dry: Annotated[bool, typer.Option("--dry-run", help="Check it and say what it costs; run nothing.")] = False,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
@@ -84,7 +94,13 @@ def run(
             estimate = api.study_check(study, workers=workers, announce=speaker.say)
         else:
             status = api.study_run(
-                study, out, executor=executor, workers=workers, progress=speaker.update, announce=speaker.say
+                study,
+                out,
+                executor=executor,
+                workers=workers,
+                band=band is Bands.MODEL,
+                progress=speaker.update,
+                announce=speaker.say,
             )
     if dry:
         typer.echo(estimate.model_dump_json(indent=2) if as_json else estimate.text())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import Self
 
 from pydantic import Field
 
@@ -88,13 +89,23 @@ class ModelBand(Record):
         Parameters
         ----------
         values : mapping, optional
-            Numbers of a run under their names in that interface, which the bands are put around.
+            Numbers of a result under their names in that interface, which the bands are put around; none for one that
+            is None.
         """
         found = {}
         for band in self.bands:
-            value = band.value if values is None else values.get(FIELDS[band.quantity])
+            value = (values or {}).get(FIELDS[band.quantity], band.value)
             if value is not None:
                 found[f"{FIELDS[band.quantity]}_band"] = band.around(value)
+        return found
+
+    def shares(self) -> list[str]:
+        """Return how far off each result may be in per cent, a line each."""
+        found = []
+        for band in self.bands:
+            low, high = (100.0 * (end / band.value - 1.0) for end in (band.low, band.high))
+            why = f"   mostly {band.mostly()}" if band.contributors else ""
+            found.append(f"{band.quantity} {low:+.0f} .. {high:+.0f} %{why}")
         return found
 
     def text(self) -> str:
@@ -116,6 +127,16 @@ class Banded(Record):
         description="where the bands come from, quasi-static; null without them", default=None
     )
 
+    def with_band(self, band: ModelBand | None) -> Self:
+        """Return the same with a model band around its numbers."""
+        if band is None:
+            return self
+        numbers = dict(self)
+        rating = numbers.get("rating")
+        if rating is not None:
+            numbers["reference_life_h"] = rating.reference_life_h
+        return self.model_copy(update={**band.fields(numbers), "model_band": band})
+
 
 class MachineBand(Record):
     """The bands of the results of each bearing of a machine, under its loads there."""
@@ -132,6 +153,10 @@ class MachineBand(Record):
         each = [band.fields() for band in self.bearings.values()]
         added = ("friction_torque_Nmm_band", "power_loss_W_band")
         return {name: sum_of_bands([own.get(name) for own in each]) for name in added}
+
+    def shares(self) -> list[str]:
+        """Return how far off each result may be in per cent, a line for each bearing and result."""
+        return [f"{name}: {text}" for name, band in self.bearings.items() for text in band.shares()]
 
     def text(self) -> str:
         """Return a heading and one line per result for each bearing."""

@@ -17,7 +17,7 @@ from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.results.averages import finite
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
-from lambda_core.results.model_band import Banded, ModelBand
+from lambda_core.results.model_band import Banded
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import (
@@ -84,10 +84,6 @@ class QuasiStatic(Banded):
     )
     iterations: int
     assumptions: list[str]
-
-    def with_band(self, found: ModelBand) -> QuasiStatic:
-        """Return the same with the model band of its numbers."""
-        return self.model_copy(update={**found.fields(), "model_band": found})
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
         """Return the lines for people in some units, none longer than `width` where one is given."""

@@ -37,7 +37,7 @@ from lambda_core.results.machine_numbers import (
     said_once,
     total,
 )
-from lambda_core.results.model_band import Banded, ModelBand, sum_of_bands
+from lambda_core.results.model_band import Banded, sum_of_bands
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.rolling import ROLLING, rolling_of
@@ -137,13 +137,6 @@ class BearingSummary(Banded):
     )
     equilibrium: Equilibrium
     assumptions: list[str]
-
-    def with_band(self, band: ModelBand | None) -> BearingSummary:
-        """Return the same with the model band around its numbers."""
-        if band is None:
-            return self
-        numbers = {**dict(self), "reference_life_h": self.rating.reference_life_h if self.rating else None}
-        return self.model_copy(update={**band.fields(numbers), "model_band": band})
 
 
 class Summary(Record):

@@ -235,8 +235,12 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
         *(line("" if i else "shape of rings", *_bent(bent, units)) for i, bent in enumerate(found.ring_shapes)),
         line("friction torque", _banded(found, "friction_torque_Nmm", "N mm", 1, units), "(without cage)"),
         *breakdown_lines(found.friction_breakdown_Nmm, units),
-        *([line("power loss", units.text(power, "W", _digits(power)))] if power is not None else []),
-        *rating_lines(found.rating, units),
+        *(
+            [line("power loss", _banded(found, "power_loss_W", "W", _digits(power), units))]
+            if power is not None
+            else []
+        ),
+        *rating_lines(found.rating, units, found.reference_life_h_band),
         line("ball orbit", f"{number(found.orbit_speed_ratio, 4)} of inner ring"),
         line("film", units.interval(found.film_um, "um", 2), f"Lambda {interval(found.film_parameter, 1)}"),
         line("shoulders", *(_margin(edge, units) for edge in found.shoulders)),

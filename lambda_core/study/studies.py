@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.laws.pack import NATIVE, code, other_code
+from lambda_core.results.model_band import MachineBand, ModelBand
 from lambda_core.study.definition import Study, read_study, validate_study
 from lambda_core.study.design import Plan
 from lambda_core.study.job import RUNS, Outcome, Task, lost, point_hash, point_model, work
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from lambda_core.case.shaft import ShaftCase
 
 Where = str | Executor
+_BAND = "model_band"  # name in the manifest
 
 
 class StudyStatus(BaseModel):
@@ -53,7 +55,13 @@ class StudyStatus(BaseModel):
     reasons: list[str] = Field(description="why points failed, are partial or were left, the first few")
     best: dict[str, Any] | None = Field(description="the best point of an optimisation")
     message: str = Field(description="how an optimisation ended")
+<<<<<<< HEAD
     interrupted: bool = Field(default=False, description="somebody stopped this session; otherwise pending points wait")
+=======
+    model_band: ModelBand | MachineBand | None = Field(
+        description="90 % model band of the case that the study varies; null without one", default=None
+    )
+>>>>>>> b433e508 (Tell the model band of studies and in reports)
 
     def text(self) -> str:
         """Return the lines for people."""
@@ -70,6 +78,9 @@ class StudyStatus(BaseModel):
             lines.append("best       " + ", ".join(f"{name} {_short(value)}" for name, value in self.best.items()))
         if self.message:
             lines.append(f"search     {self.message}")
+        if self.model_band is not None:
+            shares = self.model_band.shares()
+            lines += [f"{'' if i else 'model band':<10} {text}" for i, text in enumerate(shares)]
         lines += [f"{'reasons' if i == 0 else '':<10} {reason}" for i, reason in enumerate(self.reasons)]
         hint = (
             f"lambda-bearing study resume {self.folder}" if self.pending else f"lambda-bearing study show {self.folder}"
@@ -105,6 +116,7 @@ def start(
     where: Where = "processes",
     workers: int | None = None,
     report: Report | None = None,
+    band: bool = False,
 ) -> StudyStatus:
     """Start a study in a new folder (default: its name) and work until it is done."""
     import tomlkit
@@ -117,8 +129,21 @@ def start(
     with closing(manifest):
         manifest.write_meta("code", code())
         manifest.write_meta("fingerprint", _fingerprint(ready.plan, ready.case_toml, ready.names))
+        if band and (found := _band_of(ready.case_toml)) is not None:
+            manifest.write_meta(_BAND, found.model_dump_json())
         manifest.add(list(ready.plan.points()))
         return _work(manifest, ready.plan, ready.names, where, workers, report, retry=False)
+
+
+def _band_of(case_toml: str) -> ModelBand | MachineBand | None:
+    """Return the model band of the case that a study varies; none where it cannot be computed alone."""
+    from lambda_core.analysis.band.model_band import model_band
+    from lambda_core.case.case_io import toml_tables
+
+    try:
+        return model_band(toml_tables(case_toml, "the case of the study"))
+    except LambdaError:  # the case is not whole before a point completes it
+        return None
 
 
 def resume(
@@ -284,7 +309,14 @@ def _status(manifest: Manifest) -> StudyStatus:
         reasons=[f"point {number}: {reason}" for number, reason in manifest.failures(5)],
         best=best,
         message=message,
+        model_band=_band_from(manifest.meta(_BAND)),
     )
+
+
+def _band_from(text: str) -> ModelBand | MachineBand | None:
+    if not text:
+        return None
+    return (MachineBand if '"bearings"' in text else ModelBand).model_validate_json(text)
 
 
 def _best(manifest: Manifest, message: str) -> tuple[dict[str, Any] | None, str]:

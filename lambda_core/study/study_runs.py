@@ -59,6 +59,7 @@ def study_run(
     *,
     executor: str | Executor = "processes",
     workers: int | None = None,
+    band: bool = False,
     progress: Callable[[StudyProgress], None] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> StudyStatus:
@@ -74,6 +75,8 @@ def study_run(
         ``processes``, ``dask`` (a cluster on this machine), a dask scheduler's address or file, or an executor.
     workers : int, optional
         Default: the processors that this process may use.
+    band : bool
+        Also compute the 90 % model band of the case that is varied, see :func:`model_band`.
     progress, announce : callable, optional
         Called with where the study stands; with a sentence before something is compiled and with the estimate.
 
@@ -95,7 +98,7 @@ def study_run(
     if announce is not None:
         announce(ready.estimate.text())
     path = None if folder is None else Path(folder)
-    return start(ready, path, where=executor, workers=workers, report=progress)
+    return start(ready, path, where=executor, workers=workers, report=progress, band=band)
 
 
 def study_resume(

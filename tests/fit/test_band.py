@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import json
+import re
+import tomllib
 from functools import partial
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from lambda_cli.main import main
@@ -16,8 +19,11 @@ from lambda_core.analysis.band.graded import graded_parameters
 from lambda_core.case.case_io import validate_case
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.number_text import rounded
+from lambda_core.export.report.band_table import model_bands
 from lambda_core.fit.measurements import parse_measurements
 from lambda_core.fit.scores import interval_score
+from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.results.model_band import FIELDS, ModelBand
 from lambda_core.run.engineering import rating_of
 from lambda_core.solver.drivers.equilibrium import solve, solve_near
 
@@ -108,13 +114,52 @@ def test_the_errors_of_a_fit_replace_the_ranges(tmp_path: Path) -> None:
 
 
 def test_the_command_prints_the_band_and_writes_it_as_json(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["quasistatic", "6319-cp10-500", "--band", "-q"]) == 0
-    assert "90 % model band" in capsys.readouterr().out
-    assert main(["quasistatic", "6319-cp10-500", "--band", "--json", "-q"]) == 0
+    assert main(["quasistatic", "6319-cp10-500", "-q"]) == 0
+    assert re.search(r"friction torque  [\d ]+ N mm \(model [\d ]+ \.\. [\d ]+\)", capsys.readouterr().out)
+    assert main(["quasistatic", "6319-cp10-500", "--json", "-q"]) == 0
     found = json.loads(capsys.readouterr().out)
     low, high = found["friction_torque_Nmm_band"]
     assert low < found["friction_torque_Nmm"] < high
     assert len(found["min_film_um_band"]) == 2
+    assert main(["quasistatic", "6319-cp10-500", "--json", "--band", "none", "-q"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["friction_torque_Nmm_band"] == []
+    assert found["model_band"] is None
+
+
+def test_a_run_keeps_its_band_in_the_file(tmp_path: Path) -> None:
+    short = api.run("6319-cp10-500", ["solver.duration=1 ms"], out=tmp_path / "one.h5", band=True)
+    summary = short.summary()
+    assert summary.friction_torque_Nmm is not None
+    low, high = summary.friction_torque_Nmm_band
+    assert low < summary.friction_torque_Nmm < high
+    assert short.model_band is not None
+    quasistatic = short.model_band.band("friction torque")
+    assert low / summary.friction_torque_Nmm == pytest.approx(quasistatic.low / quasistatic.value)
+    with h5py.File(short.path) as file:
+        (bearing,) = file["bearings"].values()
+        np.testing.assert_array_equal(bearing["inputs/friction_torque_Nmm_band"], [quasistatic.low, quasistatic.high])
+    text = summary.text()
+    assert "scatter" in text
+    assert "elastic_hysteresis.loss_factor" in text
+    assert not api.run("6319-cp10-500", ["solver.duration=1 ms"], out=tmp_path / "two.h5").summary().power_loss_W_band
+
+
+def test_life_in_the_band_is_that_of_the_standard() -> None:
+    life = api.model_band("6319-cp10-500", quantities=["rating life"]).band("rating life")
+    assert life.value == pytest.approx(api.estimate("6319-cp10-500").rating.reference_life_h, rel=0.01)
+    assert {c.name for c in life.contributors} == {"bearing.clearance"}
+
+
+def test_a_machine_has_the_bands_of_its_bearings() -> None:
+    """Their sum is that of all bearings: errors of the same laws go together."""
+    found = api.quasistatic(tomllib.loads(geared_shaft("box")), band=True)
+    each = [one.friction_torque_Nmm_band for one in found.bearings]
+    assert found.friction_torque_Nmm_band == pytest.approx([sum(ends) for ends in zip(*each, strict=True)])
+    assert found.friction_torque_Nmm_band[0] < found.friction_torque_Nmm < found.friction_torque_Nmm_band[1]
+    name = found.bearings[0].name
+    alone = api.model_band(tomllib.loads(geared_shaft("box")), bearing=name, quantities=TORQUE).band("friction torque")
+    assert alone.around(found.bearings[0].friction_torque_Nmm) == pytest.approx(each[0])
 
 
 @pytest.mark.parametrize("path", ["loss_factor", "tau_eyring", "surface.roughness", "lubricant.temperature"])
@@ -128,3 +173,23 @@ def test_a_changed_model_is_the_resolved_changed_case(path: str) -> None:
     long = solve(api.resolve(api.case("6319-cp10-1500", graded.changes(graded.high)), is_static=True), phase=0.125)
     np.testing.assert_allclose(short.losses, long.losses, rtol=1e-6, atol=1e-9)
     np.testing.assert_allclose(short.displacement, long.displacement, rtol=1e-6, atol=1e-12)
+
+
+def test_a_study_tells_the_band_of_its_case(tmp_path: Path) -> None:
+    plan = {
+        "name": "speeds",
+        "case": "6319-cp10-500",
+        "parameters": {"operation.speed": {"values": ["500 rpm", "600 rpm"]}},
+        "responses": ["friction_torque_Nmm"],
+    }
+    status = api.study_run(plan, tmp_path / "speeds", executor="here", band=True)
+    assert isinstance(status.model_band, ModelBand)
+    assert re.search(r"model band friction torque -\d+ \.\. \+\d+ %   mostly elastic_hysteresis", status.text())
+    assert api.study_status(tmp_path / "speeds").model_band == status.model_band
+
+
+def test_a_report_sets_band_and_scatter_apart(tmp_path: Path) -> None:
+    found = api.run("6319-cp10-500", ["solver.duration=1 ms"], out=tmp_path / "one.h5", band=True)
+    (table,) = model_bands(found.summary())
+    assert table.head[1:3] == ("model band (90 %)", "scatter (95 %)")
+    assert [row[0] for row in table.rows] == list(FIELDS)

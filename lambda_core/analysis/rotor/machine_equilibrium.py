@@ -22,7 +22,7 @@ from lambda_core.model.checks.operating_limits import load_warnings, operating_w
 from lambda_core.model.machine_model import MachineModel, MountedBearing, Place
 from lambda_core.results.averages import finite
 from lambda_core.results.limits import warnings
-from lambda_core.results.model_band import Banded, MachineBand
+from lambda_core.results.model_band import Banded, MachineBand, sum_of_bands
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import LOADED_BALLS, MAX_LOAD, Contact
@@ -111,11 +111,8 @@ class MachineEquilibrium(Record):
 
     def with_bands(self, found: MachineBand) -> MachineEquilibrium:
         """Return the same with the model bands of its bearings."""
-        each = [
-            one.model_copy(update={**found.bearings[one.name].fields(), "model_band": found.bearings[one.name]})
-            for one in self.bearings
-        ]
-        torque = found.fields()["friction_torque_Nmm_band"]
+        each = [one.with_band(found.bearings[one.name]) for one in self.bearings]
+        torque = sum_of_bands([one.friction_torque_Nmm_band for one in each])
         return self.model_copy(update={"bearings": each, "friction_torque_Nmm_band": torque})
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:

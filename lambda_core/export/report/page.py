@@ -15,6 +15,7 @@ from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.domain.files import check_target
 from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without
 from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.export.report.band_table import model_bands
 from lambda_core.export.report.chapters import Chapter, Inputs, Picture, run_bearings, run_inputs
 from lambda_core.export.report.gallery import every
 from lambda_core.export.report.key_tables import (
@@ -101,7 +102,7 @@ def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) ->
             shown = machine_drawings(registry, *found, cover)
     tables = [run_figures(summary, units)] if alone is not None else []
     for one in summary.bearings.values():
-        tables += [*currents(one), *watched(one)]
+        tables += [*model_bands(one, units), *currents(one), *watched(one)]
     return Chapter(
         kind="run",
         title=result.title,
