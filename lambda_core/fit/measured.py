@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 from pydantic import ConfigDict, Field, ValidationError
 
-from lambda_core.analysis.band.model_band import model_band
+from lambda_core.analysis.band.model_band import band_of
 from lambda_core.analysis.band.quantities import MEASURED
+from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, unknown_name
 from lambda_core.fit.measurements import Measurements, parse_measurements, read_measurements
@@ -220,7 +221,7 @@ def _points(one: _Loaded, band: bool) -> list[ComparedPoint]:
     for row, line in enumerate(data.lines):
         changes = [condition_change(name, float(column[row])) for name, column in data.conditions.items()]
         names = [name for name, values in data.measured.items() if math.isfinite(values[row])]
-        bands = model_band(case, changes, quantities=names) if band else None
+        bands = band_of(ready_model(case, changes, is_static=True), names) if band else None
         predicted = point_values(text, changes, names).mean(axis=0)
         for name, value in zip(names, predicted.tolist(), strict=True):
             ends = bands.band(name) if bands is not None else None

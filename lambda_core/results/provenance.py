@@ -58,8 +58,8 @@ class BearingOrigin:
     model: BearingModel
     kernel_keys: Mapping[str, str]  # "element/role/model", or a part of the core -> hash of the code
     rating: Rating | None = None  # what standards and catalogues say of the equilibrium that it starts from
-    band: ModelBand | None = None  # of the equilibrium, where it was asked for
     headline: str = ""  # of a bearing in a machine: under the load that it carries there; otherwise that of its model
+    band: ModelBand | None = None  # of the equilibrium, where it was asked for
 
     def laws(self) -> list[dict[str, str]]:
         """Return one row per force element, or film of the circuit, and role: the model and its parameters."""

@@ -281,6 +281,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
     edges = _edges(result)
     carrying = end["load"] > CARRYING * end["load"].max()
     revolutions = whole.change("relative_angle") / (2.0 * math.pi)
+    of_machine: dict[str, Any] = reactions(result, start) if result.is_machine else {}
     found = BearingSummary(
         title=result.title,
         headline=result.headline,
@@ -316,7 +317,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         ),
         rating=result.rating,
         shoulders=edges,
-        **(reactions(result, start) if result.is_machine else {}),
+        **of_machine,
         warnings=[
             *result.case_warnings,
             *tolerance_warning(settings.tolerance),

@@ -179,7 +179,7 @@ def test_a_study_tells_the_band_of_its_case(tmp_path: Path) -> None:
     plan = {
         "name": "speeds",
         "case": "6319-cp10-500",
-        "parameters": {"operation.speed": {"values": ["500 rpm", "600 rpm"]}},
+        "parameters": [{"path": "operation.speed", "values": ["500 rpm", "600 rpm"]}],
         "responses": ["friction_torque_Nmm"],
     }
     status = api.study_run(plan, tmp_path / "speeds", executor="here", band=True)

@@ -210,7 +210,9 @@ class Effects:
 
     def values_at_all_positions(self) -> FloatArray:
         """Return the results of the model, averaged over the positions of the balls."""
-        return read_values(self._model, self._kernels, [self._readers[n] for n in self.names], self._base).mean(axis=0)
+        readers = [self._readers[name] for name in self.names]
+        found: FloatArray = read_values(self._model, self._kernels, readers, self._base).mean(axis=0)
+        return found
 
     def all(self) -> Iterator[Effect]:
         """Yield the effects of all parameters and laws; what has no solution is left out and named."""
