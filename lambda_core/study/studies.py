@@ -55,13 +55,10 @@ class StudyStatus(BaseModel):
     reasons: list[str] = Field(description="why points failed, are partial or were left, the first few")
     best: dict[str, Any] | None = Field(description="the best point of an optimisation")
     message: str = Field(description="how an optimisation ended")
-<<<<<<< HEAD
     interrupted: bool = Field(default=False, description="somebody stopped this session; otherwise pending points wait")
-=======
     model_band: ModelBand | MachineBand | None = Field(
         description="90 % model band of the case that the study varies; null without one", default=None
     )
->>>>>>> b433e508 (Tell the model band of studies and in reports)
 
     def text(self) -> str:
         """Return the lines for people."""
