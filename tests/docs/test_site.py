@@ -30,7 +30,9 @@ def test_every_page_is_built_and_in_the_navigation(site: Path) -> None:
     for path in DOCS.rglob("*.md"):
         name = path.relative_to(DOCS)
         assert (site / name.with_suffix(".html")).is_file()
-        assert f"- {name.as_posix()}\n" in navigation, f"docs/{name} is not in the navigation: add it to mkdocs.yml"
+        assert re.search(rf"[ ]{re.escape(name.as_posix())}\n", navigation), (
+            f"docs/{name} is not in the navigation: add it to mkdocs.yml"
+        )
 
 
 def test_nothing_is_loaded_from_elsewhere(site: Path) -> None:
@@ -41,6 +43,11 @@ def test_nothing_is_loaded_from_elsewhere(site: Path) -> None:
             assert not re.match(r"(https?:)?//", address), f"{path.name} loads {address}"
     for style in site.rglob("*.css"):
         assert not re.search(r"url\(['\"]?(https?:)?//", style.read_text(encoding="utf-8")), style.name
+
+
+def test_commands_can_be_copied(site: Path) -> None:
+    assert "copy.js" in (site / "install.html").read_text(encoding="utf-8")
+    assert (site / "copy.js").is_file()
 
 
 def test_blocks_are_rendered_as_code(site: Path) -> None:
