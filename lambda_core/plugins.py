@@ -16,7 +16,15 @@ from lambda_core.laws.parameter import NoParameters, Parameters, parameter
 from lambda_core.laws.state import State
 from lambda_core.laws.vector_math import asinh, asinh_of, asinh_quotient, exp, log, log1p, power
 from lambda_core.views.chart import Arrows, Axis, Field, Mark, Panel, Series, ViewData
-from lambda_core.views.method import METHOD_API, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
+from lambda_core.views.method import (
+    METHOD_API,
+    Method,
+    MethodInputs,
+    MethodRow,
+    MethodTable,
+    NotApplicable,
+    RollerMethodInputs,
+)
 from lambda_core.views.observer import EVENT_API, OBSERVER_API, Event, Integral, Number, Observer, Samples
 from lambda_core.views.scene import Scene
 from lambda_core.views.section import SECTION_API, ReportTable, Section
@@ -64,6 +72,7 @@ __all__ = [
     "Parameters",
     "Quantity",
     "ReportTable",
+    "RollerMethodInputs",
     "RunData",
     "Samples",
     "Scene",

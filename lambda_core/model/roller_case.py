@@ -16,6 +16,7 @@ from lambda_core.catalogue.protocol import Catalogue, RollerRow, Value
 from lambda_core.catalogue.roller_designation import RollerDesignation, roller_designation
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, LambdaError, Problem
+from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.units import parse, show
 from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_clearance import roller_clearance
@@ -61,8 +62,8 @@ class RollerModel:
         At the inlet.
     friction : FrictionParameters
         Surfaces and supply.
-    lubricant : str
-        Name of the oil.
+    lubricant, base_type : str
+        Name of the oil and kind of its base oil.
     lubrication : str
         How it gets to the rollers.
     temperature : float
@@ -82,7 +83,8 @@ class RollerModel:
     oil: OilState
     friction: FrictionParameters
     lubricant: str
-    lubrication: str
+    base_type: str
+    lubrication: Lubrication
     temperature: float
     slices: int
     assumptions: tuple[str, ...]
@@ -148,6 +150,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
             oil_height=height,
         ),
         lubricant=row.name,
+        base_type=row.base_type,
         lubrication=lubrication,
         temperature=case.lubricant.temperature,
         slices=rollers.slices,

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import CaseError, Problem, SolverError
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import show
@@ -90,21 +92,44 @@ class RollerQuasiStatic(Record):
         return _text(self, width, units)
 
 
-def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
-    """Solve a roller bearing and put it into the units of the interface.
+@dataclass(frozen=True)
+class SolvedRollers:
+    """A roller bearing in equilibrium; `friction` is None where nothing turns."""
+
+    state: RollerEquilibrium
+    motion: RollerMotion
+    friction: RollerFriction | None
+
+
+def solve_rollers(model: RollerModel) -> SolvedRollers:
+    """Find equilibrium and friction of a roller bearing.
 
     Raises
     ------
-    ValueError
+    CaseError
         For loads that the kind of bearing does not take.
-    ArithmeticError
+    SolverError
         When there is no equilibrium.
     """
     bearing = model.bearing
     motion = rolling_motion(bearing, *model.speeds)
-    state = balance(bearing, model.loads, held=model.held, inertial=motion.inertial(bearing), slices=model.slices)
+    try:
+        state = balance(bearing, model.loads, held=model.held, inertial=motion.inertial(bearing), slices=model.slices)
+    except ValueError as error:
+        raise CaseError(model.name, [Problem("loads", str(error))]) from None
+    except ArithmeticError as error:
+        raise SolverError(f"{model.name}: {error}") from error
     turning = motion.relative != 0.0
-    found = friction(bearing, state, motion, model.oil, model.friction) if turning else RollerFriction()
+    return SolvedRollers(
+        state, motion, friction(bearing, state, motion, model.oil, model.friction) if turning else None
+    )
+
+
+def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
+    """Solve a roller bearing and put it into the units of the interface; errors as :func:`solve_rollers`."""
+    bearing, solved = model.bearing, solve_rollers(model)
+    state, motion, turning = solved.state, solved.motion, solved.friction is not None
+    found = solved.friction or RollerFriction()
     carried = np.maximum(state.inner.sum(axis=1), state.outer.sum(axis=1))
     films = np.concatenate([film[np.isfinite(film)] for film in found.film.values()]) if turning else np.zeros(0)
     radial, axial = float(np.hypot(state.loads[1], state.loads[2])), abs(float(state.loads[0]))
@@ -114,7 +139,7 @@ def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
     return RollerQuasiStatic(
         case=model.name,
         title=model.title,
-        headline=_headline(model, radial, axial),
+        headline=headline_of(model, radial, axial),
         kind=bearing.kind,
         loaded_rollers=int(np.sum(state.inner.sum(axis=1) > CARRYING * carried.max())),
         max_load_N=float(carried.max()),
@@ -144,7 +169,8 @@ def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
     )
 
 
-def _headline(model: RollerModel, radial: float, axial: float) -> str:
+def headline_of(model: RollerModel, radial: float, axial: float) -> str:
+    """Return what bearing it is, and its operating point, in two lines."""
     bearing = model.bearing
     kind = {"tapered": "tapered", "needle": "needle"}.get(bearing.kind, f"cylindrical {bearing.kind}")
     speed = model.speeds[0] * _RPM

@@ -159,20 +159,29 @@ def compare(
     """
     from lambda_core.case.case_io import is_machine, refuse_bearing
     from lambda_core.discovery.manager import registry
+    from lambda_core.model.roller_case import roller_model
     from lambda_core.results.reader import Result
     from lambda_core.run.compare_methods import compare as ask
+    from lambda_core.run.compare_rollers import compare_rollers
     from lambda_core.run.comparison import comparison_of
 
     known = registry().methods
     unknown = next((name for name in methods if name not in known), None)
     if unknown is not None:
         raise UsageError(unknown_name("comparison method", unknown, known))
-    chosen = [known[name] for name in methods or known]
+    every = list(known.values())
+    chosen = [known[name] for name in methods] or [one for one in every if one.is_about(rollers=False)]
     if is_machine(source):
         if result is not None:
             raise UsageError("a result is compared with a case of one bearing; leave it out for one of a machine")
         return _compare_in_machine(source, overrides, bearing, chosen, contamination, announce)
     refuse_bearing(bearing)
+    rollers = roller_model(source, overrides) if not hasattr(source, "laws") else None  # type: ignore[arg-type]
+    if rollers is not None:
+        if result is not None:
+            raise UsageError("results of roller bearings in motion do not exist: leave the result out")
+        of_rollers = chosen if methods else [one for one in every if one.is_about(rollers=True)]
+        return compare_rollers(rollers, of_rollers, contamination)
     model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
     simulated = result if result is None or isinstance(result, Result) else Result(result)
     return comparison_of(model, ask(model, chosen, contamination=contamination, announce=announce), simulated)

@@ -91,7 +91,7 @@ def comparison_of(model: BearingModel, answers: Iterable[MethodAnswer], result: 
     """
     from lambda_core.model.checks.describe import headline
 
-    methods = [_compared(answer) for answer in answers]
+    methods = [compared(answer) for answer in answers]
     if result is not None:
         changed = differences(result.model, model_data(model))
         if changed:
@@ -107,7 +107,8 @@ def comparison_of(model: BearingModel, answers: Iterable[MethodAnswer], result: 
     )
 
 
-def _compared(answer: MethodAnswer) -> ComparedMethod:
+def compared(answer: MethodAnswer) -> ComparedMethod:
+    """Return a method's answer in the words of the interface."""
     method, table = answer.method, answer.table
     rows = table.rows if table is not None else ()
     return ComparedMethod(

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Literal
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
-from lambda_core.domain.errors import CaseError, Problem, SolverError
 from lambda_core.model.checking import resolve
 from lambda_core.run.answers import result
 
@@ -98,14 +97,7 @@ def _roller_answer(source: Any, overrides: Iterable[str]) -> RollerQuasiStatic |
     if isinstance(source, BearingModel):
         return None
     model = roller_model(source, overrides)
-    if model is None:
-        return None
-    try:
-        return roller_quasistatic(model)
-    except ValueError as error:
-        raise CaseError(model.name, [Problem("loads", str(error))]) from None
-    except ArithmeticError as error:
-        raise SolverError(f"{model.name}: {error}") from error
+    return None if model is None else roller_quasistatic(model)
 
 
 @one_blas_thread()

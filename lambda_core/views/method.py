@@ -16,6 +16,9 @@ import numpy as np
 from lambda_core.domain.errors import LambdaError, unknown_name
 from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without
+from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium
+from lambda_core.elements.roller.roller_friction import OilState, RollerFriction
 from lambda_core.laws.context import Material, Oil
 
 METHOD_API = 1
@@ -117,6 +120,30 @@ class MethodInputs:
 
 
 @dataclass(frozen=True)
+class RollerMethodInputs:
+    """Everything a method may look at of a roller bearing: plain SI numbers, frozen."""
+
+    title: str  # the bearing for people: "NU 208 (SKF)"
+    bearing: RollerBearing
+    oil: OilState  # at the bulk temperature
+    base_type: str  # of the oil, "mineral" ...
+    radial_load: float  # magnitude [N]
+    axial_load: float  # magnitude [N]
+    inner_speed: float  # signed [rad/s]
+    outer_speed: float  # signed [rad/s]
+    lubrication: Lubrication
+    oil_height: float  # above the lowest point of the outer raceway [m]; 0: no bath
+    state: RollerEquilibrium  # quasi-static loads of slices and ribs
+    friction: RollerFriction | None  # of the program's own; None at rest
+    contamination: float | None = None  # e_C of ISO 281, 0..1
+
+    @property
+    def relative_speed(self) -> float:
+        """|Omega_i - Omega_o| [rad/s]."""
+        return abs(self.inner_speed - self.outer_speed)
+
+
+@dataclass(frozen=True)
 class MethodRow:
     """One number of a method, in a unit of its group (:data:`GROUP_UNITS`)."""
 
@@ -153,6 +180,11 @@ class MethodTable:
         raise LookupError(unknown_name("row of this method", f"{group} {name}", known))
 
 
+def rollers_only(inputs: MethodInputs) -> MethodTable:
+    """Refuse ball bearings: the `evaluate` of a method about rollers alone."""
+    raise NotApplicable("is about roller bearings")
+
+
 @dataclass(frozen=True)
 class Method:
     """A comparison method.
@@ -172,6 +204,9 @@ class Method:
         Cases that it is made for.
     method_api : int
         Version of this interface that it is written for, as a number: 1. Without it the method is refused.
+    evaluate_rollers : callable, optional
+        ``evaluate_rollers(inputs: RollerMethodInputs) -> MethodTable`` for roller bearings; without it the method is
+        about ball bearings alone.
     """
 
     name: str
@@ -180,7 +215,12 @@ class Method:
     evaluate: Callable[[MethodInputs], MethodTable]
     validity: str = ""
     method_api: int | None = None
+    evaluate_rollers: Callable[[RollerMethodInputs], MethodTable] | None = None
     distribution: str = ""  # filled by the registry
+
+    def is_about(self, *, rollers: bool) -> bool:
+        """Tell whether it answers for rollers, or for balls."""
+        return self.evaluate_rollers is not None if rollers else self.evaluate is not rollers_only
 
 
 @dataclass(frozen=True)
@@ -193,14 +233,14 @@ class MethodAnswer:
     failed: bool = False  # of its own, where others would answer
 
 
-def evaluate_methods(methods: Iterable[Method], inputs: MethodInputs) -> tuple[MethodAnswer, ...]:
+def evaluate_methods(methods: Iterable[Method], inputs: MethodInputs | RollerMethodInputs) -> tuple[MethodAnswer, ...]:
     """Ask every method; one that does not apply, or fails, answers with its reason and does not stop the others."""
     answers = []
     for method in methods:
         what = f'the method "{method.name}" ({method.distribution})'
         try:
             with blamed(what):
-                table = method.evaluate(inputs)
+                table = _asked(method, inputs)
             if not isinstance(table, MethodTable):
                 raise PluginError(f"{what} returns a {type(table).__name__}, not a MethodTable")
             for row in table.rows:
@@ -215,3 +255,12 @@ def evaluate_methods(methods: Iterable[Method], inputs: MethodInputs) -> tuple[M
             went_on_without(str(error))
             answers.append(MethodAnswer(method, None, str(error), failed=True))
     return tuple(answers)
+
+
+def _asked(method: Method, inputs: MethodInputs | RollerMethodInputs) -> MethodTable:
+    """Ask a method about balls or rollers; NotApplicable where it is about balls alone."""
+    if isinstance(inputs, MethodInputs):
+        return method.evaluate(inputs)
+    if method.evaluate_rollers is None:
+        raise NotApplicable("is about ball bearings")
+    return method.evaluate_rollers(inputs)

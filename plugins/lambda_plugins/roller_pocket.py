@@ -55,7 +55,8 @@ def squeezed_line(guide: RollerGuide, gap: float, closing: float, eta0: float) -
     if closing <= 0.0:
         return 0.0
     h = at_least(gap, 0.0) + guide.touch
-    return guide.film * eta0 * closing * (h**-1.5 - (h + guide.edge) ** -1.5)
+    thinning: float = h**-1.5 - (h + guide.edge) ** -1.5
+    return guide.film * eta0 * closing * thinning
 
 
 @law(

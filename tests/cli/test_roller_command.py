@@ -117,3 +117,16 @@ speed = "1500 rpm"
     assert main(["quasistatic", str(path), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert any("ISO 76" in sentence for sentence in found["assumptions"])
+
+
+def test_methods_stand_side_by_side(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["compare", case(tmp_path, "32216", "3 kN"), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    totals = {
+        method["name"]: number["value"]
+        for method in found["methods"]
+        for number in method["numbers"]
+        if (number["group"], number["name"]) == ("friction", "total")
+    }
+    assert set(totals) == {"quasi-static", "skf", "schaeffler", "houpert"}
+    assert all(value > 0.0 for value in totals.values())

@@ -82,6 +82,7 @@ def test_registered_through_the_hook(methods: dict[str, Method]) -> None:
         "quasi-static",
         "skf",
         "schaeffler",
+        "houpert",
         "analytical-capacitance",
         "iso-281",
         "iso-ts-16281",
@@ -91,7 +92,7 @@ def test_registered_through_the_hook(methods: dict[str, Method]) -> None:
 
 
 def test_every_method_answers_a_complete_case(methods: dict[str, Method]) -> None:
-    answers = evaluate_methods(methods.values(), inputs())
+    answers = evaluate_methods((one for one in methods.values() if one.is_about(rollers=False)), inputs())
     assert all(answer.table is not None for answer in answers), [answer.reason for answer in answers]
     for answer in answers:
         assert answer.table is not None

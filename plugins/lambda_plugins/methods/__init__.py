@@ -11,6 +11,9 @@ if TYPE_CHECKING:
 
 def register_methods(register: Callable[[Method], None]) -> None:
     """Register every built-in method: call it from the hook ``lambda_methods``."""
+    from dataclasses import replace
+
+    from lambda_plugins.methods import rollers, skf_rollers
     from lambda_plugins.methods.capacitance import ANALYTICAL_CAPACITANCE
     from lambda_plugins.methods.kinematic import KINEMATIC
     from lambda_plugins.methods.quasistatic import QUASI_STATIC
@@ -18,5 +21,14 @@ def register_methods(register: Callable[[Method], None]) -> None:
     from lambda_plugins.methods.schaeffler import SCHAEFFLER
     from lambda_plugins.methods.skf import SKF
 
-    for method in (QUASI_STATIC, SKF, SCHAEFFLER, ANALYTICAL_CAPACITANCE, ISO_281, ISO_TS_16281, KINEMATIC):
-        register(method)
+    for method, of_rollers in (
+        (QUASI_STATIC, rollers.evaluate_quasistatic),
+        (SKF, skf_rollers.evaluate_rollers),
+        (SCHAEFFLER, rollers.evaluate_schaeffler),
+        (rollers.HOUPERT, rollers.evaluate_houpert),
+        (ANALYTICAL_CAPACITANCE, None),
+        (ISO_281, rollers.evaluate_iso281),
+        (ISO_TS_16281, rollers.evaluate_iso16281),
+        (KINEMATIC, rollers.evaluate_kinematics),
+    ):
+        register(replace(method, evaluate_rollers=of_rollers))

@@ -20,7 +20,7 @@ from lambda_plugins.methods.skf_seals import seal_torque, seals_of
 
 MU_BOUNDARY = 0.12  # mu_bl while running
 MU_BOUNDARY_STARTING = 0.15  # mu_bl at rest
-_STARVATION = {"oil bath": 3e-8, "oil jet": 3e-8, "oil-air": 6e-8, "grease": 6e-8}  # K_rs
+STARVATION = {"oil bath": 3e-8, "oil jet": 3e-8, "oil-air": 6e-8, "grease": 6e-8}  # K_rs
 # Axial load below this share of the radial one counts as none: the catalogue has separate formulas for F_a = 0, and
 # the axial load of a computed equilibrium is never exactly zero.
 NEGLIGIBLE_AXIAL_SHARE = 1e-3
@@ -128,12 +128,22 @@ def inlet_heating_factor(speed_rpm: float, mean_diameter: float, viscosity: floa
     return float(1.0 / (1.0 + 1.84e-9 * (speed_rpm * mean_diameter) ** 1.28 * viscosity**0.64))
 
 
+def boundary_share(speed_rpm: float, viscosity: float, mean_diameter: float) -> float:
+    """phi_bl = exp(-2.6e-8 (n nu)^1.4 d_m) (1/min, mm2/s, mm)."""
+    return math.exp(-2.6e-8 * (speed_rpm * viscosity) ** 1.4 * mean_diameter)
+
+
+def sliding_coefficient(boundary: float, full_film: float) -> float:
+    """mu_sl = phi_bl mu_bl + (1 - phi_bl) mu_EHL."""
+    return boundary * MU_BOUNDARY + (1.0 - boundary) * full_film
+
+
 def replenishment_factor(
     speed_rpm: float, bore: float, outside: float, viscosity: float, lubrication: Lubrication, k_z: float = K_Z
 ) -> float:
     """phi_rs = exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))) (mm, 1/min, mm2/s); K_rs 3e-8 bath, 6e-8 grease."""
     geometry = (bore + outside) * math.sqrt(k_z / (2.0 * (outside - bore)))
-    return math.exp(-_STARVATION[lubrication] * viscosity * speed_rpm * geometry)
+    return math.exp(-STARVATION[lubrication] * viscosity * speed_rpm * geometry)
 
 
 def skf_friction(
@@ -185,8 +195,8 @@ def skf_friction(
         )
     heating = inlet_heating_factor(rpm, diameter, nu)
     replenishment = replenishment_factor(rpm, bore_diameter * 1e3, outside_diameter * 1e3, nu, lubrication, k_z)
-    boundary = math.exp(-2.6e-8 * (rpm * nu) ** 1.4 * diameter)
-    coefficient = boundary * MU_BOUNDARY + (1.0 - boundary) * full_film_coefficient
+    boundary = boundary_share(rpm, nu, diameter)
+    coefficient = sliding_coefficient(boundary, full_film_coefficient)
     volume_part, churning = 0.0, 0.0
     if lubrication in ("oil bath", "oil jet") and edition == "2008":
         volume_part, churning = drag_torque_2008(bore_diameter, outside_diameter, speed, volume_factor, k_z)
@@ -220,7 +230,7 @@ def full_film_coefficient(base_type: str) -> float:
 
 def evaluate(inputs: MethodInputs) -> MethodTable:
     """Answer a case with the SKF model."""
-    if inputs.lubrication not in _STARVATION:
+    if inputs.lubrication not in STARVATION:
         raise NotApplicable(f"SKF's model knows no {inputs.lubrication} lubrication")
     seals, about_seals = _seals(inputs)
     assumptions = [f"lubrication: {inputs.lubrication}", about_seals]
