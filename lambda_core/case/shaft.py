@@ -49,6 +49,19 @@ SHARED = (
 )
 OWN = ("elastic", "forces")  # tables of one of them
 REPLACED = ("materials", "surface", "depth", "models", "parameters")  # tables whose entries each may have of its own
+_AROUND = (  # options of [thermal] that each bearing has as it stands there
+    "conductances",
+    "ambient",
+    "start",
+    "inlet",
+    "limit",
+    "air_speed",
+    "emissivity",
+    "seat_conductance",
+    "oil_volume",
+    "oil_flow",
+    "oil_supply",
+)
 NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "connections")  # tables of named parts
 # Names that are there already; a bearing's result stands beside that of the whole, shaft.h5
 TAKEN = {"bearings": ("shaft",), "markers": ("shaft", "ground"), "bodies": ("shaft", "ground")}
@@ -251,7 +264,8 @@ def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
     for table in (name for name in REPLACED if isinstance(given.get(name), Mapping)):
         shared = tables.get(table, {})
         found[table] = {**(shared if isinstance(shared, Mapping) else {}), **given[table]}
-    return found | _own_oil(tables, given)
+    thermal = _own_thermal(tables, given)
+    return found | _own_oil(tables, given) | ({"thermal": thermal} if thermal else {})
 
 
 def _own_oil(tables: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
@@ -264,6 +278,15 @@ def _own_oil(tables: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, A
     return {"lubricant": {**kept, **own}}
 
 
+def _own_thermal(tables: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the thermal network of a bearing: what surrounds it, and its own oil and nodes; no housing, no shaft."""
+    shared, own = ({} if not isinstance(one, Mapping) else one for one in (tables.get("thermal"), given.get("thermal")))
+    found = {key: value for key, value in shared.items() if key in _AROUND} | dict(own)
+    if "oil_flow" not in found:
+        found.pop("oil_supply", None)
+    return found
+
+
 def place_in_machine(tables: Mapping[str, Any], name: str, where: str) -> str:
     """Return where in the machine's file stands what stands at `where` in the tables of one of its bearings."""
     own, (first, *rest) = tables["bearings"][name], where.split(".")
@@ -271,6 +294,6 @@ def place_in_machine(tables: Mapping[str, Any], name: str, where: str) -> str:
         return ".".join(("bearings", name, *rest))
     if where.startswith("bodies.cage"):
         return ".".join(("bearings", name, *where.split(".")[1:]))
-    table = own.get(first) if first in (*REPLACED, "lubricant") else None
+    table = own.get(first) if first in (*REPLACED, "lubricant", "thermal") else None
     is_replaced = isinstance(table, Mapping) and (not rest or rest[0] in table)
     return f"bearings.{name}.{where}" if first in OWN or is_replaced else where
