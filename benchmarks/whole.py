@@ -12,7 +12,7 @@ from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort, now, sum_of_minima
 from lambda_core.analysis.rotor.bearing_alone import alone_under_load
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_engine
 
@@ -29,7 +29,7 @@ Passage = tuple[tuple[float, ...], Mapping[str, float]]  # time of each piece [s
 
 def starts(changes: tuple[str, ...] = CHANGES) -> dict[str, Callable[[], Engine]]:
     """Return how the whole and each of its bearings alone are started, by name."""
-    model = check_shaft(tomllib.loads(geared_shaft("whole")), changes)
+    model = resolve_machine(tomllib.loads(geared_shaft("whole")), changes)
     first = machine_engine(model)
     found: dict[str, Callable[[], Engine]] = {WHOLE: lambda: machine_engine(model)}
     for i, part in enumerate(first.bearings):

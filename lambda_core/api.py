@@ -42,7 +42,6 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.model.checking import check, describe, problems, resolve
     from lambda_core.model.laws.law_trials import law_problems
     from lambda_core.model.long_form import long_form
-    from lambda_core.model.resolve_machine import check_shaft
     from lambda_core.run.answers import cite, compare, result, side_by_side, summary
     from lambda_core.run.plugin_trials import check_plugins, watch_problems
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup

@@ -100,7 +100,8 @@ def _check_machine(case: str, changes: list[str], units: Units, *, as_json: bool
     """Say what a machine is."""
     from lambda_core import api
 
-    model = api.check_shaft(case, changes)
+    model = api.check(case, changes)
+    assert isinstance(model, api.MachineModel)
     faults = dict.fromkeys(fault for bearing in model.bearings for fault in api.law_problems(bearing.model))
     if any(bearing.model.observers or bearing.model.events for bearing in model.bearings):
         faults |= dict.fromkeys(api.watch_problems(model))

@@ -42,7 +42,7 @@ def quasistatic(
             raise api.UsageError("--draw goes with a machine; pictures of one bearing: lambda-bearing run, then view")
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
-        model = api.check_shaft(source, changes or ()) if several else None
+        model = api.check(source, changes or ()) if several else None
         found = api.quasistatic(
             model or source, () if model else changes or (), band=band is Bands.MODEL, announce=speaker.say
         )
@@ -76,12 +76,12 @@ def modes(
     if stiffness is not None:
         api.stiffness_target(stiffness)
     with talk(progress, quiet) as speaker:
-        model = api.check_shaft(case, changes or ()) if api.is_machine(case) else None
+        model = api.check(case, changes or ()) if api.is_machine(case) else None
         found = api.modes(model or case, announce=speaker.say)
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
     if stiffness is not None:
         typer.echo(str(api.write_stiffness(found, stiffness)), err=True)
-    if draw is not None and model is not None:
+    if draw is not None and isinstance(model, api.MachineModel):
         _draw(api.machine_pictures(model, modes=found), draw, case, units)
 
 

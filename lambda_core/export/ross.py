@@ -32,7 +32,7 @@ def ross_rotor(model: MachineModel, state: ShaftState | None = None, announce: A
     Parameters
     ----------
     model : MachineModel
-        From :func:`check_shaft`.
+        From :func:`check`.
     state : ShaftState, optional
         Its equilibrium; default: it is solved.
     announce : callable, optional

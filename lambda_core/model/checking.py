@@ -55,9 +55,9 @@ def check(
     from lambda_core.case.case_io import is_machine
 
     if is_machine(source):
-        from lambda_core.model.resolve_machine import check_shaft
+        from lambda_core.model.resolve_machine import resolve_machine
 
-        return check_shaft(source, overrides, folder=folder, catalogue=catalogue)
+        return resolve_machine(source, overrides, folder=folder, catalogue=catalogue)
     return check_bearing(source, overrides, folder=folder, catalogue=catalogue, is_static=is_static)
 
 

@@ -60,7 +60,7 @@ _SLENDEREST = 200  # diameters; elements are as long as thick, and matrices of m
 
 
 @one_blas_thread()
-def check_shaft(
+def resolve_machine(
     source: Source,
     overrides: Iterable[str] = (),
     *,

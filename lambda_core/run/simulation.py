@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
-from lambda_core.model.checking import resolve
+from lambda_core.model.checking import check
 from lambda_core.run.answers import result
 
 if TYPE_CHECKING:
@@ -290,16 +290,12 @@ def resume(
 
 def _stored_model(found: Result, overrides: Iterable[str]) -> BearingModel | MachineModel:
     """Return the model of the case in a result, without the limit of wall time that it began with."""
-    from lambda_core.case.case_io import apply_overrides, parse_case, toml_tables
-    from lambda_core.model.resolve_machine import check_shaft
+    from lambda_core.case.case_io import toml_tables
 
-    if not found.is_machine:
-        case = parse_case(found.case_toml, str(found.path)).with_(solver={"max_wall": None})
-        return resolve(apply_overrides(case, overrides))
     tables = toml_tables(found.case_toml, str(found.path))
     if "solver" in tables:
         tables["solver"].pop("max_wall", None)
-    return check_shaft(tables, overrides)
+    return check(tables, overrides)
 
 
 @one_blas_thread()

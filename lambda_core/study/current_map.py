@@ -156,14 +156,14 @@ def _study(
     from lambda_core.case.case_io import read_case
     from lambda_core.model.checking import model_of
     from lambda_core.model.laws.law_context import max_speed
-    from lambda_core.model.resolve_machine import check_shaft
+    from lambda_core.model.resolve_machine import resolve_machine
 
     case = read_case(source, list(overrides))
     if isinstance(case, Case):
         refuse_bearing(bearing)
         model, responses = model_of(case), list(UNITS)
     else:
-        machine = check_shaft(case)
+        machine = resolve_machine(case)
         bearing_number(machine, bearing)
         model = machine.bearings[0].model
         responses = [f"{one.name}.{name}" for one in machine.bearings for name in UNITS]

@@ -119,9 +119,9 @@ def point_model(case_toml: str, changes: tuple[str, ...]) -> BearingModel | Mach
     tables = _machine_tables(case_toml)
     if tables is None:
         return resolve_point(case_toml, changes)
-    from lambda_core.model.resolve_machine import check_shaft
+    from lambda_core.model.resolve_machine import resolve_machine
 
-    return check_shaft(tables, changes, catalogue=_catalogue())
+    return resolve_machine(tables, changes, catalogue=_catalogue())
 
 
 def resolve_point(case_toml: str, changes: tuple[str, ...]) -> BearingModel:

@@ -151,17 +151,17 @@ def _case_toml(study: Study, folder: Path | None, case: Case | ShaftCase | None)
     from lambda_core.discovery.manager import registry
     from lambda_core.domain.written_values import written
     from lambda_core.model.laws.law_packages import with_packages
-    from lambda_core.model.resolve_machine import check_shaft
+    from lambda_core.model.resolve_machine import resolve_machine
 
     changes = [f"{path}={written(value)}" for path, value in study.set.items()]
     if case is None:
         local = folder / study.case if folder is not None else Path(study.case)
         source = local if local.is_file() else study.case
         if is_machine(source):
-            return check_shaft(source, changes).case_toml
+            return resolve_machine(source, changes).case_toml
         case = load_case(source)
     if not isinstance(case, Case):
-        return check_shaft(case, changes).case_toml
+        return resolve_machine(case, changes).case_toml
     return standalone_toml(with_packages(apply_overrides(case, changes) if changes else case, registry()))
 
 

@@ -77,3 +77,14 @@ def test_a_land_guides_the_cage_that_it_guides(changes: dict[str, Any], where: s
 def test_a_machine_without_cages() -> None:
     model = machine(depth={"cage": False})
     assert not any(bearing.model.depth.cage for bearing in model.bearings)
+
+
+def test_laws_know_the_flow_of_oil() -> None:
+    """Of [thermal], or of the bearing's own: an oil jet needs it."""
+    jet = {"lubrication": "oil jet"}
+    shared = machine(lubricant=jet, thermal={"oil_flow": "1 l/min", "oil_supply": "40 degC"})
+    assert [bearing.model.oil_flow for bearing in shared.bearings] == pytest.approx([1e-3 / 60.0] * 2)
+    own = {"thermal": {"oil_flow": "2 l/min"}}
+    mixed = machine(lubricant=jet, thermal={"oil_flow": "1 l/min"}, bearings={"right": own})
+    assert [bearing.model.oil_flow for bearing in mixed.bearings] == pytest.approx([1e-3 / 60.0, 2e-3 / 60.0])
+    assert "thermal.oil_flow" in mistakes(lubricant=jet)

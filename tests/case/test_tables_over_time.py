@@ -17,7 +17,7 @@ from lambda_core import api
 from lambda_core.model.bearing_model import TableTerm, TimeFunction
 from lambda_core.model.laws.time_functions import initial, peak, scaled
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.time_tables import add_terms
 from lambda_core.solver.motion.prescribed import _spline
@@ -138,6 +138,6 @@ def test_a_shaft_says_where_a_spline_leaves_its_points() -> None:
     case = tomllib.loads(geared_shaft("box")) | {"loads": {"kick": {"at": "85 mm", "force_z": table}}}
     del case["gears"]  # whose power asks for a constant speed
     case["operation"] = {**case["operation"], "speed": speed}
-    told = [sentence for sentence in api.machine_warnings(check_shaft(case)) if "spline" in sentence]
+    told = [sentence for sentence in api.machine_warnings(resolve_machine(case)) if "spline" in sentence]
     assert [sentence.split(": ")[0] for sentence in told] == ["operation.speed", "loads.kick.force_z"]
     assert "-1.327 kN at 35.33 ms" in told[1]

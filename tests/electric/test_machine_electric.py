@@ -83,7 +83,7 @@ def test_command_and_files(capsys: pytest.CaptureFixture[str], tmp_path: Path) -
 )
 def test_mistakes_are_named(change: str, where: str, words: str) -> None:
     with pytest.raises(CaseError) as caught:
-        api.check_shaft(MOTOR, [change])
+        api.check(MOTOR, [change])
     (problem,) = caught.value.problems
     assert problem.where == where
     assert words in problem.message
@@ -93,7 +93,7 @@ def test_a_case_without_the_section_gets_defaults(tmp_path: Path) -> None:
     text = MOTOR.read_text()
     path = tmp_path / "plain.toml"
     path.write_text(text[: text.index("[electric]")])
-    assert api.check_shaft(path).electric is None
+    assert api.check(path).electric is None
     found = api.electric(path, ["electric.duration=1 ms"])
     assert list(found.bearings) == ["drive_end", "other_end"]
 

@@ -164,7 +164,7 @@ async def test_a_shaft_from_nothing_by_keys(work_folder: Path) -> None:
             {"length": "30 mm", "diameter": "35 mm"},
         ]
         draft.save(work_folder / "mine.toml")
-    assert len(api.check_shaft(work_folder / "mine.toml").bearings) == 2
+    assert len(api.check(work_folder / "mine.toml").bearings) == 2
 
 
 @pytest.mark.usefixtures("answered")
@@ -299,7 +299,7 @@ def test_a_housing_is_drawn_with_its_springs() -> None:
         "warning",
         "surface",
     ]
-    drawn = drawn_machine(api.check_shaft(case), None, 100, 22, dict.fromkeys(names, "#808080")).plain
+    drawn = drawn_machine(api.check(case), None, 100, 22, dict.fromkeys(names, "#808080")).plain
     for word in ("[box]", "⌇seal", "⌇mount", "⊢left⊣"):
         assert word in drawn
 
@@ -318,7 +318,7 @@ def test_a_new_name_goes_wherever_it_is_named(tmp_path: Path) -> None:
     rename(node, draft, "paw")
     assert draft.get("connections", "mount", "at") == "paw"
     assert "# A housing that gives way" in draft.text()
-    assert api.check_shaft(draft.tables).bodies[0].name == "case"
+    assert api.check(draft.tables).bodies[0].name == "case"
 
 
 async def test_an_added_table_has_the_keyboard_on_a_slow_machine_too(

@@ -20,7 +20,7 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.formulas.hertz import ball_raceway_radii, stiffness_constant
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.held_ring import HeldRing
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 
@@ -105,13 +105,13 @@ def thrust(closed: float) -> float:
 
 
 def solved(case: dict[str, Any]) -> tuple[MachineModel, ShaftState]:
-    model = check_shaft(case)
+    model = resolve_machine(case)
     return model, solve_shaft(model, kernels=KERNELS)
 
 
 @cache
 def alone() -> BearingModel:
-    return check_shaft(pair()).bearings[0].model
+    return resolve_machine(pair()).bearings[0].model
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,7 @@ from lambda_core.formulas.elastic.whirl import craig_bampton
 from lambda_core.formulas.gear_forces import gear_forces
 from lambda_core.formulas.life import dynamic_equivalent_load, static_equivalent_load, system_life
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 
 PINNED = {"tilt_y": "free", "tilt_z": "free"}  # outer rings that follow, so that no bearing bears a moment
@@ -39,7 +39,7 @@ def bearing(position: str, designation: str = "SKF 6206", **more: Any) -> dict[s
 
 
 def solved(case: dict[str, Any]) -> tuple[MachineModel, ShaftState]:
-    model = check_shaft({"name": "shaft", **SHARED, **case})
+    model = resolve_machine({"name": "shaft", **SHARED, **case})
     return model, solve_shaft(model, kernels=KERNELS)
 
 
@@ -365,7 +365,7 @@ def test_warm_rings_in_the_equilibrium_of_the_whole() -> None:
                 one["clearance"] = f"{1e6 * found[0][0].bearings[0].model.geometry.clearance:.15g} um"
         found.append(solved(case))
     (hot, one), (tight, two) = found
-    loose = check_shaft({"name": "shaft", **SHARED, **case, "bearings": {"left": bearing("30 mm")}})
+    loose = resolve_machine({"name": "shaft", **SHARED, **case, "bearings": {"left": bearing("30 mm")}})
     lost = loose.bearings[0].model.geometry.clearance - hot.bearings[0].model.geometry.clearance
     assert lost == pytest.approx(12e-6 * 30.0 * hot.bearings[0].model.geometry.race_diameter_inner, rel=0.15)
     assert tight.bearings[0].model.geometry.clearance == pytest.approx(hot.bearings[0].model.geometry.clearance)

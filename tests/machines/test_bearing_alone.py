@@ -17,7 +17,7 @@ from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 @pytest.mark.parametrize("number", [0, 1])
 def test_a_bearing_alone_is_that_of_the_machine(number: int) -> None:
     """Free under the load where it is held in the machine: loads to 2 N of 236, friction and position to 2 %."""
-    machine = api.check_shaft(tomllib.loads(geared_shaft("box")))
+    machine = api.check(tomllib.loads(geared_shaft("box")))
     state = solve_shaft(machine)
     held = state.rings[number].equilibrium()
     free = solve(alone_under_load(machine, state, number))
@@ -35,5 +35,5 @@ def test_a_bearing_alone_turns_at_another_speed() -> None:
     torque = api.quasistatic(tables).bearing("left").friction_torque_Nmm
     assert curve.torque_Nmm[1] == pytest.approx(torque, rel=0.02)
     assert curve.torque_Nmm[0] < 0.9 * curve.torque_Nmm[1]
-    machine = api.check_shaft(tables)
+    machine = api.check(tables)
     assert at_speed(machine.bearings[0].model, 7.0).inner_ring.dofs["spin"].motion.terms[0].values == (7.0,)

@@ -16,7 +16,7 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.formulas.elastic.whirl import natural_frequencies
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.machine_assembly import member_numbers
@@ -51,7 +51,7 @@ def tables(**changes: Any) -> dict[str, Any]:
 
 @pytest.fixture(scope="module")
 def model() -> MachineModel:
-    return check_shaft(tables())
+    return resolve_machine(tables())
 
 
 def test_a_housing_on_mounts_in_equilibrium(model: MachineModel) -> None:
@@ -84,7 +84,7 @@ def test_a_stiff_housing_is_the_ground(model: MachineModel) -> None:
     held = tables(connections={})
     held["bodies"]["box"]["support"] = dict.fromkeys(("x", "y", "z", "tilt_x", "tilt_y", "tilt_z"), "locked")
     one, two = (
-        solve_shaft(check_shaft(case), kernels=KERNELS)
+        solve_shaft(resolve_machine(case), kernels=KERNELS)
         for case in (ground | {"connections": {}, "bodies": {}, "markers": {}}, held)
     )
     assert two.reactions == pytest.approx(one.reactions, rel=1e-3, abs=1e-3 * np.abs(one.reactions).max())
@@ -95,10 +95,10 @@ def test_no_body_turns_heavier_about_x_than_about_y_and_z_together() -> None:
     """I_x <= I_y + I_z of any masses; a thin disc, where they are equal, is a body."""
     case = tables()
     case["bodies"]["box"] |= {"polar_inertia": "0.2 kg m2", "transverse_inertia": "0.1 kg m2"}
-    assert check_shaft(case).bodies[0].polar_inertia == 0.2
+    assert resolve_machine(case).bodies[0].polar_inertia == 0.2
     case["bodies"]["box"] |= {"polar_inertia": "0.21 kg m2"}
     with pytest.raises(api.CaseError, match=r"bodies\.box\.polar_inertia +no body has a polar inertia, 0\.21 kg m2"):
-        check_shaft(case)
+        resolve_machine(case)
 
 
 def test_modes_of_a_housing_on_its_mounts(model: MachineModel) -> None:
@@ -108,7 +108,7 @@ def test_modes_of_a_housing_on_its_mounts(model: MachineModel) -> None:
     """
     case = tables()
     case["bodies"]["box"] |= {"mass": "12000 kg", "polar_inertia": "30 kg m2", "transverse_inertia": "40 kg m2"}
-    heavy = check_shaft(case)
+    heavy = resolve_machine(case)
     state = solve_shaft(heavy, kernels=KERNELS)
     stiffness = supported(heavy, state)
     found = sorted(m.frequency for m in modes_at(heavy, stiffness, 0.0) if m.kind == "body")[:6]
@@ -138,10 +138,10 @@ def test_what_nothing_holds_is_said() -> None:
     for name in ("left", "right"):
         case["bearings"][name] |= {"outer": "ground", "support": {"x": "free"}}
     with pytest.raises(SolverError, match="nothing holds it along x"):
-        solve_shaft(check_shaft(case), kernels=KERNELS)
+        solve_shaft(resolve_machine(case), kernels=KERNELS)
     alone = tables(connections={"foot": {"at": "foot-lf", "z": "20 N/um"}})
     with pytest.raises(SolverError, match="nothing holds it"):
-        solve_shaft(check_shaft(alone), kernels=KERNELS)
+        solve_shaft(resolve_machine(alone), kernels=KERNELS)
 
 
 def test_a_housing_in_motion(model: MachineModel) -> None:
@@ -193,7 +193,7 @@ def test_a_spring_along_turned_axes() -> None:
     case["loads"] = {"pull": {"at": "felt", "force_y": wave}}
     for bearing in case["bearings"].values():
         bearing.pop("outer")
-    model = check_shaft(case)
+    model = resolve_machine(case)
     c, s = math.cos(math.pi / 6.0), math.sin(math.pi / 6.0)
     assert model.springs[0].stiffness[1:3, 1:3] == pytest.approx(1e7 * np.array([[c * c, c * s], [c * s, s * s]]))
     row = model.body.rows(0.11).start
@@ -206,7 +206,7 @@ def test_a_torque_over_time() -> None:
     """moment_x over time: the coupling answers it at once where the shaft does not twist."""
     wave = {"kind": "harmonic", "amplitude": "20 N m", "frequency": "100 Hz", "phase": "90 deg"}
     case = tomllib.loads(geared_shaft("box")) | {"loads": {"fan": {"at": "160 mm", "moment_x": wave}}}
-    model = check_shaft(case)
+    model = resolve_machine(case)
     assert model.loads[model.body.rows(0.16).start + 3] == pytest.approx(20.0)
     assert dict(model.varying)[model.body.rows(0.16).start + 3].terms[0].kind == "harmonic"
     state = solve_shaft(model, kernels=KERNELS)
@@ -221,7 +221,7 @@ def test_mistakes_with_their_paths() -> None:
     case["connections"]["own"] = {"at": "foot-lf", "to": "box", "z": "1 N/um"}
     case["connections"]["far"] = {"at": "110 mm", "to": "foot-lf", "z": "1 N/um"}
     with pytest.raises(api.CaseError) as found:
-        check_shaft(case)
+        resolve_machine(case)
     told = {problem.where: problem.message for problem in found.value.problems}
     assert "box" in told["bearings.left.outer"]
     assert {"bearings.right.at", "markers.loose.body", "connections.own.to", "connections.far.to"} <= set(told)
@@ -230,15 +230,15 @@ def test_mistakes_with_their_paths() -> None:
     case["bearings"]["left"]["outer"] = "ground"
     case["connections"]["grip"] = {"at": "110 mm", "tilt_x": "1 N m/mrad"}
     with pytest.raises(api.CaseError, match=r"connections\.grip\.tilt_x +would prevent rotation"):
-        check_shaft(case)
+        resolve_machine(case)
     del case["connections"]["grip"]
     with pytest.raises(api.CaseError, match=r"bearings\.left\.support\.y\.damping +does nothing"):
-        check_shaft(case)
+        resolve_machine(case)
     case = tables()
     case["bodies"]["box"]["bore"] = "1 mm"
     case["bodies"]["box"]["height"] = "0 mm"
     with pytest.raises(api.CaseError, match=r"bodies\.box\.height"):
-        check_shaft(case)
+        resolve_machine(case)
 
 
 def test_names_have_paths() -> None:
@@ -248,7 +248,7 @@ def test_names_have_paths() -> None:
     case["discs"]["a b"] = case["discs"].pop("wheel")
     case["bodies"]["ground"] = {"x": "0 mm"}
     with pytest.raises(api.CaseError) as found:
-        check_shaft(case)
+        resolve_machine(case)
     assert {"bearings.shaft", "discs.a b", "bodies.ground"} <= {problem.where for problem in found.value.problems}
 
 
@@ -258,7 +258,7 @@ def test_markers_in_the_report(model: MachineModel) -> None:
 
     case = tables()
     case["markers"] |= {"seat": {"x": "21 mm"}, "floor": {"body": "ground", "x": "0 mm", "z": "-200 mm"}}
-    marked = check_shaft(case)
+    marked = resolve_machine(case)
     state = solve_shaft(marked, kernels=KERNELS)
     places = dict(marked.markers)
     assert _at(marked, state, places["seat"]) == pytest.approx(state.displacement[marked.body.rows(0.021)])

@@ -12,7 +12,7 @@ import pytest
 from lambda_core import api
 from lambda_core.analysis.rotor.vibration import damped, supported
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.machine_motion import machine_engine
 from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 
@@ -32,7 +32,7 @@ def tables(**changes: Any) -> dict[str, Any]:
 def test_a_disc_by_its_shape() -> None:
     """Hollow cylinder: m = rho pi/4 (D^2 - d^2) b, J_p = m (D^2 + d^2)/8, J_t = J_p/2 + m b^2/12."""
     shape = {"at": "85 mm", "diameter": "120 mm", "width": "25 mm", "bore": "48 mm"}
-    model = check_shaft(tables(discs={"wheel": shape}))
+    model = resolve_machine(tables(discs={"wheel": shape}))
     (disc,) = model.body.discs
     density = model.body.elements[0].material.density
     mass = density * math.pi / 4.0 * (0.12**2 - 0.048**2) * 0.025
@@ -43,7 +43,7 @@ def test_a_disc_by_its_shape() -> None:
 
 def test_a_spring_takes_its_part() -> None:
     """Force of the spring is its stiffness times the deflection there; all forces on the shaft add up to 1e-6."""
-    model = check_shaft(tables())
+    model = resolve_machine(tables())
     state = solve_shaft(model)
     (spring,) = model.springs
     moved = state.displacement[model.body.rows(spring.place.point[0])][:3]
@@ -51,7 +51,7 @@ def test_a_spring_takes_its_part() -> None:
     total = state.reactions[:, :3].sum(axis=0) + held + (model.loads + model.weight).reshape(-1, 6)[:, :3].sum(axis=0)
     assert np.abs(total).max() < 1e-6 * 1000.0
     assert abs(held[2]) > 1.0
-    without = check_shaft(tables(connections={"seal": {"at": SEAL["at"]}}))
+    without = resolve_machine(tables(connections={"seal": {"at": SEAL["at"]}}))
     added = supported(model, state) - supported(without, state)
     assert np.diag(added)[np.flatnonzero(np.diag(added))] == pytest.approx([10e6, 20e6, 1e3], rel=1e-6)
     assert damped(model, state, np.zeros((2, 6, 6))).sum() == pytest.approx(500.0, rel=1e-12)
@@ -63,7 +63,7 @@ def test_a_damper_in_motion() -> None:
     damped_by = {dof: {"stiffness": k, "damping": "5000 N s/m"} for dof, k in (("y", "10 N/um"), ("z", "20 N/um"))}
     changed = tables(connections={"seal": {**SEAL, "at": "85 mm", **damped_by}})
     changed["discs"]["wheel"]["unbalance"] = "500 g mm"
-    engine = machine_engine(check_shaft(changed))
+    engine = machine_engine(resolve_machine(changed))
     assert engine.advance(2e-3).ok
     rows = engine.integrals()
     for row in rows:
@@ -75,11 +75,11 @@ def test_mistakes_with_their_paths() -> None:
     wrong = tables(connections={"seal": {**SEAL, "at": "900 mm"}, "felt": {"at": "10 mm", "z": "soft"}})
     wrong["discs"]["wheel"] |= {"diameter": "50 mm"}
     with pytest.raises(api.CaseError) as found:
-        check_shaft(wrong)
+        resolve_machine(wrong)
     where = {problem.where for problem in found.value.problems}
     assert {"connections.felt.z", "discs.wheel"} <= where
     with pytest.raises(api.CaseError, match=r"connections\.seal\.at") as found:
-        check_shaft(tables(connections={"seal": {**SEAL, "at": "900 mm"}}))
+        resolve_machine(tables(connections={"seal": {**SEAL, "at": "900 mm"}}))
     law = {"kind": "law", "law": "chip", "amplitude": "10 N"}
     with pytest.raises(api.CaseError, match=r"loads\.push\.force_z\.law"):
-        check_shaft(tables(loads={"push": {"at": "110 mm", "force_z": law}}))
+        resolve_machine(tables(loads={"push": {"at": "110 mm", "force_z": law}}))

@@ -10,7 +10,7 @@ import pytest
 from lambda_core.analysis.rotor.vibration import bearing_damping, damped, housed_damping, modes_at, supported
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.damping import damping_matrix
@@ -28,7 +28,7 @@ def solved() -> Solved:
     """Return the gearbox shaft, its right bearing on springs, and the equilibria of its bearings with friction."""
     case = tomllib.loads(geared_shaft("box"))
     case["bearings"]["right"]["support"] = {"x": "free", "y": "50 N/um", "z": "80 N/um"}
-    model = check_shaft(case)
+    model = resolve_machine(case)
     state = solve_shaft(model)
     return model, state, [ring.equilibrium() for ring in state.rings]
 

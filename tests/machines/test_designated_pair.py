@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from lambda_core.domain.errors import CaseError
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 
 
 def pair(**left: str) -> dict[str, Any]:
@@ -28,7 +28,7 @@ def pair(**left: str) -> dict[str, Any]:
 
 def test_the_rows_angle_counts() -> None:
     """40 degrees for ratings, and the play to touching rings, A sin(alpha_0) with A = 0.04 D_w, before the preload."""
-    left, right = check_shaft(pair(takes="+x")).bearings
+    left, right = resolve_machine(pair(takes="+x")).bearings
     assert math.degrees(left.nominal_angle) == pytest.approx(40.0)
     assert (left.dynamic_rating, right.dynamic_rating) == (32.0e3, 34.5e3)
     play = 0.04 * 11.906e-3 * math.sin(math.radians(40.0))
@@ -40,4 +40,4 @@ def test_the_side_is_required() -> None:
     case = pair()
     del case["bearings"]["left"]["preload"]
     with pytest.raises(CaseError, match=r"takes.*angular contact"):
-        check_shaft(case)
+        resolve_machine(case)

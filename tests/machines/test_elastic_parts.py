@@ -13,7 +13,7 @@ from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import CAGE as CAGE_BODY
 from lambda_core.domain.errors import CaseError
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.results.quasistatic import QuasiStatic
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
@@ -43,7 +43,7 @@ ONE: dict[str, Any] = {
 
 def alone(**elastic: Any) -> api.BearingModel:
     """Return the bearing of that shaft in a case of its own, with the shaft's mass."""
-    body = check_shaft(ONE).body
+    body = resolve_machine(ONE).body
     return api.check({
         **COMMON, "name": "alone", "bearing": BEARING, "elastic": elastic, "loads": {"radial": "16 kN"},
         "bodies": {"inner_ring": {"shaft_mass": f"{body.total_mass:.12g} kg"}},
@@ -53,7 +53,7 @@ def alone(**elastic: Any) -> api.BearingModel:
 @pytest.fixture(scope="module")
 def whole() -> MachineEngine:
     """Return the shaft in its one bearing at the beginning of its motion."""
-    return machine_engine(check_shaft(ONE))
+    return machine_engine(resolve_machine(ONE))
 
 
 def test_equilibrium_of_one_bearing(whole: MachineEngine) -> None:
@@ -63,8 +63,8 @@ def test_equilibrium_of_one_bearing(whole: MachineEngine) -> None:
     assert 1e6 * pose[2] == pytest.approx(found.inner_ring_displacement_um[2], rel=1e-4)
     rigid = copy.deepcopy(ONE)
     del rigid["bearings"]["only"]["elastic"]
-    stiff = solve_shaft(check_shaft(rigid))
-    assert stiff.pose(check_shaft(rigid), 0)[2] > 1.05 * pose[2]  # down; the soft one goes further
+    stiff = solve_shaft(resolve_machine(rigid))
+    assert stiff.pose(resolve_machine(rigid), 0)[2] > 1.05 * pose[2]  # down; the soft one goes further
     assert whole.start.state.stiffness[0][2, 2] < 0.8 * stiff.stiffness[0][2, 2]
 
 
@@ -113,7 +113,7 @@ def test_a_bearing_of_the_whole_moves_as_it_does_alone(whole: MachineEngine) -> 
     changed["bearings"]["b"]["support"] = {"x": "free"}
     changed["loads"] = {"pull": {"at": "120 mm", "force_z": "-25 kN"}}
     changed["discs"] = {"wheel": {"at": "150 mm", "mass": "5 kg", "unbalance": "1 kg mm", "unbalance_angle": "50 deg"}}
-    engine = machine_engine(check_shaft(changed))
+    engine = machine_engine(resolve_machine(changed))
     bodies = feels_the_same(engine)
     # the start: waves of the outer rings rest, but for those of the equilibrium whose balls' friction was left out
     outer = [body for part in engine.bearings for body in part.span.bodies[6 : 6 + 3]]
@@ -131,7 +131,7 @@ def test_kinds_of_bearings_in_a_whole() -> None:
         "c": {"designation": "SKF 6208", "at": "270 mm", "clearance": "CN", **floats},
     }
     changed["loads"] = {"pull": {"at": "150 mm", "force_z": "-5 kN", "force_x": "500 N"}}
-    engine = machine_engine(check_shaft(changed))
+    engine = machine_engine(resolve_machine(changed))
     feels_the_same(engine)
     assert engine.advance(2e-4).ok
 
@@ -175,7 +175,7 @@ def test_damping_lets_waves_follow(whole: MachineEngine) -> None:
 
 def test_balance_of_a_run() -> None:
     """What is put in is dissipated or stored to 1e-3; the waves' dampers count to their bearing."""
-    engine = machine_engine(check_shaft(ONE))
+    engine = machine_engine(resolve_machine(ONE))
     assert engine.advance(6e-3).ok
     (row,) = engine.integrals()
     losses = {name: value for name, value in row.items() if name.startswith("loss")}
@@ -188,7 +188,7 @@ def test_a_mistake_is_named_where_it_stands() -> None:
     changed = copy.deepcopy(ONE)
     changed["bearings"]["only"]["elastic"]["outer_ring"] = {"orders": 3}
     with pytest.raises(CaseError, match=r"bearings\.only\.elastic\.outer_ring\.housing_stiffness"):
-        check_shaft(changed)
+        resolve_machine(changed)
     changed["bearings"]["only"]["elastic"] = {"cage": {"section_height": "400 mm"}}
     with pytest.raises(CaseError, match=r"bearings\.only\.elastic\.cage\.section_height"):
-        check_shaft(changed)
+        resolve_machine(changed)

@@ -17,7 +17,7 @@ from lambda_core.model.machine_templates import geared_shaft
 def mistakes(changes: Mapping[str, Any]) -> dict[str, str]:
     """Return what is wrong with the case that init writes after changes, by its path."""
     with pytest.raises(api.CaseError) as caught:
-        api.check_shaft(merged(tomllib.loads(geared_shaft("box")), changes))
+        api.check(merged(tomllib.loads(geared_shaft("box")), changes))
     found = {problem.where: problem.message for problem in caught.value.problems}
     assert len(found) == len(caught.value.problems)
     return found
@@ -108,4 +108,5 @@ def test_nothing_in_a_table_is_nothing_said(tmp_path: Path) -> None:
     """None in plain tables takes an option back, as in the case of one bearing."""
     tables = tomllib.loads(geared_shaft("box"))
     tables["life"]["contamination"] = None
-    assert api.check_shaft(tables, folder=tmp_path).contamination is None
+    machine = api.check(tables, folder=tmp_path)
+    assert [bearing.model.contamination for bearing in machine.bearings] == [None, None]

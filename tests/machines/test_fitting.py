@@ -18,7 +18,7 @@ from lambda_core.case.case import merged
 from lambda_core.case.case_writer import tables_toml
 from lambda_core.domain.errors import Problem
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.results.limits import warnings
 
 
@@ -69,7 +69,7 @@ def tables(**changes: Any) -> dict[str, Any]:
     ],
 )
 def test_what_cannot_stand_there(changes: dict[str, Any], said: tuple[str, ...]) -> None:
-    found = check_shaft(tables(**changes)).warnings
+    found = resolve_machine(tables(**changes)).warnings
     assert len(found) == len(said), found
     for sentence, words in zip(found, said, strict=True):
         assert words in sentence
@@ -80,7 +80,7 @@ def test_an_undercut_takes_no_seat() -> None:
     for width, count in ((3.0, 0), (6.0, 1)):
         sections = tables()["shaft"]["sections"]
         first = [{"length": f"{30.0 - width} mm", "diameter": "40 mm"}, {"length": f"{width} mm", "diameter": "38 mm"}]
-        found = check_shaft(tables(shaft={"sections": [*first, *sections[1:]]})).warnings
+        found = resolve_machine(tables(shaft={"sections": [*first, *sections[1:]]})).warnings
         assert len(found) == count, found
 
 
@@ -89,7 +89,7 @@ def test_it_is_said_everywhere(tmp_path: Path, capsys: pytest.CaptureFixture[str
     changed = tables(bearings={"left": {"designation": "SKF 6319", "at": "25 mm"}})
     case = tmp_path / "box.toml"
     case.write_text(tables_toml(changed))
-    (sentence,) = api.machine_warnings(check_shaft(case))
+    (sentence,) = api.machine_warnings(resolve_machine(case))
     assert main(["check", str(case), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["warnings"] == [sentence]
     assert main(["check", str(case)]) == 0
@@ -101,7 +101,7 @@ def test_it_is_said_everywhere(tmp_path: Path, capsys: pytest.CaptureFixture[str
 
 def test_it_is_said_of_a_run(tmp_path: Path) -> None:
     """The file of a run keeps the sentences."""
-    model = replace(check_shaft(tables()), warnings=("one", "two"))
+    model = replace(resolve_machine(tables()), warnings=("one", "two"))
     found = api.run(model, out=tmp_path / "r.h5")
     assert found.summary().warnings[:2] == ["one", "two"]
 
@@ -120,7 +120,7 @@ def test_laws_are_tried_out(
 
 def test_far_beyond_limits() -> None:
     """A 6208 and a 6206 under a meshing force of 106 kN: each limit by its name."""
-    found = api.quasistatic(check_shaft(tables(gears={"wheel": {"power": "2000 kW"}})))
+    found = api.quasistatic(resolve_machine(tables(gears={"wheel": {"power": "2000 kW"}})))
     for bearing, static in zip(found.bearings, (19.0, 11.2), strict=True):
         told = " ".join(bearing.warnings)
         load = np.hypot(*bearing.force_N[1:])

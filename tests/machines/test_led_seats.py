@@ -12,7 +12,7 @@ from lambda_core import api
 from lambda_core.case.case import merged
 from lambda_core.domain.elements import OUTER
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.machine_motion import machine_engine
 from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 
@@ -26,7 +26,7 @@ def tables(left: dict[str, Any], right: dict[str, Any], **changes: Any) -> dict[
 def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
     """Both seats on one rigid carrier that moves by 20 um and turns by 0.2 mrad: the same reactions, second order."""
     angle, y, z = 2e-4, 2e-5, -1e-5  # about z [rad], [m]
-    model = check_shaft(tomllib.loads(geared_shaft("box")))
+    model = resolve_machine(tomllib.loads(geared_shaft("box")))
     places = {bearing.name: bearing.position for bearing in model.bearings}
     seats = [
         {
@@ -37,7 +37,7 @@ def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
         for name in ("left", "right")
     ]
     seats[0]["x"] = {"motion": "3 um"}
-    at_rest, carried = solve_shaft(model), solve_shaft(check_shaft(tables(*seats)))
+    at_rest, carried = solve_shaft(model), solve_shaft(resolve_machine(tables(*seats)))
     assert carried.reactions == pytest.approx(at_rest.reactions, rel=2e-3, abs=0.5)
     moved = (carried.displacement - at_rest.displacement).reshape(-1, 6)
     assert moved[:, 0] == pytest.approx(3e-6, abs=2e-8)
@@ -48,8 +48,8 @@ def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
 
 def test_a_seat_out_of_line_loads_its_bearing() -> None:
     """Half a milliradian between both seats is what the rings are tilted by, less what the shaft bends."""
-    report = api.quasistatic(check_shaft(tables({}, {"tilt_y": {"motion": "0.5 mrad"}})))
-    at_rest = api.quasistatic(check_shaft(tables({}, {})))
+    report = api.quasistatic(resolve_machine(tables({}, {"tilt_y": {"motion": "0.5 mrad"}})))
+    at_rest = api.quasistatic(resolve_machine(tables({}, {})))
     (one,), (other,) = ([b for b in found.bearings if b.name == "right"] for found in (report, at_rest))
     assert one.misalignment_mrad[0] - other.misalignment_mrad[0] == pytest.approx(-0.5, rel=0.1)
     assert abs(one.moment_Nm[0]) > 5.0 * abs(other.moment_Nm[0])
@@ -60,8 +60,8 @@ def test_a_shaft_follows_seats_that_move() -> None:
     up = {"kind": "ramp", "start": "0 um", "end": "20 um", "start_time": "0 s", "end_time": "4 ms"}
     shaken = {"kind": "harmonic", "amplitude": "2 um", "frequency": "250 Hz"}
     right = {"x": {"motion": shaken}, "z": {"motion": up}}
-    engine = machine_engine(check_shaft(tables({"x": "free", "z": {"motion": up}}, right)))
-    still = machine_engine(check_shaft(tables({"x": "free"}, {"x": "locked"})))
+    engine = machine_engine(resolve_machine(tables({"x": "free", "z": {"motion": up}}, right)))
+    still = machine_engine(resolve_machine(tables({"x": "free"}, {"x": "locked"})))
     assert engine.advance(8e-3).ok
     assert still.advance(8e-3).ok
     moved, alike = engine.samples(), still.samples()
@@ -98,8 +98,8 @@ def boxed(hold: dict[str, Any]) -> dict[str, Any]:
 def test_a_body_that_is_led_carries_its_bearings() -> None:
     """By 20 um and, about its centre, 0.2 mrad: reactions as before, the shaft where the body takes it."""
     at_rest, model = (
-        solve_shaft(check_shaft(boxed({}))),
-        check_shaft(boxed({"x": {"motion": "3 um"}, "y": {"motion": "20 um"}, "tilt_z": {"motion": "0.2 mrad"}})),
+        solve_shaft(resolve_machine(boxed({}))),
+        resolve_machine(boxed({"x": {"motion": "3 um"}, "y": {"motion": "20 um"}, "tilt_z": {"motion": "0.2 mrad"}})),
     )
     carried = solve_shaft(model)
     assert carried.bodies[0] == pytest.approx([3e-6, 2e-5, 0.0, 0.0, 0.0, 2e-4], abs=1e-15)
@@ -112,7 +112,7 @@ def test_a_body_that_is_led_carries_its_bearings() -> None:
 def test_a_body_that_is_shaken_does_work() -> None:
     """Body, rings and shaft go along with 10 um at 100 Hz, far below all modes; energy is balanced."""
     swing = {"kind": "harmonic", "amplitude": "10 um", "frequency": "100 Hz"}
-    engine = machine_engine(check_shaft(boxed({"y": {"motion": swing}, "x": {"motion": "3 um"}})))
+    engine = machine_engine(resolve_machine(boxed({"y": {"motion": swing}, "x": {"motion": "3 um"}})))
     assert engine.advance(8e-3).ok
     samples = engine.samples()
     t = samples.machine["time"]
@@ -165,6 +165,6 @@ def test_what_cannot_be_led() -> None:
         ),
     ):
         with pytest.raises(api.CaseError) as found:
-            check_shaft(changes)
+            resolve_machine(changes)
         problems = {problem.where: problem.message for problem in found.value.problems}
         assert said in problems[where if where.startswith("bodies") else f"bearings.left.{where}"], problems

@@ -61,7 +61,7 @@ def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) 
     assert main(["quasistatic", case, *arguments]) == 0
     found = json.loads(capsys.readouterr().out)
     left, right = found["bearings"]
-    wheel = api.check_shaft(case).gears["wheel"]
+    wheel = api.check(case).gears["wheel"]
     weight = 9.80665 * found["shaft_mass_kg"]
     total = np.array(left["force_N"]) + right["force_N"] + wheel.force - [0.0, 0.0, weight]
     assert np.abs(total).max() < 1e-6 * 1000.0
@@ -180,7 +180,7 @@ def test_a_bearing_has_the_cage_of_its_own_case(folder: Path, capsys: pytest.Cap
     case, said = str(folder / "box.toml"), "bearings.right.cage"
     changes = ['bearings.left.cage.type="brass-machined"', "bearings.left.cage.mass=0.2 kg"]
     assert main(["check", case, *(part for change in changes for part in ("--set", change))]) == 0
-    left, right = (bearing.model for bearing in api.check_shaft(case, changes).bearings)
+    left, right = (bearing.model for bearing in api.check(case, changes).bearings)
     assert left.cage_body.mass == 0.2
     assert left.cage_body.mass > 2.0 * right.cage_body.mass
     assert left.cage.type == "brass-machined"
@@ -209,4 +209,4 @@ def test_check_says_what_the_shaft_is(folder: Path, capsys: pytest.CaptureFixtur
     assert main(["check", str(folder / "box.toml"), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["bearings"] == {"left": "6208 (SKF)", "right": "6206 (SKF)"}
-    assert "gear wheel" in api.describe_machine(api.check_shaft(folder / "box.toml"))
+    assert "gear wheel" in api.describe_machine(api.check(folder / "box.toml"))

@@ -19,7 +19,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.formulas.elastic.whirl import natural_frequencies
 from lambda_core.model.machine_model import PLACES, MachineModel
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
@@ -67,7 +67,7 @@ def frequencies(model: MachineModel, shaft: LumpedShaft) -> tuple[FloatArray, Fl
 @pytest.mark.parametrize("changes", [{}, LONG], ids=["gearbox", "ten diameters"])
 def test_lumps_keep_mass_centre_inertia_and_low_frequencies(changes: dict[str, Any]) -> None:
     """The gearbox shaft's first five to 0.3 %; ten diameters between bearings: the first six to 1 % (docs/shaft.md)."""
-    model = check_shaft(tables(**changes))
+    model = resolve_machine(tables(**changes))
     shaft = lump(model)
     assert shaft.mass.sum() == pytest.approx(model.body.total_mass, rel=1e-12)
     turn = np.zeros(model.body.mass.shape[0])  # about z through the left end
@@ -86,7 +86,7 @@ def test_lumps_keep_mass_centre_inertia_and_low_frequencies(changes: dict[str, A
 @pytest.fixture(scope="module")
 def engine() -> MachineEngine:
     """Return the gearbox shaft at the beginning of its motion."""
-    return machine_engine(check_shaft(tables()))
+    return machine_engine(resolve_machine(tables()))
 
 
 def evaluated(engine: MachineEngine, y: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -157,7 +157,7 @@ def check_slopes(engine: MachineEngine) -> None:
 def test_a_shaft_that_twists() -> None:
     """Torque of the gear through the shaft to a coupling at its left end: twist of the equilibrium, energy to 1e-3."""
     changed = tables(shaft={**tables()["shaft"], "twists": True})
-    engine = machine_engine(check_shaft(changed))
+    engine = machine_engine(resolve_machine(changed))
     check_slopes(engine)
     start = engine.start.state.displacement.reshape(-1, 6)[:, 3]
     expected = [start[engine.machine.body.node(float(place))] for place in engine.start.shaft.positions]
@@ -208,7 +208,7 @@ def test_a_run_says_what_it_found(folder: Path, capsys: pytest.CaptureFixture[st
     assert any("revolutions" in reason for reason in found["reasons"])
     assert abs(found["energy_residual"]) < 1e-3
     assert found["simulated_s"] == pytest.approx(9e-3, abs=1e-4)
-    model = api.check_shaft(folder / "box.toml")
+    model = api.check(folder / "box.toml")
     forces = np.sum([bearing["force_N"] for bearing in found["bearings"].values()], axis=0)
     given = model.gears["wheel"].force + np.array([0.0, 0.0, -9.80665 * model.body.total_mass])
     assert np.abs(forces + given).max() < 0.03 * np.abs(given).max()  # over a fraction of a turn: vibration, unbalance
@@ -245,7 +245,7 @@ def test_a_run_goes_on_bit_for_bit(folder: Path) -> None:
 def test_a_gear_and_an_unbalance_until_converged(tmp_path: Path) -> None:
     """6208 and 6206 of the template geared-shaft: torques known to 1 %, energy to 1e-3; as in their equilibrium."""
     (tmp_path / "box.toml").write_text(geared_shaft("box"))
-    model = api.check_shaft(tmp_path / "box.toml", ['discs.wheel.unbalance="50 g mm"'])
+    model = api.check(tmp_path / "box.toml", ['discs.wheel.unbalance="50 g mm"'])
     found = api.run(model, out=tmp_path / "run.h5").summary()
     assert found.converged, found.reasons
     assert abs(found.energy_residual) < 1e-3
@@ -293,10 +293,10 @@ def test_what_changes_over_time() -> None:
     force = {"kind": "harmonic", "amplitude": "100 N", "frequency": "200 Hz"}
     changed = tables(operation={"speed": ramp}, loads={"push": {"at": "110 mm", "force_z": force}})
     with pytest.raises(api.CaseError, match="constant speed"):
-        check_shaft(changed)
+        resolve_machine(changed)
     changed["gears"]["wheel"] |= {"power": None, "torque": "20 N m"}
     changed["gears"]["wheel"].pop("power")
-    engine = machine_engine(check_shaft(changed))
+    engine = machine_engine(resolve_machine(changed))
     assert engine.advance(2e-3).ok
     t, samples, rows = engine.time, engine.samples(), engine.integrals()
     ramped = np.pi / 30.0 * (500.0 + 2500.0 * samples.bearings[0]["time"] / 4e-3)
@@ -319,7 +319,7 @@ def test_signs_of_the_tied_states() -> None:
 
 def test_a_machine_without_cages_counts_the_turns_of_its_balls() -> None:
     """The balls of the 6208 go round at 0.40 of the shaft's speed; without a cage they are what has turned."""
-    engine = machine_engine(check_shaft(tables(), ["depth.cage=false"]))
+    engine = machine_engine(resolve_machine(tables(), ["depth.cage=false"]))
     assert engine.advance(5e-3).ok
     for one, row in zip(engine.machine.bearings, engine.integrals(), strict=True):
         g = one.model.geometry

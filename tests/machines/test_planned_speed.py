@@ -10,7 +10,7 @@ import pytest
 
 from lambda_core.model.laws.law_context import max_speed
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.damping import _freed
 from lambda_core.solver.drivers.law_inputs import RACEWAYS
 from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_engine
@@ -24,7 +24,7 @@ def engine() -> MachineEngine:
     """Return a shaft whose left bearing has a defect on its outer raceway."""
     tables: dict[str, Any] = tomllib.loads(geared_shaft("box"))
     tables["bearings"]["left"]["forces"] = {"ball_outer": DEFECT}
-    return machine_engine(check_shaft(tables))
+    return machine_engine(resolve_machine(tables))
 
 
 def test_laws_see_the_speed_of_the_shaft(engine: MachineEngine) -> None:

@@ -19,7 +19,7 @@ from lambda_core.formulas.elastic.reduced import FORMAT, read_reduced, write_red
 from lambda_core.formulas.elastic.whirl import craig_bampton
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.lumps import lump
 from lambda_core.solver.drivers.machine_motion import machine_engine
 from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
@@ -36,7 +36,7 @@ def tables(**changes: Any) -> dict[str, Any]:
 def beam() -> MachineModel:
     """Return the shaft of init as pieces."""
     written = tables()
-    return check_shaft(tables(shaft={**written["shaft"], "temperature": "50 degC"}))
+    return resolve_machine(tables(shaft={**written["shaft"], "temperature": "50 degC"}))
 
 
 def alone(model: MachineModel) -> ElasticBody:
@@ -58,7 +58,7 @@ def of_file(model: MachineModel, path: Path) -> MachineModel:
     write_reduced(alone(model), path)
     found = tables(shaft={"reduced": path.name, "temperature": "50 degC"})
     found["gears"]["wheel"]["at"] = f"n{model.body.node(0.085)}"
-    return check_shaft(found, folder=path.parent)
+    return resolve_machine(found, folder=path.parent)
 
 
 def test_the_own_beam_from_a_file_stands_and_swings_as_itself(beam: MachineModel, tmp_path: Path) -> None:
@@ -103,7 +103,7 @@ def test_a_craig_bampton_reduction_of_the_shaft(beam: MachineModel, tmp_path: Pa
     """Five nodes and twelve modes: the equilibrium of the whole beam to 1e-7, its first five frequencies to 1e-3."""
     kept = [0.0, 0.021, 0.085, 0.148, 0.17]
     write_reduced(craig_bampton(alone(beam), kept, 12), tmp_path / "shaft.json")
-    other = check_shaft(tables(shaft={"reduced": "shaft.json", "temperature": "50 degC"}), folder=tmp_path)
+    other = resolve_machine(tables(shaft={"reduced": "shaft.json", "temperature": "50 degC"}), folder=tmp_path)
     one, two = solve_shaft(beam), solve_shaft(other)
     assert two.reactions == pytest.approx(one.reactions, rel=1e-7, abs=1e-4)
     first = [mode.frequency for mode in modes_at(beam, supported(beam, one), 314.0)[:6]]
@@ -165,13 +165,13 @@ def test_files_that_are_no_shaft(change: Any, words: str, beam: MachineModel, tm
     plain = {key: np.asarray(value).tolist() for key, value in data.items()}
     (tmp_path / "shaft.json").write_text(json.dumps({"format": FORMAT, **plain}))
     with pytest.raises(api.CaseError, match=r"shaft\.reduced") as found:
-        check_shaft(tables(shaft={"reduced": "shaft.json"}), folder=tmp_path)
+        resolve_machine(tables(shaft={"reduced": "shaft.json"}), folder=tmp_path)
     assert words in str(found.value)
 
 
 def test_what_does_not_stand_at_a_node_is_said(beam: MachineModel, tmp_path: Path) -> None:
     write_reduced(craig_bampton(alone(beam), [0.0, 0.085, 0.17], 0), tmp_path / "shaft.json")
     with pytest.raises(api.CaseError, match=r"bearings\.left\.at +there is no node at 21 mm"):
-        check_shaft(tables(shaft={"reduced": "shaft.json"}), folder=tmp_path)
+        resolve_machine(tables(shaft={"reduced": "shaft.json"}), folder=tmp_path)
     with pytest.raises(api.CaseError, match=r"shaft\.sections +must have at least one entry"):
-        check_shaft(tables(shaft={"material": "100Cr6"}))
+        resolve_machine(tables(shaft={"material": "100Cr6"}))

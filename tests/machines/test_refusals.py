@@ -17,7 +17,7 @@ from lambda_core.formulas.elastic.body import ElasticBody
 from lambda_core.formulas.elastic.reduced import write_reduced
 from lambda_core.formulas.elastic.whirl import craig_bampton
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 
 
 def tables(**changes: Any) -> dict[str, Any]:
@@ -33,14 +33,14 @@ def ross(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def alone() -> ElasticBody:
     """Return the shaft of init without its disc: a free body."""
-    return check_shaft(tables(discs=None)).body
+    return resolve_machine(tables(discs=None)).body
 
 
 @pytest.mark.usefixtures("ross")
 def test_ross_has_no_shafts_from_outside(tmp_path: Path) -> None:
     body = alone()
     write_reduced(craig_bampton(body, [0.0, 0.021, 0.085, 0.148, 0.17], 0), tmp_path / "shaft.json")
-    model = check_shaft(tables(shaft={"reduced": "shaft.json", "sections": None}, discs=None), folder=tmp_path)
+    model = resolve_machine(tables(shaft={"reduced": "shaft.json", "sections": None}, discs=None), folder=tmp_path)
     with pytest.raises(api.UsageError, match="a shaft from outside has no pieces"):
         api.ross_rotor(model)
 
@@ -55,7 +55,7 @@ def test_ross_has_no_springs_to_bodies(way: str) -> None:
     else:
         connections["seal"] = {"at": "inside", "to": "shaft", "z": "1 N/um"}
     markers = {"foot": {"body": "box", "x": "10 mm"}, "inside": {"body": "box", "x": "100 mm"}}
-    model = check_shaft(tables(bodies={"box": body}, markers=markers, connections=connections))
+    model = resolve_machine(tables(bodies={"box": body}, markers=markers, connections=connections))
     with pytest.raises(api.UsageError, match="springs between shaft and other bodies have no place in a rotor of ROSS"):
         api.ross_rotor(model)
 
@@ -63,7 +63,7 @@ def test_ross_has_no_springs_to_bodies(way: str) -> None:
 def test_ross_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "ross", None)
     with pytest.raises(api.UsageError, match="pip install ross-rotordynamics"):
-        api.ross_rotor(check_shaft(tables()))
+        api.ross_rotor(resolve_machine(tables()))
 
 
 def test_no_motion_is_led() -> None:
@@ -73,7 +73,7 @@ def test_no_motion_is_led() -> None:
     body["support"] = {"z": led, "tilt_x": {"motion": "1 mrad"}}
     changes = {"bearings": {"left": {"support": {"y": led}}}, "bodies": {"box": body}, "shaft": {"z": led}}
     with pytest.raises(api.CaseError) as found:
-        check_shaft(tables(**changes))
+        resolve_machine(tables(**changes))
     said = {problem.where: problem.message for problem in found.value.problems}
     places = ["bearings.left.support.y", "bodies.box.support.tilt_x.motion", "bodies.box.support.z", "shaft.z"]
     assert sorted(said) == places
@@ -90,7 +90,7 @@ def test_what_of_a_housing_is_left_out_is_said(tmp_path: Path) -> None:
     turning[4, 5], turning[5, 4] = 0.01, -0.01
     whole = ElasticBody(body.positions, held, body.mass, turning, lumps=(0,), damping=1e-5 * held)
     write_reduced(whole, tmp_path / "housing.json")
-    model = check_shaft(tables(housing={"reduced": "housing.json"}), folder=tmp_path)
+    model = resolve_machine(tables(housing={"reduced": "housing.json"}), folder=tmp_path)
     told = " ".join(model.assumptions)
     for what in ("the mass", "the gyroscopic matrix", "the lumps"):
         assert f"{what} of the elastic housing" in told
@@ -98,7 +98,7 @@ def test_what_of_a_housing_is_left_out_is_said(tmp_path: Path) -> None:
     assert np.abs(model.housing_damping).max() > 1.0
     quiet = ElasticBody(body.positions, held, 0.0 * body.mass, 0.0 * turning)
     write_reduced(quiet, tmp_path / "housing.json")
-    model = check_shaft(tables(housing={"reduced": "housing.json"}), folder=tmp_path)
+    model = resolve_machine(tables(housing={"reduced": "housing.json"}), folder=tmp_path)
     assert not any("elastic housing" in sentence for sentence in model.assumptions)
 
 
@@ -123,7 +123,7 @@ def test_what_of_a_housing_is_left_out_is_said(tmp_path: Path) -> None:
 def test_what_no_part_bears_is_refused_at_once(changes: dict[str, Any], where: str, said: str) -> None:
     """Rounding ate the other parts of such a structure, and balls were pressed through rings for a minute."""
     with pytest.raises(api.CaseError) as found:
-        check_shaft(tables(**changes))
+        resolve_machine(tables(**changes))
     (problem,) = found.value.problems
     assert problem.where == where
     assert said in problem.message

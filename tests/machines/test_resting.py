@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
@@ -21,7 +21,7 @@ END = 0.015  # [s]
 @pytest.fixture(scope="module")
 def engine() -> MachineEngine:
     """Return the gearbox shaft in motion: the 6206 sets the steps, the 6208 rests between them."""
-    found = machine_engine(check_shaft(tables()))
+    found = machine_engine(resolve_machine(tables()))
     assert found.advance(END).ok
     return found
 
@@ -78,7 +78,7 @@ def test_a_jacobian_in_parts_is_the_whole_one(engine: MachineEngine) -> None:
 
 def test_factors_of_single_balls_are_those_of_the_whole_row() -> None:
     """After partial renewals inverses belong to their blocks, and a row's part of the Schur complement is the sum."""
-    engine = machine_engine(check_shaft(tables()))
+    engine = machine_engine(resolve_machine(tables()))
     assert engine.advance(END).ok
     assert engine.statistics()["ball_jacobians"] > 20.0
     factors, blocks = engine.context.factors, engine.context.blocks
@@ -98,7 +98,7 @@ def test_factors_of_single_balls_are_those_of_the_whole_row() -> None:
 
 def test_energy_is_balanced_as_well_as_without_it(engine: MachineEngine) -> None:
     """The same motion with every bearing evaluated every time: the balance closes, ends of iterations are as small."""
-    awake = machine_engine(check_shaft(tables()))
+    awake = machine_engine(resolve_machine(tables()))
     context = awake.context
     context.bundle.rows["bearing"], context.bundle.bodies["bearing"] = 0, 0
     context.bundle = context.bundle._replace(resting=np.zeros(1, dtype=np.int64), bearing_powers=np.zeros(1, R.RUNNING))

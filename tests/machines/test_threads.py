@@ -23,7 +23,7 @@ CASE = "6208-axial-1300"
 TIMED = """
 import sys, time
 from lambda_core import api
-model = api.check_shaft(sys.argv[1])
+model = api.check(sys.argv[1])
 api.quasistatic(model)
 clock, processor = time.perf_counter(), time.process_time()
 api.quasistatic(model)

@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.results.reader import Result
 from lambda_core.solver.drivers.machine_motion import machine_engine
 from lambda_core.solver.integrator.tableau import STAGES
@@ -48,7 +48,7 @@ def ringing(solver: dict[str, Any]) -> Callable[[FloatArray], FloatArray]:
     """Return what a kick moves the wheel by over time [m]: half the difference of one upwards and one downwards."""
     found = []
     for force in (30.0, -30.0):
-        engine = machine_engine(check_shaft(kicked(force, solver)))
+        engine = machine_engine(resolve_machine(kicked(force, solver)))
         engine._memory.control["sample_interval"] = 5e-5  # alike for averages
         assert engine.advance(0.0105).ok
         samples = engine.samples()
@@ -72,7 +72,7 @@ def test_a_kick_rings_as_in_a_run_a_hundred_times_tighter() -> None:
 
 def test_another_course_of_a_load_is_another_run() -> None:
     """A run goes on with the fingerprint that it began with: the points of a table belong to it."""
-    found = {machine_engine(check_shaft(kicked(force, VIBRATION))).fingerprint() for force in (30.0, 31.0)}
+    found = {machine_engine(resolve_machine(kicked(force, VIBRATION))).fingerprint() for force in (30.0, 31.0)}
     assert len(found) == 2
 
 
@@ -82,7 +82,7 @@ def test_modes_in_motion_are_those_of_the_rotor() -> None:
     To 8 %: the beam has no rings and balls (0.4 kg beside 4 kg), and balls that stand still.
     """
     tables = box(VIBRATION)
-    engine = machine_engine(check_shaft(tables))
+    engine = machine_engine(resolve_machine(tables))
     assert engine.advance(2e-4).ok
     whole = np.array([frequency for frequency, damping in engine.modes()])
     assert np.all(np.diff(whole) > 0.0)
@@ -96,7 +96,7 @@ def test_modes_in_motion_are_those_of_the_rotor() -> None:
 def test_vibrations_choose_themselves(is_shaken: bool) -> None:
     """A defect in one bearing, or a load that swings faster than the shaft turns."""
     found = box()
-    assert check_shaft(found).solver.resolve == 0.0
+    assert resolve_machine(found).solver.resolve == 0.0
     if is_shaken:
         shaking = {"kind": "harmonic", "amplitude": "10 N", "frequency": "1.5 kHz"}
         found["loads"] = {"shaker": {"at": "85 mm", "force_z": shaking}}
@@ -104,7 +104,7 @@ def test_vibrations_choose_themselves(is_shaken: bool) -> None:
     else:
         found["bearings"]["right"]["forces"] = DEFECT
         why, resolve = "right: ball_outer has a surface of its own, defect", 2000.0
-    model = check_shaft(found)
+    model = resolve_machine(found)
     assert [bearing.model.solver.resolve for bearing in model.bearings] == [resolve, resolve]
     assert any(why in sentence for sentence in model.assumptions)
     assert [b.model.laws["ball_outer"]["surface"].model.name for b in model.bearings] == [
@@ -114,7 +114,7 @@ def test_vibrations_choose_themselves(is_shaken: bool) -> None:
     assert engine._memory.stages.shape[0] > STAGES
     assert engine.sample_interval <= 1.0 / (5.0 * resolve)
     assert float(engine._memory.control["longest_step"][0]) <= 1.0 / (6.0 * resolve)
-    averages = check_shaft({**found, "solver": {"accuracy": "averages"}})
+    averages = resolve_machine({**found, "solver": {"accuracy": "averages"}})
     assert averages.solver.resolve == 0.0
 
 
@@ -122,20 +122,20 @@ def test_what_shakes_with_every_turn_is_not_faster() -> None:
     """11 Hz at 660 1/min, whatever the last bit of their quotient is."""
     shaking = {"kind": "harmonic", "amplitude": "10 N", "frequency": "11 Hz"}
     load = {"shaker": {"at": "85 mm", "force_z": shaking}}
-    assert check_shaft(box(operation={"speed": "660 rpm"}, loads=load)).solver.resolve == 0.0
-    assert check_shaft(box(operation={"speed": "659 rpm"}, loads=load)).solver.resolve == 2000.0
+    assert resolve_machine(box(operation={"speed": "660 rpm"}, loads=load)).solver.resolve == 0.0
+    assert resolve_machine(box(operation={"speed": "659 rpm"}, loads=load)).solver.resolve == 2000.0
 
 
 def test_a_run_up_is_sampled_for_the_speed_that_it_reaches() -> None:
     up = {"kind": "ramp", "start": "0 rpm", "end": "3000 rpm", "start_time": "0 s", "end_time": "20 ms"}
-    model = check_shaft(box(operation={"speed": up}, gears={}, loads={"l": {"at": "85 mm", "force_z": "-400 N"}}))
+    model = resolve_machine(box(operation={"speed": up}, gears={}, loads={"l": {"at": "85 mm", "force_z": "-400 N"}}))
     assert machine_engine(model).sample_interval < 1e-3
 
 
 def test_steps_that_are_cut_are_said_once() -> None:
     shaking = {"kind": "harmonic", "amplitude": "10 N", "frequency": "1.5 kHz"}
     load = {"shaker": {"at": "85 mm", "force_z": shaking}}
-    model = check_shaft(box({"max_step": "1 ms"}, loads=load))
+    model = resolve_machine(box({"max_step": "1 ms"}, loads=load))
     assert [text for text in model.assumptions if "steps are at most" in text] == [
         "in motion steps are at most 55.6 us: solver.max_step would lose what is to be followed"
     ]
@@ -157,12 +157,12 @@ def test_settings_that_cannot_be_are_said_once(solver: dict[str, Any], place: st
     shaking = {"kind": "harmonic", "amplitude": "10 N", "frequency": "1.5 kHz"}
     found["loads"] = {"shaker": {"at": "85 mm", "force_z": shaking}}
     with pytest.raises(api.CaseError) as caught:
-        check_shaft(found)
+        resolve_machine(found)
     assert [problem.where for problem in caught.value.problems] == [place]
     assert words in caught.value.problems[0].message
     found["bearings"]["left"]["at"] = "2 m"
     with pytest.raises(api.CaseError) as caught:
-        check_shaft(found)
+        resolve_machine(found)
     assert {problem.where for problem in caught.value.problems} == {place, "bearings.left.at"}
 
 
@@ -170,7 +170,7 @@ def test_a_mistake_in_a_force_element_of_one_bearing_has_its_place() -> None:
     found = box()
     found["bearings"]["right"]["forces"] = {"ball_outer": {"models": {"surface": "defekt"}}}
     with pytest.raises(api.CaseError) as caught:
-        check_shaft(found)
+        resolve_machine(found)
     (problem,) = caught.value.problems
     assert problem.where == "bearings.right.forces.ball_outer.models.surface"
     assert "defect" in problem.message
@@ -202,7 +202,7 @@ def test_a_time_that_no_machine_simulates_is_refused(tmp_path: Path) -> None:
     with pytest.raises(api.CaseError, match=r"at most 1000000 s"):
         api.run(box(), ["solver.duration=1e9 s"], out=tmp_path / "run")
     slow = {"operation": {"speed": "0.001 rpm"}, "gears": {}}
-    assert check_shaft(box(**slow)).solver.max_duration > 1e6  # of an equilibrium nobody asks
+    assert resolve_machine(box(**slow)).solver.max_duration > 1e6  # of an equilibrium nobody asks
     with pytest.raises(api.UsageError, match="30 turns of a cage; give --duration"):
         api.run(box(**slow), out=tmp_path / "run")
     with pytest.raises(api.UsageError, match="where nothing turns a run needs a duration"):
@@ -223,7 +223,7 @@ def lines(solver: dict[str, Any]) -> tuple[FloatArray, FloatArray]:
     """Return frequencies [Hz] and the spectrum of the shaft's velocity at the damaged bearing, (n, 2) [m/s]."""
     rate, count, found = 81920.0, 4096, box(solver)
     found["bearings"]["right"]["forces"] = DEFECT
-    engine = machine_engine(check_shaft(found))
+    engine = machine_engine(resolve_machine(found))
     engine._memory.control["sample_interval"] = 1.0 / rate
     assert engine.advance(0.062).ok
     samples = engine.samples()

@@ -19,7 +19,7 @@ def test_an_estimate_of_a_machine_is_about_what_its_run_takes() -> None:
     tables = tomllib.loads(geared_shaft("box"))
     found = api.estimate(tables, ["solver.duration=0.1 s"])
     assert found.simulated_s == 0.1
-    engine = machine_engine(api.check_shaft(tables))
+    engine = machine_engine(api.check(tables))
     begin = time.process_time()
     assert engine.advance(0.1).ok
     assert found.processor_s == pytest.approx(time.process_time() - begin, rel=2.0)

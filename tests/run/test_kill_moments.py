@@ -24,7 +24,7 @@ from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.results import file_format, hdf5
 from lambda_core.results.opening import ResultError
 from lambda_core.results.run_status import Status
@@ -77,7 +77,7 @@ class Kind:
 def kind(request: pytest.FixtureRequest) -> Kind:
     if request.param == "one bearing":
         return Kind("one", SINGLE, "1.5 ms", api.check)
-    return Kind("two", tomllib.loads(geared_shaft("box")), "1.5 ms", check_shaft)
+    return Kind("two", tomllib.loads(geared_shaft("box")), "1.5 ms", resolve_machine)
 
 
 @pytest.fixture(autouse=True)

@@ -99,7 +99,7 @@ def test_losses_that_leave_by_the_ends_of_the_shaft_have_their_closed_form() -> 
     q = [found.bearings[name].state.power_loss_W for name in ("left", "right")]
     assert q[0] > 1.05 * q[1] > 0.1
     length, places = 0.2, (0.05, 0.15)
-    ka = api.check_shaft(case).heat.material.thermal_conductivity * math.pi / 4.0 * 0.04**2
+    ka = api.check(case).heat.material.thermal_conductivity * math.pi / 4.0 * 0.04**2
 
     def green(x: float, source: float) -> float:
         return min(x, source) * (length - max(x, source)) / length
@@ -200,7 +200,7 @@ def test_the_case_of_a_warm_machine_needs_no_second_search() -> None:
     ready = ready_machine_of(pair(operation={"temperatures": "computed"}))
     assert not ready.awaits_temperatures
     assert "computed" not in ready.case_toml
-    again = api.check_shaft(tomllib.loads(ready.case_toml))
+    again = api.check(tomllib.loads(ready.case_toml))
     assert np.array_equal(again.growth, ready.growth)
     assert ready.growth.any()
 
@@ -302,12 +302,12 @@ COMPUTED = {"operation": {"temperatures": "computed"}}
 )  # fmt: skip
 def test_a_mistake_has_its_path(changes: dict[str, Any], where: str, said: str) -> None:
     with pytest.raises(CaseError) as caught:
-        api.check_shaft(pair(**changes))
+        api.check(pair(**changes))
     found = {problem.where: problem.message for problem in caught.value.problems}
     assert list(found) == [where]
     assert said in found[where]
 
 
 def test_the_oil_of_one_bearing_is_its_own() -> None:
-    machine = api.check_shaft(pair(bearings={"left": {"lubricant": {"temperature": "80 degC"}}}))
+    machine = api.check(pair(bearings={"left": {"lubricant": {"temperature": "80 degC"}}}))
     assert [round(one.model.oil.temperature - 273.15, 6) for one in machine.bearings] == [80.0, 50.0]

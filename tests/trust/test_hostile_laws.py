@@ -22,7 +22,7 @@ from lambda_core.laws import check
 from lambda_core.laws.jit.reach import UnreachableError, reach
 from lambda_core.laws.kernels import CHECKED_VARIABLE, compile_kernel
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.run.law_blame import BlamingBearingEngine, naming_laws
 from lambda_core.run.machine_law_blame import BlamingMachineEngine
 from lambda_core.solver.drivers.engine import Advance
@@ -215,7 +215,7 @@ def test_a4_a_step_that_becomes_too_small_is_told_with_the_law_behind_it(monkeyp
 @pytest.mark.timeout(900)
 def test_a4_a_failure_of_a_machine_names_law_and_bearing(monkeypatch: pytest.MonkeyPatch) -> None:
     """As for one bearing, with the name of the bearing whose contacts are driven."""
-    machine = check_shaft(tomllib.loads(geared_shaft("box")), ["models.traction=sound"])
+    machine = resolve_machine(tomllib.loads(geared_shaft("box")), ["models.traction=sound"])
     engine = BlamingMachineEngine(machine_start(machine))
     stuck = Advance(ok=False, message="the time step fell below 1e-14 s at t = 0 s")
     monkeypatch.setattr(MachineEngine, "advance", lambda *_: stuck)

@@ -14,7 +14,7 @@ from lambda_core.domain.installed import ON_VARIABLE
 from lambda_core.laws import check
 from lambda_core.laws.state import State, state_fault
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.run.machine_law_blame import BlamingMachineEngine
 from lambda_core.solver.drivers.machine_motion import machine_start
 
@@ -102,7 +102,7 @@ def test_a_run_ends_with_the_state_that_ran_away(capsys: pytest.CaptureFixture[s
 @pytest.mark.timeout(900)
 def test_a_machine_ends_with_the_bearing_whose_state_ran_away() -> None:
     """The bearing is named, too; the other one keeps the state as well, but its contacts were told first."""
-    machine = check_shaft(tomllib.loads(geared_shaft("box")), ["models.contact_state=feeding"])
+    machine = resolve_machine(tomllib.loads(geared_shaft("box")), ["models.contact_state=feeding"])
     found = BlamingMachineEngine(machine_start(machine)).advance(3e-3)
     assert not found.ok
     assert found.message.startswith("left: contact_state/feeding (states.py "), found.message

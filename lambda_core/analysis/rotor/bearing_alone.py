@@ -56,14 +56,11 @@ def bearing_of_run(result: Result) -> BearingModel:
     CaseError, SolverError
         When the case does not resolve any more, or the machine has no equilibrium.
     """
-    from lambda_core.case.case_io import parse_case, toml_tables
-    from lambda_core.model.checking import resolve
-    from lambda_core.model.resolve_machine import check_shaft
+    from lambda_core.case.case_io import toml_tables
+    from lambda_core.model.checking import check
 
-    if not result.is_machine:
-        return resolve(parse_case(result.case_toml, str(result.path)))
-    machine = check_shaft(toml_tables(result.case_toml, str(result.path)))
-    return bearing_alone(machine, result.of_bearing().bearing)
+    model = check(toml_tables(result.case_toml, str(result.path)))
+    return model if isinstance(model, BearingModel) else bearing_alone(model, result.of_bearing().bearing)
 
 
 def alone_under_load(machine: MachineModel, state: ShaftState, number: int) -> BearingModel:

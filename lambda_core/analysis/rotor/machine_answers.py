@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
     from lambda_core.analysis.rotor.machine_modes import MachineModes
     from lambda_core.case.case_io import Source
+    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
 
 
@@ -40,14 +41,17 @@ def machine_equilibrium(
 
 @one_blas_thread()
 def modes(
-    source: Source | MachineModel, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
+    source: Source | BearingModel | MachineModel,
+    overrides: Iterable[str] = (),
+    *,
+    announce: Callable[[str], None] | None = None,
 ) -> MachineModes:
     """Compute critical speeds, natural frequencies and bearing matrices of a machine at its operating point.
 
     Parameters
     ----------
     source : str, Path, mapping, ShaftCase or MachineModel
-        File, plain tables as they stand in one, a case, or what :func:`check_shaft` returned.
+        File, plain tables as they stand in one, a case, or what :func:`check` returned.
     overrides : iterable of str
         Changes ``path=value``.
     announce : callable, optional
@@ -75,17 +79,17 @@ def modes(
             "modes are those of a shaft in its bearings, and this case has one bearing without a shaft: "
             "lambda-bearing init NAME --template geared-shaft writes a machine to start from"
         )
-    model = ready_machine_of(source, overrides, announce)
+    model = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
     return modes_of(model, solve_shaft(model, announce))
 
 
 def machine_of(source: Source | MachineModel, overrides: Iterable[str] = ()) -> MachineModel:
     """Return the resolved machine of whatever a function of this package takes as one."""
     from lambda_core.model.machine_model import MachineModel
-    from lambda_core.model.resolve_machine import check_shaft
+    from lambda_core.model.resolve_machine import resolve_machine
 
     if not isinstance(source, MachineModel):
-        return check_shaft(source, overrides)
+        return resolve_machine(source, overrides)
     if list(overrides):
         raise UsageError("a resolved machine takes no overrides: change the case and resolve it")
     return source
@@ -97,7 +101,7 @@ def describe_machine(model: MachineModel) -> str:
     Parameters
     ----------
     model : MachineModel
-        From :func:`check_shaft`.
+        From :func:`check`.
 
     Returns
     -------

@@ -224,7 +224,7 @@ def machine_warnings(model: MachineModel) -> list[str]:
     Parameters
     ----------
     model : MachineModel
-        From :func:`check_shaft`.
+        From :func:`check`.
 
     Returns
     -------

@@ -20,7 +20,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.geometry.resolve_geometry import with_clearance
 from lambda_core.model.machine_model import MachineModel, MountedBearing
-from lambda_core.model.resolve_machine import check_shaft
+from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.model.settings.machine_heat import BEARING_NODES, stretch
 from lambda_core.results.reader import Result
 from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels, solve_shaft
@@ -153,7 +153,7 @@ def ready_machine_of(
     Parameters
     ----------
     source : str, Path, mapping, ShaftCase or MachineModel
-        As for :func:`check_shaft`, or what it returned.
+        As for :func:`check`, or what it returned.
     overrides : iterable of str
         Changes ``path=value``.
     announce : callable, optional
@@ -179,7 +179,7 @@ def ready_machine_of(
     sentence = _sentence(loop, found)
     if announce is not None:
         announce(sentence)
-    return check_shaft(_with_temperatures(loop, found, sentence))
+    return resolve_machine(_with_temperatures(loop, found, sentence))
 
 
 def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Steady]:
@@ -187,7 +187,7 @@ def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Stea
 
     Conductances are those of the equilibrium at the temperatures that the run was made with.
     """
-    machine = check_shaft(toml_tables(result.case_toml, str(result.path)))
+    machine = resolve_machine(toml_tables(result.case_toml, str(result.path)))
     loop = MachineLoop(without_temperatures(machine), announce)
     state = solve_shaft(machine, announce)
     measured = tuple(
@@ -214,7 +214,7 @@ def without_temperatures(machine: MachineModel) -> MachineModel:
         bearings[name] = {key: value for key, value in given.items() if key != "temperatures"}
         bearings[name] |= {"temperatures": parts} if parts else {}
     tables |= {"bearings": bearings, "operation": {**tables["operation"], "temperatures": "computed"}}
-    return check_shaft(tables)
+    return resolve_machine(tables)
 
 
 def _with_temperatures(loop: MachineLoop, found: Steady, sentence: str) -> dict[str, Any]:

@@ -96,13 +96,11 @@ def export_fmu(
     CaseError, SolverError
         With a sentence about the case or its equilibrium.
     """
-    from lambda_core.case.case import Case
     from lambda_core.case.case_io import read_case
     from lambda_core.case.case_writer import standalone_toml
     from lambda_core.domain.files import check_folder, check_new, check_target
     from lambda_core.export.fmu.varied import varied
-    from lambda_core.model.checking import resolve
-    from lambda_core.model.resolve_machine import check_shaft
+    from lambda_core.model.checking import check
     from lambda_core.solver.drivers.given import COUPLINGS
 
     wanted = tuple(dict.fromkeys(platforms))
@@ -125,10 +123,7 @@ def export_fmu(
     loaded = read_case(source, overrides)
     options = tuple(vary)
     varied(options, loaded)
-    if isinstance(loaded, Case):
-        resolve(loaded)
-    else:
-        check_shaft(loaded)
+    check(loaded)
     target = check_target(Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu"))
     check_folder(check_new(target, force).parent, target)
     task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}

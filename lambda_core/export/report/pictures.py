@@ -124,7 +124,7 @@ def machine_pictures(
     Parameters
     ----------
     model : MachineModel
-        From :func:`check_shaft`.
+        From :func:`check`.
     equilibrium : MachineEquilibrium, optional
         From :func:`quasistatic`.
     modes : MachineModes, optional

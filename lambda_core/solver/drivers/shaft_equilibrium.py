@@ -222,7 +222,7 @@ def solve_shaft(model: MachineModel, announce: Announce = None, kernels: SharedK
     Parameters
     ----------
     model : MachineModel
-        From :func:`lambda_core.model.resolve_machine.check_shaft`.
+        From :func:`lambda_core.api.check`.
     announce : callable, optional
         Called with a sentence before something is compiled.
     kernels : SharedKernels, optional
