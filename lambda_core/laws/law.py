@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import KW_ONLY, dataclass, field
 from types import FunctionType, MappingProxyType
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal, Required, TypedDict, TypeVar, Unpack, overload
 
 from pydantic import BaseModel
 
@@ -13,12 +13,14 @@ from lambda_core.domain.handed_laws import MARK
 from lambda_core.domain.installed import OWN, project_of
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import ROLE_API
+from lambda_core.laws import kernel_types as types
 from lambda_core.laws.context import Context
 from lambda_core.laws.parameter import NoParameters
 from lambda_core.laws.state import State
 
 Prepare = Callable[[Any, Context], Any]
 Kernel = TypeVar("Kernel", bound=Callable[..., int])
+Given = type[BaseModel]
 
 
 def _no_errors() -> Mapping[int, str]:
@@ -126,6 +128,136 @@ class LazyLaw:
     target: str
 
 
+class LawWords(TypedDict, total=False):
+    """Keywords of :func:`law`."""
+
+    role_api: Required[int]
+    reference: Required[str]
+    summary: str
+    validity: str
+    prepare: Prepare | None
+    errors: Mapping[int, str] | None
+    bibtex: str
+    states: tuple[State, ...]
+    reads: Mapping[str, float] | None
+    contact: Contact
+
+
+_NormalContactKernel = TypeVar("_NormalContactKernel", bound=types.NormalContactKernel)
+_RheologyKernel = TypeVar("_RheologyKernel", bound=types.RheologyKernel)
+_FilmThicknessKernel = TypeVar("_FilmThicknessKernel", bound=types.FilmThicknessKernel)
+_ThermalCorrectionKernel = TypeVar("_ThermalCorrectionKernel", bound=types.ThermalCorrectionKernel)
+_SupplyKernel = TypeVar("_SupplyKernel", bound=types.SupplyKernel)
+_ContactTemperatureKernel = TypeVar("_ContactTemperatureKernel", bound=types.ContactTemperatureKernel)
+_TractionKernel = TypeVar("_TractionKernel", bound=types.TractionKernel)
+_RollingResistanceKernel = TypeVar("_RollingResistanceKernel", bound=types.RollingResistanceKernel)
+_ElasticHysteresisKernel = TypeVar("_ElasticHysteresisKernel", bound=types.ElasticHysteresisKernel)
+_AsperityLoadKernel = TypeVar("_AsperityLoadKernel", bound=types.AsperityLoadKernel)
+_BoundaryFrictionKernel = TypeVar("_BoundaryFrictionKernel", bound=types.BoundaryFrictionKernel)
+_MixingKernel = TypeVar("_MixingKernel", bound=types.MixingKernel)
+_ContactStateKernel = TypeVar("_ContactStateKernel", bound=types.ContactStateKernel)
+_CageContactKernel = TypeVar("_CageContactKernel", bound=types.CageContactKernel)
+_FluidDragKernel = TypeVar("_FluidDragKernel", bound=types.FluidDragKernel)
+_PermittivityKernel = TypeVar("_PermittivityKernel", bound=types.PermittivityKernel)
+_CapacitanceKernel = TypeVar("_CapacitanceKernel", bound=types.CapacitanceKernel)
+_SurfaceKernel = TypeVar("_SurfaceKernel", bound=types.SurfaceKernel)
+_ForceElementKernel = TypeVar("_ForceElementKernel", bound=types.ForceElementKernel)
+_TimeFunctionKernel = TypeVar("_TimeFunctionKernel", bound=types.TimeFunctionKernel)
+_BreakdownKernel = TypeVar("_BreakdownKernel", bound=types.BreakdownKernel)
+_DischargeKernel = TypeVar("_DischargeKernel", bound=types.DischargeKernel)
+
+
+# A kernel with other arguments than its role has is an error for type checkers.
+@overload
+def law(
+    role: Literal["normal_contact"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_NormalContactKernel], _NormalContactKernel]: ...
+@overload
+def law(
+    role: Literal["rheology"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_RheologyKernel], _RheologyKernel]: ...
+@overload
+def law(
+    role: Literal["film_thickness"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_FilmThicknessKernel], _FilmThicknessKernel]: ...
+@overload
+def law(
+    role: Literal["thermal_correction"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_ThermalCorrectionKernel], _ThermalCorrectionKernel]: ...
+@overload
+def law(
+    role: Literal["supply"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_SupplyKernel], _SupplyKernel]: ...
+@overload
+def law(
+    role: Literal["contact_temperature"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_ContactTemperatureKernel], _ContactTemperatureKernel]: ...
+@overload
+def law(
+    role: Literal["traction"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_TractionKernel], _TractionKernel]: ...
+@overload
+def law(
+    role: Literal["rolling_resistance"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_RollingResistanceKernel], _RollingResistanceKernel]: ...
+@overload
+def law(
+    role: Literal["elastic_hysteresis"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_ElasticHysteresisKernel], _ElasticHysteresisKernel]: ...
+@overload
+def law(
+    role: Literal["asperity_load"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_AsperityLoadKernel], _AsperityLoadKernel]: ...
+@overload
+def law(
+    role: Literal["boundary_friction"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_BoundaryFrictionKernel], _BoundaryFrictionKernel]: ...
+@overload
+def law(
+    role: Literal["mixing"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_MixingKernel], _MixingKernel]: ...
+@overload
+def law(
+    role: Literal["contact_state"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_ContactStateKernel], _ContactStateKernel]: ...
+@overload
+def law(
+    role: Literal["cage_contact"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_CageContactKernel], _CageContactKernel]: ...
+@overload
+def law(
+    role: Literal["fluid_drag"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_FluidDragKernel], _FluidDragKernel]: ...
+@overload
+def law(
+    role: Literal["permittivity"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_PermittivityKernel], _PermittivityKernel]: ...
+@overload
+def law(
+    role: Literal["capacitance"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_CapacitanceKernel], _CapacitanceKernel]: ...
+@overload
+def law(
+    role: Literal["surface"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_SurfaceKernel], _SurfaceKernel]: ...
+@overload
+def law(
+    role: Literal["force_element"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_ForceElementKernel], _ForceElementKernel]: ...
+@overload
+def law(
+    role: Literal["time_function"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_TimeFunctionKernel], _TimeFunctionKernel]: ...
+@overload
+def law(
+    role: Literal["breakdown"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_BreakdownKernel], _BreakdownKernel]: ...
+@overload
+def law(
+    role: Literal["discharge"], name: str, parameters: Given = ..., **words: Unpack[LawWords]
+) -> Callable[[_DischargeKernel], _DischargeKernel]: ...
+@overload
+def law(role: str, name: str, parameters: Given = ..., **words: Unpack[LawWords]) -> Callable[[Kernel], Kernel]: ...
 def law(
     role: str,
     name: str,
