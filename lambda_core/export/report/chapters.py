@@ -233,8 +233,8 @@ def _sentences(lines: Sequence[str], units: UnitSystem) -> tuple[str, ...]:
 @lru_cache(maxsize=8)
 def _bands(case_toml: str) -> Mapping[str, tuple[float, float]]:
     """Return the 90 % model bands of a case by field; empty where there are none."""
+    from lambda_core.analysis.band.model_band import model_band
     from lambda_core.case.case_io import parse_case
-    from lambda_core.fit.band import model_band
 
     try:
         fields = model_band(parse_case(case_toml)).fields()
