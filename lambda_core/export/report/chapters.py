@@ -24,11 +24,13 @@ from lambda_core.export.report.key_tables import (
     value_tables,
 )
 from lambda_core.export.report.sketch import bearing_sketch, load_sketch, shaft_sketch
+from lambda_core.results.model_band import FIELDS
 from lambda_core.results.verdict import Verdict
 
 if TYPE_CHECKING:
     from lambda_core.results.citation import Citation
     from lambda_core.results.reader import Result
+    from lambda_core.results.summary import BearingSummary
 
 _SIZES = ("bore_diameter", "outside_diameter", "width")
 
@@ -187,11 +189,11 @@ def run_bearings(result: Result, units: UnitSystem) -> tuple[BearingPart, ...]:
     """Return the parts of the bearings of a run."""
     summary = result.summary()
     several = result.is_machine and len(summary.bearings) > 1
-    bands = {} if result.is_machine else _bands(result.case_toml)
     return tuple(
         bearing_part(
             one, result.of_bearing(name).model["geometry"] if result.is_machine else result.model["geometry"],
-            name=name if several else "", loads=_carried(one), units=units, bands=bands,
+            name=name if several else "", loads=_carried(one), units=units,
+            bands=_written_bands(one) or ({} if result.is_machine else _bands(result.case_toml)),
         )
         for name, one in summary.bearings.items()
     )  # fmt: skip
@@ -228,6 +230,12 @@ def _size(geometry: Mapping[str, Any]) -> tuple[float, float, float]:
 
 def _sentences(lines: Sequence[str], units: UnitSystem) -> tuple[str, ...]:
     return tuple(map(units.sentence, lines))
+
+
+def _written_bands(found: BearingSummary) -> Mapping[str, tuple[float, float]]:
+    """Return the model bands that a run was asked for by field; empty where it was not."""
+    ends = {name: getattr(found, f"{name}_band") for name in FIELDS.values()}
+    return {name: (both[0], both[1]) for name, both in ends.items() if both}
 
 
 @lru_cache(maxsize=8)
