@@ -165,8 +165,7 @@ def _ring_shapes(found: Equilibrium) -> list[RingShape]:
 
 def _azimuths(found: Equilibrium) -> FloatArray:
     """Return the azimuth of each ball, shape (Z,) [rad]."""
-    count = found.context.model.geometry.balls
-    azimuths: FloatArray = found.state[: L.NB * count].reshape(count, L.NB)[:, L.BPSI]
+    azimuths: FloatArray = L.elements_in(found.context.bundle, found.state)["azimuth"]
     return azimuths
 
 

@@ -34,13 +34,13 @@ def equilibrium_state(
     stiffness : 5 x 5 tuple of tuples, optional
         d(load)/d(displacement) of the inner ring, order x, y, z, tilt_y, tilt_z [SI].
     """
-    from lambda_core.solver.arrays.bundle import BPSI, NB
+    from lambda_core.solver.arrays.bundle import elements_in
 
-    arcs = equilibrium.arcs
+    arcs, elements = equilibrium.arcs, elements_in(equilibrium.context.bundle, equilibrium.state)
     sides = arcs.shape[1] // 2
     contacts = tuple(
         ContactLoad(
-            azimuth=float(equilibrium.state[NB * ball + BPSI]),
+            azimuth=float(elements["azimuth"][ball]),
             load_inner=float(arcs[ball, side, 0]),
             load_outer=float(arcs[ball, sides + side, 0]),
             angle_inner=float(arcs[ball, side, 1]),

@@ -98,8 +98,7 @@ def _line(name: str, row: Integration) -> str:
 
 def with_locked_cage(model: BearingModel, start: Equilibrium) -> BearingModel:
     """Return the model with the cage on its kinematic path: centred, at the balls' mean orbital speed."""
-    count = model.geometry.balls
-    axial = float(np.mean(start.state[: L.NB * count].reshape(count, L.NB)[:, L.BX]))
+    axial = float(np.mean(L.elements_in(start.context.bundle, start.state)["x"]))
     dofs = dict.fromkeys(model.cage_body.dofs, DofState("locked"))
     dofs["x"] = DofState("prescribed", TimeFunction.constant(axial))
     dofs["spin"] = DofState("prescribed", TimeFunction.constant(start.orbit))
@@ -186,7 +185,8 @@ def _trajectories(begun: _Begun, duration: float) -> CrossCheck:
     unit = tolerance * context.scale
     apart, theirs = ((found - fine.states[:-1]) / unit for found in (states[: grid.size - 1], same.states[:-1]))
     held = np.ones(apart.shape, dtype=bool)
-    held[:, : L.NB * gripped.shape[1]] = np.repeat(gripped[: grid.size - 1], L.NB, axis=1)
+    tail = int(start.context.bundle.system["tail"][0])
+    held[:, :tail] = np.repeat(gripped[: grid.size - 1], tail // gripped.shape[1], axis=1)
     deviation = float(_distance(apart, held).max())
     power = fine.dissipated()[-1] / end
     rows = [

@@ -14,7 +14,7 @@ from lambda_core.laws.jit.function_tables import reader
 from lambda_core.laws.jit.machine_code import OPTIONS, role_signature
 from lambda_core.laws.jit.references import reference_t
 from lambda_core.solver import records as R
-from lambda_core.solver.arrays.bundle import RUNNING_SIZE, Bundle, Grid, Losses, RacewayLaws, named_cells
+from lambda_core.solver.arrays.bundle import RUNNING_SIZE, Bundle, Grid, Losses, RacewayLaws, named_balls, named_cells
 
 f8 = types.float64
 i8 = types.int64
@@ -102,13 +102,20 @@ def part(par, span):
     return par[span[0] : span[1]]
 
 
+@helper
+def first_of(row, j):
+    """Return where the states of ball j of a row begin in the state vector."""
+    return row.first_state + row.size * (j - row.first_ball)
+
+
 @numba.njit(inline="always")
 def grid_of(table):
     """Return the rows of Bundle.grid by name."""
     return Grid(table[0], table[1], table[2], table[3], table[4], table[5])
 
 
-# And so that Python has it, too, without the compiler.
+# And so that Python has them, too, without the compiler.
+balls_of = numba.njit(inline="always")(named_balls)
 cells_of = numba.njit(inline="always")(named_cells)
 
 

@@ -150,6 +150,7 @@ OIL = record(
 )
 SYSTEM = record(
     ("balls", i8),  # of all rows
+    ("tail", i8),  # where the free entries of the shared state begin in the state vector
     ("gravity", f8, (3,)),  # inertial [m/s2]
     ("roll_floor", f8),  # width of the change of sign of rolling losses [m/s]
     ("slip_floor", f8),  # smallest slip that directions are computed with [m/s]
@@ -176,6 +177,8 @@ ROW = record(
     ("bearing", i8),  # that it belongs to
     ("first_ball", i8),
     ("balls", i8),
+    ("first_state", i8),  # of its first ball, in the state vector
+    ("size", i8),  # states of each of its balls
     ("first_raceway", i8),  # the raceways that every ball of the row touches
     ("raceways", i8),
     ("cage", i8),  # body

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.solver.arrays.bundle import MECHANISMS, NB
+from lambda_core.solver.arrays.bundle import MECHANISMS
 from lambda_core.solver.cage.guides import guide_force, land_state, pocket_apply, pocket_state
 from lambda_core.solver.contact.contact_capacitance import (
     bulk_permittivity,
@@ -24,6 +24,7 @@ from lambda_core.solver.layout import (
     array2,
     array3,
     array4,
+    balls_of,
     bundle_t,
     cells_of,
     f8,
@@ -38,7 +39,7 @@ from lambda_core.solver.layout import (
 from lambda_core.solver.motion.energy import stored_energy
 from lambda_core.solver.motion.force_elements import add_contact, clear_forces
 from lambda_core.solver.motion.prescribed import fill_shared
-from lambda_core.solver.records import BALL, CONTACT_SAMPLE, TOTALS
+from lambda_core.solver.records import CONTACT_SAMPLE, TOTALS
 from lambda_core.solver.vec import clear, combine_onto, dot, store
 
 _TOTALS = len(TOTALS.names or ())
@@ -122,12 +123,13 @@ def _pocket_forces(balls, row, bundle, pockets):
     g, out = scratch.guide, scratch.out[:]
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     for j in range(row.first_ball, row.first_ball + row.balls):
-        pocket_state(balls[j], cage, j, row, bundle, g)
+        ball = balls[j - row.first_ball]
+        pocket_state(ball, cage, j, row, bundle, g)
         if guide_force(law, par, g, row.oil.viscosity, out, scratch.fault, -1) != 1:
             return 0
         on_ball = bundle.ball_wrenches[j]
         clear(on_ball)
-        pocket_apply(balls[j], cage, g, out, on_ball, on_cage)
+        pocket_apply(ball, cage, g, out, on_ball, on_cage)
         store(pockets[j], on_ball.force)
     return 1
 
@@ -159,7 +161,7 @@ def _contact_channels(balls, row, bundle, shorted, contacts, losses, rates):
         series, parallel = 0.0, 0.0
         for k in range(row.raceways):
             raceway, values = bundle.raceways[row.first_raceway + k], contacts[j, k]
-            if _raceway_channels(balls[j], j, raceway, bundle, shorted, values, losses, rates) != 1:
+            if _raceway_channels(balls[j - row.first_ball], j, raceway, bundle, shorted, values, losses, rates) != 1:
                 bundle.scratch[0].fault.ball = j
                 return -1.0
             parallel += values.view(CONTACT_SAMPLE)[0].capacitance
@@ -174,8 +176,7 @@ def _contact_channels(balls, row, bundle, shorted, contacts, losses, rates):
 @helper
 def _observe_one(t, y, bundle, shorted, contacts, pockets, lands, extra, rates):
     """Write what one sample shows; see observe."""
-    system, totals = bundle.system[0], extra[:_TOTALS].view(TOTALS)[0]
-    balls, losses = y[: NB * system.balls].view(BALL), extra[_TOTALS : _TOTALS + MECHANISMS * bundle.raceways.size]
+    totals, losses = extra[:_TOTALS].view(TOTALS)[0], extra[_TOTALS : _TOTALS + MECHANISMS * bundle.raceways.size]
     bundle.scratch[0].fault.role = -1
     totals.stored_energy = stored_energy(t, y, bundle)
     if fill_shared(t, y, bundle) != 1:
@@ -184,7 +185,7 @@ def _observe_one(t, y, bundle, shorted, contacts, pockets, lands, extra, rates):
     lands[:, :] = 0.0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        if row.caged == 1 and _pocket_forces(balls, row, bundle, pockets) != 1:
+        if row.caged == 1 and _pocket_forces(balls_of(y, row), row, bundle, pockets) != 1:
             return 0
     if _land_forces(bundle, lands) != 1:
         return 0
@@ -192,7 +193,8 @@ def _observe_one(t, y, bundle, shorted, contacts, pockets, lands, extra, rates):
     rates[:] = 0.0
     totals.capacitance = 0.0
     for r in range(bundle.rows.size):
-        found = _contact_channels(balls, bundle.rows[r], bundle, shorted, contacts, losses, rates)
+        row = bundle.rows[r]
+        found = _contact_channels(balls_of(y, row), row, bundle, shorted, contacts, losses, rates)
         if found < 0.0:
             return 0
         totals.capacitance += found

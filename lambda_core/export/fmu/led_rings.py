@@ -68,8 +68,8 @@ def led_rings(context: SolverContext, given: Sequence[str]) -> LedRings:
     led = [column for name in given for field in ("value", "rate") if (column := axis_of(name, field)[0]) >= 0]
     active = np.union1d(bundle.active, led).astype(np.int64)
     free = bundle._replace(active=active)
-    balls = L.NB * int(bundle.system["balls"][0])
-    return LedRings(free, make_blocks(free), np.zeros(balls + active.size + bundle.states.size))
+    tail = int(bundle.system["tail"][0])
+    return LedRings(free, make_blocks(free), np.zeros(tail + active.size + bundle.states.size))
 
 
 def axis_of(name: str, field: str) -> tuple[int, float]:

@@ -95,7 +95,6 @@ def _rolling(found: Equilibrium, speed: float) -> FloatArray:
     model = dataclasses.replace(
         found.context.model, inner_ring=dataclasses.replace(ring, dofs={**ring.dofs, SPIN: dof})
     )
-    y = found.state.copy()
-    roll(model, found.context.frame, y, found.arcs)
-    balls = y[: L.NB * model.geometry.balls].view(R.BALL)
+    balls = L.elements_in(found.context.bundle, found.state.copy())
+    roll(model, found.context.frame, balls, found.arcs)
     return np.column_stack([balls["velocity"][:, 2], balls["spin"]])

@@ -1,10 +1,11 @@
 """State vector, tables and workspaces of the compiled code, in one bundle.
 
-State vector y, float64, shape (9 Z + n_active + states of contacts,):
+State vector y, float64, shape (states of rolling elements + n_active + states of contacts,):
 
-* ball j, ``y[9 j : 9 j + 9]``: a records.BALL (x, radius, azimuth, velocity, spin).
-* then the free entries of the *shared* state, shape (12 bodies,), one records.BODY_STATE per body: inner ring,
-  outer ring, cage.
+* row by row, ball by ball, ROW.size states each from ROW.first_state on: a records.BALL (x, radius, azimuth, velocity,
+  spin).
+* from SYSTEM.tail on the free entries of the *shared* state, shape (12 bodies,), one records.BODY_STATE per body: inner
+  ring, outer ring, cage.
 * the rest: what contacts keep by laws of the role contact_state, raceway by raceway, ball by ball; mostly nothing.
 """
 
@@ -183,6 +184,16 @@ class Bundle(NamedTuple):
     state_rates: Any  # (states of contacts,) their time derivatives
     state_slopes: Any  # (states of contacts, most of one contact): of the rates with the states of the same contact
     state_pivots: Any  # int64 (most of one contact,)
+
+
+def elements_in(bundle: Bundle, states: Any) -> Any:
+    """Return the rolling elements of a bearing that is alone in state vectors, (..., size), a view (..., elements)."""
+    return states[..., : int(bundle.system["tail"][0])].view(R.BALL)
+
+
+def named_balls(y: Any, row: Any) -> Any:
+    """Return the balls of a row in a state vector, a view: a table of records.BALL."""
+    return y[row.first_state : row.first_state + NB * row.balls].view(R.BALL)
 
 
 def named_cells(block: Any) -> Cells:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lambda_core.laws.jit.words import by_reference
-from lambda_core.solver.arrays.bundle import ARRAY1, ARRAY2, ARRAY3, INTEGERS, NB
+from lambda_core.solver.arrays.bundle import ARRAY1, ARRAY2, ARRAY3, INTEGERS
 from lambda_core.solver.arrays.own_bodies import Reach
 
 LANES = 8  # numbers that a processor works on at once, at most
@@ -39,24 +39,24 @@ class Condensed(NamedTuple):
     condensed=Condensed,
 )
 class Factors(NamedTuple):
-    """Inverses of the ball blocks and LU factors of the Schur complement."""
+    """Inverses of the ball blocks and LU factors of the Schur complement; `size` is that of the largest block."""
 
-    inverse: Any  # (Z, 9, 9): (A_j^-1)^T
-    pivots: Any  # int64 (9,)
-    x: Any  # (9, filled): A_j^-1 B_j of the ball in hand
-    across: Any  # (Z, widest, 9): (A_j^-1 B_j)^T
-    c: Any  # (Z, 9, filled): C_j^T, scaled
+    inverse: Any  # (Z, size, size): (A_j^-1)^T
+    pivots: Any  # int64 (size,)
+    x: Any  # (size, filled): A_j^-1 B_j of the ball in hand
+    across: Any  # (Z, widest, size): (A_j^-1 B_j)^T
+    c: Any  # (Z, size, filled): C_j^T, scaled
     schur: Any  # (n, filled)
     schur_pivots: Any  # int64 (n,)
     condensed: Any  # Condensed: the same where there are several bearings
     own: Any  # (rows, widest, filled): what each row of balls has of the Schur complement
     gamma: Any  # (rows,): g that each row is factored for
     tail: Any  # (filled,): of the shared part of a right-hand side
-    part: Any  # (9,): one ball's part of a solution, or what rows are multiplied by
+    part: Any  # (size,): one ball's part of a solution, or what rows are multiplied by
     begin: Any  # int64 (rows,): ball of each row that is eliminated first
     joined: Any  # int64 (Z or 0,): whether a ball's coupling with the next one is eliminated
-    behind: Any  # (Z or 0, 9, 9): X_j,j-1, scaled
-    ahead: Any  # (Z or 0, 9, 9): A_j^-1 X_j,j+1
+    behind: Any  # (Z or 0, size, size): X_j,j-1, scaled
+    ahead: Any  # (Z or 0, size, size): A_j^-1 X_j,j+1
 
 
 def make_condensed(positions: int, speeds: int) -> Condensed:
@@ -73,25 +73,28 @@ def make_condensed(positions: int, speeds: int) -> Condensed:
     )
 
 
-def make_factors(reach: Reach, n: int, coupled: int) -> Factors:
-    """Allocate for the rows of balls that `reach` describes, n shared states and `coupled` balls that may touch."""
+def make_factors(reach: Reach, n: int, coupled: int, size: int) -> Factors:
+    """Allocate for the rows of balls that `reach` describes, n shared states and `coupled` balls that may touch.
+
+    No element has more than `size` states.
+    """
     balls, widest = int(reach.first[-1]), reach.columns.shape[1]
     row = filled(widest)
     return Factors(
-        np.zeros((balls, NB, NB)),
-        np.zeros(NB, dtype=np.int64),
-        np.zeros((NB, row)),
-        np.zeros((balls, widest, NB)),
-        np.zeros((balls, NB, row)),
+        np.zeros((balls, size, size)),
+        np.zeros(size, dtype=np.int64),
+        np.zeros((size, row)),
+        np.zeros((balls, widest, size)),
+        np.zeros((balls, size, row)),
         np.zeros((n, filled(n))),
         np.zeros(n, dtype=np.int64),
         make_condensed(reach.positions.size, reach.speeds.size),
         np.zeros((reach.width.size, widest, row)),
         np.ones(reach.width.size),
         np.zeros(row),
-        np.zeros(NB),
+        np.zeros(size),
         reach.first[:-1].copy(),
         np.zeros(coupled, dtype=np.int64),
-        np.zeros((coupled, NB, NB)),
-        np.zeros((coupled, NB, NB)),
+        np.zeros((coupled, size, size)),
+        np.zeros((coupled, size, size)),
     )

@@ -15,17 +15,17 @@ from lambda_core.solver.arrays.bundle import (
     BVX,
     BX,
     INTEGERS,
-    NB,
     NS,
     SVX,
     SWY,
     SX,
     Bundle,
+    named_balls,
     power_count,
 )
 from lambda_core.solver.arrays.factors import Factors
 from lambda_core.solver.arrays.jacobian_blocks import Blocks
-from lambda_core.solver.records import BALL, BODY_STATE
+from lambda_core.solver.records import BODY_STATE
 
 _NEWTON = 0.3  # of the error allowed per step, what the iteration may leave
 _FINE_NEWTON = 0.03  # the same where vibrations are followed: what it leaves shakes the modes that nothing damps
@@ -173,16 +173,16 @@ def make_memory(
 
 def inertias(bundle: Any) -> np.ndarray:
     """Return what each state carries kinetic energy with, shape (n,): mass, moment of inertia, 0 for positions."""
-    balls = np.zeros(int(bundle.system["balls"][0]), BALL)
+    elements = np.zeros(int(bundle.system["tail"][0]))
     for row in bundle.rows:
-        its = balls[row["first_ball"] : row["first_ball"] + row["balls"]]
-        its["velocity"], its["spin"] = row["ball_mass"], row["ball_inertia"]
+        balls = named_balls(elements, row)
+        balls["velocity"], balls["spin"] = row["ball_mass"], row["ball_inertia"]
     bodies = np.zeros(bundle.bodies.size, BODY_STATE)
     bodies["velocity"] = bundle.bodies["mass"][:, None]
     bodies["tilt_velocity"] = bundle.bodies["transverse_inertia"][:, None]
     bodies["spin"] = bundle.bodies["polar_inertia"]
     kept = np.zeros(bundle.states.size)
-    return np.concatenate([balls.view(np.float64), bodies.view(np.float64)[bundle.active], kept])
+    return np.concatenate([elements, bodies.view(np.float64)[bundle.active], kept])
 
 
 def places(bundle: Any) -> np.ndarray:
@@ -190,11 +190,13 @@ def places(bundle: Any) -> np.ndarray:
 
     Only where normal forces act: a ball's x and r, a body's x, y, z.
     """
-    balls, active = int(bundle.system["balls"][0]), bundle.active
-    found = np.full(NB * balls + active.size + bundle.states.size, -1, dtype=np.int64)
-    for speed, position in ((BVX, BX), (BVR, BR)):
-        found[speed : NB * balls : NB] = np.arange(position, NB * balls, NB)
-    where = {int(entry): NB * balls + i for i, entry in enumerate(active)}
+    tail, active = int(bundle.system["tail"][0]), bundle.active
+    found = np.full(tail + active.size + bundle.states.size, -1, dtype=np.int64)
+    for row in bundle.rows:
+        first = row["first_state"] + row["size"] * np.arange(row["balls"])
+        for speed, position in ((BVX, BX), (BVR, BR)):
+            found[first + speed] = first + position
+    where = {int(entry): tail + i for i, entry in enumerate(active)}
     for entry, i in where.items():
         if SVX <= entry % NS < SWY:
             found[i] = where.get(entry - SVX + SX, -1)

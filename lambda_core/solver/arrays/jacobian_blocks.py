@@ -43,18 +43,18 @@ class Blocks(NamedTuple):
     """Jacobian blocks and workspaces; those of a ball have the columns of its own bodies, in their places."""
 
     reach: Reach  # the own bodies of each row
-    a: Any  # (Z, 9, 9)
-    b: Any  # (Z, 9, filled), the widest row of balls filled up
-    c: Any  # (Z, filled, 9)
+    a: Any  # (Z, size, size), of the largest block
+    b: Any  # (Z, size, filled), the widest row of balls filled up
+    c: Any  # (Z, filled, size)
     d: Any  # (n_active, n_active)
-    cross: Any  # (Z, 2, 9, 9), without balls that may touch (0, 2, 9, 9): with the balls before and after, see chain
-    beyond: Any  # (6, 9) d(ball force)/d(ball beside it)
+    cross: Any  # (Z, 2, size, size), without balls that may touch (0, ...): with the balls before and after, see chain
+    beyond: Any  # (6, size) d(ball force)/d(ball beside it)
     d_own: Any  # (rows, widest, widest): of D what contacts of each row have, where bearings are several
     changed: Any  # int64 (rows,): whether blocks of the row are newer than its factors
     newer: Any  # int64 (Z,): whether blocks of the ball are newer than its factors
-    own: Any  # (6, 9) d(ball force)/d(ball)
+    own: Any  # (6, size) d(ball force)/d(ball)
     to_shared: Any  # (6, 12 places) d(ball force)/d(own bodies)
-    from_ball: Any  # (places, 6, 9) d(own body force)/d(ball)
+    from_ball: Any  # (places, 6, size) d(own body force)/d(ball)
     parts: Any  # (Z, places, 6, 12 places) d(own body force)/d(own bodies) by each ball
     shared: Any  # (bodies, 6, 12 bodies) d(body force)/d(shared): the parts' sum, and the lands
     due: Any  # int64 (Z,): whether the next call renews this ball; it leaves 1 everywhere
@@ -81,21 +81,21 @@ def make_blocks(bundle: Any) -> Blocks:
     index = np.full(NS * bodies, -1, dtype=np.int64)
     index[bundle.active] = np.arange(n)
     reach, zeros = make_reach(bundle), np.zeros
-    places, widest = reach.bodies.shape[1], reach.columns.shape[1]
+    places, widest, size = reach.bodies.shape[1], reach.columns.shape[1], int(bundle.rows["size"].max())
     return Blocks(
         reach=reach,
-        a=zeros((balls, NB, NB)),
-        b=zeros((balls, NB, filled(widest))),
-        c=zeros((balls, filled(widest), NB)),
+        a=zeros((balls, size, size)),
+        b=zeros((balls, size, filled(widest))),
+        c=zeros((balls, filled(widest), size)),
         d=zeros((n, n)),
-        cross=zeros((balls if may_touch(bundle) else 0, 2, NB, NB)),
-        beyond=zeros((6, NB)),
+        cross=zeros((balls if may_touch(bundle) else 0, 2, size, size)),
+        beyond=zeros((6, size)),
         d_own=zeros((reach.width.size, widest, widest)),
         changed=np.ones(reach.width.size, dtype=np.int64),
         newer=np.ones(balls, dtype=np.int64),
-        own=zeros((6, NB)),
+        own=zeros((6, size)),
         to_shared=zeros((6, NS * places)),
-        from_ball=zeros((places, 6, NB)),
+        from_ball=zeros((places, 6, size)),
         parts=zeros((balls, places, 6, NS * places)),
         shared=zeros((bodies, 6, NS * bodies)),
         due=np.ones(balls, dtype=np.int64),

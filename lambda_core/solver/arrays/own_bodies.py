@@ -12,12 +12,13 @@ from lambda_core.solver.arrays.bundle import INTEGERS, INTEGERS2, NS, SVX
 
 @by_reference(
     INTEGERS2,
-    **dict.fromkeys(("first", "count", "width", "positions", "middles", "ends", "speeds", "among"), INTEGERS),
+    **dict.fromkeys(("first", "states", "count", "width", "positions", "middles", "ends", "speeds", "among"), INTEGERS),
 )
 class Reach(NamedTuple):
     """The own bodies of each row of balls, and where their states stand."""
 
     first: Any  # int64 (rows + 1,): first ball of each row, in the end the number of balls
+    states: Any  # int64 (rows + 1,): where its states begin in the state vector, in the end the shared ones
     count: Any  # int64 (rows,): own bodies
     bodies: Any  # int64 (rows, places): the own bodies, in the order of all
     place: Any  # int64 (rows, bodies): place of each body among the own ones, or -1
@@ -56,6 +57,7 @@ def make_reach(bundle: Any) -> Reach:
     speeds = np.flatnonzero(is_speed)[::-1].astype(np.int64)
     found = Reach(
         first=np.array([*bundle.rows["first_ball"], bundle.system["balls"][0]], dtype=np.int64),
+        states=np.array([*bundle.rows["first_state"], bundle.system["tail"][0]], dtype=np.int64),
         count=np.array([len(bodies) for bodies in own], dtype=np.int64),
         bodies=np.zeros((rows, places), dtype=np.int64),
         place=np.full((rows, bundle.bodies.size), -1, dtype=np.int64),

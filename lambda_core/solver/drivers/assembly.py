@@ -16,6 +16,7 @@ from lambda_core.model.bearing_model import ELEMENT_PREFIX, BearingModel, Body
 from lambda_core.model.geometry.raceways import raceways
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.state_channels import states_of
+from lambda_core.solver.arrays.bundle import NB
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.law_inputs import Oils
 from lambda_core.solver.drivers.wave_tables import waves_of
@@ -138,15 +139,16 @@ class Assembly:
     def spans(self) -> tuple[BearingSpan, ...]:
         """Return where each bearing stands in tables and states."""
         found: list[BearingSpan] = []
-        balls = rows = grooves = states = 0
+        begin = balls = rows = grooves = states = 0
         body = len(self.members)
         for bearing in self.bearings:
             model, g = bearing.model, bearing.model.geometry
             every, waves = raceways(g), len(waves_of(model))
             kept = g.ball_count * sum(len(states_of(model, groove.element)) for groove in every)
-            bodies = (*bearing.members, *range(body, body + waves))
-            found.append(BearingSpan(bodies, balls, g.balls, rows, grooves, states, kept))
+            bodies, end = (*bearing.members, *range(body, body + waves)), begin + NB * g.balls
+            found.append(BearingSpan(bodies, begin, end, balls, g.balls, rows, grooves, states, kept))
             balls, rows, grooves, states = balls + g.balls, rows + g.rows, grooves + len(every), states + kept
+            begin = end
             body += waves
         return tuple(found)
 
@@ -159,12 +161,16 @@ class BearingSpan:
     ----------
     bodies : tuple of ints
         Members that carry inner ring, outer ring and cage; then the waves of elastic ones.
+    begin, end : int
+        Where the states of its balls begin and end in the state vector.
     first_ball, balls, first_row, first_raceway : int
     first_state, states : int
         Among what contacts keep.
     """
 
     bodies: tuple[int, ...]
+    begin: int
+    end: int
     first_ball: int
     balls: int
     first_row: int

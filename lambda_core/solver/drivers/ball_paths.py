@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import EquilibriumError
-from lambda_core.model.bearing_model import Geometry
-from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.warmer_oil import StaticReport
 
 PATH_ITERATIONS = 20
@@ -24,7 +23,7 @@ NO_PATH = 1e-6  # of rolling
 Solve = Callable[[FloatArray], StaticReport]
 
 
-def follow_paths(g: Geometry, state: FloatArray, report: StaticReport, solve: Solve) -> StaticReport:
+def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport, solve: Solve) -> StaticReport:
     """Let balls move along their paths, axially and radially, and find the friction's equilibrium again, in place.
 
     A ball that is carried across the grooves while it goes round drags the rings sideways where it slips; at rest it
@@ -41,9 +40,10 @@ def follow_paths(g: Geometry, state: FloatArray, report: StaticReport, solve: So
     solve : callable
         Finds the equilibrium from a state, in place; raises EquilibriumError where it finds none.
     """
+    g = context.model.geometry
     if g.self_aligning:
         return report
-    balls = state[: L.NB * g.balls].view(R.BALL)
+    balls = L.elements_in(context.bundle, state)
     rolling = float(np.abs(balls["velocity"][:, 2]).max())
     moving = np.zeros((balls.size, 2))
     for k in range(PATH_ITERATIONS):
@@ -53,7 +53,7 @@ def follow_paths(g: Geometry, state: FloatArray, report: StaticReport, solve: So
         if across <= NO_PATH * rolling or change <= PATH_TOLERANCE * across:
             break
         step = (PATH_SHARE if k else 1.0) * (aim - moving)
-        taken = _step_along(state, moving, step, solve)
+        taken = _step_along(context.bundle, state, moving, step, solve)
         if taken is None:
             break
         report, done = taken
@@ -62,7 +62,7 @@ def follow_paths(g: Geometry, state: FloatArray, report: StaticReport, solve: So
 
 
 def _step_along(
-    state: FloatArray, moving: FloatArray, step: FloatArray, solve: Solve
+    bundle: L.Bundle, state: FloatArray, moving: FloatArray, step: FloatArray, solve: Solve
 ) -> tuple[StaticReport, FloatArray] | None:
     """Change the balls' axial and radial velocities by a step or a part of it and find the equilibrium, in place.
 
@@ -70,7 +70,7 @@ def _step_along(
     """
     for share in _STEPS:
         trial, part = state.copy(), share * step
-        trial[: L.NB * moving.shape[0]].view(R.BALL)["velocity"][:, :2] = moving + part
+        L.elements_in(bundle, trial)["velocity"][:, :2] = moving + part
         try:
             report = solve(trial)
         except EquilibriumError:

@@ -77,7 +77,7 @@ def _moved(equilibrium: Equilibrium, context: SolverContext) -> FloatArray:
     old = equilibrium.context
     shared = old.bundle.shared.copy()  # as the last evaluation left it: led degrees of freedom included
     shared[old.bundle.active] = old.shared_part(initial_state(equilibrium))
-    balls = equilibrium.state[: L.NB * context.model.geometry.balls]
+    balls = equilibrium.state[: int(old.bundle.system["tail"][0])]
     kept = equilibrium.state[equilibrium.state.size - old.bundle.states.size :]
     return np.concatenate([balls, shared[context.bundle.active], kept])
 

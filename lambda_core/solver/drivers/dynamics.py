@@ -424,9 +424,8 @@ def initial_state(equilibrium: Equilibrium) -> FloatArray:
     """
     context = equilibrium.context
     model = context.model
-    z = model.geometry.balls
     y = equilibrium.state.copy()
-    balls = y[: L.NB * z].view(R.BALL)
+    balls = L.elements_in(context.bundle, y)
     balls["velocity"][:, 2] = equilibrium.orbit * balls["radius"]
     if model.depth.cage:
         bodies = np.zeros(context.bundle.bodies.size, R.BODY_STATE)

@@ -145,12 +145,12 @@ def solve(
     context = assemble(model, kernels, frame, oils)
     assert state is not None
     creeps = _without_friction(compiled, context, state)
-    roll(model, frame, state, contacts)
+    roll(model, frame, L.elements_in(context.bundle, state), contacts)
     smooth, converged = state.copy(), True
     try:
         report = _with_friction(compiled, context, state, strict=strict)
         report = follow_paths(
-            model.geometry, state, report, lambda near: continue_static(compiled, context, near, friction=True)
+            context, state, report, lambda near: continue_static(compiled, context, near, friction=True)
         )
     except SolverError:
         if strict:

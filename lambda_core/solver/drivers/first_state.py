@@ -6,8 +6,10 @@ Rings are in contact, balls evenly spaced and rolling.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import DOFS, INNER, OUTER
@@ -71,7 +73,7 @@ def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
         if body.dofs["spin"].mode == "free":
             bodies["spin"][b] = initial(body.dofs["spin"].motion)
     y = np.zeros(context.size)
-    balls = y[: L.NB * g.balls].view(R.BALL)
+    balls = L.elements_in(context.bundle, y)
     balls["x"] = 0.5 * (bodies["position"][INNER, 0] + bodies["position"][OUTER, 0])
     balls["radius"] = 0.5 * g.pitch_diameter
     for i, place in enumerate(row_places(g)):
@@ -80,11 +82,11 @@ def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
         row["azimuth"] = [-0.5 * math.pi + 2.0 * math.pi * (j + phase + 0.5 * i) / count for j in range(count)]
     context.shared_part(y)[:] = bodies.view(np.float64)[context.bundle.active]
     y[context.size - context.bundle.states.size :] = context.bundle.states
-    roll(model, context.frame, y)
+    roll(model, context.frame, balls)
     return y
 
 
-def roll(model: BearingModel, frame: ContactFrame, y: FloatArray, contacts: FloatArray | None = None) -> None:
+def roll(model: BearingModel, frame: ContactFrame, balls: NDArray[Any], contacts: FloatArray | None = None) -> None:
     """Set orbital speeds and spins to pure rolling at the frozen contact angle, in place.
 
     With two arcs or rows the axis of each ball lies between the normals of its `contacts`, shape (balls, contacts, 16).
@@ -95,7 +97,6 @@ def roll(model: BearingModel, frame: ContactFrame, y: FloatArray, contacts: Floa
     lever = 0.5 * g.ball_diameter * math.cos(angle)
     v_inner, v_outer = inner * (0.5 * g.pitch_diameter - lever), outer * (0.5 * g.pitch_diameter + lever)
     spin = (v_outer - v_inner) / g.ball_diameter
-    balls = y[: L.NB * g.balls].view(R.BALL)
     balls["velocity"][:, 2] = 0.5 * (v_inner + v_outer)
     if g.resting_angle == 0.0 or contacts is None:
         balls["spin"] = spin * math.cos(angle), -spin * math.sin(angle), 0.0

@@ -216,7 +216,7 @@ def _start_state(
         own = np.zeros(found.context.bundle.bodies.size, R.BODY_STATE)
         own.view(np.float64)[found.context.bundle.active] = found.context.shared_part(y)
         _place_cage(bodies, own, one.span, found, outer)
-        balls.append(_carried(y[: L.NB * one.span.balls].view(R.BALL).copy(), outer).view(np.float64))
+        balls.append(_carried(L.elements_in(found.context.bundle, y).copy(), outer).view(np.float64))
         kept.append(y[y.size - found.context.bundle.states.size :])
     return np.concatenate([*balls, flat[context.bundle.active], *kept])
 

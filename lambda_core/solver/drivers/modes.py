@@ -18,21 +18,22 @@ _MOST = 8  # modes that are told
 
 def dense(blocks: Blocks) -> FloatArray:
     """Return the block-arrow Jacobian as one matrix: what a ball does not reach stays zero."""
-    reach, tail = blocks.reach, L.NB * blocks.a.shape[0]
+    reach, tail = blocks.reach, int(blocks.reach.states[-1])
     size = tail + blocks.d.shape[0]
     matrix = np.zeros((size, size))
     for r, width in enumerate(reach.width):
         columns = tail + reach.columns[r, :width]
-        for j in range(reach.first[r], reach.first[r + 1]):
-            own = np.arange(L.NB * j, L.NB * (j + 1))
-            matrix[np.ix_(own, own)] = blocks.a[j]
-            matrix[np.ix_(own, columns)] = blocks.b[j, :, :width]
-            matrix[np.ix_(columns, own)] = blocks.c[j, :width]
+        z = reach.first[r + 1] - reach.first[r]
+        states = np.arange(reach.states[r], reach.states[r + 1]).reshape(z, -1)
+        size = states.shape[1]
+        for i, j in enumerate(range(reach.first[r], reach.first[r + 1])):
+            own = states[i]
+            matrix[np.ix_(own, own)] = blocks.a[j, :size, :size]
+            matrix[np.ix_(own, columns)] = blocks.b[j, :size, :width]
+            matrix[np.ix_(columns, own)] = blocks.c[j, :width, :size]
             if blocks.cross.size:
-                z, i = reach.first[r + 1] - reach.first[r], j - reach.first[r]
                 for side, place in ((BEFORE, (i - 1) % z), (AFTER, (i + 1) % z)):
-                    beside = L.NB * (reach.first[r] + place) + np.arange(L.NB)
-                    matrix[np.ix_(own, beside)] += blocks.cross[j, side]
+                    matrix[np.ix_(own, states[place])] += blocks.cross[j, side, :size, :size]
     matrix[tail:, tail:] = blocks.d
     return matrix
 
@@ -59,7 +60,7 @@ def ring_modes(
     values, vectors = np.linalg.eig(matrix)
     energy = np.abs(vectors) ** 2 * inertia[: matrix.shape[0], None]
     bodies = np.asarray(bundle.active) // L.NS
-    rings = L.NB * blocks.a.shape[0] + np.flatnonzero(bundle.bodies["is_cage"][bodies] == 0)
+    rings = int(blocks.reach.states[-1]) + np.flatnonzero(bundle.bodies["is_cage"][bodies] == 0)
     share = energy[rings].sum(axis=0) / (energy.sum(axis=0) + 1e-300)
     frequency, damping = np.abs(values) / (2.0 * np.pi), -values.real / (np.abs(values) + 1e-300)
     mine = (values.imag > 0.0) & (share > _RING) & (frequency > _SLOWEST) & (damping > 0.0) & (damping < _DAMPED)

@@ -39,7 +39,7 @@ class Scratch(NamedTuple):
         """Allocate for `n` samples."""
         z, powers = int(context.bundle.system["balls"][0]), L.power_count(context.bundle)
         shapes = (
-            (n, z, int(context.bundle.rows["raceways"].max()), 16),
+            (n, z, int(context.bundle.rows["raceways"].max()), len(CONTACT_CHANNELS)),
             (n, z, 3),
             (n, 2 * len(context.assembly.bearings), 3),
             (n, powers + 2),
@@ -75,11 +75,10 @@ def channels_of(
     if ok != 1:
         raise SolverError(fault_sentence(context))
     n, geometry = times.size, context.model.geometry
-    z = geometry.balls
     contacts, pockets, lands, extra, flat, rates, _ = scratch
     everything = flat.view(R.BODY_STATE)
     bodies = everything[:, : len(BODIES)]
-    balls = np.ascontiguousarray(states[:n, : L.NB * z]).view(R.BALL)
+    balls = L.elements_in(context.bundle, states[:n])
     totals = extra[:, : R.floats_of(R.TOTALS)].view(R.TOTALS)[:, 0]
     channels: dict[str, FloatArray] = {
         "time": times.copy(),

@@ -107,7 +107,7 @@ class BearingReadings:
         bodies.view(np.float64)[context.bundle.active] = context.shared_part(y)
         inner, outer, cage = (float(angle) for angle in bodies["angle"][: CAGE + 1])
         if not context.model.depth.cage:
-            cage = float(np.mean(y[: L.NB * context.model.geometry.balls].view(R.BALL)["azimuth"]))
+            cage = float(np.mean(L.elements_in(context.bundle, y)["azimuth"]))
         return np.array([cage - outer, inner - outer])
 
     def sampled(self, times: FloatArray, states: FloatArray) -> Channels:
@@ -205,8 +205,7 @@ class MachineReadings:
         flat[self._context.bundle.active] = self._context.shared_part(y)
         angles, cages = flat.view(R.BODY_STATE)["angle"], []
         for one in self.bearings:
-            first, last = one.span.first_ball, one.span.first_ball + one.span.balls
-            balls = y[L.NB * first : L.NB * last].view(R.BALL)
+            balls = L.elements_in(one.context.bundle, y[one.span.begin : one.span.end])
             is_caged = one.context.model.depth.cage
             cages.append(float(angles[one.span.bodies[CAGE]] if is_caged else np.mean(balls["azimuth"])))
         return np.array([*cages, *(float(angles[one.span.bodies[INNER]]) for one in self.bearings)])
@@ -250,7 +249,7 @@ class MachineReadings:
         if self._standing is None:
             return np.array([self._evaluated(float(t), y) for t, y in zip(times, states, strict=True)])
         flat = np.tile(self._standing, (len(states), 1))
-        tail = L.NB * int(bundle.system["balls"][0])
+        tail = int(bundle.system["tail"][0])
         flat[:, bundle.active] = states[:, tail : tail + bundle.active.size]
         return flat
 
@@ -266,11 +265,10 @@ class MachineReadings:
     ) -> tuple[Channels, FloatArray]:
         """Return every channel of a bearing, and force and moment of its contacts on the shaft, (n, 6)."""
         context, span, n = one.context, one.span, times.size
-        begin = L.NB * span.first_ball
         kept = states.shape[1] - self._context.bundle.states.size + span.first_state
         own = flat.reshape(n, -1, L.NS)[:, list(span.bodies)].reshape(n, -1)[:, context.bundle.active]
         y = np.ascontiguousarray(np.concatenate([
-            states[:, begin : begin + L.NB * span.balls], own, states[:, kept : kept + span.states]
+            states[:, span.begin : span.end], own, states[:, kept : kept + span.states]
         ], axis=1))  # fmt: skip
         scratch, wrenches, evaluate = Scratch.of(n, context), np.zeros((n, 6)), core().evaluate_pointer
         for i in range(n):

@@ -54,23 +54,25 @@ def _dense(t, y, out, handle):
         return 0  # the compiled Jacobian builds on the evaluation at its point
     ok = handle.jacobian(t, memory.new, handle.bundle, handle.blocks)
     bl, reach, n = handle.blocks, handle.blocks.reach, handle.blocks.d.shape[0]
-    tail = L.NB * bl.a.shape[0]
+    tail = reach.states[reach.width.size]
     out[:, :] = 0.0
     for r in range(reach.width.size):
-        for j in range(reach.first[r], reach.first[r + 1]):
-            row = L.NB * j
-            for i in range(L.NB):
-                for k in range(L.NB):
+        first, count = reach.first[r], reach.first[r + 1] - reach.first[r]
+        size = (reach.states[r + 1] - reach.states[r]) // count
+        for j in range(first, first + count):
+            row = reach.states[r] + size * (j - first)
+            for i in range(size):
+                for k in range(size):
                     out[row + i, row + k] = bl.a[j, i, k]
                 for k in range(reach.width[r]):
                     column = tail + reach.columns[r, k]
                     out[row + i, column] = bl.b[j, i, k]
                     out[column, row + i] = bl.c[j, k, i]
             if bl.cross.shape[0] > 0:
-                before = L.NB * (j - 1 if j > reach.first[r] else reach.first[r + 1] - 1)
-                after = L.NB * (j + 1 if j + 1 < reach.first[r + 1] else reach.first[r])
-                for i in range(L.NB):
-                    for k in range(L.NB):
+                before = reach.states[r] + size * ((j - first - 1) % count)
+                after = reach.states[r] + size * ((j - first + 1) % count)
+                for i in range(size):
+                    for k in range(size):
                         out[row + i, before + k] += bl.cross[j, BEFORE, i, k]
                         out[row + i, after + k] += bl.cross[j, AFTER, i, k]
     for i in range(n):

@@ -66,7 +66,8 @@ class SolverContext:
 
     def __post_init__(self) -> None:
         self.blocks = make_blocks(self.bundle)
-        self.factors = make_factors(self.blocks.reach, self.bundle.active.size, self.blocks.cross.shape[0])
+        coupled, size = self.blocks.cross.shape[0], self.blocks.a.shape[1]
+        self.factors = make_factors(self.blocks.reach, self.bundle.active.size, coupled, size)
 
     @property
     def bearing(self) -> AssembledBearing:

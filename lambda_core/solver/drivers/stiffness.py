@@ -77,11 +77,11 @@ def _moved(
     found: SolverContext, context: SolverContext, state: FloatArray, displacement: Sequence[float]
 ) -> FloatArray:
     """Return a state of `found` in the layout of the freed ring."""
-    count = context.model.geometry.balls
+    tail = int(found.bundle.system["tail"][0])
     shared = np.zeros(context.bundle.shared.size)
     shared[found.bundle.active] = found.shared_part(state)
     shared[list(_STATES)] = _SIGNS * np.array(displacement)
-    return np.concatenate([state[: L.NB * count], shared[context.bundle.active], context.bundle.states])
+    return np.concatenate([state[:tail], shared[context.bundle.active], context.bundle.states])
 
 
 def _fill_slopes(context: SolverContext, state: FloatArray) -> None:

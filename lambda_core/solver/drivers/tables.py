@@ -186,6 +186,7 @@ def _system(assembly: Assembly, raceways: Any) -> Any:
     system = np.zeros(1, R.SYSTEM)
     s = system[0]
     s["balls"] = sum(bearing.model.geometry.balls for bearing in assembly.bearings)
+    s["tail"] = assembly.spans()[-1].end
     s["gravity"] = assembly.gravity
     s["roll_floor"], s["slip_floor"] = ROLL_FLOOR, SLIP_FLOOR
     s["surfaces"] = int(raceways["surface_on"].any() or np.ptp(raceways["waves"], axis=1).any())
@@ -309,6 +310,7 @@ def _rows(bearing: AssembledBearing, number: int, span: BearingSpan, offsets: _O
     for i, (record, place) in enumerate(zip(rows, row_places(g), strict=True)):
         record["number"], record["bearing"] = span.first_row + i, number
         record["first_ball"], record["balls"] = span.first_ball + i * g.ball_count, g.ball_count
+        record["first_state"], record["size"] = span.begin + i * L.NB * g.ball_count, L.NB
         record["first_raceway"], record["raceways"] = span.first_raceway + i * each, each
         record["cage"], record["caged"] = span.bodies[CAGE], int(model.depth.cage)
         record["ball_radius"], record["ball_mass"], record["ball_inertia"] = radius, mass, 0.4 * mass * radius**2

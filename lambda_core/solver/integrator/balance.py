@@ -20,7 +20,6 @@ from lambda_core.solver.arrays.bundle import (
     BVX,
     BWX,
     MECHANISMS,
-    NB,
     NS,
     RUNNING_SIZE,
     SAY,
@@ -28,7 +27,7 @@ from lambda_core.solver.arrays.bundle import (
     SVX,
     SWY,
 )
-from lambda_core.solver.layout import helper, large_helper, running_of
+from lambda_core.solver.layout import first_of, helper, large_helper, running_of
 from lambda_core.solver.records import PRESCRIBED
 
 # Shares of the energy that flows, over the tolerance, which a step may lose.
@@ -107,12 +106,12 @@ def _work_of_loads(bundle, mem):
     Of balls of a bearing that rests: all corrections since its powers were computed.
     """
     system, move, since = bundle.system[0], mem.last_move, mem.since
-    tail, power = NB * system.balls, 0.0
+    tail, power = system.tail, 0.0
     gx, gy, gz = system.gravity[0], system.gravity[1], system.gravity[2]
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         for j in range(row.first_ball, row.first_ball + row.balls):
-            i = NB * j
+            i = first_of(row, j)
             c, s = math.cos(mem.new[i + BPSI]), math.sin(mem.new[i + BPSI])
             along = gx * since[i + BVX] + (gy * c + gz * s) * since[i + BVR] + (gz * c - gy * s) * since[i + BVT]
             power += row.ball_mass * along
@@ -161,12 +160,12 @@ def _residual_work(bundle, mem):
     power, force = 0.0, 0.0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        for i in range(NB * row.first_ball, NB * (row.first_ball + row.balls)):
+        for i in range(row.first_state, row.first_state + row.size * row.balls):
             if mem.inertia[i] > 0.0:
                 off = _residual(mem, i)
                 power += mem.new[i] * off
-                force += abs(off) if i % NB < BWX else abs(off) / row.ball_radius
-    for i in range(NB * bundle.system[0].balls, mem.new.size):
+                force += abs(off) if (i - row.first_state) % row.size < BWX else abs(off) / row.ball_radius
+    for i in range(bundle.system[0].tail, mem.new.size):
         if mem.inertia[i] > 0.0:
             power += mem.new[i] * _residual(mem, i)
     speed, spin = _led_speeds(bundle)

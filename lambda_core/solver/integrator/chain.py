@@ -15,7 +15,9 @@ left to the iteration.
 
 from __future__ import annotations
 
-from lambda_core.solver.arrays.bundle import BVT, BVX, NB
+from typing import Any
+
+from lambda_core.solver.arrays.bundle import BVT, BVX
 from lambda_core.solver.arrays.jacobian_blocks import AFTER, BEFORE
 from lambda_core.solver.layout import helper, rows_helper
 
@@ -27,82 +29,84 @@ def _add(row, factor, other, n):
         row[i] += factor * other[i]
 
 
-@helper
-def _touches(block):
-    """Return whether a block of the coupling holds a force."""
-    for i in range(BVX, BVT + 1):
-        for k in range(NB):
-            if block[i, k] != 0.0:
-                return True
-    return False
+def chains_of(size: int) -> tuple[Any, ...]:
+    """Return the functions that couple balls of `size` states, a constant for the compiler.
 
+    find_chains, take_from_block, take_from_columns, take_from_rows, write_ahead, take_part.
+    """
 
-@helper
-def find_chains(bl, first, last, fa):
-    """Mark the balls first..last-1 that are joined to the next one; returns the ball at which a chain begins."""
-    begin = -1
-    for j in range(first, last):
-        after = j + 1 if j + 1 < last else first
-        joined = _touches(bl.cross[j, AFTER]) or _touches(bl.cross[after, BEFORE])
-        fa.joined[j] = 1 if joined else 0
-        if not joined:
-            begin = after
-    if begin < 0:
-        begin, fa.joined[last - 1] = first, 0
-    return begin
+    @helper
+    def _touches(block):
+        """Return whether a block of the coupling holds a force."""
+        for i in range(BVX, BVT + 1):
+            for k in range(size):
+                if block[i, k] != 0.0:
+                    return True
+        return False
 
+    @helper
+    def find_chains(bl, first, last, fa):
+        """Mark the balls first..last-1 that are joined to the next one; returns the ball at which a chain begins."""
+        begin = -1
+        for j in range(first, last):
+            after = j + 1 if j + 1 < last else first
+            joined = _touches(bl.cross[j, AFTER]) or _touches(bl.cross[after, BEFORE])
+            fa.joined[j] = 1 if joined else 0
+            if not joined:
+                begin = after
+        if begin < 0:
+            begin, fa.joined[last - 1] = first, 0
+        return begin
 
-@helper
-def take_from_block(bl, j, before, gamma, fa, m):
-    """Take from the diagonal block of ball j, transposed in m, what the ball before it has of it."""
-    for i in range(NB):
-        for q in range(NB):
-            f = -gamma * bl.cross[j, BEFORE, i, q]
-            fa.behind[j, i, q] = f
-            if f != 0.0:
-                for k in range(NB):
-                    m[k, i] -= f * fa.ahead[before, q, k]
+    @helper
+    def take_from_block(bl, j, before, gamma, fa, m):
+        """Take from the diagonal block of ball j, transposed in m, what the ball before it has of it."""
+        for i in range(size):
+            for q in range(size):
+                f = -gamma * bl.cross[j, BEFORE, i, q]
+                fa.behind[j, i, q] = f
+                if f != 0.0:
+                    for k in range(size):
+                        m[k, i] -= f * fa.ahead[before, q, k]
 
+    @helper
+    def take_from_columns(j, before, fa, m, x, n):
+        """Take from x = A^-1 B of ball j, n columns, what the ball before it has of B; m is its inverse, transposed."""
+        for q in range(size):
+            for i in range(size):
+                f = 0.0
+                for k in range(size):
+                    f += m[k, i] * fa.behind[j, k, q]
+                if f != 0.0:
+                    for c in range(n):
+                        x[i, c] -= f * fa.across[before, c, q]
 
-@helper
-def take_from_columns(j, before, fa, m, x, n):
-    """Take from x = A^-1 B of ball j, n columns, what the ball before it has of B; m is its inverse, transposed."""
-    for q in range(NB):
-        for i in range(NB):
-            f = 0.0
-            for k in range(NB):
-                f += m[k, i] * fa.behind[j, k, q]
-            if f != 0.0:
-                for c in range(n):
-                    x[i, c] -= f * fa.across[before, c, q]
+    @helper
+    def take_from_rows(before, fa, c, n):
+        """Take from C of a ball, transposed in c, what the ball before it has of it."""
+        for k in range(size):
+            for q in range(size):
+                f = fa.ahead[before, q, k]
+                if f != 0.0:
+                    _add(c[k], -f, fa.c[before, q], n)
 
+    @helper
+    def write_ahead(bl, j, gamma, fa, m):
+        """Write A_j^-1 X_j,j+1 of a ball that is joined to the next; m is its inverse, transposed."""
+        for i in range(size):
+            for k in range(size):
+                total = 0.0
+                for q in range(size):
+                    total -= m[q, i] * gamma * bl.cross[j, AFTER, q, k]
+                fa.ahead[j, i, k] = total
 
-@helper
-def take_from_rows(before, fa, c, n):
-    """Take from C of a ball, transposed in c, what the ball before it has of it."""
-    for k in range(NB):
-        for q in range(NB):
-            f = fa.ahead[before, q, k]
-            if f != 0.0:
-                _add(c[k], -f, fa.c[before, q], n)
-
-
-@helper
-def write_ahead(bl, j, gamma, fa, m):
-    """Write A_j^-1 X_j,j+1 of a ball that is joined to the next; m is its inverse, transposed."""
-    for i in range(NB):
-        for k in range(NB):
+    @helper
+    def take_part(matrix, part, its):
+        """Take a matrix times one ball's part of a solution from another's."""
+        for i in range(size):
             total = 0.0
-            for q in range(NB):
-                total -= m[q, i] * gamma * bl.cross[j, AFTER, q, k]
-            fa.ahead[j, i, k] = total
+            for k in range(size):
+                total += matrix[i, k] * part[k]
+            its[i] -= total
 
-
-@helper
-def take_part(matrix, part, its):
-    """Take a matrix times one ball's part of a solution from another's."""
-    for i in range(NB):
-        total = 0.0
-        for k in range(NB):
-            total += matrix[i, k] * part[k]
-        its[i] -= total
+    return find_chains, take_from_block, take_from_columns, take_from_rows, write_ahead, take_part

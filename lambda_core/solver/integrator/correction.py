@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.solver.arrays.bundle import NB
 from lambda_core.solver.integrator.arrow import REFACTOR, arrow_factor, arrow_solve
 from lambda_core.solver.integrator.resting import follow
 from lambda_core.solver.integrator.state_blocks import solve_states
@@ -26,7 +25,7 @@ def norm(v, weight):
 @helper
 def shared_norm(bundle, mem):
     """Return the root mean square of the correction of the shared bodies, over the error allowed per step."""
-    first = NB * bundle.system[0].balls
+    first = bundle.system[0].tail
     total = 0.0
     for i in range(first, first + bundle.active.size):
         x = mem.change[i] * mem.weight[i]

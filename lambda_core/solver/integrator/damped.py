@@ -12,10 +12,10 @@ to no part in the residual keep their Jacobian, as long as it falls.
 
 from __future__ import annotations
 
-from lambda_core.solver.arrays.bundle import BVX, NB, NS, SVX
+from lambda_core.solver.arrays.bundle import BVX, BWT, NS, SVX
 from lambda_core.solver.integrator.balance import finalise_step, leak_of_iterate
 from lambda_core.solver.integrator.correction import norm, renew, solve_correction
-from lambda_core.solver.layout import helper, large_helper
+from lambda_core.solver.layout import first_of, helper, large_helper
 from lambda_core.solver.status import Status
 
 _MAX_ITERATIONS = 20
@@ -27,12 +27,18 @@ _RESTLESS = 0.01  # share of the squared residual from which a ball's part of th
 @helper
 def _start(bundle, mem):
     """Begin at the extrapolated places and the last step's speeds."""
-    new, base = mem.new, NB * bundle.system[0].balls
-    end = base + bundle.active.size
+    new, base = mem.new, bundle.system[0].tail
     for i in range(new.size):
         new[i] = mem.predicted[i]
-        if (i < base and i % NB >= BVX) or (base <= i < end and bundle.active[i - base] % NS >= SVX):
-            new[i] = mem.y[i]
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            first = first_of(row, j)
+            for i in range(first + BVX, first + BWT + 1):
+                new[i] = mem.y[i]
+    for i in range(bundle.active.size):
+        if bundle.active[i] % NS >= SVX:
+            new[base + i] = mem.y[base + i]
 
 
 @helper
@@ -65,16 +71,18 @@ def _search(evaluate, t, gamma, residual, bundle, mem):
 
 
 @helper
-def _mark_restless(gamma, residual, bl, mem):
+def _mark_restless(gamma, residual, bundle, bl, mem):
     """Have the Jacobian renewed for the balls that make most of the squared residual."""
     mem.count[0].stale = 1
     mem.count[0].ball_jacobians += 1
-    for j in range(bl.due.size):
-        total = 0.0
-        for i in range(NB * j, NB * j + NB):
-            off = mem.base[i] + gamma * mem.slope[i] - mem.new[i]
-            total += mem.inertia[i] * off * off
-        bl.due[j] = 1 if total > _RESTLESS * residual else 0
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            first, total = first_of(row, j), 0.0
+            for i in range(first, first + row.size):
+                off = mem.base[i] + gamma * mem.slope[i] - mem.new[i]
+                total += mem.inertia[i] * off * off
+            bl.due[j] = 1 if total > _RESTLESS * residual else 0
 
 
 @large_helper
@@ -93,7 +101,7 @@ def solve_damped(evaluate, jacobian, t, h, tolerance, closer, bundle, bl, fa, me
             count.jacobians += 1
             count.jacobian_age = 0
         else:
-            _mark_restless(gamma, residual, bl, mem)
+            _mark_restless(gamma, residual, bundle, bl, mem)
         count.newton_iterations += 1
         if renew(jacobian, t, gamma, bundle, bl, fa, mem) != Status.OK:
             return Status.REFUSED

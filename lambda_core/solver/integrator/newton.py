@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from lambda_core.solver.arrays.bundle import NB
 from lambda_core.solver.integrator.balance import finalise_step, leak_of_iterate
 from lambda_core.solver.integrator.correction import norm, renew, shared_norm, solve_correction
 from lambda_core.solver.integrator.damped import solve_damped
 from lambda_core.solver.integrator.resting import forget_moves, let_rest
-from lambda_core.solver.layout import helper
+from lambda_core.solver.layout import first_of, helper
 from lambda_core.solver.motion.bearing_sums import rests
 from lambda_core.solver.status import Status
 
@@ -59,13 +58,14 @@ def _relax(gamma, factored):
 @helper
 def _move_all(bundle, fa, mem, want, again):
     """Move every state by its correction, ball by ball; returns whether a ball's corrections swung to and fro."""
-    tail, moving, control = NB * bundle.system[0].balls, mem.new.size - bundle.states.size, mem.control[0]
+    tail, moving, control = bundle.system[0].tail, mem.new.size - bundle.states.size, mem.control[0]
     swung = False
     for r in range(bundle.rows.size):
         row, relax = bundle.rows[r], _relax(control.gamma, fa.gamma[r])
         turn = again and not rests(row.bearing, bundle, want)
         for j in range(row.first_ball, row.first_ball + row.balls):
-            swung |= _move(mem, NB * j, NB * j + NB, relax, turn)
+            first = first_of(row, j)
+            swung |= _move(mem, first, first + row.size, relax, turn)
     swung |= _move(mem, tail, moving, _relax(control.gamma, control.factored_gamma), again)
     if moving < mem.new.size:
         swung |= _move(mem, moving, mem.new.size, 1.0, again)
@@ -75,7 +75,7 @@ def _move_all(bundle, fa, mem, want, again):
 
 
 @helper
-def _renew_slow(bl, mem, size):
+def _renew_slow(bundle, bl, mem, size):
     """Have the Jacobian renewed for the balls that make most of the last change, of the given norm.
 
     Where no ball stands out the bodies that all share are slow, and it is renewed for all.
@@ -83,13 +83,15 @@ def _renew_slow(bl, mem, size):
     change, weight, count = mem.change, mem.weight, mem.count[0]
     bar = _SHARE * size * size * change.size
     marked = 0
-    for j in range(bl.due.size):
-        total = 0.0
-        for i in range(NB * j, NB * j + NB):
-            x = change[i] * weight[i]
-            total += x * x
-        bl.due[j] = 1 if total > bar else 0
-        marked += bl.due[j]
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            first, total = first_of(row, j), 0.0
+            for i in range(first, first + row.size):
+                x = change[i] * weight[i]
+                total += x * x
+            bl.due[j] = 1 if total > bar else 0
+            marked += bl.due[j]
     count.stale = 1
     if marked > 0:
         count.ball_jacobians += 1
@@ -152,7 +154,7 @@ def solve_step(evaluate, jacobian, t, h, closer, bundle, bl, fa, mem):
             finalise_step(bundle, mem)
             return Status.OK
         if iteration > 0 and size > _SLOW * before:
-            _renew_slow(bl, mem, size)
+            _renew_slow(bundle, bl, mem, size)
             limit = min(limit + 1, _MAX_NEWTON + _MAX_LOCAL)
         want = 1 if good else let_rest(tolerance, bundle, bl, mem)
         before = size

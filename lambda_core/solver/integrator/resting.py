@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 
 from lambda_core.solver.arrays.bundle import NB, NS
-from lambda_core.solver.layout import helper
+from lambda_core.solver.layout import first_of, helper
 from lambda_core.solver.lu import inner_product
 from lambda_core.solver.motion.bearing_sums import AGAIN
 
@@ -29,8 +29,8 @@ def forget_moves(want, bundle, mem):
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         if bundle.resting[row.bearing] == 0:
-            since[NB * row.first_ball : NB * (row.first_ball + row.balls)] = 0.0
-    tail = NB * bundle.system[0].balls
+            since[row.first_state : row.first_state + row.size * row.balls] = 0.0
+    tail = bundle.system[0].tail
     for i in range(bundle.active.size):
         bearing = bundle.bodies[bundle.active[i] // NS].bearing
         if bearing < 0 or bundle.resting[bearing] == 0:
@@ -40,14 +40,14 @@ def forget_moves(want, bundle, mem):
 @helper
 def _moved(b, bundle, mem):
     """Return the root mean square of the moves of bearing b since its evaluation, over the error allowed per step."""
-    total, count, tail = 0.0, 0, NB * bundle.system[0].balls
+    total, count, tail = 0.0, 0, bundle.system[0].tail
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         if row.bearing == b:
-            for i in range(NB * row.first_ball, NB * (row.first_ball + row.balls)):
+            for i in range(row.first_state, row.first_state + row.size * row.balls):
                 x = mem.since[i] * mem.weight[i]
                 total += x * x
-            count += NB * row.balls
+            count += row.size * row.balls
     for i in range(bundle.active.size):
         if bundle.bodies[bundle.active[i] // NS].bearing == b:
             x = mem.since[tail + i] * mem.weight[tail + i]
@@ -82,7 +82,7 @@ def let_rest(tolerance, bundle, bl, mem):
 @helper
 def follow(gamma, bundle, bl, fa, mem):
     """Add to the residual in mem.change what moves of resting bearings change of their rates, by their Jacobian."""
-    since, change, own, tail = mem.since, mem.change, fa.tail, NB * bundle.system[0].balls
+    since, change, own, tail = mem.since, mem.change, fa.tail, bundle.system[0].tail
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         if bundle.resting[row.bearing] == 0:
@@ -91,16 +91,19 @@ def follow(gamma, bundle, bl, fa, mem):
         for q in range(n):
             own[q] = since[tail + columns[q]]
         for j in range(row.first_ball, row.first_ball + row.balls):
-            _follow_ball(gamma, j, bl, n, columns, own, since, change, tail)
+            if row.size == NB:  # a size that the compiler knows
+                _follow_element(gamma, first_of(row, j), NB, j, bl, n, columns, own, since, change, tail)
+            else:
+                _follow_element(gamma, first_of(row, j), row.size, j, bl, n, columns, own, since, change, tail)
         for q in range(n):
             change[tail + columns[q]] += gamma * inner_product(bl.d_own[r, q], own, n)
 
 
 @helper
-def _follow_ball(gamma, j, bl, n, columns, own, since, change, tail):
-    """Add the share of ball j."""
-    its = since[NB * j : NB * j + NB]
-    for i in range(NB):
-        change[NB * j + i] += gamma * (inner_product(bl.a[j, i], its, NB) + inner_product(bl.b[j, i], own, n))
+def _follow_element(gamma, first, size, j, bl, n, columns, own, since, change, tail):
+    """Add the share of element j, with `size` states from `first` on."""
+    its = since[first : first + size]
+    for i in range(size):
+        change[first + i] += gamma * (inner_product(bl.a[j, i], its, size) + inner_product(bl.b[j, i], own, n))
     for q in range(n):
-        change[tail + columns[q]] += gamma * inner_product(bl.c[j, q], its, NB)
+        change[tail + columns[q]] += gamma * inner_product(bl.c[j, q], its, size)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.solver.arrays.bundle import NB
 from lambda_core.solver.cage.guides import (
     GAUSS_NODES,
     GAUSS_WEIGHTS,
@@ -14,10 +13,9 @@ from lambda_core.solver.cage.guides import (
     pocket_state,
 )
 from lambda_core.solver.contact.contact_kinematics import axis_x, touch
-from lambda_core.solver.layout import guide_law, helper, part, raceway_laws
+from lambda_core.solver.layout import balls_of, guide_law, helper, part, raceway_laws
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.structures import structure_energy
-from lambda_core.solver.records import BALL
 from lambda_core.solver.vec import length
 
 
@@ -58,12 +56,13 @@ def _raceway_energy(ball, raceway, bundle):
 @helper
 def _guide_energy(balls, j, row, bundle):
     """Return the elastic energy of a ball in its pocket, or with the next ball where there is no cage [J]."""
-    scratch, ball, start = bundle.scratch[0], balls[j], 0.0
+    i = j - row.first_ball
+    scratch, ball, start = bundle.scratch[0], balls[i], 0.0
     g = scratch.guide
     if row.caged == 1:
         pocket_state(ball, bundle.bodies_now[row.cage], j, row, bundle, g)
     else:
-        neighbour_state(ball, balls[row.first_ball + (j - row.first_ball + 1) % row.balls], g)
+        neighbour_state(ball, balls[(i + 1) % row.balls], g)
         start = max(1.0, 2.0 * row.ball_radius / length(g.place))
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     return guide_energy(law, par, g, row.oil.viscosity, scratch.out[:], scratch.at_rest, start)
@@ -97,18 +96,18 @@ def _land_energy(land, bundle):
 def stored_energy(t, y, bundle):
     """Return kinetic plus elastic energy of all bodies, contacts and supports [J]."""
     system = bundle.system[0]
-    balls = y[: NB * system.balls].view(BALL)
     if fill_shared(t, y, bundle) != 1:
         return np.nan
     total = 0.0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        for j in range(row.first_ball, row.first_ball + row.balls):
-            total += _ball_energy(balls[j], row)
+        balls = balls_of(y, row)
+        for i in range(row.balls):
+            total += _ball_energy(balls[i], row)
             for k in range(row.first_raceway, row.first_raceway + row.raceways):
-                total += _raceway_energy(balls[j], bundle.raceways[k], bundle)
+                total += _raceway_energy(balls[i], bundle.raceways[k], bundle)
             if system.guides_on == 1:
-                total += _guide_energy(balls, j, row, bundle)
+                total += _guide_energy(balls, row.first_ball + i, row, bundle)
     for b in range(bundle.bodies.size):
         if bundle.bodies[b].moves == 1:
             total += _body_energy(bundle.bodies[b], bundle.bodies_now[b])

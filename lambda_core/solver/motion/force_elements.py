@@ -125,7 +125,7 @@ def cage_forces(balls, row, bundle, running, want):
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     for i in range(row.balls):
         j, k = row.first_ball + i, row.first_ball + (i + 1) % row.balls
-        ball, other = balls[j], balls[k]
+        ball, other = balls[i], balls[k - row.first_ball]
         if row.caged == 1:
             pocket_state(ball, cage, j, row, bundle, g)
         else:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.solver.arrays.bundle import NB
 from lambda_core.solver.contact.ring_waves import turn_waves
-from lambda_core.solver.layout import helper, losses_of, running_of
+from lambda_core.solver.layout import balls_of, helper, losses_of, running_of
 from lambda_core.solver.motion.bearing_sums import (
     AGAIN,
     add_bearing_powers,
@@ -21,7 +20,6 @@ from lambda_core.solver.motion.force_elements import cage_forces, clear_forces, 
 from lambda_core.solver.motion.links import link_forces
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.structures import structure_forces
-from lambda_core.solver.records import BALL
 from lambda_core.solver.vec import dot, increase, turning
 
 
@@ -48,7 +46,7 @@ def _move_ball(ball, j, row, bundle, running, want, rate):
 @helper
 def _move_bodies(bundle, running, want, dydt):
     """Write the rates of the free states of the bodies, and of the states of contacts."""
-    active, base = bundle.active, NB * bundle.system[0].balls
+    active, base = bundle.active, bundle.system[0].tail
     for b in range(bundle.bodies.size):
         if bundle.bodies[b].moves == 0:
             continue
@@ -68,7 +66,7 @@ def _move_bodies(bundle, running, want, dydt):
 
 
 @helper
-def _raceways(t, balls, bundle, rates, want):
+def _raceways(t, y, bundle, rates, want):
     """Begin the sums of forces and powers with the raceways' share."""
     losses = losses_of(rates, bundle.raceways.size)
     if want == AGAIN:
@@ -80,20 +78,22 @@ def _raceways(t, balls, bundle, rates, want):
         row = bundle.rows[r]
         if rests(row.bearing, bundle, want):
             continue
-        for j in range(row.first_ball, row.first_ball + row.balls):
-            if raceway_forces(t, balls[j], j, row, bundle, losses, min(want, 1)) != 1:
+        balls = balls_of(y, row)
+        for i in range(row.balls):
+            if raceway_forces(t, balls[i], row.first_ball + i, row, bundle, losses, min(want, 1)) != 1:
                 return 0
     return 1
 
 
 @helper
-def _guides(balls, bundle, running, want):
+def _guides(y, bundle, running, want):
     """Add the forces of pockets and lands."""
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         if rests(row.bearing, bundle, want):
             continue
-        if cage_forces(balls, row, bundle, powers_of_bearing(bundle, row.bearing, running), min(want, 1)) != 1:
+        own = powers_of_bearing(bundle, row.bearing, running)
+        if cage_forces(balls_of(y, row), row, bundle, own, min(want, 1)) != 1:
             return 0
     return land_forces(bundle, running, want)
 
@@ -120,15 +120,14 @@ def evaluate(t, y, bundle, dydt, rates, want):
     """
     system = bundle.system[0]
     bundle.scratch[0].fault.role = -1
-    balls, moved = y[: NB * system.balls].view(BALL), dydt[: NB * system.balls].view(BALL)
     running = running_of(rates)[0]
     if fill_shared(t, y, bundle) != 1:
         return 0
-    if want != 2 and _raceways(t, balls, bundle, rates, want) != 1:
+    if want != 2 and _raceways(t, y, bundle, rates, want) != 1:
         return 0
     if want != AGAIN:
         clear_bearing_powers(bundle)
-    if system.guides_on == 1 and _guides(balls, bundle, running, want) != 1:
+    if system.guides_on == 1 and _guides(y, bundle, running, want) != 1:
         return 0
     keep_contacts(bundle)
     if link_forces(t, bundle, running) != 1:
@@ -140,8 +139,9 @@ def evaluate(t, y, bundle, dydt, rates, want):
         if rests(row.bearing, bundle, want):
             continue
         own = powers_of_bearing(bundle, row.bearing, running)
-        for j in range(row.first_ball, row.first_ball + row.balls):
-            if _move_ball(balls[j], j, row, bundle, own, min(want, 1), moved[j]) != 1:
+        balls, moved = balls_of(y, row), balls_of(dydt, row)
+        for i in range(row.balls):
+            if _move_ball(balls[i], row.first_ball + i, row, bundle, own, min(want, 1), moved[i]) != 1:
                 return 0
     want = min(want, 1)
     add_bearing_powers(bundle, running)

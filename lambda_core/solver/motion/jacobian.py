@@ -23,7 +23,7 @@ from lambda_core.solver.cage.guide_columns import land_columns, neighbour_column
 from lambda_core.solver.contact.raceway_columns import raceway_columns
 from lambda_core.solver.contact.ring_waves import turning_columns
 from lambda_core.solver.integrator.reach import is_split
-from lambda_core.solver.layout import helper
+from lambda_core.solver.layout import balls_of, helper
 from lambda_core.solver.motion.block_rows import (
     ball_block,
     body_rows,
@@ -77,11 +77,11 @@ def _add_part(bl, r, j):
 def _guide_columns(balls, j, row, bundle, bl):
     """Add the pocket of ball j, or its contacts with the neighbouring balls."""
     if row.caged == 1:
-        return pocket_columns(balls[j], j, row, bundle, bl)
-    first, z, i = row.first_ball, row.balls, j - row.first_ball
+        return pocket_columns(balls[j - row.first_ball], j, row, bundle, bl)
+    z, i = row.balls, j - row.first_ball
     for side in (BEFORE, AFTER):
-        beside = balls[first + (i + (1 if side == AFTER else z - 1)) % z]
-        if neighbour_columns(balls[j], beside, row, bundle, bl) != 1:
+        beside = balls[(i + (1 if side == AFTER else z - 1)) % z]
+        if neighbour_columns(balls[i], beside, row, bundle, bl) != 1:
             return 0
         neighbour_block(row, bl, bl.cross[j, side])
     return 1
@@ -90,7 +90,7 @@ def _guide_columns(balls, j, row, bundle, bl):
 @helper
 def _force_columns(balls, j, row, bundle, bl):
     """Add the slopes of every force on ball j, and of what it does to the bodies; returns 1 when well."""
-    system, ball = bundle.system[0], balls[j]
+    system, ball = bundle.system[0], balls[j - row.first_ball]
     if raceway_columns(ball, j, row, bundle, bl) != 1:
         return 0
     if system.friction_on == 1:
@@ -115,7 +115,7 @@ def _ball_blocks(balls, j, row, bundle, bl):
     bl.from_ball[:, :, :] = 0.0
     if _force_columns(balls, j, row, bundle, bl) != 1:
         return 0
-    ball_block(balls[j], row, bl, bl.a[j], bl.b[j])
+    ball_block(balls[j - row.first_ball], row, bl, bl.a[j], bl.b[j])
     for p in range(reach.count[r]):
         b = reach.bodies[r, p]
         force_map(bundle.bodies[b], bundle.bodies_now[b], bl.map)
@@ -173,12 +173,12 @@ def jacobian(t, y, bundle, bl):
     evaluation for the bodies' own equations. Returns 1 when well.
     """
     system = bundle.system[0]
-    balls = y[: NB * system.balls].view(BALL)
     if fill_shared(t, y, bundle) != 1:
         return 0
     renewed = 0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
+        balls = balls_of(y, row)
         for j in range(row.first_ball, row.first_ball + row.balls):
             if bl.due[j] == 0:
                 continue

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 
-from lambda_core.solver.arrays.bundle import NB
 from lambda_core.solver.arrays.fault_roles import TIME_FUNCTION
 from lambda_core.solver.faults import report
 from lambda_core.solver.layout import helper, part, time_law
@@ -129,7 +128,7 @@ def fill_shared(t, y, bundle):
     for b in range(bundle.bodies.size):
         _prescribe(bundle.bodies[b], bundle.inputs[b], bundle.bodies_now[b])
     active = bundle.active
-    base = NB * bundle.system[0].balls
+    base = bundle.system[0].tail
     for i in range(active.size):
         shared[active[i]] = y[base + i]
     base += active.size

@@ -13,13 +13,13 @@ import math
 
 import numpy as np
 
-from lambda_core.solver.arrays.bundle import BR, BVT, MECHANISMS, NB, RUNNING_SIZE
+from lambda_core.solver.arrays.bundle import BR, BVT, BWR, BWT, BWX, BX, MECHANISMS, RUNNING_SIZE
 from lambda_core.solver.contact.contact_kinematics import touch
 from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve, factors_t
 from lambda_core.solver.integrator.blocks import blocks_t
 from lambda_core.solver.integrator.memory import evaluate_t, jacobian_t
-from lambda_core.solver.layout import array1, bundle_t, helper, i8, iarray1, table_t
-from lambda_core.solver.records import BALL, STATIC_REPORT
+from lambda_core.solver.layout import array1, balls_of, bundle_t, first_of, helper, i8, iarray1, table_t
+from lambda_core.solver.records import STATIC_REPORT
 from lambda_core.solver.statics.pseudo_transient import mask, residual
 from lambda_core.solver.status import Status
 
@@ -40,17 +40,17 @@ _GRIP = 0.02  # share of the largest ball load below which the cage sets a ball'
 @helper
 def _load_shares(y, bundle, share):
     """Write the load of each ball on the ring of its row's first raceway over the largest one."""
-    balls, kin = y[: NB * share.size].view(BALL), bundle.scratch[0].kinematics[0]
+    kin = bundle.scratch[0].kinematics[0]
     largest = 1e-300
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        body = bundle.raceways[row.first_raceway].body
+        balls, body = balls_of(y, row), bundle.raceways[row.first_raceway].body
         for j in range(row.first_ball, row.first_ball + row.balls):
             share[j] = 0.0
             for k in range(row.first_raceway, row.first_raceway + row.raceways):
                 raceway = bundle.raceways[k]
                 if raceway.body == body:
-                    delta = touch(balls[j], bundle.bodies_now[body], raceway, bundle, kin)
+                    delta = touch(balls[j - row.first_ball], bundle.bodies_now[body], raceway, bundle, kin)
                     share[j] = max(share[j], delta)
             largest = max(largest, share[j])
     for j in range(share.size):
@@ -70,14 +70,18 @@ def _hold(share, held):
 
 
 @helper
-def _orbit(y, share, held):
+def _orbit(y, bundle, share, held):
     """Return the load-weighted mean orbital speed of the balls that hold themselves."""
     total, weight = 0.0, 0.0
-    for j in range(share.size):
-        if not held[j]:
-            total += share[j] * y[NB * j + BVT] / y[NB * j + BR]
-            weight += share[j]
-    return total / weight if weight > 0.0 else y[BVT] / y[BR]
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            if not held[j]:
+                first = first_of(row, j)
+                total += share[j] * y[first + BVT] / y[first + BR]
+                weight += share[j]
+    first = bundle.rows[0].first_state
+    return total / weight if weight > 0.0 else y[first + BVT] / y[first + BR]
 
 
 @helper
@@ -106,62 +110,77 @@ def _turned_back(step, last, weight):
 
 
 @helper
-def _learn(step, last, weight, trust):
+def _learn(step, last, weight, trust, bundle):
     """Narrow the limit of a ball whose speeds jump to and fro, widen it again where they do not.
 
     A ball that carries next to nothing rolls within a slip of micrometres per second of a sign-like friction; steps
     that are halved find that slip like a bisection, whatever the other balls do.
     """
-    for j in range(trust.size):
-        dot, size, size_last = 0.0, 0.0, 0.0
-        for i in range(NB * j + BVT, NB * j + NB):
-            w2 = weight[i] * weight[i]
-            dot += w2 * step[i] * last[i]
-            size += w2 * step[i] * step[i]
-            size_last += w2 * last[i] * last[i]
-        back = dot < -0.25 * math.sqrt(size * size_last)
-        trust[j] = _DOUBT * trust[j] if back else min(1.0, _TRUST * trust[j])
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            first, dot, size, size_last = first_of(row, j), 0.0, 0.0, 0.0
+            for i in range(first + BVT, first + BWT + 1):
+                w2 = weight[i] * weight[i]
+                dot += w2 * step[i] * last[i]
+                size += w2 * step[i] * step[i]
+                size_last += w2 * last[i] * last[i]
+            back = dot < -0.25 * math.sqrt(size * size_last)
+            trust[j] = _DOUBT * trust[j] if back else min(1.0, _TRUST * trust[j])
 
 
 @helper
-def _clip_speeds(step, speed, spin, trust):
+def _spin_in(y, first):
+    """Return the largest component of the spin of the element whose states begin at `first`."""
+    return max(abs(y[first + BWX]), abs(y[first + BWR]), abs(y[first + BWT]))
+
+
+@helper
+def _clip_speeds(step, speed, spin, trust, bundle):
     """Shorten the change of each ball's speeds to a share of rolling; tell whether any was too long.
 
     On a plateau of friction the slope is next to nothing and Newton's method would leave for speeds from which no way
     leads back. Ball by ball, so that one of them does not keep the others waiting.
     """
     clipped = False
-    for j in range(trust.size):
-        o = NB * j
-        limit = trust[j] * _LARGEST_CHANGE
-        turn = max(abs(step[o + 6]), abs(step[o + 7]), abs(step[o + 8]))
-        share = min(1.0, limit * spin / (turn + 1e-300), limit * speed / (abs(step[o + BVT]) + 1e-300))
-        if share < 1.0:
-            clipped = True
-            for i in range(BVT, NB):
-                step[o + i] *= share
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            first, limit = first_of(row, j), trust[j] * _LARGEST_CHANGE
+            share = limit * speed / (abs(step[first + BVT]) + 1e-300)
+            share = min(1.0, limit * spin / (_spin_in(step, first) + 1e-300), share)
+            if share < 1.0:
+                clipped = True
+                for i in range(BVT, BWT + 1):
+                    step[first + i] *= share
     return clipped
 
 
 @helper
-def _largest_move(step, weight, balls):
+def _largest_move(step, weight, bundle):
     """Return the largest change of a position or tilt over its scale."""
     largest = 0.0
-    for j in range(balls):
-        for i in range(2):
-            largest = max(largest, abs(step[NB * j + i]) * weight[NB * j + i])
-    for i in range(NB * balls, step.size):
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            first = first_of(row, j)
+            for i in range(first + BX, first + BR + 1):
+                largest = max(largest, abs(step[i]) * weight[i])
+    for i in range(bundle.system[0].tail, step.size):
         largest = max(largest, abs(step[i]) * weight[i])
     return largest
 
 
 @helper
-def _speeds(y, balls, report):
+def _speeds(y, bundle, report):
     """Write the largest speed and spin of the balls, of one that rests such that it can start to move."""
     report.speed, report.spin = 1e-3, 1e-1
-    for j in range(balls):
-        report.speed = max(report.speed, abs(y[NB * j + BVT]))
-        report.spin = max(report.spin, abs(y[NB * j + 6]), abs(y[NB * j + 7]), abs(y[NB * j + 8]))
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            first = first_of(row, j)
+            report.speed = max(report.speed, abs(y[first + BVT]))
+            report.spin = max(report.spin, _spin_in(y, first))
 
 
 def solve_static(evaluate, jacobian, bundle, bl, fa, y, weight, last, trust, held, reports, max_iterations):
@@ -200,9 +219,9 @@ def solve_static(evaluate, jacobian, bundle, bl, fa, y, weight, last, trust, hel
     if report.iterations == 0.0:
         report.pseudo_step = _FIRST_STEP
         _hold(share, held)
-        _speeds(y, system.balls, report)
+        _speeds(y, bundle, report)
     dt, speed, spin = report.pseudo_step, report.speed, report.spin
-    orbit = _orbit(y, share, held)
+    orbit = _orbit(y, bundle, share, held)
     residual(bundle, bl.index, y, dydt, held, orbit, f)
     merit = _merit(f, weight)
     for _ in range(max_iterations):
@@ -216,13 +235,14 @@ def solve_static(evaluate, jacobian, bundle, bl, fa, y, weight, last, trust, hel
             if arrow_factor(bl, 1.0, dt, fa) == 1:
                 arrow_solve(bl, fa, step)
                 size = _merit(step, weight)
-                clipped = system.friction_on == 1 and size > _CONVERGED and _clip_speeds(step, speed, spin, trust)
-                shrink = min(1.0, _LARGEST_MOVE / (_largest_move(step, weight, system.balls) + 1e-300))
+                clipped = system.friction_on == 1 and size > _CONVERGED
+                clipped = clipped and _clip_speeds(step, speed, spin, trust, bundle)
+                shrink = min(1.0, _LARGEST_MOVE / (_largest_move(step, weight, bundle) + 1e-300))
                 for i in range(n):
                     trial[i] = y[i] + shrink * step[i]
                 if size < np.inf and evaluate(0.0, trial, bundle, dydt, rates, 0) == Status.OK:
                     _load_shares(trial, bundle, share)
-                    orbit = _orbit(trial, share, held)
+                    orbit = _orbit(trial, bundle, share, held)
                     residual(bundle, bl.index, trial, dydt, held, orbit, new)
                     found = _merit(new, weight)
                     # Overdamped motion may pass through states of larger residual, but not by much.
@@ -236,7 +256,7 @@ def solve_static(evaluate, jacobian, bundle, bl, fa, y, weight, last, trust, hel
         merit = found
         turned = size > _CONVERGED and not clipped and _turned_back(step, last, weight)
         if size > _CONVERGED:  # below it steps turn round by rounding alone
-            _learn(step, last, weight, trust)
+            _learn(step, last, weight, trust, bundle)
         for i in range(n):
             y[i] = trial[i]
             f[i] = new[i]

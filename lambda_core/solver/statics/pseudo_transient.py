@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.solver.arrays.bundle import BR, BVT, BX, NB, NS, SAY, SAZ
-from lambda_core.solver.layout import allocating_helper, helper
+from lambda_core.solver.arrays.bundle import BPSI, BR, BVT, BVX, BWX, BX, NS, SAY, SAZ
+from lambda_core.solver.layout import allocating_helper, first_of, helper
 
 _MOBILITY = 1e-4  # [s2] turns an acceleration into the rate of a position
 _HOLD = 1e4  # [1/s] rate at which an unloaded ball takes the speed of the others
@@ -15,8 +15,8 @@ _HOLD = 1e4  # [1/s] rate at which an unloaded ball takes the speed of the other
 def _ball_row(state, held, friction_on):
     """Return which acceleration drives a ball state: row index, or -1 when it is fixed."""
     if state in (BX, BR):
-        return 3 + state
-    if friction_on == 1 and (state >= 6 or (state == BVT and not held)):
+        return BVX + state
+    if friction_on == 1 and (state >= BWX or (state == BVT and not held)):
         return state
     return -1
 
@@ -38,24 +38,31 @@ def _shared_row(state, bodies):
 
 
 @helper
+def _ball_residual(first, size, y, dydt, held, orbit, friction_on, f):
+    """Write the rates of a ball whose states begin at `first`."""
+    for i in range(size):
+        source = _ball_row(i, held, friction_on)
+        if source >= 0:
+            scale = _MOBILITY if i <= BPSI else 1.0
+            f[first + i] = scale * dydt[first + source]
+    if held and friction_on == 1:
+        f[first + BVT] = _HOLD * (orbit * y[first + BR] - y[first + BVT])
+
+
+@helper
 def residual(bundle, index, y, dydt, held, orbit, f):
     """Write the rates of the pseudo-transient system."""
     system = bundle.system[0]
-    z = system.balls
     f[:] = 0.0
-    for j in range(z):
-        for i in range(NB):
-            row = _ball_row(i, held[j], system.friction_on)
-            if row >= 0:
-                scale = _MOBILITY if i < 3 else 1.0
-                f[NB * j + i] = scale * dydt[NB * j + row]
-        if held[j] and system.friction_on == 1:
-            f[NB * j + BVT] = _HOLD * (orbit * y[NB * j + BR] - y[NB * j + BVT])
-    active = bundle.active
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            _ball_residual(first_of(row, j), row.size, y, dydt, held[j], orbit, system.friction_on, f)
+    active, tail = bundle.active, system.tail
     for k in range(active.size):
-        row, sign = _shared_row(active[k], bundle.bodies)
-        if row >= 0 and index[row] >= 0:
-            f[NB * z + k] = _MOBILITY * sign * dydt[NB * z + index[row]]
+        source, sign = _shared_row(active[k], bundle.bodies)
+        if source >= 0 and index[source] >= 0:
+            f[tail + k] = _MOBILITY * sign * dydt[tail + index[source]]
 
 
 @helper
@@ -73,17 +80,17 @@ def _moves_ball(state, held, friction_on):
 
 
 @helper
-def _mask_ball(j, r, bundle, bl, held, a2, b2, c2, on):
+def _mask_ball(j, r, size, bundle, bl, held, a2, b2, c2, on):
     """Turn the blocks of ball j of row r into those of the pseudo-transient system; `on` marks the columns of all."""
     friction_on, reach = bundle.system[0].friction_on, bl.reach
     a, b, c = bl.a[j], bl.b[j], bl.c[j]
     a2[:, :], b2[:, :], c2[:, :] = 0.0, 0.0, 0.0
-    for i in range(NB):
+    for i in range(size):
         row = _ball_row(i, held, friction_on)
         if row < 0:
             continue
-        scale = _MOBILITY if i < 3 else 1.0
-        for k in range(NB):
+        scale = _MOBILITY if i <= BPSI else 1.0
+        for k in range(size):
             if _moves_ball(k, held, friction_on):
                 a2[i, k] = scale * a[row, k]
         for k in range(reach.width[r]):
@@ -95,7 +102,7 @@ def _mask_ball(j, r, bundle, bl, held, a2, b2, c2, on):
         row, sign = _shared_row(bundle.active[position], bundle.bodies)
         if on[position] == 1:
             own = reach.index[r, NS * reach.place[r, row // NS] + row % NS]
-            for i in range(NB):
+            for i in range(size):
                 if _moves_ball(i, held, friction_on):
                     c2[k, i] = _MOBILITY * sign * c[own, i]
     _copy(a2, a)
@@ -107,15 +114,15 @@ def _mask_ball(j, r, bundle, bl, held, a2, b2, c2, on):
 def mask(bundle, bl, held):
     """Turn the blocks of dy/dt into those of the pseudo-transient system, in place."""
     bl.cross[:, :, :, :] = 0.0
-    active, n, widest = bundle.active, bl.d.shape[0], bl.b.shape[2]
+    active, n, widest, largest = bundle.active, bl.d.shape[0], bl.b.shape[2], bl.a.shape[1]
     on = np.zeros(n, dtype=np.int64)
     for k in range(n):
         row, _ = _shared_row(active[k], bundle.bodies)
         on[k] = 1 if row >= 0 and bl.index[row] >= 0 else 0
-    a2, b2, c2 = np.zeros((NB, NB)), np.zeros((NB, widest)), np.zeros((widest, NB))
+    a2, b2, c2 = np.zeros((largest, largest)), np.zeros((largest, widest)), np.zeros((widest, largest))
     for r in range(bundle.rows.size):
         for j in range(bl.reach.first[r], bl.reach.first[r + 1]):
-            _mask_ball(j, r, bundle, bl, held[j], a2, b2, c2, on)
+            _mask_ball(j, r, bundle.rows[r].size, bundle, bl, held[j], a2, b2, c2, on)
     d2 = np.zeros((n, n))
     for k in range(n):
         row, sign = _shared_row(active[k], bundle.bodies)
