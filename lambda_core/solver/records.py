@@ -33,6 +33,16 @@ BALL = record(
     ("velocity", f8, (3,)),  # turning frame [m/s]
     ("spin", f8, (3,)),  # angular velocity, turning frame [rad/s]
 )
+# A roller's own axes in the turning frame: e0 along its nominal axis, e1 across it in the plane of the bearing's axis,
+# e2 = t. Of cylindrical rollers they are x, r, t.
+ROLLER = record(
+    ("x", f8),  # as of a ball
+    ("radius", f8),
+    ("azimuth", f8),
+    ("velocity", f8, (3,)),
+    ("spin", f8, (3,)),  # absolute angular velocity, own axes [rad/s]
+    ("tilt", f8, (2,)),  # components of its axis along e1, and along e2: skew [-]
+)
 BODY_STATE = record(
     ("position", f8, (3,)),  # of the centre, inertial [m]
     ("tilt", f8, (2,)),  # y and z component of the unit vector of the body's axis [-]
@@ -78,7 +88,11 @@ KINEMATICS = record(
     ("wave_cosine", f8),  # of the contact's azimuth in the ring's material
     ("wave_sine", f8),
     ("outward", f8),  # component of n away from the ring's axis
+    ("line_tilt", f8),  # of a line contact: between roller and raceway, in the plane of the bearing's axis [rad]
+    ("line_tilt_rate", f8),  # [rad/s]
+    ("entrainment_slope", f8),  # of entrainment_t along the line [1/s]
 )
+LINE_DRIVERS = (*DRIVERS, "line_tilt", "line_tilt_rate", "entrainment_slope")  # what a line contact depends on
 TANGENT = record(*((name, WRENCH) for name in DRIVERS))  # derivative of the wrench with each driver
 CONTACT = record(
     ("load", f8),  # elastic [N]
@@ -172,8 +186,10 @@ BODY = record(
     ("stiffness", f8, (6,)),  # of the support to ground [N/m, N m/rad]
     ("damping", f8, (6,)),  # [N s/m, N m s/rad]
 )
+BALLS, ROLLERS = range(2)
 ROW = record(
     ("number", i8),  # its place in the table of rows
+    ("kind", i8),  # of its elements: BALLS, ROLLERS
     ("bearing", i8),  # that it belongs to
     ("first_ball", i8),
     ("balls", i8),
@@ -196,10 +212,21 @@ ROW = record(
     ("pocket", i8, (2,)),  # where the parameters of its laws begin and end
     ("drag", i8, (2,)),
     ("waves", i8, (2,)),  # of its cage, in the table of waves: begin, end
+    # Of rollers alone; their ball_radius is the mean radius, their ball_inertia that about their axis.
+    ("transverse_inertia", f8),  # [kg m2]
+    ("axis_angle", f8),  # of the nominal axis to the bearing's, positive where the radius grows with x [rad]
+    ("cone_angle", f8),  # half of the angle of the roller's cone, 0 of a cylinder [rad]
+    ("length", f8),  # effective [m]
+    ("end_radius", f8),  # of the end faces' sphere, inf where they are plane [m]
+    ("bar_gap", f8),  # between roller and bars of its pocket, on each side [m]
+    ("end_gap", f8),  # between its end faces and the pocket's, on each side [m]
+    ("bar_length", f8),  # of what touches a bar [m]
 )
+POINT, LINE, RIB = range(3)
 RACEWAY_ROLES = tuple(name for name, role in ROLES.items() if role.elements == RACEWAYS)  # of a raceway contact
 RACEWAY = record(
     ("number", i8),  # its row in the table of raceways
+    ("kind", i8),  # of its contacts: POINT, LINE, RIB
     ("body", i8),  # that carries it
     ("laws", i8),  # row of Laws.raceways
     ("side", f8),  # +1 where balls lie inside the raceway (outer ring), -1 where outside [-]
@@ -220,6 +247,12 @@ RACEWAY = record(
     ("first_state", i8),  # of ball 0, among the states of all contacts
     ("slots", i8, (2,)),  # where its laws read them: begin, end
     ("waves", i8, (2,)),  # of its ring, in the table of waves: begin, end
+    # Of a LINE: its groove_circle is the radius of the raceway's cone at the nominal place of the roller's middle.
+    ("cone", f8),  # angle of its generatrix to the bearing's axis, of the sign of ROW.axis_angle [rad]
+    ("line", i8),  # row of Bundle.lines
+    # Of a RIB: its side is the direction along the shaft in which it pushes the roller.
+    ("rib_radius", f8),  # distance of the nominal contact from the bearing's axis [m]
+    ("rib_angle", f8),  # of the rib's normal to the bearing's axis [rad]
 )
 WAVE = record(  # a pattern of waves round an elastic ring or cage, whose orders rise from 2
     ("ring", i8),  # body

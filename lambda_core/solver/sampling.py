@@ -39,7 +39,8 @@ from lambda_core.solver.layout import (
 from lambda_core.solver.motion.energy import stored_energy
 from lambda_core.solver.motion.force_elements import add_contact, clear_forces
 from lambda_core.solver.motion.prescribed import fill_shared
-from lambda_core.solver.records import CONTACT_SAMPLE, TOTALS
+from lambda_core.solver.records import CONTACT_SAMPLE, ROLLERS, TOTALS
+from lambda_core.solver.row_code import POCKETS, RACEWAYS, roller_code
 from lambda_core.solver.vec import clear, combine_onto, dot, store
 
 _TOTALS = len(TOTALS.names or ())
@@ -185,7 +186,11 @@ def _observe_one(t, y, bundle, shorted, contacts, pockets, lands, extra, rates):
     lands[:, :] = 0.0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        if row.caged == 1 and _pocket_forces(balls_of(y, row), row, bundle, pockets) != 1:
+        if row.kind == ROLLERS:
+            code = roller_code(bundle.rollers, 0)
+            if code.observe(POCKETS, y, r, bundle, shorted, contacts, pockets, losses, rates) < 0.0:
+                return 0
+        elif row.caged == 1 and _pocket_forces(balls_of(y, row), row, bundle, pockets) != 1:
             return 0
     if _land_forces(bundle, lands) != 1:
         return 0
@@ -194,7 +199,11 @@ def _observe_one(t, y, bundle, shorted, contacts, pockets, lands, extra, rates):
     totals.capacitance = 0.0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        found = _contact_channels(balls_of(y, row), row, bundle, shorted, contacts, losses, rates)
+        if row.kind == ROLLERS:
+            code = roller_code(bundle.rollers, 0)
+            found = code.observe(RACEWAYS, y, r, bundle, shorted, contacts, pockets, losses, rates)
+        else:
+            found = _contact_channels(balls_of(y, row), row, bundle, shorted, contacts, losses, rates)
         if found < 0.0:
             return 0
         totals.capacitance += found

@@ -61,7 +61,7 @@ from lambda_core.solver.arrays.own_bodies import Reach
 given = np.load(sys.argv[1])
 reach = Reach(*(given[f"reach.{name}"] for name in Reach._fields))
 blocks = Blocks(**{name: reach if name == "reach" else given[name] for name in Blocks._fields})
-factors = make_factors(reach, blocks.d.shape[0], blocks.cross.shape[0], L.NB)
+factors = make_factors(reach, blocks.d.shape[0], blocks.cross.shape[0], 9, np.zeros((0, 2), dtype=np.int64))
 for cross, right in zip(given["crosses"], given["rights"]):
     blocks.cross[:] = cross
     assert arrow_factor(blocks, 1.0, float(given["gamma"]), factors) == 1

@@ -2,8 +2,8 @@
 
 State vector y, float64, shape (states of rolling elements + n_active + states of contacts,):
 
-* row by row, ball by ball, ROW.size states each from ROW.first_state on: a records.BALL (x, radius, azimuth, velocity,
-  spin).
+* row by row, element by element, ROW.size states each from ROW.first_state on: a records.BALL (x, radius, azimuth,
+  velocity, spin), or a records.ROLLER, which begins with the same.
 * from SYSTEM.tail on the free entries of the *shared* state, shape (12 bodies,), one records.BODY_STATE per body: inner
   ring, outer ring, cage.
 * the rest: what contacts keep by laws of the role contact_state, raceway by raceway, ball by ball; mostly nothing.
@@ -21,16 +21,30 @@ from lambda_core.solver import records as R
 
 # Places in the state vector, for what goes through states one by one: integrator, Jacobian, tolerances.
 NB = R.floats_of(R.BALL)
+NR = R.floats_of(R.ROLLER)
 NS = R.floats_of(R.BODY_STATE)
 BX, BR, BPSI, BVX, BVR, BVT, BWX, BWR, BWT = range(NB)
+RTILT, RSKEW = range(NB, NR)  # of a roller, behind what it has as a ball has
 SX, SY, SZ, SAY, SAZ, STHETA, SVX, SVY, SVZ, SWY, SWZ, SSIGMA = range(NS)
 NQ = len(R.DRIVERS)
 
 ARRAY1, ARRAY2, ARRAY3, ARRAY4 = (Array(np.dtype(np.float64), dimensions) for dimensions in range(1, 5))
 INTEGERS, INTEGERS2 = (Array(np.dtype(np.int64), dimensions) for dimensions in (1, 2))
 
+ELEMENTS = {NB: R.BALL, NR: R.ROLLER}  # records of rolling elements by their number of states
+
 # Pointers to the kernels of one ball-raceway force element, by role.
 RacewayLaws: Any = namedtuple("RacewayLaws", R.RACEWAY_ROLES)  # type: ignore[misc] # its fields are the roles
+
+
+class RollerCode(NamedTuple):
+    """Pointers to what rows of rollers are computed with, see lambda_core.solver.row_code."""
+
+    evaluate: Any
+    jacobian: Any
+    energy: Any
+    observe: Any
+    shares: Any
 
 
 @by_reference(INTEGERS2)
@@ -101,6 +115,7 @@ class Cells(NamedTuple):
 
 
 CELL_ROWS = len(Cells._fields) - 2
+LINE_ROWS, SLICE_ROWS = 4, 16
 GUARD = 8  # cells behind each row, which nobody writes, a line of cache: what stands first there shows an index too far
 _RESULTS = 6  # rows that laws write
 KINEMATIC_ROWS = Cells._fields.index("pressure") - 2  # the first row that depends on the kinematics alone
@@ -139,6 +154,10 @@ KINEMATIC_ROWS = Cells._fields.index("pressure") - 2  # the first row that depen
     bearing_powers=Array(R.RUNNING),
     state_slopes=ARRAY2,
     state_pivots=INTEGERS,
+    rollers=INTEGERS2,
+    lines=ARRAY3,
+    slices=ARRAY2,
+    line_cells=ARRAY2,
 )
 class Bundle(NamedTuple):
     """Everything that the compiled code works on, in one argument."""
@@ -184,11 +203,16 @@ class Bundle(NamedTuple):
     state_rates: Any  # (states of contacts,) their time derivatives
     state_slopes: Any  # (states of contacts, most of one contact): of the rates with the states of the same contact
     state_pivots: Any  # int64 (most of one contact,)
+    rollers: Any  # int64 (1, codes): addresses of RollerCode; without rollers (0, codes)
+    lines: Any  # (line raceways, LINE_ROWS, slices): place along the line, width, drop of both profiles, reduced radius
+    slices: Any  # (SLICE_ROWS, slices): workspace of a line contact
+    line_cells: Any  # (CELL_ROWS, cells of a line contact + GUARD): rows of Cells
 
 
 def elements_in(bundle: Bundle, states: Any) -> Any:
     """Return the rolling elements of a bearing that is alone in state vectors, (..., size), a view (..., elements)."""
-    return states[..., : int(bundle.system["tail"][0])].view(R.BALL)
+    kind = ELEMENTS[int(bundle.rows["size"][0])]
+    return states[..., : int(bundle.system["tail"][0])].view(kind)
 
 
 def named_balls(y: Any, row: Any) -> Any:

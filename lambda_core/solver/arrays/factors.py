@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lambda_core.laws.jit.words import by_reference
-from lambda_core.solver.arrays.bundle import ARRAY1, ARRAY2, ARRAY3, INTEGERS
+from lambda_core.solver.arrays.bundle import ARRAY1, ARRAY2, ARRAY3, INTEGERS, INTEGERS2
 from lambda_core.solver.arrays.own_bodies import Reach
 
 LANES = 8  # numbers that a processor works on at once, at most
@@ -31,12 +31,20 @@ class Condensed(NamedTuple):
     found: Any  # (filled,): and of its solution
 
 
+class RollerBlocks(NamedTuple):
+    """Pointers to what factors and solves rows of rollers, see lambda_core.solver.row_code."""
+
+    factor: Any
+    solve: Any
+
+
 @by_reference(
     ARRAY1,
     **dict.fromkeys(("inverse", "across", "c", "own", "behind", "ahead"), ARRAY3),
     **dict.fromkeys(("x", "schur"), ARRAY2),
     **dict.fromkeys(("pivots", "schur_pivots", "begin", "joined"), INTEGERS),
     condensed=Condensed,
+    rollers=INTEGERS2,
 )
 class Factors(NamedTuple):
     """Inverses of the ball blocks and LU factors of the Schur complement; `size` is that of the largest block."""
@@ -57,6 +65,7 @@ class Factors(NamedTuple):
     joined: Any  # int64 (Z or 0,): whether a ball's coupling with the next one is eliminated
     behind: Any  # (Z or 0, size, size): X_j,j-1, scaled
     ahead: Any  # (Z or 0, size, size): A_j^-1 X_j,j+1
+    rollers: Any  # int64 (1, 2): addresses of RollerBlocks; without rollers (0, 2)
 
 
 def make_condensed(positions: int, speeds: int) -> Condensed:
@@ -73,10 +82,10 @@ def make_condensed(positions: int, speeds: int) -> Condensed:
     )
 
 
-def make_factors(reach: Reach, n: int, coupled: int, size: int) -> Factors:
+def make_factors(reach: Reach, n: int, coupled: int, size: int, rollers: Any) -> Factors:
     """Allocate for the rows of balls that `reach` describes, n shared states and `coupled` balls that may touch.
 
-    No element has more than `size` states.
+    No element has more than `size` states; `rollers` are the addresses of RollerBlocks.
     """
     balls, widest = int(reach.first[-1]), reach.columns.shape[1]
     row = filled(widest)
@@ -97,4 +106,5 @@ def make_factors(reach: Reach, n: int, coupled: int, size: int) -> Factors:
         np.zeros(coupled, dtype=np.int64),
         np.zeros((coupled, size, size)),
         np.zeros((coupled, size, size)),
+        rollers,
     )

@@ -16,7 +16,7 @@ from lambda_core.model.geometry.raceways import raceways
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
-from lambda_core.solver.arrays.factors import make_factors
+from lambda_core.solver.arrays.factors import RollerBlocks, make_factors
 from lambda_core.solver.arrays.integrator_memory import Handle, Memory
 from lambda_core.solver.arrays.jacobian_blocks import make_blocks
 from lambda_core.solver.core import core
@@ -67,7 +67,8 @@ class SolverContext:
     def __post_init__(self) -> None:
         self.blocks = make_blocks(self.bundle)
         coupled, size = self.blocks.cross.shape[0], self.blocks.a.shape[1]
-        self.factors = make_factors(self.blocks.reach, self.bundle.active.size, coupled, size)
+        rollers = np.zeros((0, len(RollerBlocks._fields)), dtype=np.int64)
+        self.factors = make_factors(self.blocks.reach, self.bundle.active.size, coupled, size, rollers)
 
     @property
     def bearing(self) -> AssembledBearing:
@@ -164,6 +165,10 @@ def context_of(assembly: Assembly) -> SolverContext:
         ball_wrenches=np.zeros(balls, R.WRENCH),
         resting=np.zeros(len(assembly.bearings), dtype=np.int64),
         bearing_powers=np.zeros(len(assembly.bearings), R.RUNNING),
+        rollers=np.zeros((0, len(L.RollerCode._fields)), dtype=np.int64),
+        lines=np.zeros((0, L.LINE_ROWS, 0)),
+        slices=np.zeros((L.SLICE_ROWS, 0)),
+        line_cells=np.zeros((L.CELL_ROWS, L.GUARD)),
         **state_arrays(assembly, tables),
     )
     return SolverContext(assembly, bundle, state_scales(assembly, tables.active))

@@ -14,23 +14,43 @@ Further blocks couple balls that touch each other (:mod:`.chain`).
 
 from __future__ import annotations
 
-from lambda_core.laws.jit.references import reference_t
 from lambda_core.solver.arrays.bundle import NB
-from lambda_core.solver.arrays.factors import Factors
 from lambda_core.solver.integrator.condensed import condense, solve_condensed
 from lambda_core.solver.integrator.element_blocks import blocks_of
 from lambda_core.solver.integrator.reach import is_split
 from lambda_core.solver.integrator.sweeps import spread, write_multiple
 from lambda_core.solver.layout import helper, large_helper
 from lambda_core.solver.lu import lu_factor, lu_solve
+from lambda_core.solver.row_code import BACK, FORWARD, NEWER, WHOLE, roller_blocks
 
 # Relative change of g beyond which what a step divides by it is factored anew; not a tie with one growth of the step.
 REFACTOR = 0.41
 _ALIKE = 0.05  # likewise, up to which single balls of a row are factored for the g of the others
 
 
-factors_t = reference_t(Factors)
 _factor_balls, _renew_balls, _forward_balls, _back_balls = blocks_of(NB)
+
+
+@helper
+def _has_balls(reach, r):
+    """Return whether the elements of a row have as many states as a ball."""
+    return reach.states[r + 1] - reach.states[r] == NB * (reach.first[r + 1] - reach.first[r])
+
+
+@helper
+def _factor_row(bl, r, shift, gamma, fa, own):
+    """Take the shares of the elements of a row from `own`; returns 0 when a block is singular."""
+    if _has_balls(bl.reach, r):
+        return _factor_balls(bl, r, shift, gamma, fa, own)
+    return roller_blocks(fa.rollers, 0).factor(WHOLE, bl, r, shift, gamma, fa, own)
+
+
+@helper
+def _renew_row(bl, r, shift, fa, own):
+    """Factor anew the elements of a row whose blocks have changed; returns 0 when a block is singular."""
+    if _has_balls(bl.reach, r):
+        return _renew_balls(bl, r, shift, fa, own)
+    return roller_blocks(fa.rollers, 0).factor(NEWER, bl, r, shift, fa.gamma[r], fa, own)
 
 
 @helper
@@ -48,11 +68,11 @@ def _add_row(bl, r, shift, gamma, fa):
     own, n, columns = fa.own[r], bl.reach.width[r], bl.reach.columns[r]
     apart = abs(gamma / fa.gamma[r] - 1.0)
     if bl.changed[r] == 1 and apart <= _ALIKE and fa.joined.size == 0 and _few_are_newer(r, bl):
-        if _renew_balls(bl, r, shift, fa, own) != 1:
+        if _renew_row(bl, r, shift, fa, own) != 1:
             return 0
     elif bl.changed[r] == 1 or apart > REFACTOR:
         own[:, :] = 0.0
-        if _factor_balls(bl, r, shift, gamma, fa, own) != 1:
+        if _factor_row(bl, r, shift, gamma, fa, own) != 1:
             return 0
     more = gamma - fa.gamma[r]
     for i in range(n):
@@ -72,7 +92,7 @@ def arrow_factor(bl, shift, gamma, fa):
         if several:
             if _add_row(bl, r, shift, gamma, fa) != 1:
                 return 0
-        elif _factor_balls(bl, r, shift, gamma, fa, schur) != 1:
+        elif _factor_row(bl, r, shift, gamma, fa, schur) != 1:
             return 0
     if schur.shape[0] == 0:
         return 1
@@ -90,7 +110,10 @@ def arrow_solve(bl, fa, r):
         n, columns = reach.width[row], reach.columns[row]
         for i in range(n):
             own[i] = shared[columns[i]]
-        _forward_balls(row, reach, fa, r, own, n)
+        if _has_balls(reach, row):
+            _forward_balls(row, reach, fa, r, own, n)
+        else:
+            roller_blocks(fa.rollers, 0).solve(FORWARD, row, bl, fa, r, own)
         for i in range(n):
             shared[columns[i]] = own[i]
     if is_split(reach, fa.schur.shape[0]):
@@ -101,4 +124,7 @@ def arrow_solve(bl, fa, r):
         n, columns = reach.width[row], reach.columns[row]
         for i in range(n):
             own[i] = shared[columns[i]]
-        _back_balls(row, reach, fa, r, own, n)
+        if _has_balls(reach, row):
+            _back_balls(row, reach, fa, r, own, n)
+        else:
+            roller_blocks(fa.rollers, 0).solve(BACK, row, bl, fa, r, own)

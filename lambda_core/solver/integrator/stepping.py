@@ -6,8 +6,7 @@ depends on nothing but the state, so a continued run is the uninterrupted one, b
 
 from __future__ import annotations
 
-from lambda_core.solver.integrator.arrow import factors_t
-from lambda_core.solver.integrator.blocks import blocks_t
+from lambda_core.solver.integrator.blocks import blocks_t, factors_t
 from lambda_core.solver.integrator.memory import evaluate_t, jacobian_t, memory_t
 from lambda_core.solver.layout import bundle_t, f8, helper, i8
 from lambda_core.solver.status import Status

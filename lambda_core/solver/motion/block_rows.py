@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lambda_core.solver.arrays.bundle import BR, BVR, BVT, BVX, BWR, BWT, NB, NS, SSIGMA, SVX, SWY, SWZ
+from lambda_core.solver.arrays.bundle import BPSI, BR, BVR, BVT, BVX, BWR, BWT, BX, NB, NS, SSIGMA, SVX, SWY, SWZ
 from lambda_core.solver.contact.contact_kinematics import axis_x
 from lambda_core.solver.layout import helper
 from lambda_core.solver.motion.equations import body_rates
@@ -18,32 +18,32 @@ def ball_block(ball, row, bl, a, b):
     for i in range(6):
         inverse = 1.0 / row.ball_mass if i < 3 else 1.0 / row.ball_inertia
         for c in range(NB):
-            a[3 + i, c] = bl.own[i, c] * inverse
+            a[BVX + i, c] = bl.own[i, c] * inverse
         for column in range(index.size):
             k = index[column]
             if k >= 0:
-                b[3 + i, k] = bl.to_shared[i, column] * inverse
+                b[BVX + i, k] = bl.to_shared[i, column] * inverse
     for i in range(3):
         for c in range(NB):
             a[i, c] = 0.0
         for k in range(b.shape[1]):
             b[i, k] = 0.0
-    a[0, BVX] = 1.0
-    a[1, BVR] = 1.0
-    a[2, BVT] = 1.0 / r
-    a[2, BR] = -orbit / r
-    a[4, BVT] += 2.0 * orbit
-    a[4, BR] -= orbit * orbit
-    a[5, BVR] -= orbit
-    a[5, BVT] -= vr / r
-    a[5, BR] += vr * orbit / r
+    a[BX, BVX] = 1.0
+    a[BR, BVR] = 1.0
+    a[BPSI, BVT] = 1.0 / r
+    a[BPSI, BR] = -orbit / r
+    a[BVR, BVT] += 2.0 * orbit
+    a[BVR, BR] -= orbit * orbit
+    a[BVT, BVR] -= orbit
+    a[BVT, BVT] -= vr / r
+    a[BVT, BR] += vr * orbit / r
     wr, wt = ball.spin[1], ball.spin[2]
-    a[7, BWT] += orbit
-    a[7, BVT] += wt / r
-    a[7, BR] -= wt * orbit / r
-    a[8, BWR] -= orbit
-    a[8, BVT] -= wr / r
-    a[8, BR] += wr * orbit / r
+    a[BWR, BWT] += orbit
+    a[BWR, BVT] += wt / r
+    a[BWR, BR] -= wt * orbit / r
+    a[BWT, BWR] -= orbit
+    a[BWT, BVT] -= wr / r
+    a[BWT, BR] += wr * orbit / r
 
 
 @helper
@@ -52,7 +52,7 @@ def neighbour_block(row, bl, block):
     for i in range(6):
         inverse = 1.0 / row.ball_mass if i < 3 else 1.0 / row.ball_inertia
         for c in range(NB):
-            block[3 + i, c] = bl.beyond[i, c] * inverse
+            block[BVX + i, c] = bl.beyond[i, c] * inverse
 
 
 @helper

@@ -16,6 +16,8 @@ from lambda_core.solver.contact.contact_kinematics import axis_x, touch
 from lambda_core.solver.layout import balls_of, guide_law, helper, part, raceway_laws
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.structures import structure_energy
+from lambda_core.solver.records import ROLLERS
+from lambda_core.solver.row_code import roller_code
 from lambda_core.solver.vec import length
 
 
@@ -101,6 +103,9 @@ def stored_energy(t, y, bundle):
     total = 0.0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
+        if row.kind == ROLLERS:
+            total += roller_code(bundle.rollers, 0).energy(y, r, bundle)
+            continue
         balls = balls_of(y, row)
         for i in range(row.balls):
             total += _ball_energy(balls[i], row)

@@ -20,6 +20,8 @@ from lambda_core.solver.motion.force_elements import cage_forces, clear_forces, 
 from lambda_core.solver.motion.links import link_forces
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.structures import structure_forces
+from lambda_core.solver.records import ROLLERS
+from lambda_core.solver.row_code import CONTACTS, GUIDES, MOTION, roller_code
 from lambda_core.solver.vec import dot, increase, turning
 
 
@@ -66,7 +68,7 @@ def _move_bodies(bundle, running, want, dydt):
 
 
 @helper
-def _raceways(t, y, bundle, rates, want):
+def _raceways(t, y, bundle, dydt, rates, want):
     """Begin the sums of forces and powers with the raceways' share."""
     losses = losses_of(rates, bundle.raceways.size)
     if want == AGAIN:
@@ -78,6 +80,10 @@ def _raceways(t, y, bundle, rates, want):
         row = bundle.rows[r]
         if rests(row.bearing, bundle, want):
             continue
+        if row.kind == ROLLERS:
+            if roller_code(bundle.rollers, 0).evaluate(CONTACTS, t, y, r, bundle, dydt, rates, want) != 1:
+                return 0
+            continue
         balls = balls_of(y, row)
         for i in range(row.balls):
             if raceway_forces(t, balls[i], row.first_ball + i, row, bundle, losses, min(want, 1)) != 1:
@@ -86,11 +92,16 @@ def _raceways(t, y, bundle, rates, want):
 
 
 @helper
-def _guides(y, bundle, running, want):
+def _guides(t, y, bundle, dydt, rates, want):
     """Add the forces of pockets and lands."""
+    running = running_of(rates)[0]
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         if rests(row.bearing, bundle, want):
+            continue
+        if row.kind == ROLLERS:
+            if roller_code(bundle.rollers, 0).evaluate(GUIDES, t, y, r, bundle, dydt, rates, want) != 1:
+                return 0
             continue
         own = powers_of_bearing(bundle, row.bearing, running)
         if cage_forces(balls_of(y, row), row, bundle, own, min(want, 1)) != 1:
@@ -123,11 +134,11 @@ def evaluate(t, y, bundle, dydt, rates, want):
     running = running_of(rates)[0]
     if fill_shared(t, y, bundle) != 1:
         return 0
-    if want != 2 and _raceways(t, y, bundle, rates, want) != 1:
+    if want != 2 and _raceways(t, y, bundle, dydt, rates, want) != 1:
         return 0
     if want != AGAIN:
         clear_bearing_powers(bundle)
-    if system.guides_on == 1 and _guides(y, bundle, running, want) != 1:
+    if system.guides_on == 1 and _guides(t, y, bundle, dydt, rates, want) != 1:
         return 0
     keep_contacts(bundle)
     if link_forces(t, bundle, running) != 1:
@@ -137,6 +148,10 @@ def evaluate(t, y, bundle, dydt, rates, want):
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         if rests(row.bearing, bundle, want):
+            continue
+        if row.kind == ROLLERS:
+            if roller_code(bundle.rollers, 0).evaluate(MOTION, t, y, r, bundle, dydt, rates, want) != 1:
+                return 0
             continue
         own = powers_of_bearing(bundle, row.bearing, running)
         balls, moved = balls_of(y, row), balls_of(dydt, row)

@@ -37,7 +37,8 @@ from lambda_core.solver.motion.links import link_columns
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.steps import add_slope, ball_step
 from lambda_core.solver.motion.structures import structure_columns
-from lambda_core.solver.records import BALL
+from lambda_core.solver.records import BALL, ROLLERS
+from lambda_core.solver.row_code import roller_code
 from lambda_core.solver.vec import clear
 
 
@@ -178,6 +179,12 @@ def jacobian(t, y, bundle, bl):
     renewed = 0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
+        if row.kind == ROLLERS:
+            due = roller_code(bundle.rollers, 0).jacobian(y, r, bundle, bl)
+            if due < 0:
+                return 0
+            renewed += due
+            continue
         balls = balls_of(y, row)
         for j in range(row.first_ball, row.first_ball + row.balls):
             if bl.due[j] == 0:

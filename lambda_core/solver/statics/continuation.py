@@ -13,13 +13,14 @@ import math
 
 import numpy as np
 
-from lambda_core.solver.arrays.bundle import BR, BVT, BWR, BWT, BWX, BX, MECHANISMS, RUNNING_SIZE
+from lambda_core.solver.arrays.bundle import BR, BVT, BWR, BWT, BWX, BX, MECHANISMS, NB, RUNNING_SIZE
 from lambda_core.solver.contact.contact_kinematics import touch
-from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve, factors_t
-from lambda_core.solver.integrator.blocks import blocks_t
+from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve
+from lambda_core.solver.integrator.blocks import blocks_t, factors_t
 from lambda_core.solver.integrator.memory import evaluate_t, jacobian_t
 from lambda_core.solver.layout import array1, balls_of, bundle_t, first_of, helper, i8, iarray1, table_t
-from lambda_core.solver.records import STATIC_REPORT
+from lambda_core.solver.records import ROLLERS, STATIC_REPORT
+from lambda_core.solver.row_code import roller_code
 from lambda_core.solver.statics.pseudo_transient import mask, residual
 from lambda_core.solver.status import Status
 
@@ -44,6 +45,11 @@ def _load_shares(y, bundle, share):
     largest = 1e-300
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
+        if row.kind == ROLLERS:
+            roller_code(bundle.rollers, 0).shares(y, r, bundle, share)
+            for j in range(row.first_ball, row.first_ball + row.balls):
+                largest = max(largest, share[j])
+            continue
         balls, body = balls_of(y, row), bundle.raceways[row.first_raceway].body
         for j in range(row.first_ball, row.first_ball + row.balls):
             share[j] = 0.0
@@ -165,6 +171,8 @@ def _largest_move(step, weight, bundle):
         for j in range(row.first_ball, row.first_ball + row.balls):
             first = first_of(row, j)
             for i in range(first + BX, first + BR + 1):
+                largest = max(largest, abs(step[i]) * weight[i])
+            for i in range(first + NB, first + row.size):
                 largest = max(largest, abs(step[i]) * weight[i])
     for i in range(bundle.system[0].tail, step.size):
         largest = max(largest, abs(step[i]) * weight[i])

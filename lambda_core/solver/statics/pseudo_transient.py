@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.solver.arrays.bundle import BPSI, BR, BVT, BVX, BWX, BX, NS, SAY, SAZ
+from lambda_core.solver.arrays.bundle import BR, BVT, BVX, BWR, BWT, BX, NS, RSKEW, RTILT, SAY, SAZ
 from lambda_core.solver.layout import allocating_helper, first_of, helper
 
 _MOBILITY = 1e-4  # [s2] turns an acceleration into the rate of a position
@@ -12,13 +12,25 @@ _HOLD = 1e4  # [1/s] rate at which an unloaded ball takes the speed of the other
 
 
 @helper
-def _ball_row(state, held, friction_on):
-    """Return which acceleration drives a ball state: row index, or -1 when it is fixed."""
+def _source(state, size, held, friction_on):
+    """Return which rate drives a state of an element of `size` states, and its factor: -1 where the state is fixed.
+
+    A roller's tilt and skew follow their angular accelerations, as positions do; the two spins across its axis follow
+    the rates of tilt and skew, which are to vanish.
+    """
     if state in (BX, BR):
-        return BVX + state
-    if friction_on == 1 and (state >= BWX or (state == BVT and not held)):
-        return state
-    return -1
+        return BVX + state, _MOBILITY
+    if state == RTILT:
+        return BWT, _MOBILITY
+    if state == RSKEW:
+        return BWR, -_MOBILITY
+    if friction_on == 0 or state < BVT or (state == BVT and held):
+        return -1, 0.0
+    if size > RTILT and state == BWR:
+        return RSKEW, _HOLD
+    if size > RTILT and state == BWT:
+        return RTILT, -_HOLD
+    return state, 1.0
 
 
 @helper
@@ -41,9 +53,8 @@ def _shared_row(state, bodies):
 def _ball_residual(first, size, y, dydt, held, orbit, friction_on, f):
     """Write the rates of a ball whose states begin at `first`."""
     for i in range(size):
-        source = _ball_row(i, held, friction_on)
+        source, scale = _source(i, size, held, friction_on)
         if source >= 0:
-            scale = _MOBILITY if i <= BPSI else 1.0
             f[first + i] = scale * dydt[first + source]
     if held and friction_on == 1:
         f[first + BVT] = _HOLD * (orbit * y[first + BR] - y[first + BVT])
@@ -74,9 +85,9 @@ def _copy(source, target):
 
 
 @helper
-def _moves_ball(state, held, friction_on):
-    """Return whether a state of a ball takes part in the pseudo-transient system."""
-    return _ball_row(state, held, friction_on) >= 0 or (state == BVT and friction_on == 1)
+def _moves(state, size, held, friction_on):
+    """Return whether a state of an element takes part in the pseudo-transient system."""
+    return _source(state, size, held, friction_on)[0] >= 0 or (state == BVT and friction_on == 1)
 
 
 @helper
@@ -86,12 +97,11 @@ def _mask_ball(j, r, size, bundle, bl, held, a2, b2, c2, on):
     a, b, c = bl.a[j], bl.b[j], bl.c[j]
     a2[:, :], b2[:, :], c2[:, :] = 0.0, 0.0, 0.0
     for i in range(size):
-        row = _ball_row(i, held, friction_on)
+        row, scale = _source(i, size, held, friction_on)
         if row < 0:
             continue
-        scale = _MOBILITY if i <= BPSI else 1.0
         for k in range(size):
-            if _moves_ball(k, held, friction_on):
+            if _moves(k, size, held, friction_on):
                 a2[i, k] = scale * a[row, k]
         for k in range(reach.width[r]):
             b2[i, k] = scale * b[row, k] * on[reach.columns[r, k]]
@@ -103,7 +113,7 @@ def _mask_ball(j, r, size, bundle, bl, held, a2, b2, c2, on):
         if on[position] == 1:
             own = reach.index[r, NS * reach.place[r, row // NS] + row % NS]
             for i in range(size):
-                if _moves_ball(i, held, friction_on):
+                if _moves(i, size, held, friction_on):
                     c2[k, i] = _MOBILITY * sign * c[own, i]
     _copy(a2, a)
     _copy(b2, b)
