@@ -132,6 +132,10 @@ class Pack:
     _library: ctypes.CDLL = field(repr=False)
     _found: dict[str, Function] = field(default_factory=dict, repr=False)
 
+    def has(self, name: str) -> bool:
+        """Tell whether a unit is in the library."""
+        return name in self._functions
+
     def unit(self, name: str) -> Function:
         """Return a unit of the solver, or of the network."""
         return self._function(name, [kind_from(each) for each in self._functions[name]["kinds"]])

@@ -9,13 +9,22 @@ from pathlib import Path
 
 _SOLVER = Path(__file__).parent
 _DRIVERS = "drivers"  # Python around the compiled code: what it does is in no machine code
+_ROLLER = "roller"  # called by pointer: in no other code
 
 
 def compiled_sources() -> tuple[Path, ...]:
-    """Return the files and folders whose Python is compiled."""
+    """Return the files and folders whose Python every machine needs compiled."""
+    others = (_DRIVERS, _ROLLER)
     return tuple(
-        path for path in sorted(_SOLVER.iterdir()) if path.name != _DRIVERS and (path.suffix == ".py" or path.is_dir())
+        path
+        for path in sorted(_SOLVER.iterdir())
+        if path.name not in others and (path.suffix == ".py" or path.is_dir())
     )
+
+
+def roller_sources() -> tuple[Path, ...]:
+    """Return the files and folders whose Python machines with rollers need compiled."""
+    return (*compiled_sources(), _SOLVER / _ROLLER)
 
 
 def physics_sources() -> tuple[Path, ...]:

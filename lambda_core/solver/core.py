@@ -25,7 +25,7 @@ class Core:
     Parameters
     ----------
     find : function
-        The unit of a name, see :data:`lambda_core.solver.entry.UNITS`.
+        The unit of a name: of :data:`lambda_core.solver.entry.UNITS`, or of rollers.
     """
 
     find: Callable[[str], Unit]
@@ -99,6 +99,10 @@ def begin(announce: Callable[[str], None] | None = None, units: Iterable[str] | 
 
 def _found_in(packed: Any) -> Callable[[str], Unit]:
     def find(name: str) -> Unit:
+        if not packed.has(name):
+            from lambda_core.solver import entry
+
+            return Unit(*entry.call_and_pointer(name))
         found = packed.unit(name)
         return Unit(found, found)
 

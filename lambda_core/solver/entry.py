@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterable
+from pathlib import Path
 from typing import Any
 
 from lambda_core.domain.parents import end_with_parent
@@ -15,7 +16,7 @@ from lambda_core.laws.jit.machine_code import Pointer
 from lambda_core.laws.kernels import compile_host, host_folder, host_key
 from lambda_core.solver import layout
 from lambda_core.solver import sampling as observe
-from lambda_core.solver.code_files import compiled_sources
+from lambda_core.solver.code_files import compiled_sources, roller_sources
 from lambda_core.solver.contact import cell_probe, raceway, tangent
 from lambda_core.solver.integrator import bdf, esdirk, handle, memory, stepping
 from lambda_core.solver.motion import forces, jacobian
@@ -71,8 +72,17 @@ def missing() -> list[str]:
 
 def build(name: str, announce: Callable[[str], None] | None = None) -> Any:
     """Compile one unit into the cache, or load it; returns its dispatcher."""
-    function, signature = UNITS[name]
-    return compile_host(function, signature, SOURCES, announce, **_OPTIONS.get(name, {})).dispatcher
+    function, signature, sources = _unit(name)
+    return compile_host(function, signature, sources, announce, **_OPTIONS.get(name, {})).dispatcher
+
+
+def _unit(name: str) -> tuple[Any, Any, tuple[Path, ...]]:
+    """Return function, signature and sources of a unit, which may be one of rollers."""
+    if name in UNITS:
+        return (*UNITS[name], SOURCES)
+    from lambda_core.solver.roller import units
+
+    return (*units.UNITS[name], roller_sources())
 
 
 def build_group(names: str) -> None:
@@ -137,7 +147,7 @@ def call_and_pointer(name: str, announce: Callable[[str], None] | None = None) -
     A dispatcher would work out the types of its arguments at every call, a millisecond for the bundle; here they are
     always the same, made by lambda_core.solver.drivers.solver_context.
     """
-    dispatcher, signature = build(name, announce), UNITS[name][1]
+    dispatcher, signature = build(name, announce), _unit(name)[1]
     return dispatcher.get_compile_result(signature).entry_point, Pointer(dispatcher, signature)
 
 

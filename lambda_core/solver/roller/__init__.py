@@ -1,0 +1,1 @@
+"""Rollers in motion: line contacts, ribs, pockets, equations of motion. Compiled."""
