@@ -1,0 +1,147 @@
+"""Line contact of a roller with a raceway: loads of slices, then the stages of a point contact with slices for cells.
+
+Slice k, at x_k along the contact, approaches by delta + x_k tilt - drop_k and carries the load that the normal law has
+for it; the film follows from the mean load per length, as do rolling resistance and hysteresis. To laws R_y is the
+effective length, and loads are those of the contact. Every slice is a cell whose slip is that at its middle, so that
+skew, spin and the taper's sliding are integrated along the line.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lambda_core.solver.arrays.fault_roles import DAMPING, NORMAL_CONTACT
+from lambda_core.solver.cage.guides import GAUSS_NODES, GAUSS_WEIGHTS
+from lambda_core.solver.contact.dissipation import raceway_losses
+from lambda_core.solver.contact.resultant import sum_wrench
+from lambda_core.solver.contact.scalar_stages import damping_force, film_stage
+from lambda_core.solver.contact.shear import shear_stage, slip_field
+from lambda_core.solver.faults import report
+from lambda_core.solver.layout import cells_of, grid_of, helper, part, raceway_laws
+from lambda_core.solver.vec import clear
+
+PLACE, WIDTH, DROP, RADIUS = range(4)  # rows of Bundle.lines
+ACROSS, ALONG, PRESSURE, AREA, WIDTH_ACROSS, WIDTH_ALONG, LOAD = range(7)  # rows of Bundle.slices: a Grid, and loads
+_MEAN = 0.25 * math.pi  # mean over the maximum of Hertz's pressure across a line
+
+
+@helper
+def closest(raceway, kin, bundle):
+    """Return the approach of the slice that is nearest to the raceway [m]."""
+    line, found = bundle.lines[raceway.line], -np.inf
+    for k in range(line.shape[1]):
+        found = max(found, kin.penetration + line[PLACE, k] * kin.line_tilt - line[DROP, k])
+    return found
+
+
+@helper
+def _slice_loads(raceway, kin, law, bundle, contact, fault):
+    """Write load, half width and pressure of every slice; returns the moment of the loads about t [N m], NaN on a fault.
+
+    `contact` takes the load of all, the largest half width and pressure.
+    """
+    line, slices, out = bundle.lines[raceway.line], bundle.slices, bundle.scratch[0].out[:]
+    par = part(bundle.par, raceway.parameters.normal_contact)
+    total, moment, widest, highest, half = 0.0, 0.0, 0.0, 0.0, 0.5 * raceway.radius_y
+    for k in range(line.shape[1]):
+        x, width = line[PLACE, k], line[WIDTH, k]
+        delta = kin.penetration + x * kin.line_tilt - line[DROP, k]
+        load, b, p = 0.0, 0.0, 0.0
+        if delta > 0.0:
+            out[:4] = np.nan
+            status = law(delta, line[RADIUS, k], raceway.radius_y, raceway.modulus, par, out)
+            if status != 1 or not abs(out[0]) + abs(out[2]) + abs(out[3]) < np.inf:
+                report(
+                    fault, NORMAL_CONTACT, status, raceway.number, delta, line[RADIUS, k], raceway.radius_y,
+                    raceway.modulus,
+                )  # fmt: skip
+                return np.nan
+            load, b, p = out[0] * width / raceway.radius_y, out[2], out[3]
+        slices[ACROSS, k], slices[ALONG, k], slices[LOAD, k] = x / half, 0.0, load
+        slices[PRESSURE, k], slices[AREA, k] = _MEAN * p, 2.0 * b * width
+        slices[WIDTH_ACROSS, k], slices[WIDTH_ALONG, k] = width / half, 2.0 * b
+        total += load
+        moment -= x * load
+        widest, highest = max(widest, b), max(highest, p)
+    contact.load, contact.max_pressure = total, highest
+    contact.semi_axis_a, contact.semi_axis_b = half, widest
+    return moment
+
+
+@helper
+def _scale_slices(contact, slices):
+    """Divide areas, pressures and widths by those of the contact, as in a Grid; returns the sum of the areas."""
+    total, area = 0.0, 1.0 / (contact.semi_axis_a * contact.semi_axis_b)
+    for k in range(slices.shape[1]):
+        slices[AREA, k] *= area
+        slices[PRESSURE, k] /= contact.max_pressure
+        slices[WIDTH_ALONG, k] /= contact.semi_axis_b
+        total += slices[AREA, k]
+    return total
+
+
+@helper
+def line_wrench(raceway, bundle, kin, contact, wrench):
+    """Write the wrench of a line contact on the roller, about the contact's middle, axes t, s, n.
+
+    Returns 1 when every kernel was well; otherwise 0 and scratch.fault says which was not.
+    """
+    scratch, system, par = bundle.scratch[0], bundle.system[0], bundle.par
+    out, fault, slices = scratch.out[:], scratch.fault, bundle.slices
+    laws = raceway_laws(bundle.laws.raceways, raceway.laws)
+    contact.wet, contact.damping_force = 0, 0.0
+    moment = _slice_loads(raceway, kin, laws.normal_contact, bundle, contact, fault)
+    if not abs(moment) < np.inf:
+        return 0
+    if system.guides_on == 1:
+        out[0] = np.nan
+        status = damping_force(raceway, kin, kin.normal_velocity, laws, par, contact, out)
+        if status != 1 or not abs(out[0]) < np.inf:
+            return report(
+                fault, DAMPING, status, raceway.number, kin.penetration, kin.normal_velocity, contact.load, 0.0
+            )
+        contact.damping_force = max(out[0], -contact.load)
+    if system.friction_on == 0 or contact.load <= 0.0:
+        clear(wrench)
+        wrench.force[2], wrench.moment[0] = -(contact.load + contact.damping_force), moment
+        return 1
+    area = _scale_slices(contact, slices)
+    if film_stage(raceway, kin, laws, par, contact, out, fault) != 1:
+        return 0
+    grid, cells = grid_of(slices), cells_of(bundle.line_cells)
+    slip_field(raceway, kin, system, grid, contact, cells)
+    if shear_stage(raceway, laws, par, grid, contact, cells, fault) != 1:
+        return 0
+    contact.film_temperature *= math.pi / area
+    sum_wrench(raceway, kin, system, grid, contact, cells, wrench)
+    wrench.moment[0] += moment
+    return 1
+
+
+@helper
+def line_losses(raceway, bundle, losses):
+    """Add the power that the contact in scratch dissipates to layout.Losses [W]; call after line_wrench."""
+    scratch = bundle.scratch[0]
+    raceway_losses(
+        raceway, scratch.kinematics[0], bundle.system[0], grid_of(bundle.slices), scratch.contact[0],
+        cells_of(bundle.line_cells), losses,
+    )  # fmt: skip
+
+
+@helper
+def line_energy(raceway, kin, bundle):
+    """Return the elastic energy of a line contact [J]: the work of its slices' loads as they close."""
+    line, out, total = bundle.lines[raceway.line], bundle.scratch[0].out[:], 0.0
+    law = raceway_laws(bundle.laws.raceways, raceway.laws).normal_contact
+    par = part(bundle.par, raceway.parameters.normal_contact)
+    for k in range(line.shape[1]):
+        delta = kin.penetration + line[PLACE, k] * kin.line_tilt - line[DROP, k]
+        if delta <= 0.0:
+            continue
+        share = line[WIDTH, k] / raceway.radius_y
+        for i in range(GAUSS_NODES.size):
+            law(delta * GAUSS_NODES[i], line[RADIUS, k], raceway.radius_y, raceway.modulus, par, out)
+            total += GAUSS_WEIGHTS[i] * delta * out[0] * share
+    return total

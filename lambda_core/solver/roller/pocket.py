@@ -1,0 +1,83 @@
+"""Pocket of a roller: bars and end faces, at stations along the roller.
+
+At every station the law of the pocket sees how far the roller's axis is from its place, and how fast it moves; the
+station has a share of the force that the law has for the whole length. So a roller that skews touches a bar at one end.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lambda_core.solver.cage.guides import (
+    guide_energy,
+    guide_force,
+    guide_loss,
+    pocket_apply,
+    turning_body,
+    write_frame,
+)
+from lambda_core.solver.layout import guide_law, helper, part
+from lambda_core.solver.roller.motion import axis_of, from_own
+from lambda_core.solver.vec import add, combine, components, cross, inertial, scale, store, subtract
+
+# Gauss-Legendre: exact for forces that grow with the cube along the roller.
+STATIONS, SHARES = np.polynomial.legendre.leggauss(4)
+SHARES = 0.5 * SHARES
+
+
+@helper
+def _station_state(roller, cage, j, row, share, g):
+    """Write place and velocity of a station of the roller's axis relative to its pocket, along the pocket's axes.
+
+    `share` is where the station is, -1..1 of half of the length of a bar.
+    """
+    axis, omega = turning_body(cage)
+    write_frame(axis, cage.angle + row.pocket_phase + 2.0 * math.pi * (j - row.first_ball) / row.balls, g)
+    circle = add(scale(row.pocket_circle, g.radial), scale(row.pocket_offset, axis))
+    lean, flat = math.sin(row.axis_angle), math.cos(row.axis_angle)
+    along = combine((flat, lean, 0.0), g.axial, g.radial, g.tangential)
+    across = combine((-lean, flat, 0.0), g.axial, g.radial, g.tangential)
+    store(g.axial, along)
+    store(g.radial, across)
+    c, s, x = math.cos(roller.azimuth), math.sin(roller.azimuth), 0.5 * share * row.bar_length
+    store(g.origin, add(circle, scale(x, along)))
+    arm = inertial(scale(x, axis_of(roller, row)), c, s)
+    spin = inertial(from_own(roller.spin, row), c, s)
+    d = add(subtract((roller.x, roller.radius * c, roller.radius * s), cage.position), arm)
+    store(g.place, components(subtract(d, g.origin), g.axial, g.radial, g.tangential))
+    v = add(inertial(roller.velocity, c, s), cross(spin, arm))
+    v = subtract(subtract(v, cage.velocity), cross(omega, d))
+    store(g.velocity, components(v, g.axial, g.radial, g.tangential))
+    store(g.rotation, components(subtract(spin, omega), g.axial, g.radial, g.tangential))
+
+
+@helper
+def pocket_forces(roller, cage, j, row, bundle, on_roller, on_cage):
+    """Add the forces of a pocket on roller (turning frame) and cage (inertial); returns the power lost [W], or -1."""
+    scratch, viscosity, lost = bundle.scratch[0], row.oil.viscosity, 0.0
+    g, out = scratch.guide, scratch.out[:]
+    law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
+    for i in range(STATIONS.size):
+        _station_state(roller, cage, j, row, STATIONS[i], g)
+        if guide_force(law, par, g, viscosity, out, scratch.fault, -1) != 1:
+            scratch.fault.ball = j
+            return -1.0
+        lost += SHARES[i] * max(guide_loss(law, par, g, viscosity, out, scratch.at_rest), 0.0)
+        for k in range(3):
+            out[k] *= SHARES[i]
+        pocket_apply(roller, cage, g, out, on_roller, on_cage)
+    return lost
+
+
+@helper
+def pocket_energy(roller, cage, j, row, bundle):
+    """Return the elastic energy of a roller in its pocket [J]."""
+    scratch, total = bundle.scratch[0], 0.0
+    law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
+    for i in range(STATIONS.size):
+        _station_state(roller, cage, j, row, STATIONS[i], scratch.guide)
+        found = guide_energy(law, par, scratch.guide, row.oil.viscosity, scratch.out[:], scratch.at_rest, 0.0)
+        total += SHARES[i] * found
+    return total
