@@ -217,6 +217,7 @@ ROW = record(
     ("axis_angle", f8),  # of the nominal axis to the bearing's, positive where the radius grows with x [rad]
     ("cone_angle", f8),  # half of the angle of the roller's cone, 0 of a cylinder [rad]
     ("length", f8),  # effective [m]
+    ("total_length", f8),  # between the end faces, on the axis [m]
     ("end_radius", f8),  # of the end faces' sphere, inf where they are plane [m]
     ("bar_gap", f8),  # between roller and bars of its pocket, on each side [m]
     ("end_gap", f8),  # between its end faces and the pocket's, on each side [m]

@@ -8,7 +8,7 @@ import numpy as np
 
 from lambda_core.laws.jit.words import Array, by_reference
 from lambda_core.solver import records as R
-from lambda_core.solver.arrays.bundle import ARRAY1, ARRAY2, ARRAY3, ARRAY4, INTEGERS, NB, NS
+from lambda_core.solver.arrays.bundle import ARRAY1, ARRAY2, ARRAY3, ARRAY4, INTEGERS, NB, NR, NS
 from lambda_core.solver.arrays.factors import filled
 from lambda_core.solver.arrays.own_bodies import Reach, make_reach
 
@@ -37,6 +37,9 @@ BEFORE, AFTER = 0, 1  # places of X_j,j-1 and X_j,j+1 in the blocks of ball j
     wrenches=Array(R.WRENCH),
     map=ARRAY2,
     pushes=ARRAY2,
+    moved=ARRAY2,
+    roller_map=ARRAY2,
+    drivers=ARRAY2,
     index=INTEGERS,
 )
 class Blocks(NamedTuple):
@@ -60,6 +63,10 @@ class Blocks(NamedTuple):
     due: Any  # int64 (Z,): whether the next call renews this ball; it leaves 1 everywhere
     slope: Any  # TANGENT (1,): d(wrench)/d(kinematics) of one contact
     ball: Any  # (9,) perturbed
+    roller: Any  # (11,) perturbed
+    moved: Any  # (2, 11) time derivative of a roller, and of a perturbed one
+    roller_map: Any  # (11, 6) d(rate)/d(force, moment) of a roller
+    drivers: Any  # (12, 6) d(wrench)/d(what a contact of a roller depends on)
     body: Any  # (12,) perturbed
     body2: Any  # (12,) perturbed
     rate: Any  # (12,) time derivative of a body
@@ -101,6 +108,10 @@ def make_blocks(bundle: Any) -> Blocks:
         due=np.ones(balls, dtype=np.int64),
         slope=zeros(1, R.TANGENT),
         ball=zeros(NB),
+        roller=zeros(NR),
+        moved=zeros((2, NR)),
+        roller_map=zeros((NR, 6)),
+        drivers=zeros((len(R.LINE_DRIVERS), 6)),
         body=zeros(NS),
         body2=zeros(NS),
         rate=zeros(NS),

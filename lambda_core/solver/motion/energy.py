@@ -22,7 +22,7 @@ from lambda_core.solver.vec import length
 
 
 @helper
-def _contact_energy(raceway, delta, bundle):
+def contact_energy(raceway, delta, bundle):
     """Return the elastic energy of a raceway contact at penetration delta [J].
 
     With delta u^2 for the penetration, eight points are exact for a power law of exponent 3/2.
@@ -51,7 +51,7 @@ def _raceway_energy(ball, raceway, bundle):
     """Return the elastic energy of a ball's contact with a raceway [J]."""
     ring, kin = bundle.bodies_now[raceway.body], bundle.scratch[0].kinematics[0]
     if touch(ball, ring, raceway, bundle, kin) > 0.0:
-        return _contact_energy(raceway, kin.penetration, bundle)
+        return contact_energy(raceway, kin.penetration, bundle)
     return 0.0
 
 

@@ -38,7 +38,7 @@ def closest(raceway, kin, bundle):
 
 @helper
 def _slice_loads(raceway, kin, law, bundle, contact, fault):
-    """Write load, half width and pressure of every slice; returns the moment of the loads about t [N m], NaN on a fault.
+    """Write load, half width, pressure of every slice; returns the loads' moment about t [N m], NaN on a fault.
 
     `contact` takes the load of all, the largest half width and pressure.
     """

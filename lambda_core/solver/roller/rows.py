@@ -8,7 +8,7 @@ import numba
 import numpy as np
 
 from lambda_core.solver.arrays.bundle import MECHANISMS, NR
-from lambda_core.solver.contact.contact_kinematics import contact_angle, contact_wrench, near
+from lambda_core.solver.contact.contact_kinematics import contact_angle, near
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.layout import cells_of, grid_of, helper, losses_of, raceway_laws, running_of
 from lambda_core.solver.motion.bearing_sums import powers_of_bearing

@@ -1,0 +1,25 @@
+"""Blocks of rollers in the block-arrow matrix: entry points of their own, called by pointer."""
+
+from __future__ import annotations
+
+from lambda_core.solver.arrays.bundle import NR
+from lambda_core.solver.integrator.element_blocks import blocks_of
+from lambda_core.solver.row_code import FORWARD, NEWER
+
+_factor, _renew, _forward, _back = blocks_of(NR)
+
+
+def factor(stage, bl, r, shift, gamma, fa, own):
+    """Take the shares of a row of rollers from `own`, or renew them; returns 0 when a block is singular."""
+    if stage == NEWER:
+        return _renew(bl, r, shift, fa, own)
+    return _factor(bl, r, shift, gamma, fa, own)
+
+
+def solve(stage, row, bl, fa, right, own):
+    """Do one half of a solution for a row of rollers."""
+    if stage == FORWARD:
+        _forward(row, bl.reach, fa, right, own, bl.reach.width[row])
+    else:
+        _back(row, bl.reach, fa, right, own, bl.reach.width[row])
+    return 1
