@@ -73,8 +73,9 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.discovery.manager import registry, switch_off
     from lambda_core.discovery.registry import Registry
     from lambda_core.discovery.survey import CheckCard, ModelCard, NoteCard, Verdict
+    from lambda_core.elements.ball.geometry import Geometry
     from lambda_core.fit.report import FitReport
-    from lambda_core.model.bearing_model import BearingModel, Geometry
+    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.checks.describe import ValueReport, value_reports
     from lambda_core.model.checks.oil_table import oil_table
     from lambda_core.model.checks.operating_limits import operating_warnings

@@ -79,11 +79,11 @@ def _bearing(row: Row) -> Iterator[Finding]:
         return
     uprating = UPRATED if is_uprated(row["rating_type"]) else 1.0
     size, angle = (count, ball * 1e-3, pitch * 1e-3), math.radians(row["contact_angle_deg"] or 0.0)
-    rows, aligning = rated_rows(row), row["kind"] == "self-aligning"
+    rows, on_sphere = rated_rows(row), printed_of(row).on_sphere
     computed = {
-        "dynamic_rating": dynamic_rating(*size, contact_angle=angle, rows=rows, self_aligning=aligning) * uprating,
+        "dynamic_rating": dynamic_rating(*size, contact_angle=angle, rows=rows, on_sphere=on_sphere) * uprating,
         "static_rating": static_rating(
-            *size, contact_angle=angle, outer_conformity=0.52, rows=rows, self_aligning=aligning
+            *size, contact_angle=angle, outer_conformity=0.52, rows=rows, on_sphere=on_sphere
         ),
     }
     for name, expected in computed.items():

@@ -30,7 +30,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from lambda_core.formulas.ratings import dynamic_factor, self_aligning_factor, static_factor
+from lambda_core.elements.ball.kinds import kinds
+from lambda_core.formulas.ratings import dynamic_factor, sphere_factor, static_factor
 from lambda_db.standards import iso76_f0, standard_balls
 
 FILLING_ANGLE = (188.0, 5.0)  # mean and standard deviation [deg]
@@ -73,9 +74,14 @@ class Printed:
     kind: str = ""  # as in the table of bearings
 
     @property
+    def on_sphere(self) -> bool:
+        """Whether the outer raceway is a sphere."""
+        return self.kind in kinds() and kinds()[self.kind].on_sphere
+
+    @property
     def filling(self) -> tuple[float, float, float]:
         """Mean, standard deviation and limit of the filling angle [deg]."""
-        if self.kind == "self-aligning":
+        if self.on_sphere:
             return (*SWIVELLED_ANGLE, SWIVELLED_LIMIT)
         if self.kind == "double row":
             return (*FILLING_ANGLE, FILLING_LIMIT)
@@ -125,7 +131,7 @@ def _factors_on_a_sphere() -> tuple[Array, Array]:
     Solved for each design in question, contacts took half of the time in which the catalogue is built.
     """
     gamma = np.linspace(0.5 * _GAMMA[0], 1.1 * _GAMMA[1], 871)
-    return gamma, np.array([static_factor(float(value), self_aligning=True) for value in gamma])
+    return gamma, np.array([static_factor(float(value), on_sphere=True) for value in gamma])
 
 
 def static_rating_of(
@@ -135,12 +141,12 @@ def static_rating_of(
     contact_angle: float = 0.0,
     rows: int = 1,
     *,
-    self_aligning: bool = False,
+    on_sphere: bool = False,
 ) -> Array:
     """C_0 = f_0 i Z D_w^2 cos(alpha) [N], f_0 interpolated for conformities 0.52/0.52, or of the sphere."""
     cosine = np.cos(contact_angle)
     gamma = ball_diameter * cosine / pitch_diameter
-    known = _factors_on_a_sphere() if self_aligning else iso76_f0(both_052=True)
+    known = _factors_on_a_sphere() if on_sphere else iso76_f0(both_052=True)
     factor = np.interp(gamma, *known)
     return np.asarray(rows * factor * ball_count * ball_diameter**2 * cosine)
 
@@ -152,12 +158,12 @@ def dynamic_rating_of(
     contact_angle: float = 0.0,
     rows: int = 1,
     *,
-    self_aligning: bool = False,
+    on_sphere: bool = False,
 ) -> Array:
     """C = b_m f_c (i cos alpha)^0.7 Z^(2/3) D_w^1.8 (3.647 D_w^1.4 above 25.4 mm) [N], b_m = 1.3 (ISO 281)."""
     balls, index = np.unique(ball_diameter, return_inverse=True)
     cosine = float(np.cos(contact_angle))
-    factor_of = self_aligning_factor if self_aligning else dynamic_factor
+    factor_of = sphere_factor if on_sphere else dynamic_factor
     factors = np.array([factor_of(float(ball) * cosine / pitch_diameter) for ball in balls])[index]
     size = np.where(ball_diameter <= 25.4, ball_diameter**1.8, 3.647 * ball_diameter**1.4)
     return np.asarray(rows**0.7 * 1.3 * factors * cosine**0.7 * ball_count ** (2.0 / 3.0) * size)
@@ -165,16 +171,16 @@ def dynamic_rating_of(
 
 def _score(printed: Printed, count: Array, ball: Array, pitch: float) -> Array:
     (mean, deviation, _), angle = printed.filling, printed.contact_angle
-    kind, aligning = (angle, printed.rows), printed.kind == "self-aligning"
+    kind, on_sphere = (angle, printed.rows), printed.on_sphere
     score = ((filling_angle(count, ball, pitch) - mean) / deviation) ** 2
     if printed.static_rating is not None:
         scatter = max(STATIC_DEVIATION, printed.static_rounding)
-        static = static_rating_of(count, ball, pitch, *kind, self_aligning=aligning)
+        static = static_rating_of(count, ball, pitch, *kind, on_sphere=on_sphere)
         score += (np.log(static / printed.static_rating) / scatter) ** 2
     if printed.dynamic_rating is not None:
         scatter = max(DYNAMIC_DEVIATION["uprated" if printed.uprated else "iso"], printed.dynamic_rounding)
         rating = printed.dynamic_rating / (UPRATED if printed.uprated else 1.0)
-        dynamic = dynamic_rating_of(count, ball, pitch, *kind, self_aligning=aligning)
+        dynamic = dynamic_rating_of(count, ball, pitch, *kind, on_sphere=on_sphere)
         score += (np.log(dynamic / rating) / scatter) ** 2
     if printed.shoulder_diameter_inner is not None and printed.shoulder_diameter_outer is not None and not angle:
         ratio = (printed.shoulder_diameter_outer - printed.shoulder_diameter_inner) / ball
@@ -240,7 +246,7 @@ def grade_of(printed: Printed, ranked: list[RankedDesign], design: RankedDesign)
     good = design.score <= GOOD_FIT and weight >= CLEAR_WEIGHT
     if printed.dynamic_rating is not None and not printed.uprated:
         count, ball = np.array([float(design.ball_count)]), np.array([design.ball_diameter])
-        kind, aligning = (printed.contact_angle, printed.rows), printed.kind == "self-aligning"
-        rating = float(dynamic_rating_of(count, ball, design.pitch_diameter, *kind, self_aligning=aligning)[0])
+        kind, on_sphere = (printed.contact_angle, printed.rows), printed.on_sphere
+        rating = float(dynamic_rating_of(count, ball, design.pitch_diameter, *kind, on_sphere=on_sphere)[0])
         good = good and abs(rating / printed.dynamic_rating - 1.0) <= max(GOOD_RATING, printed.dynamic_rounding)
     return "B" if good else "C"

@@ -8,22 +8,15 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from lambda_core.catalogue.protocol import BearingRow, Value
-from lambda_core.model.bearing_model import SPHERICAL, Geometry
-from lambda_core.model.geometry.raceways import row_places
+from lambda_core.elements.ball.geometry import Geometry
+from lambda_core.elements.ball.kinds import kinds
+from lambda_core.elements.ball.raceways import row_places
 from lambda_core.model.geometry.resolve_geometry import with_clearance
-from lambda_core.model.geometry.resolve_rows import sphere_edge
-from lambda_core.model.geometry.resolve_shoulders import ALIGNING_SHOULDERS, FOUR_POINT_SHOULDERS, HIGH_SHOULDERS
 from lambda_core.model.geometry.ring_profile import profiles
 
 RING, BALL, AIR = "█", "░", " "
 # Shoulder height over ball diameter where no shoulder is printed: D_1 - d_1 = 1.21 D_w (lambda_db.derive)
 _SHOULDER = 0.25 * (2.0 - 1.21)
-_HEIGHTS = {
-    "angular contact": HIGH_SHOULDERS,
-    "double row": HIGH_SHOULDERS,
-    "four-point": FOUR_POINT_SHOULDERS,
-    "self-aligning": ALIGNING_SHOULDERS,
-}
 _CELL_ASPECT = 2.0
 Profile = Callable[[float], float]
 
@@ -102,10 +95,10 @@ def section_of(row: BearingRow) -> Section | None:
 
     Four-point contact is drawn with one groove: its shims follow from a clearance.
     """
-    spherical = row.kind == "self-aligning"
+    kind = kinds()[row.kind]
     ball, pitch, inner, outer = (
         _value(row.ball_diameter), _value(row.pitch_diameter), _value(row.groove_radius_inner),
-        _value(row.groove_radius_outer, 1.0 if spherical else math.nan),
+        _value(row.groove_radius_outer, 1.0 if kind.on_sphere else math.nan),
     )  # fmt: skip
     if any(math.isnan(value) for value in (ball, pitch, inner, outer)):
         return None
@@ -113,7 +106,7 @@ def section_of(row: BearingRow) -> Section | None:
         _value(row.race_diameter_inner, pitch - ball),
         _value(row.race_diameter_outer, pitch + ball),
     )
-    heights = _HEIGHTS.get(row.kind, {"inner": _SHOULDER, "outer": _SHOULDER})
+    heights = kind.shoulders.heights if kind.shoulders else {"inner": _SHOULDER, "outer": _SHOULDER}
     angle, apart = _value(row.contact_angle, 0.0), _value(row.row_distance, 0.0)
     geometry = Geometry(
         ball_count=round(_value(row.ball_count)),
@@ -132,15 +125,16 @@ def section_of(row: BearingRow) -> Section | None:
         outside_diameter=row.outside_diameter.value,
         width=row.width.value,
         series=row.series,
-        contact_angle=0.0 if row.kind == "four-point" else angle,
-        resting_angle=angle if row.kind in ("double row", "self-aligning") else 0.0,
-        rows=2 if row.kind in ("double row", "self-aligning") else 1,
+        contact_angle=0.0 if kind.arcs == 2 else angle,
+        resting_angle=angle if kind.rows == 2 else 0.0,
+        rows=kind.rows,
         row_distance=apart,
-        arrangement={"double row": "O", "self-aligning": SPHERICAL}.get(row.kind, ""),
+        arrangement=kind.arrangement,
     )
-    if spherical:
+    if kind.with_clearance is not None:
         geometry = with_clearance(geometry, 0.0)
-        geometry = replace(geometry, shoulder_diameter_outer=sphere_edge(geometry))
+    if kind.outer_shoulder is not None:
+        geometry = replace(geometry, shoulder_diameter_outer=kind.outer_shoulder(geometry))
     return Section(geometry, 1e3 * _value(row.chamfer, 0.0))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from lambda_core.elements.ball.kinds import kinds
 from lambda_db.derive import Printed, RankedDesign, candidates, grade_of, relative_rounding
 
 # Conformities that are assumed where nobody prints groove radii: below the largest that the rating standards allow,
@@ -23,7 +24,8 @@ def is_uprated(rating_type: str) -> bool:
 
 def rated_rows(row: Row) -> int:
     """Return by how many rows the standards rate a bearing."""
-    return 2 if row["kind"] in ("four-point", "double row", "self-aligning") else 1
+    kind = kinds().get(row["kind"])
+    return kind.rows * kind.arcs if kind is not None else 1
 
 
 def printed_of(row: Row) -> Printed:

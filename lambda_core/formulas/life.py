@@ -93,7 +93,7 @@ def dynamic_equivalent_load(
     contact_angle: float = 0.0,
     rows: int = 1,
     *,
-    self_aligning: bool = False,
+    on_sphere: bool = False,
 ) -> EquivalentLoad:
     """Dynamic equivalent radial load P (ISO 281:2007, 5.3 and table 3).
 
@@ -107,14 +107,14 @@ def dynamic_equivalent_load(
         Nominal one [rad], at most 45 degrees.
     rows : int
         That carry, 1 or 2; four-point contact counts as two, of which either takes one direction of thrust.
-    self_aligning : bool
+    on_sphere : bool
         Its factors follow from the angle alone: e = 1.5 tan(alpha), Y = 0.42 cot(alpha), then X = 0.65 and
         Y = 0.65 cot(alpha).
     """
     angle = math.degrees(contact_angle)
     limit, radial_factor, axial_factor = _factors(static_factor * axial_load / static_rating, angle)
     below = 0.0
-    if self_aligning:
+    if on_sphere:
         slope = math.tan(contact_angle)
         limit, radial_factor = _SELF_ALIGNING_LIMIT * slope, _SELF_ALIGNING_RADIAL
         below, axial_factor = _SELF_ALIGNING_BELOW / slope, _SELF_ALIGNING_ABOVE / slope
@@ -153,14 +153,14 @@ def _two_rows(limit: float, radial_factor: float, axial_factor: float, angle: fl
 
 
 def static_equivalent_load(
-    radial_load: float, axial_load: float, contact_angle: float = 0.0, rows: int = 1, *, self_aligning: bool = False
+    radial_load: float, axial_load: float, contact_angle: float = 0.0, rows: int = 1, *, on_sphere: bool = False
 ) -> float:
     """Static equivalent radial load P_0 = max(X_0 F_r + Y_0 F_a, F_r) [N] (ISO 76:2006, table 2).
 
     0.6 and 0.5 for radial contact; X_0 = 0.5 and Y_0 by the angle from 15 degrees on, where smaller angles count as 15;
     of two rows X_0 = 1 and twice that Y_0; of self-aligning bearings F_r + 0.44 cot(alpha) F_a.
     """
-    if self_aligning:
+    if on_sphere:
         return radial_load + _SELF_ALIGNING_STATIC / math.tan(contact_angle) * axial_load
     if contact_angle == 0.0:
         return max(0.6 * radial_load + 0.5 * axial_load, radial_load)

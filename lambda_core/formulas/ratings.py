@@ -73,7 +73,7 @@ def dynamic_factor(
     return float(0.41 * 98.0665 * reduction * races * shape * grooves)
 
 
-def self_aligning_factor(gamma: float) -> float:
+def sphere_factor(gamma: float) -> float:
     """Factor f_c of ISO 281 for self-aligning ball bearings (N, mm; without b_m); see :func:`dynamic_factor`."""
     return dynamic_factor(gamma, SELF_ALIGNING_CONFORMITY, sphere_conformity(gamma), SELF_ALIGNING_REDUCTION)
 
@@ -88,7 +88,7 @@ def dynamic_rating(
     outer_conformity: float = 0.52,
     material_factor: float = RATING_MATERIAL_FACTOR,
     rows: int = 1,
-    self_aligning: bool = False,
+    on_sphere: bool = False,
 ) -> float:
     """Basic dynamic radial load rating C_r [N] (ISO 281, eq. for radial ball bearings).
 
@@ -100,13 +100,13 @@ def dynamic_rating(
     diameter = ball_diameter * 1e3
     size = diameter**1.8 if diameter <= 25.4 else 3.647 * diameter**1.4
     grooves = dynamic_factor(gamma, inner_conformity, outer_conformity)
-    factor = self_aligning_factor(gamma) if self_aligning else grooves
+    factor = sphere_factor(gamma) if on_sphere else grooves
     one = float(material_factor * factor * math.cos(contact_angle) ** 0.7 * ball_count ** (2.0 / 3.0) * size)
     return one * float(rows**0.7)
 
 
 def static_factor(
-    gamma: float, inner_conformity: float = 0.52, outer_conformity: float = 0.53, *, self_aligning: bool = False
+    gamma: float, inner_conformity: float = 0.52, outer_conformity: float = 0.53, *, on_sphere: bool = False
 ) -> float:
     """Factor f_0 of ISO 76 (N, mm) from Hertz theory (ISO/TR 10657).
 
@@ -117,7 +117,7 @@ def static_factor(
     if not 0.0 < gamma < 1.0:
         raise ValueError(f"gamma = D_w cos(alpha)/D_pw must lie between 0 and 1, got {gamma:g}")
     pressure = STATIC_PRESSURE
-    if self_aligning:
+    if on_sphere:
         pressure = STATIC_PRESSURE_SELF_ALIGNING
         inner_conformity, outer_conformity = SELF_ALIGNING_CONFORMITY, sphere_conformity(gamma)
     modulus = STATIC_MODULUS / (1.0 - STATIC_POISSON**2)
@@ -138,11 +138,11 @@ def static_rating(
     inner_conformity: float = 0.52,
     outer_conformity: float = 0.53,
     rows: int = 1,
-    self_aligning: bool = False,
+    on_sphere: bool = False,
 ) -> float:
     """Basic static radial load rating C_0r = f_0 i Z D_w^2 cos(alpha) [N] of i rows (ISO 76)."""
     gamma = ball_diameter * math.cos(contact_angle) / pitch_diameter
-    factor = static_factor(gamma, inner_conformity, outer_conformity, self_aligning=self_aligning) * rows
+    factor = static_factor(gamma, inner_conformity, outer_conformity, on_sphere=on_sphere) * rows
     return factor * ball_count * (ball_diameter * 1e3) ** 2 * math.cos(contact_angle)
 
 

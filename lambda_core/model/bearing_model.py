@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from lambda_core.case.requirements import Requirements
 from lambda_core.domain.elements import SPIN
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from lambda_core.case.thermal import Thermal
     from lambda_core.domain.elements import BodyName
     from lambda_core.domain.lubrication import Lubrication
+    from lambda_core.elements.ball.geometry import Geometry
     from lambda_core.formulas.elastic.ring import RingWaves
     from lambda_core.formulas.fits import Mounting
     from lambda_core.laws.context import Material, Oil
@@ -69,70 +70,6 @@ class TimeFunction:
 
 ZERO = TimeFunction()
 USUAL_RESOLVE = 2000.0  # [Hz]; modes of a ring between the raceways of bearings of usual size lie below
-SPHERICAL = "spherical"  # arrangement of two rows on one sphere
-
-
-@dataclass(frozen=True)
-class Geometry:
-    """Inner geometry of the bearing at operating clearance, SI."""
-
-    ball_count: int
-    ball_diameter: float  # [m]
-    pitch_diameter: float  # [m]
-    race_diameter_inner: float  # at the groove's bottom, after clearance was set [m]
-    race_diameter_outer: float  # [m]
-    groove_radius_inner: float  # [m]
-    groove_radius_outer: float  # [m]
-    shoulder_diameter_inner: float  # [m]
-    shoulder_diameter_outer: float  # [m]
-    clearance: float  # operating radial internal clearance, diametral measure [m]
-    bore_diameter: float  # [m]
-    outside_diameter: float  # [m]
-    width: float  # [m]
-    series: str
-    contact_angle: float = 0.0  # free one of an angular contact bearing, which ratings go by; 0: radial contact [rad]
-    # Contact angle of a ball that touches without clearance while the rings are centred: of four-point contact, which
-    # one row has with it, and of the rows of a double row bearing; 0: the grooves of both rings face each other [rad]
-    resting_angle: float = 0.0
-    rows: int = 1  # of balls; ball_count is that of one row
-    row_distance: float = 0.0  # between the planes of the balls' centres [m]
-    # Of two rows: "O" back to back, "X" face to face, "spherical" on one sphere of the outer ring, whose raceway
-    # diameter is the sphere's
-    arrangement: str = ""
-
-    @property
-    def balls(self) -> int:
-        """Number of balls of all rows."""
-        return self.rows * self.ball_count
-
-    @property
-    def rated_rows(self) -> int:
-        """Rows by which the standards rate the bearing: of four-point contact each pair of arcs counts as one."""
-        return 2 if self.four_point else self.rows
-
-    @property
-    def self_aligning(self) -> bool:
-        """Whether both rows run on one sphere of the outer ring about the bearing's centre."""
-        return self.arrangement == SPHERICAL
-
-    @property
-    def kind(self) -> str:
-        """What the bearing is called, as rows of the catalogue are."""
-        return kind_of(vars(self))
-
-    @property
-    def four_point(self) -> bool:
-        """Whether each ring has two arcs for one row of balls."""
-        return self.rows == 1 and self.resting_angle > 0.0
-
-
-def kind_of(geometry: Mapping[str, Any]) -> str:
-    """Return what a bearing is called, from the fields of its :class:`Geometry`; results of old have fewer of them."""
-    if int(geometry.get("rows", 1)) == 2:
-        return "self-aligning" if geometry.get("arrangement") == SPHERICAL else "double row"
-    if float(geometry.get("resting_angle", 0.0)) > 0.0:
-        return "four-point"
-    return "angular contact" if float(geometry.get("contact_angle", 0.0)) > 0.0 else "deep groove"
 
 
 @dataclass(frozen=True)

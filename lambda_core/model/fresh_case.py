@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lambda_core.model.checks.operating_limits import ONE_SIDE
+from lambda_core.elements.ball.kinds import kinds
 from lambda_core.model.machine_templates import GENERAL, MachineTemplate
 
 if TYPE_CHECKING:
@@ -38,14 +38,6 @@ _NO_RATING = 10e3  # [N], where the catalogue has no rating to take a share of
 _MOST_SPEED = 0.5  # of the limiting speed that a new case starts with
 _PICK = '\nclearance_pick = "middle"'
 _MEASURED = 'or a measured value such as "14 um"'
-_KINDS = {
-    "deep groove": "Deep-groove ball bearing",
-    "angular contact": "Angular contact ball bearing",
-    "four-point": "Four-point contact ball bearing",
-    "double row": "Double row angular contact ball bearing",
-    "self-aligning": "Self-aligning ball bearing",
-}
-_AXIAL = {"four-point": "100 um", "double row": "20 um"}  # kinds that have an axial clearance, and one of theirs
 # Thrust over radial load times tan(alpha) at which half the circumference is loaded (NSK, CAT. No. E728, 5.1);
 # with less fewer balls carry, and an angular contact bearing alone comes apart.
 _HALF_LOADED = 1.216
@@ -63,7 +55,7 @@ def fresh_case(name: str, bearing: BearingRow, read: Designation, machine: Machi
     oil, load, speed = machine.about
     share_of, why = _thrust(machine, bearing)
     return _TEXT.format(
-        kind=_KINDS[bearing.kind],
+        kind=kinds()[bearing.kind].title,
         name=name,
         designation=read.text,
         words=f", {machine.words}" if machine.words else "",
@@ -81,8 +73,9 @@ def fresh_case(name: str, bearing: BearingRow, read: Designation, machine: Machi
 def _clearance(machine: MachineTemplate, bearing: BearingRow, read: Designation) -> str:
     """Return the lines that say the clearance, or the contact angle that it follows from."""
     classes = [written for written, suffix in read.suffixes if suffix.kind == "clearance"]
-    if bearing.kind in _AXIAL and not classes:
-        other = f'or axial_clearance = "{_AXIAL[bearing.kind]}"'
+    axial = kinds()[bearing.kind].axial_clearance
+    if axial and not classes:
+        other = f'or axial_clearance = "{axial}"'
         return _told('clearance = "CN"', f"class of the axial clearance, {other}") + _PICK
     if bearing.kind == "angular contact" and bearing.contact_angle is not None:
         angle = f"{math.degrees(bearing.contact_angle.value):.3g} deg"
@@ -95,8 +88,9 @@ def _clearance(machine: MachineTemplate, bearing: BearingRow, read: Designation)
 
 def _thrust(machine: MachineTemplate, bearing: BearingRow) -> tuple[float, str]:
     """Return axial over radial load, and the comment on it; angular contact needs enough to be held together."""
-    if bearing.kind == "four-point":
-        return max(machine.thrust, ONE_SIDE), f"along the shaft: {ONE_SIDE:g} of the radial load at least, SKF"
+    least = kinds()[bearing.kind].least_thrust
+    if least > 0.0:
+        return max(machine.thrust, least), f"along the shaft: {least:g} of the radial load at least, SKF"
     alone = bearing.kind == "angular contact" and bearing.contact_angle is not None
     least = _HALF_LOADED * math.tan(bearing.contact_angle.value) if alone and bearing.contact_angle else 0.0
     if least > machine.thrust:

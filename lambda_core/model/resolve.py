@@ -19,6 +19,7 @@ from lambda_core.case.case_writer import standalone_toml
 from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue
 from lambda_core.domain.elements import BODIES
 from lambda_core.domain.units import show
+from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.formulas.life import contamination_range
 from lambda_core.laws.context import Material
 from lambda_core.laws.jit.reach import reach
@@ -29,7 +30,6 @@ from lambda_core.model.bearing_model import (
     ChosenLaw,
     ChosenObserver,
     Depth,
-    Geometry,
     Output,
 )
 from lambda_core.model.bodies.resolve_bodies import (
@@ -48,11 +48,11 @@ from lambda_core.model.bodies.resolve_materials import (
     resolve_material,
     resolve_oil_level,
 )
+from lambda_core.model.geometry.free_tilts import hold_tilts
 from lambda_core.model.geometry.geometry_checks import check_clearance
 from lambda_core.model.geometry.resolve_clearance import clearance_in_operation, resolve_mounting
 from lambda_core.model.geometry.resolve_designation import resolve_designation
 from lambda_core.model.geometry.resolve_geometry import resolve_geometry, with_clearance
-from lambda_core.model.geometry.resolve_rows import hold_tilts
 from lambda_core.model.geometry.shadowed_data import tell_shadows
 from lambda_core.model.laws.interpolation import say_overshoot
 from lambda_core.model.laws.law_packages import with_packages
@@ -121,7 +121,7 @@ def resolve(
     check_bodies(case, ledger)
     check_thermal(case, ledger)
     _settings(case, ledger)
-    kind = bare[0].kind if bare else "deep groove"
+    kind = bare[0].kind.name if bare else "deep groove"
     guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
     laws = LawResolver(case, registry, lubricant, guidance, ledger, kind).resolve() if lubricant else {}
     markers = resolve_markers(case, ledger)

@@ -17,7 +17,8 @@ from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any
 
-from lambda_core.model.bearing_model import Geometry, Solver
+from lambda_core.elements.ball.geometry import Geometry
+from lambda_core.model.bearing_model import Solver
 
 _SIGNATURE = b"GCOL\x01\x00\x00\x00"  # with version and reserved bytes
 _SIZE = struct.Struct("<Q")

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.elements.ball.kinds import kind_of, kinds
 from lambda_core.formulas.loading import CARRYING, Ring
-from lambda_core.model.bearing_model import kind_of
 from lambda_core.model.checks.operating_limits import tilt_warning
 from lambda_core.results.record import Record
 
@@ -80,7 +80,7 @@ class Grooves:
 
         A ball of the row that a thrust unloads leans far to the side under its weight alone.
         """
-        return CARRYING if self.kind in ("double row", "self-aligning") else 0.0
+        return CARRYING if kinds()[self.kind].rows == 2 else 0.0
 
     @staticmethod
     def of(geometry: Mapping[str, Any]) -> Grooves:
@@ -94,10 +94,10 @@ class Grooves:
         )
         edge = np.arccos(np.clip(1.0 - height / radius, -1.0, 1.0))
         resting, kind = float(geometry.get("resting_angle", 0.0)), kind_of(geometry)
-        if kind == "four-point":
+        if kind.arcs == 2:
             shift = (radius - 0.5 * float(geometry["ball_diameter"])) * math.sin(resting)
-            return Grooves(radius, edge, ridge=np.arcsin(shift / radius), kind=kind)
-        return Grooves(radius, edge, kind == "angular contact", kind=kind)
+            return Grooves(radius, edge, ridge=np.arcsin(shift / radius), kind=kind.name)
+        return Grooves(radius, edge, kind.one_sided and kind.rows == 1, kind=kind.name)
 
 
 def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: FloatArray) -> list[Shoulder]:
@@ -168,8 +168,8 @@ def tolerance_warning(tolerance: float) -> list[str]:
 
 
 def highest_pressure(kind: str) -> float:
-    """Return the contact pressure from which on steel yields, of a kind of bearing as `Geometry.kind` has it [Pa]."""
-    return _HIGHEST_PRESSURE_ALIGNING if kind == "self-aligning" else _HIGHEST_PRESSURE
+    """Return the contact pressure from which on steel yields, of a kind of bearing by its name [Pa]."""
+    return _HIGHEST_PRESSURE_ALIGNING if kinds()[kind].on_sphere else _HIGHEST_PRESSURE
 
 
 def warnings(
@@ -184,7 +184,7 @@ def warnings(
     tilt : float
         Largest angle between the axes of the rings [rad].
     kind : str
-        Of the bearing, `Geometry.kind`.
+        Name of the bearing's kind.
     on_shaft : bool
         Whether a shaft decides the tilt.
     """

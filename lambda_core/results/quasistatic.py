@@ -133,7 +133,9 @@ def quasistatic_of(found: Equilibrium, rating: Rating | None = None) -> QuasiSta
         shoulders=edges,
         warnings=[
             *operating_warnings(model),
-            *warnings(float(channels["max_pressure"].max()), edges, math.hypot(tilt_y, tilt_z), model.geometry.kind),
+            *warnings(
+                float(channels["max_pressure"].max()), edges, math.hypot(tilt_y, tilt_z), model.geometry.kind.name
+            ),
         ],
         iterations=found.iterations,
         assumptions=list(model.assumptions),

@@ -14,8 +14,8 @@ from pydantic import Field
 from lambda_core.domain.channels import RINGS, SHORTED
 from lambda_core.domain.errors import BearingNeededError, UsageError
 from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.elements.ball.kinds import kind_of
 from lambda_core.formulas.loading import CARRYING, Ring, carries, largest_contact, loaded_balls
-from lambda_core.model.bearing_model import kind_of
 from lambda_core.results.averages import Interval, finite
 from lambda_core.results.bent import Bent, bent_parts
 from lambda_core.results.convergence import (
@@ -325,7 +325,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
                 _highest_pressure(result),
                 edges,
                 extremes.largest_tilt,
-                kind_of(result.model["geometry"]),
+                kind_of(result.model["geometry"]).name,
                 on_shaft=result.is_machine,
             ),
         ],

@@ -16,12 +16,12 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError
 from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.elements.ball.raceways import raceways
 from lambda_core.laws.check import check_choice
 from lambda_core.laws.kernels import CHECKED_VARIABLE, is_checked
 from lambda_core.laws.law import Law
 from lambda_core.laws.runaway import FAR
 from lambda_core.laws.state import ROLE
-from lambda_core.model.geometry.raceways import raceways
 from lambda_core.model.laws.law_packages import foreign_laws
 from lambda_core.model.laws.state_channels import states_of
 from lambda_core.solver.drivers.dynamics import BearingEngine, MotionEngine

@@ -101,7 +101,7 @@ class MethodInputs:
     shoulder_diameter_inner: float | None = None  # of the inner ring, on which lips of seals slide [m]
     contact_angle: float = 0.0  # free one of an angular contact bearing, which ratings go by; 0: radial contact [rad]
     rated_rows: int = 1  # of balls, by which the standards rate it: two of four-point contact, a pair of arcs each
-    self_aligning: bool = False  # whether the outer raceway is one sphere for two rows
+    on_sphere: bool = False  # whether the outer raceway is one sphere for two rows
 
     @property
     def mean_diameter(self) -> float:

@@ -30,7 +30,7 @@ def test_the_recent_cases_cover_every_kind_of_bearing_and_three_shafts() -> None
     """Each entry resolves; together they have all kinds, elastic parts, a circuit, resumed runs."""
     entries = endstates.recent_cases()
     models = {name: api.check(bearing_case(entry)) for name, entry in entries["bearings"].items()}
-    assert {model.geometry.kind for model in models.values()} == KINDS
+    assert {model.geometry.kind.name for model in models.values()} == KINDS
     assert len([api.check({"name": "endstate"} | entry["case"]) for entry in entries["shafts"].values()]) == 3
     assert sum("stop" in entry for kind in endstates.KINDS for entry in entries[kind].values()) >= 3
 

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from lambda_core import api
-from lambda_core.model.bearing_model import Geometry
-from lambda_core.model.geometry.raceways import raceways, row_places
+from lambda_core.elements.ball.geometry import Geometry
+from lambda_core.elements.ball.raceways import raceways, row_places
 from lambda_core.model.geometry.ring_profile import profiles
 
 

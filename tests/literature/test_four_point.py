@@ -16,14 +16,14 @@ from lambda_plugins.methods.skf_angular import angular_variables
 from scipy.optimize import root
 
 from lambda_core import api
+from lambda_core.elements.ball.kinds.four_point import FOUR_POINT_SHOULDERS
+from lambda_core.elements.ball.raceways import raceways
 from lambda_core.formulas.hertz import ball_raceway_radii, stiffness_constant
 from lambda_core.formulas.kind_clearance import FOUR_POINT
 from lambda_core.formulas.life import ball_capacities, dynamic_equivalent_load, reference_rating_life
 from lambda_core.formulas.life import static_equivalent_load as static_load
 from lambda_core.formulas.ratings import dynamic_rating, static_rating
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.model.geometry.raceways import raceways
-from lambda_core.model.geometry.resolve_shoulders import FOUR_POINT_SHOULDERS
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.records import CONTACT_CHANNELS
 
@@ -228,7 +228,7 @@ def test_shoulders_lie_over_the_derived_raceways(catalogue: SqlCatalogue) -> Non
             if shoulder is not None:
                 heights.append(abs(shoulder.value - race.value) / (2.0 * row.ball_diameter.value))
         assert sum(0.20 < height < 0.28 for height in heights) >= len(heights) - 1
-        assert sum(heights) / len(heights) == pytest.approx(FOUR_POINT_SHOULDERS[ring], abs=0.001)
+        assert sum(heights) / len(heights) == pytest.approx(FOUR_POINT_SHOULDERS.heights[ring], abs=0.001)
 
 
 def test_equivalent_loads_as_skf_prints_them() -> None:

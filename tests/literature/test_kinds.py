@@ -11,9 +11,9 @@ from lambda_plugins.methods.skf_angular import angular_variables
 from lambda_core import api
 from lambda_core.catalogue.designation import designated
 from lambda_core.catalogue.protocol import BearingRow
+from lambda_core.elements.ball.kinds.angular_contact import HIGH_SHOULDERS
 from lambda_core.formulas.life import dynamic_equivalent_load, static_equivalent_load
 from lambda_core.formulas.ratings import dynamic_rating, static_factor, static_rating
-from lambda_core.model.geometry.resolve_shoulders import HIGH_SHOULDERS
 
 # NSK, Rolling Bearings, CAT. No. E1102, page B51: factors of ISO 281, table 3, and ISO 76, table 2. At 15 degrees over
 # f_0 F_a/C_0r; at the others one row.
@@ -95,7 +95,7 @@ def test_skf_ratings_and_shoulders(catalogue: SqlCatalogue) -> None:
     assert max(off) < 0.02
     assert sorted(off)[len(off) // 2] < 0.006
     for ring, found in heights.items():
-        assert sum(found) / len(found) == pytest.approx(HIGH_SHOULDERS[ring], abs=0.001)
+        assert sum(found) / len(found) == pytest.approx(HIGH_SHOULDERS.heights[ring], abs=0.001)
         assert max(found) - min(found) < 0.07
 
 

@@ -11,8 +11,8 @@ import pytest
 from numpy.typing import NDArray
 
 from lambda_core import api
+from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.laws.probe import trial_context
-from lambda_core.model.bearing_model import Geometry
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.testing import evaluate
 

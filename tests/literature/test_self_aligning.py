@@ -20,12 +20,12 @@ from scipy.optimize import root
 from lambda_core import api
 from lambda_core.catalogue.designation import designated
 from lambda_core.catalogue.protocol import BearingRow
+from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.formulas.hertz import stiffness_constant
 from lambda_core.formulas.kind_clearance import SELF_ALIGNING
 from lambda_core.formulas.life import dynamic_equivalent_load, reference_rating_life, static_equivalent_load
-from lambda_core.formulas.ratings import dynamic_rating, self_aligning_factor, sphere_conformity, static_factor
+from lambda_core.formulas.ratings import dynamic_rating, sphere_conformity, sphere_factor, static_factor
 from lambda_core.formulas.ratings import static_rating as rated
-from lambda_core.model.bearing_model import Geometry
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.stiffness import stiffness_matrix
@@ -218,7 +218,7 @@ def test_ratings_of_every_row(catalogue: SqlCatalogue) -> None:
         assert row.dynamic_rating is not None
         assert row.static_rating is not None
         assert row.shoulder_diameter_inner is not None
-        kind = {"contact_angle": angle, "rows": 2, "self_aligning": True}
+        kind = {"contact_angle": angle, "rows": 2, "on_sphere": True}
         dynamic.append(abs(dynamic_rating(count, ball, pitch, **kind) / row.dynamic_rating.value - 1.0))
         static.append(abs(rated(count, ball, pitch, **kind) / row.static_rating.value - 1.0))
         height.append((row.shoulder_diameter_inner.value - pitch + ball) / (2.0 * ball))
@@ -237,10 +237,10 @@ def test_factors_of_the_sphere_in_closed_form(gamma: float) -> None:
     """
     modulus = 207e9 / (2.0 * (1.0 - 0.3**2))
     load = math.pi**3 * (0.5 * (1.0 + gamma)) ** 2 * 4600e6**3 / (6.0 * modulus**2)
-    assert static_factor(gamma, self_aligning=True) == pytest.approx(load / 5e6, rel=1e-6)
+    assert static_factor(gamma, on_sphere=True) == pytest.approx(load / 5e6, rel=1e-6)
     tabled = {0.05: (2.1, 17.3), 0.1: (2.4, 23.4), 0.2: (2.8, 33.5), 0.3: (3.3, 40.3), 0.4: (3.8, 40.4)}[gamma]
-    assert static_factor(gamma, self_aligning=True) == pytest.approx(tabled[0], abs=0.05)
-    assert self_aligning_factor(gamma) == pytest.approx(tabled[1], abs=0.05)
+    assert static_factor(gamma, on_sphere=True) == pytest.approx(tabled[0], abs=0.05)
+    assert sphere_factor(gamma) == pytest.approx(tabled[1], abs=0.05)
 
 
 # SKF, general catalogue 6000, pages 485 to 489: e, Y_1, Y_2, Y_0.
@@ -255,14 +255,14 @@ PRINTED = {
 def test_factors_of_loads_as_printed(catalogue: SqlCatalogue, name: str, printed: tuple[float, ...]) -> None:
     """The angle is e/1.5 of the catalogue; Y_1, Y_2, Y_0 of it within 3.5, 3.5, 10 %: SKF rounds them in steps."""
     _, _, _, angle = design(catalogue.bearing(name, "SKF"))
-    below = dynamic_equivalent_load(1000.0, 100.0, 1e4, 2.5, angle, 2, self_aligning=True)
-    above = dynamic_equivalent_load(1000.0, 900.0, 1e4, 2.5, angle, 2, self_aligning=True)
+    below = dynamic_equivalent_load(1000.0, 100.0, 1e4, 2.5, angle, 2, on_sphere=True)
+    above = dynamic_equivalent_load(1000.0, 900.0, 1e4, 2.5, angle, 2, on_sphere=True)
     limit, first, second, static = printed
     assert below.limit == pytest.approx(limit, abs=2e-4)
     assert (below.radial_factor, above.radial_factor) == (1.0, 0.65)
     assert below.axial_factor == pytest.approx(first, rel=0.035)
     assert above.axial_factor == pytest.approx(second, rel=0.035)
-    found = static_equivalent_load(1000.0, 1000.0, angle, 2, self_aligning=True) / 1000.0 - 1.0
+    found = static_equivalent_load(1000.0, 1000.0, angle, 2, on_sphere=True) / 1000.0 - 1.0
     assert found == pytest.approx(static, rel=0.1)
     # both branches meet at e
     assert 1.0 + limit * below.axial_factor == pytest.approx(0.65 + limit * above.axial_factor, rel=0.01)
@@ -276,7 +276,7 @@ def test_reference_life_is_the_basic_one_with_half_the_raceway_loaded() -> None:
     found = equilibrium(radial=2000.0, clearance="0 um")
     g = found.context.model.geometry
     capacity = dynamic_rating(
-        g.ball_count, g.ball_diameter, g.pitch_diameter, contact_angle=g.contact_angle, rows=2, self_aligning=True
+        g.ball_count, g.ball_diameter, g.pitch_diameter, contact_angle=g.contact_angle, rows=2, on_sphere=True
     )
     gamma = g.ball_diameter * math.cos(g.contact_angle) / g.pitch_diameter
     assert g.groove_radius_outer / g.ball_diameter == pytest.approx(sphere_conformity(gamma), rel=1e-12)
@@ -372,6 +372,6 @@ def test_friction_is_that_of_a_run_without_cage() -> None:
 def test_factors_for_the_catalogue_are_those_of_the_contacts() -> None:
     """Between two that are solved they are interpolated: 1e-5, where the fit to a rating scatters by 1e-2."""
     one, gamma = np.ones(200), np.random.default_rng(3).uniform(0.01, 0.4, 200)
-    solved = [static_factor(float(each), self_aligning=True) for each in gamma]
-    found = [float(static_rating_of(one[:1], one[:1], 1.0 / each, self_aligning=True)[0]) for each in gamma]
+    solved = [static_factor(float(each), on_sphere=True) for each in gamma]
+    found = [float(static_rating_of(one[:1], one[:1], 1.0 / each, on_sphere=True)[0]) for each in gamma]
     assert found == pytest.approx(solved, rel=1e-5)

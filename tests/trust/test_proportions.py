@@ -7,7 +7,7 @@ import math
 import pytest
 
 from lambda_core import api
-from lambda_core.model.geometry import proportions
+from lambda_core.elements.ball.kinds import kinds
 
 CASE = "6208-axial-1300"
 
@@ -37,7 +37,7 @@ def test_what_is_impossible_is_refused(change: str) -> None:
 
 
 def test_the_ranges_are_those_of_the_catalogue() -> None:
-    filling: dict[str, list[float]] = {kind: [] for kind in proportions.FILLINGS}
+    filling: dict[str, list[float]] = {kind: [] for kind in kinds()}
     wall, width, aligning_wall, aligning_width = [], [], [], []
     for row in api.catalogue().bearings(limit=10_000):
         if row.ball_count is None or row.ball_diameter is None:
@@ -63,15 +63,15 @@ def test_the_ranges_are_those_of_the_catalogue() -> None:
         "self-aligning": 86,
     }
     for found, (least, most), step in (
-        (filling["deep groove"], proportions.FILLING, 1.0),
-        (filling["angular contact"], proportions.ANGULAR_FILLING, 1.0),
-        (filling["four-point"], proportions.FOUR_POINT_FILLING, 1.0),
-        (filling["double row"], proportions.DOUBLE_ROW_FILLING, 1.0),
-        (filling["self-aligning"], proportions.ALIGNING_FILLING, 1.0),
-        (aligning_wall, proportions.ALIGNING_WALL, 0.01),
-        (aligning_width, proportions.ALIGNING_WIDTH, 0.01),
-        (wall, proportions.WALL, 0.01),
-        (width, proportions.WIDTH, 0.01),
+        (filling["deep groove"], kinds()["deep groove"].filling, 1.0),
+        (filling["angular contact"], kinds()["angular contact"].filling, 1.0),
+        (filling["four-point"], kinds()["four-point"].filling, 1.0),
+        (filling["double row"], kinds()["double row"].filling, 1.0),
+        (filling["self-aligning"], kinds()["self-aligning"].filling, 1.0),
+        (aligning_wall, kinds()["self-aligning"].walls, 0.01),
+        (aligning_width, kinds()["self-aligning"].width, 0.01),
+        (wall, kinds()["deep groove"].walls, 0.01),
+        (width, kinds()["deep groove"].width, 0.01),
     ):
         assert least == pytest.approx(math.floor(min(found) / step) * step)
         assert most == pytest.approx(math.ceil(max(found) / step) * step)

@@ -11,8 +11,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.case.electric import Electric, MachineElectric
+from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.laws.context import Context, Material, Oil
-from lambda_core.model.bearing_model import ChosenLaw, ElectricModel, Geometry
+from lambda_core.model.bearing_model import ChosenLaw, ElectricModel
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.settings.resolve_electric import resolve_electric
 

@@ -46,8 +46,8 @@ def bearing_life(bearing: MountedBearing, found: Equilibrium, radial: float, axi
     """
     g, angle, speed = bearing.model.geometry, bearing.nominal_angle, found.relative_speed
     gamma = g.ball_diameter * math.cos(angle) / g.pitch_diameter
-    factor, kind, aligning = static_factor(gamma, self_aligning=g.self_aligning), (angle, g.rated_rows), g.self_aligning
-    load = dynamic_equivalent_load(radial, axial, bearing.static_rating, factor, *kind, self_aligning=aligning).load
+    factor, kind, aligning = static_factor(gamma, on_sphere=g.kind.on_sphere), (angle, g.rated_rows), g.kind.on_sphere
+    load = dynamic_equivalent_load(radial, axial, bearing.static_rating, factor, *kind, on_sphere=aligning).load
     reference = reference_rating_life(
         *found.loads_by_row(),
         dynamic_rating=bearing.dynamic_rating,
@@ -66,7 +66,7 @@ def bearing_life(bearing: MountedBearing, found: Equilibrium, radial: float, axi
             dirt = ratio, contamination, bearing.fatigue_limit
             modified_basic = life_hours(life_modification_factor(*dirt, load) * basic, speed)
             modified = life_hours(life_modification_factor(*dirt, reference.equivalent_load) * reference.life, speed)
-    static_load = static_equivalent_load(radial, axial, *kind, self_aligning=aligning)
+    static_load = static_equivalent_load(radial, axial, *kind, on_sphere=aligning)
     return BearingLife(
         load,
         life_hours(basic, speed),

@@ -254,7 +254,7 @@ def _warnings(
     model = bearing.model
     told = [
         *load_warnings(model, *loads),
-        *warnings(1e9 * alone.max_pressure_GPa, alone.shoulders, tilt, model.geometry.kind, on_shaft=True),
+        *warnings(1e9 * alone.max_pressure_GPa, alone.shoulders, tilt, model.geometry.kind.name, on_shaft=True),
         *operating_warnings(model, on_shaft=True),
     ]
     if not found.converged:

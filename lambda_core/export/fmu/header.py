@@ -190,7 +190,7 @@ def _start_numbers(frozen: Frozen) -> dict[str, object]:
         "SPEED": repr(start.speed),
         "SMOOTH_WORK": MAX_ITERATIONS[False],
         "FRICTION_WORK": MAX_ITERATIONS[True],
-        "PATH_ITERATIONS": 0 if frozen.bearings[0].model.geometry.self_aligning else PATH_ITERATIONS,
+        "PATH_ITERATIONS": 0 if frozen.bearings[0].model.geometry.kind.on_sphere else PATH_ITERATIONS,
         "PATH_SHARE": PATH_SHARE,
         "PATH_TOLERANCE": PATH_TOLERANCE,
         "NO_PATH": NO_PATH,

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.model.geometry.raceways import row_places
+from lambda_core.elements.ball.raceways import row_places
 from lambda_core.model.geometry.ring_profile import geometry_of, profiles
 from lambda_core.views.scene import Scene
 

@@ -35,7 +35,7 @@ def mounted(
         ledger.problem(f"bearings.{name}.takes", 'is required: an angular contact bearing needs "+x" or "-x"')
     if takes and model.geometry.rated_rows > 1:
         ledger.problem(f"bearings.{name}.takes", "leave it out: this bearing takes thrust from both sides")
-    if model.geometry.self_aligning:
+    if model.geometry.kind.on_sphere:
         ledger.assume(f"{name}: a self-aligning bearing follows every tilt of the shaft without resistance")
     play = axial_play(given, model) if takes else 0.0
     drawn = TimeFunction.constant(growth - takes * (play + (given.preload or 0.0)))
@@ -119,10 +119,10 @@ def _ratings(name: str, angle: float, model: BearingModel, ledger: Ledger) -> tu
     )
     size = (g.ball_count, g.ball_diameter, g.pitch_diameter)
     if dynamic is None:
-        dynamic = dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows, self_aligning=g.self_aligning)
+        dynamic = dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows, on_sphere=g.kind.on_sphere)
         ledger.assume(f"{name}: C = {dynamic * 1e-3:.1f} kN from the inner geometry (ISO 281)")
     if static is None:
-        static = static_rating(*size, contact_angle=angle, rows=g.rated_rows, self_aligning=g.self_aligning)
+        static = static_rating(*size, contact_angle=angle, rows=g.rated_rows, on_sphere=g.kind.on_sphere)
         ledger.assume(f"{name}: C_0 = {static * 1e-3:.1f} kN from the inner geometry (ISO 76)")
     if fatigue is None:
         fatigue = fatigue_load_limit(static, g.pitch_diameter)

@@ -11,8 +11,9 @@ from lambda_core.case.motion import CageBody, InnerRing, Load, OuterRing
 from lambda_core.catalogue.protocol import CageRow
 from lambda_core.domain.elements import BODIES, DOFS, TILTS, TRANSLATIONS, BodyName
 from lambda_core.domain.units import show
+from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.laws.context import Material
-from lambda_core.model.bearing_model import Body, Cage, DofState, Geometry, TimeFunction
+from lambda_core.model.bearing_model import Body, Cage, DofState, TimeFunction
 from lambda_core.model.laws.time_functions import added, scaled, time_function
 from lambda_core.model.ledger import Ledger
 
@@ -69,11 +70,11 @@ def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: f
     else:
         small, large = g.shoulder_diameter_outer, g.outside_diameter
         groove = groove_volume(g.groove_radius_outer, g.race_diameter_outer, g.shoulder_diameter_outer)
-    if g.self_aligning and ring == "outer":
+    if g.kind.on_sphere and ring == "outer":
         return _sphered_ring(g, density)
     volume = math.pi / 4.0 * (large**2 - small**2) * g.width - g.rows * groove
     whole = hollow_cylinder(density * volume, small / 2.0, large / 2.0, g.width)
-    if g.kind not in ("angular contact", "double row"):
+    if not g.kind.one_sided:
         return whole
     if ring == "inner":
         large = g.race_diameter_inner

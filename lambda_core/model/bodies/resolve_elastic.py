@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 from lambda_core.domain.elements import BODIES, BodyName
 from lambda_core.domain.units import show
+from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.formulas.elastic.ring import ElasticRing, RingWaves
 from lambda_core.laws.context import Material
-from lambda_core.model.bearing_model import Cage, Geometry
+from lambda_core.model.bearing_model import Cage
 from lambda_core.model.ledger import Ledger
 
 if TYPE_CHECKING:

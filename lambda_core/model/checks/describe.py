@@ -126,12 +126,7 @@ def _clearance(model: BearingModel) -> str:
     """Write the clearance in operation, and where it started from."""
     angle, g = model.geometry.contact_angle, model.geometry
     free = f"contact angle {show(angle, 'angle', 3)}, " if angle else ""
-    if g.rows == 2:
-        apart = show(g.row_distance, "length", 4)
-        free = f"two rows {g.arrangement}, {apart} apart, {free}"
-    elif g.four_point:
-        free = f"four-point {free}shims {show(g.resting_angle, 'angle', 3)}, "
-    text = f"{free}clearance {show(model.geometry.clearance, 'small_length', 4)}"
+    text = f"{g.kind.words(g, free)}clearance {show(model.geometry.clearance, 'small_length', 4)}"
     bought = next((v for v in model.values if v.path == "bearing.clearance"), None)
     if bought is None:
         return text

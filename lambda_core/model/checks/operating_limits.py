@@ -14,6 +14,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from lambda_core.domain.units import show
+from lambda_core.elements.ball.kinds import kinds
 from lambda_core.formulas.life import dynamic_equivalent_load, static_equivalent_load
 from lambda_core.formulas.ratings import dynamic_rating, static_factor, static_rating
 from lambda_core.laws.par import flat_kernel
@@ -24,37 +25,8 @@ from lambda_core.model.laws.time_functions import peak
 # What laws of viscosity were fitted to, at the most: oils are measured from 0 to 120 degC, charts go a little further.
 OIL_TEMPERATURES = (-40.0, 200.0)  # [degC]
 _ZERO_CELSIUS = 273.15
-# "2 to 10 minutes of arc" for single deep-groove ball bearings: SKF, Rolling bearings, PUB BU/P1 17000 EN (2018).
-PERMISSIBLE_TILT = math.radians(10.0 / 60.0)  # [rad]
-# Double row deep groove ball bearings: "two minutes of arc"; of double row angular contact SKF says that only forces
-# between balls and raceways take a misalignment, without a number (general catalogue 6000, Russian, pages 391 and 438).
-TWO_ROW_TILT = math.radians(2.0 / 60.0)  # [rad]
-# Self-aligning ball bearings: 2.5 degrees of series 12 and 22, 3 of 13 and 23 (the same, page 476, table 4).
-ALIGNING_TILT = math.radians(2.5)  # [rad]
-# What is said of each kind; SKF gives no number for angular and four-point contact.
-_TILTS = {
-    "deep groove": (PERMISSIBLE_TILT, "deep-groove ball bearings take up to 2.9 mrad (10 minutes of arc)"),
-    "angular contact": (
-        PERMISSIBLE_TILT,
-        "of single row angular contact the maker gives no number, deep groove ball bearings take up to 2.9 mrad (10 "
-        "minutes of arc)",
-    ),
-    "four-point": (
-        PERMISSIBLE_TILT,
-        "of four-point contact the maker gives no number, deep groove ball bearings take up to 2.9 mrad (10 minutes of "
-        "arc)",
-    ),
-    "double row": (
-        TWO_ROW_TILT,
-        "two rigid rows take it only by forces between balls and raceways; double row deep groove ball bearings take "
-        "up to 0.58 mrad (2 minutes of arc)",
-    ),
-    "self-aligning": (ALIGNING_TILT, "self-aligning ball bearings take up to 44 mrad (2.5 deg; series 13 and 23: 3)"),
-}
 # "minimum loads corresponding to 0,01 C should be imposed on ball bearings": SKF, the same, requisite minimum load.
 MINIMUM_LOAD = 0.01  # over the dynamic rating
-# Axial over radial load from which on the balls of four-point contact run on one side: SKF, general catalogue 6000.
-ONE_SIDE = 1.27
 # Loads above 0.1 C are heavy or very heavy in the tables of seats: SKF, the same, magnitude of the load.
 HEAVY_LOAD = 0.1  # over the dynamic rating
 # ISO 281:2007, 5.1: the life equations hold up to P = 0.5 C.
@@ -100,13 +72,13 @@ def permissible_tilt(kind: str) -> float:
 
 def tilt_warning(tilt: float, kind: str, what: str = "the inner ring tilts by", *, on_shaft: bool = False) -> list[str]:
     """Return a sentence where the angle between the rings [rad] is above what bearings of a kind take."""
-    most, said = _TILTS[kind]
-    if tilt <= most:
+    found = kinds()[kind]
+    if tilt <= found.tilt:
         return []
     if on_shaft:
-        return [f"{what} {1e3 * tilt:.2g} mrad: {said}"]
+        return [f"{what} {1e3 * tilt:.2g} mrad: {found.tilt_words}"]
     return [
-        f"{what} {1e3 * tilt:.2g} mrad: {said}; a shaft on two bearings hardly tilts like this "
+        f"{what} {1e3 * tilt:.2g} mrad: {found.tilt_words}; a shaft on two bearings hardly tilts like this "
         "(bodies.inner_ring.tilt_y and tilt_z: free, locked, or with a stiffness)"
     ]
 
@@ -160,8 +132,8 @@ def ratings(model: BearingModel) -> tuple[float, float]:
     size, angle = (g.ball_count, g.ball_diameter, g.pitch_diameter), g.contact_angle
     dynamic, static = known_value(model, "bearing.dynamic_rating"), known_value(model, "bearing.static_rating")
     return (
-        dynamic or dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows, self_aligning=g.self_aligning),
-        static or static_rating(*size, contact_angle=angle, rows=g.rated_rows, self_aligning=g.self_aligning),
+        dynamic or dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows, on_sphere=g.kind.on_sphere),
+        static or static_rating(*size, contact_angle=angle, rows=g.rated_rows, on_sphere=g.kind.on_sphere),
     )
 
 
@@ -186,14 +158,14 @@ def load_warnings(model: BearingModel, radial: float, axial: float) -> Iterator[
     dynamic, static = ratings(model)
     g = model.geometry
     gamma, kind = g.ball_diameter * math.cos(g.contact_angle) / g.pitch_diameter, (g.contact_angle, g.rated_rows)
-    factor = static_factor(gamma, self_aligning=g.self_aligning)
-    equivalent = dynamic_equivalent_load(radial, axial, static, factor, *kind, self_aligning=g.self_aligning).load
-    resting = static_equivalent_load(radial, axial, *kind, self_aligning=g.self_aligning)
+    factor = static_factor(gamma, on_sphere=g.kind.on_sphere)
+    equivalent = dynamic_equivalent_load(radial, axial, static, factor, *kind, on_sphere=g.kind.on_sphere).load
+    resting = static_equivalent_load(radial, axial, *kind, on_sphere=g.kind.on_sphere)
     turns = relative_speed(model) > 0.0
-    if g.four_point and axial < ONE_SIDE * radial:
+    if axial < g.kind.least_thrust * radial:
         yield (
-            f"the axial load of {_force(axial)} is below {ONE_SIDE:g} of the radial one: balls of four-point contact "
-            "run on both sides there, and slide (SKF)"
+            f"the axial load of {_force(axial)} is below {g.kind.least_thrust:g} of the radial one: "
+            f"{g.kind.thrust_words}"
         )
     if equivalent > HEAVY_LOAD * dynamic:
         yield from _unbacked(model, equivalent, dynamic)
@@ -221,7 +193,7 @@ def _tilt(model: BearingModel) -> list[str]:
     prescribed = [peak(state.motion) if state.mode == "prescribed" else 0.0 for state in states]
     about_y, about_z = prescribed[0] + prescribed[2], prescribed[1] + prescribed[3]
     tilt = math.hypot(about_y, about_z)
-    return tilt_warning(tilt, model.geometry.kind, "the case tilts the rings against each other by")
+    return tilt_warning(tilt, model.geometry.kind.name, "the case tilts the rings against each other by")
 
 
 def _oil(model: BearingModel) -> Iterator[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from lambda_core.model.bearing_model import Geometry
+from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.model.ledger import Ledger
 
 # Contacts of a deep-groove bearing stay on the groove up to about this free contact angle.
@@ -56,7 +56,7 @@ def check_geometry(geometry: Geometry, races: tuple[float | None, float | None],
         _check_races(g, races[0], races[1], say)
     inner_ok = g.race_diameter_inner < g.shoulder_diameter_inner < pitch
     outer_ok = pitch < g.shoulder_diameter_outer < g.race_diameter_outer
-    if g.self_aligning:
+    if g.kind.on_sphere:
         _check_sphere(g, say)
         outer_ok = True
     for ring, fine, edge, race in (
@@ -69,7 +69,7 @@ def check_geometry(geometry: Geometry, races: tuple[float | None, float | None],
                 f"{mm(edge)} must lie between raceway and pitch: "
                 + " to ".join(mm(end) for end in sorted((race, pitch))),
             )
-    grooves = ("inner",) if g.self_aligning else ("inner", "outer")
+    grooves = ("inner",) if g.kind.on_sphere else ("inner", "outer")
     cut = 2.0 * max(_half_width(g, ring) for ring in grooves) + g.row_distance
     if g.rows == 2 and math.hypot(g.row_distance, pitch * math.sin(0.5 * math.pi / g.ball_count)) < ball:
         say("bearing.geometry.row_distance", f"{mm(g.row_distance)} lets the balls of both rows run into each other")

@@ -8,6 +8,7 @@ from lambda_core.case.case import Case
 from lambda_core.case.parts import CLEARANCE_CLASSES, Bearing, Fits
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.units import parse, show
+from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.formulas.fits import (
     REFERENCE_TEMPERATURE,
     Mounting,
@@ -22,7 +23,6 @@ from lambda_core.formulas.fits import (
 )
 from lambda_core.formulas.kind_clearance import KindClearance
 from lambda_core.formulas.tolerances import Limits
-from lambda_core.model.bearing_model import Geometry
 from lambda_core.model.ledger import Ledger
 
 PATH = "bearing.clearance"

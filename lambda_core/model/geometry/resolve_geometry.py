@@ -8,18 +8,13 @@ from dataclasses import dataclass, replace
 from lambda_core.case.parts import CLEARANCE_CLASSES, Bearing, InlineGeometry
 from lambda_core.catalogue.protocol import BearingRow, Catalogue
 from lambda_core.domain.units import show
+from lambda_core.elements.ball.geometry import Geometry
+from lambda_core.elements.ball.kind import Angles, BallKind, Given
+from lambda_core.elements.ball.kinds import written_kind
 from lambda_core.formulas.tolerances import Limits
-from lambda_core.model.bearing_model import Geometry
 from lambda_core.model.geometry.geometry_checks import check_geometry, mm
-from lambda_core.model.geometry.resolve_clearance import clearance_as_bought, picked
-from lambda_core.model.geometry.resolve_resting import has_arcs, resolve_resting
-from lambda_core.model.geometry.resolve_rows import has_two_rows, is_self_aligning, on_sphere, resolve_rows, sphere_edge
-from lambda_core.model.geometry.resolve_shoulders import (
-    ALIGNING_SHOULDERS,
-    FOUR_POINT_SHOULDERS,
-    HIGH_SHOULDERS,
-    shoulder,
-)
+from lambda_core.model.geometry.resolve_clearance import class_of_kind, clearance_as_bought, picked
+from lambda_core.model.geometry.resolve_shoulders import shoulder
 from lambda_core.model.ledger import Ledger
 
 # ISO 76 and ISO 281 rate grooves up to 0.52 and 0.53; what is made lies below, as in the catalogue's estimates.
@@ -89,19 +84,16 @@ def resolve_geometry(
     count, ball = picker.need("ball_count"), picker.need("ball_diameter")
     races = _races(picker)
     pitch = _pitch(picker, races, bore, outside)
-    spherical, two = is_self_aligning(bearing, row), has_two_rows(bearing, row)
+    kind = written_kind(inline, row)
+    spherical = kind is not None and kind.on_sphere
     grooves = (_groove(picker, "inner", ball), math.nan if spherical else _groove(picker, "outer", ball))
     resting, apart, arrangement, distance = 0.0, 0.0, "", sum(grooves) - ball
     bought: Limits | None = None
-    if two:
-        rows = resolve_rows(bearing, row, distance, bore, ledger)
+    if kind is not None:
+        found = _of_kind(kind, bearing, row, distance, bore, ledger)
         angle = math.nan
-        if rows is not None:
-            angle, resting, bought, arrangement, apart = rows
-    elif has_arcs(bearing, row):
-        arcs = resolve_resting(bearing, row, distance, bore, ledger)
-        angle, resting = (arcs.free, arcs.resting) if arcs else (math.nan, 0.0)
-        bought = Limits(arcs.clearance, arcs.clearance) if arcs else None
+        if found is not None:
+            angle, resting, bought, arrangement, apart = found
     elif bearing.axial_clearance is not None:
         ledger.problem("bearing.axial_clearance", "is of four-point contact and of two rows; here write a clearance")
         return None
@@ -130,7 +122,7 @@ def resolve_geometry(
         series=inline.series or (row.series if row else ""),
         contact_angle=angle,
         resting_angle=resting,
-        rows=2 if two else 1,
+        rows=kind.rows if kind is not None else 1,
         row_distance=apart,
         arrangement=arrangement,
     )
@@ -139,17 +131,36 @@ def resolve_geometry(
     return geometry, bought
 
 
+def _of_kind(
+    kind: BallKind, bearing: Bearing, row: BearingRow | None, distance: float, bore: float, ledger: Ledger
+) -> Angles | None:
+    """Return angles and clearance of a bearing whose kind is written; None after a problem."""
+    assert kind.resolve is not None  # a kind that can be written says what follows
+    text = bearing.clearance
+    return kind.resolve(
+        Given(
+            bearing,
+            bearing.geometry or InlineGeometry(),
+            row,
+            distance,
+            bore,
+            ledger,
+            lambda table, where: class_of_kind(table, bearing, bore, where, ledger),
+            lambda limits: picked(limits, bearing.clearance_pick),
+            text if text is not None and text[:2] in CLEARANCE_CLASSES else None,
+        )
+    )
+
+
 def _with_shoulders(geometry: Geometry, picker: Picker) -> Geometry:
     """Return the geometry with its shoulders; a sphere ends at the faces of its ring."""
     size = geometry.ball_diameter, geometry.pitch_diameter
-    heights = {"four-point": FOUR_POINT_SHOULDERS, "deep groove": None, "self-aligning": ALIGNING_SHOULDERS}.get(
-        geometry.kind, HIGH_SHOULDERS
-    )
-    inner = shoulder(picker, "inner", *size, heights)
-    if not geometry.self_aligning:
-        outer = shoulder(picker, "outer", *size, heights)
+    kind = geometry.kind
+    inner = shoulder(picker, "inner", *size, kind.shoulders)
+    if kind.outer_shoulder is None:
+        outer = shoulder(picker, "outer", *size, kind.shoulders)
     elif (outer := picker.take("shoulder_diameter_outer") or 0.0) == 0.0:
-        outer = sphere_edge(geometry)
+        outer = kind.outer_shoulder(geometry)
         picker.ledger.record("bearing.shoulder_diameter_outer", outer, "length", "the sphere at the faces", "derived")
     return replace(geometry, shoulder_diameter_inner=inner, shoulder_diameter_outer=outer)
 
@@ -216,8 +227,8 @@ def with_clearance(geometry: Geometry, clearance: float) -> Geometry:
     Pitch and ball diameters stay; each raceway takes half: d_i = d_m - D_w - G/2,
     d_o = d_m + D_w + G/2, so that d_o - d_i - 2 D_w = G. Of a self-aligning bearing the sphere goes with it.
     """
-    if geometry.self_aligning:
-        return on_sphere(geometry, clearance)
+    if geometry.kind.with_clearance is not None:
+        return geometry.kind.with_clearance(geometry, clearance)
     half = geometry.ball_diameter + clearance / 2.0
     return replace(
         geometry,

@@ -8,10 +8,8 @@ from dataclasses import fields
 from typing import Any
 
 from lambda_core.domain.elements import INNER, OUTER
-from lambda_core.model.bearing_model import Geometry
-from lambda_core.model.geometry.raceways import Raceway, raceways, row_places
-
-ONE_SIDED = ("angular contact", "double row")  # kinds whose grooves have a shoulder on the loaded side alone
+from lambda_core.elements.ball.geometry import Geometry
+from lambda_core.elements.ball.raceways import Raceway, raceways, row_places
 
 
 def geometry_of(known: dict[str, Any]) -> Geometry:
@@ -45,7 +43,7 @@ def ring_profile(geometry: Geometry, ring: int) -> Callable[[float], float]:
         row = min(range(len(places)), key=lambda i: abs(x - places[i]))
         thrust = by_row[row][0].thrust or 1
         low = (x - places[row]) * thrust * toward < 0.0
-        land = bottom if low and g.kind in ONE_SIDED else high
+        land = bottom if low and g.kind.one_sided else high
         # A Gothic arch ends at the arc that is nearer to the ball; the grooves of both rows are cut into one ring.
         cut = [toward * min(toward * surface(way, x) for way in arcs) for arcs in by_row]
         return toward * max(toward * land, *(toward * depth for depth in cut))

@@ -141,5 +141,5 @@ def method_inputs(
         shoulder_diameter_inner=geometry.shoulder_diameter_inner,
         contact_angle=geometry.contact_angle,
         rated_rows=geometry.rated_rows,
-        self_aligning=geometry.self_aligning,
+        on_sphere=geometry.kind.on_sphere,
     )

@@ -24,14 +24,14 @@ def states_of(model: BearingModel, element: str) -> tuple[State, ...]:
 def state_channels(model: BearingModel) -> tuple[Channel, ...]:
     """Return one channel for each state, of all raceways together."""
     found = {state.name: state.channel for element in RACEWAYS for state in states_of(model, element)}
-    if model.geometry.four_point:
+    if model.geometry.kind.arcs == 2:
         return tuple(replace(channel, dims=("ball", "arc")) for channel in found.values())
     return tuple(found.values())
 
 
 def arc_channels(model: BearingModel) -> tuple[Channel, ...]:
     """Return the channels of arcs, where a ring has two."""
-    return ARC_CHANNELS if model.geometry.four_point else ()
+    return ARC_CHANNELS if model.geometry.kind.arcs == 2 else ()
 
 
 def wave_channels(model: BearingModel) -> tuple[Channel, ...]:

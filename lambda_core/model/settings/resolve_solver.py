@@ -9,7 +9,8 @@ from typing import Any
 from lambda_core.case.case import Case
 from lambda_core.case.modelling import Solver
 from lambda_core.domain.units import show
-from lambda_core.model.bearing_model import USUAL_RESOLVE, ChosenLaw, Geometry
+from lambda_core.elements.ball.geometry import Geometry
+from lambda_core.model.bearing_model import USUAL_RESOLVE, ChosenLaw
 from lambda_core.model.bearing_model import Solver as SolverSettings
 from lambda_core.model.laws.time_functions import highest_frequency, peak, time_function
 from lambda_core.model.laws.time_laws import signals_of

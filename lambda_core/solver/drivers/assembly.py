@@ -12,8 +12,8 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, CAGE, INNER, OUTER
+from lambda_core.elements.ball.raceways import raceways
 from lambda_core.model.bearing_model import ELEMENT_PREFIX, BearingModel, Body
-from lambda_core.model.geometry.raceways import raceways
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.state_channels import states_of
 from lambda_core.solver.arrays.bundle import NB

@@ -41,7 +41,7 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
         Finds the equilibrium from a state, in place; raises EquilibriumError where it finds none.
     """
     g = context.model.geometry
-    if g.self_aligning:
+    if g.kind.on_sphere:
         return report
     balls = L.elements_in(context.bundle, state)
     rolling = float(np.abs(balls["velocity"][:, 2]).max())

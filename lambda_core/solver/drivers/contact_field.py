@@ -16,7 +16,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError
-from lambda_core.model.geometry.raceways import raceways
+from lambda_core.elements.ball.raceways import raceways
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core

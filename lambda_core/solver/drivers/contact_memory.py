@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.elements.ball.raceways import raceways, raceways_of_a_ball
 from lambda_core.laws.state import ROLE
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.model.geometry.raceways import raceways, raceways_of_a_ball
 from lambda_core.model.laws.state_channels import state_channels, states_of
 from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.tables import Tables

@@ -434,7 +434,7 @@ def initial_state(equilibrium: Equilibrium) -> FloatArray:
         cage.view(np.float64)[:] = 0.0
         cage["position"][0, 0] = float(np.mean(balls["x"]))
         cage["angle"], cage["spin"] = balls["azimuth"][0], equilibrium.orbit
-        if model.geometry.self_aligning:
+        if model.geometry.kind.on_sphere:
             *_, about_y, about_z = equilibrium.displacement
             cage["tilt"][0] = about_z, -about_y
         context.shared_part(y)[:] = shared[context.bundle.active]

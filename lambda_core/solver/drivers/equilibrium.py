@@ -17,12 +17,13 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import INNER, LANDS, OUTER
 from lambda_core.domain.errors import EquilibriumError, SolverError
+from lambda_core.elements.ball.geometry import Geometry
+from lambda_core.elements.ball.raceways import raceways, raceways_of_a_ball
 from lambda_core.laws.law import Law
 from lambda_core.laws.shear_limit import SHEAR_LIMIT, limitless_sentence, stress_ratio
 from lambda_core.laws.state import names_behind
-from lambda_core.model.bearing_model import BearingModel, Geometry
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.checks.operating_limits import operating_point, operating_warnings
-from lambda_core.model.geometry.raceways import raceways, raceways_of_a_ball
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.fault_roles import OUTSIDE, ROLES

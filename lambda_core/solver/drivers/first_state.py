@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import DOFS, INNER, OUTER
+from lambda_core.elements.ball.raceways import row_places
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.model.geometry.raceways import row_places
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver import records as R

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, RINGS
-from lambda_core.model.bearing_model import Geometry
-from lambda_core.model.geometry.raceways import raceways, raceways_of_a_ball
+from lambda_core.elements.ball.geometry import Geometry
+from lambda_core.elements.ball.raceways import raceways, raceways_of_a_ball
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.records import CONTACT_CHANNELS
 

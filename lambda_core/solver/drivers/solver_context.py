@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, OUTER
+from lambda_core.elements.ball.raceways import raceways
 from lambda_core.laws.context import Oil
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.model.geometry.raceways import raceways
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L

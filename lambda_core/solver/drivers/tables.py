@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import CAGE, DOFS, INNER, OUTER
 from lambda_core.domain.errors import SolverError
+from lambda_core.elements.ball.raceways import raceways as raceways_of
+from lambda_core.elements.ball.raceways import raceways_of_a_ball, row_places
 from lambda_core.formulas.hertz import ball_raceway_radii
 from lambda_core.laws.context import Oil
 from lambda_core.laws.par import number_in
 from lambda_core.laws.state import names_behind
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.model.geometry.raceways import raceways as raceways_of
-from lambda_core.model.geometry.raceways import raceways_of_a_ball, row_places
 from lambda_core.model.laws.law_context import build_context, effective_modulus, prepare
 from lambda_core.model.laws.state_channels import states_of
 from lambda_core.solver import records as R

@@ -24,7 +24,7 @@ def _ratings(inputs: MethodInputs, assumptions: list[str]) -> tuple[float, float
     of_kind: dict[str, Any] = {
         "contact_angle": inputs.contact_angle,
         "rows": inputs.rated_rows,
-        "self_aligning": inputs.self_aligning,
+        "on_sphere": inputs.on_sphere,
     }
     geometry = (inputs.ball_count, inputs.ball_diameter, inputs.pitch_diameter)
     dynamic, static, fatigue = inputs.dynamic_rating, inputs.static_rating, inputs.fatigue_limit
@@ -56,15 +56,15 @@ def evaluate_iso281(inputs: MethodInputs) -> MethodTable:
     assumptions: list[str] = []
     dynamic, static, fatigue = _ratings(inputs, assumptions)
     loads, kind = (inputs.radial_load, inputs.axial_load), (inputs.contact_angle, inputs.rated_rows)
-    aligning = inputs.self_aligning
-    factor = static_factor(_gamma(inputs), self_aligning=aligning)
-    equivalent = dynamic_equivalent_load(*loads, static, factor, *kind, self_aligning=aligning)
+    on_sphere = inputs.on_sphere
+    factor = static_factor(_gamma(inputs), on_sphere=on_sphere)
+    equivalent = dynamic_equivalent_load(*loads, static, factor, *kind, on_sphere=on_sphere)
     basic = basic_rating_life(dynamic, equivalent.load)
     rows = _life_rows("basic rating life", basic, inputs, "L_10")
     meaning = f"P = {equivalent.radial_factor:.3g} F_r + {equivalent.axial_factor:.3g} F_a"
     rows.append(MethodRow("life", "equivalent load", equivalent.load, "N", meaning))
     rows += _modified_rows("", basic, equivalent.load, fatigue, inputs, assumptions)
-    static_load = static_equivalent_load(*loads, *kind, self_aligning=aligning)
+    static_load = static_equivalent_load(*loads, *kind, on_sphere=on_sphere)
     rows.append(MethodRow("rating", "static equivalent load", static_load, "N", "P_0"))
     if static_load > 0.0:
         rows.append(MethodRow("rating", "static safety", static / static_load, "-", "C_0/P_0 (ISO 76)"))

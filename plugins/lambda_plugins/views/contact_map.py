@@ -89,7 +89,7 @@ def _moment(run: RunData, time: float) -> tuple[int, dict[str, FloatArray]]:
 def _field(run: Any, row: int, sample: dict[str, FloatArray], ball: int, ring: str) -> ContactField:
     """Assemble the model of the run again and run its pipeline at the recorded state."""
     from lambda_core.analysis.rotor.bearing_alone import bearing_of_run
-    from lambda_core.model.geometry.raceways import raceways_of_a_ball
+    from lambda_core.elements.ball.raceways import raceways_of_a_ball
     from lambda_core.model.laws.state_channels import state_channels
     from lambda_core.solver.drivers.contact_field import contact_field, contact_state
     from lambda_core.solver.drivers.contact_memory import hand_over

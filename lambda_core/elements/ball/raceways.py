@@ -18,7 +18,7 @@ import math
 from dataclasses import dataclass
 
 from lambda_core.domain.elements import INNER, OUTER, RACEWAYS
-from lambda_core.model.bearing_model import Geometry
+from lambda_core.elements.ball.geometry import Geometry
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ def raceways(geometry: Geometry) -> tuple[Raceway, ...]:
         _raceway(geometry, row, place, ring, thrust)
         for row, place in enumerate(row_places(geometry))
         for ring in (INNER, OUTER)
-        for thrust in _thrusts(geometry, row)
+        for thrust in geometry.kind.thrusts(geometry, row)
     )
 
 
@@ -59,18 +59,10 @@ def raceways_of_a_ball(geometry: Geometry) -> tuple[Raceway, ...]:
     return tuple(raceway for raceway in raceways(geometry) if raceway.row == 0)
 
 
-def _thrusts(geometry: Geometry, row: int) -> tuple[int, ...]:
-    """Return which thrusts the arcs of a row take: back to back, the row on the left takes one to +x."""
-    if geometry.rows == 1:
-        return (1, -1) if geometry.four_point else (0,)
-    left = 1 if geometry.arrangement == "O" else -1
-    return (left if row == 0 else -left,)
-
-
 def _raceway(g: Geometry, row: int, place: float, ring: int, thrust: int) -> Raceway:
     radius = (g.groove_radius_inner, g.groove_radius_outer)[ring]
     element = tuple(RACEWAYS)[ring]
-    if ring == OUTER and g.self_aligning:
+    if ring == OUTER and g.kind.on_sphere:
         return Raceway(ring, element, row, thrust, radius, 0.0, 0.0)
     beyond = radius - 0.5 * g.ball_diameter  # of the groove's centre over the ball's
     nearer = beyond * (1.0 - math.cos(g.resting_angle))

@@ -1,4 +1,4 @@
-"""Bearings of four-point contact: from two of what follows the third.
+"""Four-point contact ball bearings: two arcs on each ring for one row; from two of what follows the third.
 
 With the distance A of the groove centres, the free contact angle alpha_0 and the resting angle alpha_s, that of the
 shims which the arcs are ground with, rings that move against each other until balls touch have
@@ -12,16 +12,24 @@ shims which the arcs are ground with, rings that move against each other until b
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from lambda_core.case.parts import CLEARANCE_CLASSES, Bearing
-from lambda_core.catalogue.protocol import BearingRow
 from lambda_core.domain.units import parse, show
+from lambda_core.elements.ball.kind import Angles, BallKind, Given, Shoulders
+from lambda_core.elements.ball.kinds.deep_groove import TILT
 from lambda_core.formulas.kind_clearance import FOUR_POINT as CLEARANCES
-from lambda_core.model.geometry.resolve_clearance import PATH, class_of_kind, picked
-from lambda_core.model.ledger import Ledger
+from lambda_core.formulas.tolerances import Limits
 
-FOUR_POINT = "four-point"  # kind of a row of the catalogue
+if TYPE_CHECKING:
+    from lambda_core.elements.ball.geometry import Geometry
+
+# Heights of shoulders in ball diameters of SKF's QJ: inner rings of those without a recess in their shoulders, outer
+# rings of all; a test computes them anew.
+FOUR_POINT_SHOULDERS = Shoulders({"inner": 0.247, "outer": 0.240}, "shoulders", "the mean of SKF's QJ")
+# Axial over radial load from which on the balls of four-point contact run on one side: SKF, general catalogue 6000.
+ONE_SIDE = 1.27
+_PATH = "bearing.clearance"
 _SHIM = "bearing.geometry.shim_angle"
 _AXIAL = "bearing.axial_clearance"
 
@@ -34,61 +42,65 @@ class Resting(NamedTuple):
     clearance: float
 
 
-def has_arcs(bearing: Bearing, row: BearingRow | None) -> bool:
-    """Say whether each ring has two arcs: by the catalogue's kind, or by a shim angle."""
-    inline = bearing.geometry
-    return (row is not None and row.kind == FOUR_POINT) or bool(inline and inline.shim_angle)
+def _belongs(geometry: Mapping[str, Any]) -> bool:
+    alone = int(geometry.get("rows", 1)) == 1 and not geometry.get("arrangement")
+    return alone and float(geometry.get("resting_angle", 0.0)) > 0.0
 
 
-def resolve_resting(
-    bearing: Bearing, row: BearingRow | None, distance: float, bore: float, ledger: Ledger
-) -> Resting | None:
-    """Return angles and clearance of a four-point contact bearing; None after a problem.
+def _written(inline: Any) -> bool:
+    return bool(inline.shim_angle)
 
-    Parameters
-    ----------
-    distance : float
-        A, of the groove centres [m].
-    bore : float
-        [m]
-    """
-    shim = bearing.geometry.shim_angle if bearing.geometry else None
-    free = _free_angle(bearing, row, ledger)
+
+def _thrusts(_: Geometry, __: int) -> tuple[int, ...]:
+    return (1, -1)
+
+
+def _words(geometry: Geometry, free: str) -> str:
+    return f"four-point {free}shims {show(geometry.resting_angle, 'angle', 3)}, "
+
+
+def _resolve(given: Given) -> Angles | None:
+    """Return angles and clearance of a four-point contact bearing; None after a problem."""
+    bearing, distance, ledger = given.bearing, given.centres, given.ledger
+    shim = given.inline.shim_angle
+    free = _free_angle(given)
     if math.isnan(distance):
         return None
-    value = bearing.clearance if bearing.clearance and bearing.clearance[:2] not in CLEARANCE_CLASSES else None
+    value = bearing.clearance if given.named_class is None else None
     if value == "geometry":
-        ledger.problem(PATH, '"geometry" is of single grooves: give the shim angle and the contact angle instead')
+        ledger.problem(_PATH, '"geometry" is of single grooves: give the shim angle and the contact angle instead')
         return None
     radial = parse(value, "small_length") if value else None
     if radial is not None:
-        ledger.given(PATH, radial, "small_length")
+        ledger.given(_PATH, radial, "small_length")
     if shim is not None:
         ledger.given("bearing.shim_angle", shim, "angle")
-        found = _with_shims(bearing, shim, free, radial, distance, ledger)
+        found = _with_shims(given, shim, free, radial)
     elif free is None:
         ledger.problem("bearing.contact_angle", "is required for four-point contact, at which one side touches")
         return None
     else:
-        found = _without_shims(bearing, free, radial, distance, bore, ledger)
-    if found is not None and radial is None:
-        ledger.record(PATH, found.clearance, "small_length", "from contact angle and shims", "derived")
-    return found
+        found = _without_shims(given, free, radial)
+    if found is None:
+        return None
+    if radial is None:
+        ledger.record(_PATH, found.clearance, "small_length", "from contact angle and shims", "derived")
+    return Angles(found.free, found.resting, Limits(found.clearance, found.clearance))
 
 
-def _free_angle(bearing: Bearing, row: BearingRow | None, ledger: Ledger) -> float | None:
+def _free_angle(given: Given) -> float | None:
+    bearing, row, ledger = given.bearing, given.row, given.ledger
     if bearing.contact_angle is not None:
         ledger.given("bearing.contact_angle", bearing.contact_angle, "angle")
-        return bearing.contact_angle
+        return float(bearing.contact_angle)
     if row is None or row.contact_angle is None:
         return None
-    return ledger.row("bearing.contact_angle", row.contact_angle, "angle")
+    return float(ledger.row("bearing.contact_angle", row.contact_angle, "angle"))
 
 
-def _with_shims(
-    bearing: Bearing, shim: float, free: float | None, radial: float | None, distance: float, ledger: Ledger
-) -> Resting | None:
+def _with_shims(given: Given, shim: float, free: float | None, radial: float | None) -> Resting | None:
     """Return the rest of a given shim angle: from the free angle, or from a clearance in its place."""
+    bearing, distance, ledger = given.bearing, given.centres, given.ledger
     play = radial is not None or bearing.axial_clearance is not None
     if play and bearing.contact_angle is not None:
         ledger.problem(_SHIM, "contact_angle and a clearance leave nothing for it: give two of the three")
@@ -111,33 +123,32 @@ def _with_shims(
     return Resting(free, shim, 2.0 * distance * (math.cos(shim) - math.cos(free)))
 
 
-def _checked(cosine: float, shim: float, radial: float, ledger: Ledger) -> Resting | None:
+def _checked(cosine: float, shim: float, radial: float, ledger: Any) -> Resting | None:
     if not math.cos(0.25 * math.pi) <= cosine < math.cos(shim):
-        ledger.problem(PATH, f"{show(radial, 'small_length', 4)} leaves no contact angle between shims and 45 deg")
+        ledger.problem(_PATH, f"{show(radial, 'small_length', 4)} leaves no contact angle between shims and 45 deg")
         return None
     return Resting(math.acos(cosine), shim, radial)
 
 
-def _without_shims(
-    bearing: Bearing, free: float, radial: float | None, distance: float, bore: float, ledger: Ledger
-) -> Resting | None:
+def _without_shims(given: Given, free: float, radial: float | None) -> Resting | None:
     """Return the shim angle that leaves a clearance at the free angle: a radial one, an axial one, or a class."""
+    distance, ledger = given.centres, given.ledger
     if radial is not None:
         cosine = math.cos(free) + 0.5 * radial / distance
         if not cosine < 1.0 or radial <= 0.0:
             largest = show(2.0 * distance * (1.0 - math.cos(free)), "small_length", 4)
             text = show(radial, "small_length", 4)
-            ledger.problem(PATH, f"{text} is none of four-point contact at this angle: above 0, below {largest}")
+            ledger.problem(_PATH, f"{text} is none of four-point contact at this angle: above 0, below {largest}")
             return None
         return _derived(free, math.acos(cosine), distance, ledger)
-    axial = bearing.axial_clearance
+    axial = given.bearing.axial_clearance
     if axial is not None:
         ledger.given(_AXIAL, axial, "small_length")
     else:
-        limits = class_of_kind(CLEARANCES, bearing, bore, _AXIAL, ledger)
+        limits = given.class_of(CLEARANCES, _AXIAL)
         if limits is None:
             return None
-        axial = picked(limits, bearing.clearance_pick)
+        axial = given.picked(limits)
     sine = math.sin(free) - 0.5 * axial / distance
     if not 0.0 < sine < math.sin(free):
         largest = show(2.0 * distance * math.sin(free), "small_length", 4)
@@ -148,7 +159,29 @@ def _without_shims(
     return _derived(free, math.asin(sine), distance, ledger)
 
 
-def _derived(free: float, shim: float, distance: float, ledger: Ledger) -> Resting:
+def _derived(free: float, shim: float, distance: float, ledger: Any) -> Resting:
     ledger.record("bearing.shim_angle", shim, "angle", "from contact angle and clearance", "derived", "C")
     ledger.assume(f"shim angle {show(shim, 'angle', 4)}: what contact angle, assumed grooves and clearance leave")
     return Resting(free, shim, 2.0 * distance * (math.cos(shim) - math.cos(free)))
+
+
+KIND = BallKind(
+    name="four-point",
+    title="Four-point contact ball bearing",
+    belongs=_belongs,
+    written=_written,
+    resolve=_resolve,
+    thrusts=_thrusts,
+    words=_words,
+    arcs=2,
+    filling=(249.0, 340.0),  # with a split ring
+    tilt=TILT,
+    tilt_words=(
+        "of four-point contact the maker gives no number, deep groove ball bearings take up to 2.9 mrad (10 minutes of "
+        "arc)"
+    ),
+    shoulders=FOUR_POINT_SHOULDERS,
+    least_thrust=ONE_SIDE,
+    thrust_words="balls of four-point contact run on both sides there, and slide (SKF)",
+    axial_clearance="100 um",
+)

@@ -1,0 +1,8 @@
+"""Balls, and the kinds of bearings that have them."""
+
+from __future__ import annotations
+
+from lambda_core.elements.ball import kinds
+from lambda_core.elements.kind import POINT, ElementKind
+
+BALL = ElementKind("ball", "balls", (POINT,), 9, kinds.kinds)
