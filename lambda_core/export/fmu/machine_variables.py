@@ -13,12 +13,12 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, CAGE, DOFS, INNER, OUTER, SPIN
+from lambda_core.elements.ball.raceways import raceways
 from lambda_core.export.fmu.frozen import Frozen, FrozenBearing
 from lambda_core.export.fmu.led_rings import TILT_STATES
 from lambda_core.export.fmu.variables import Kind, Variable, of_contacts, steps
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bodies.locations import carried
-from lambda_core.model.geometry.raceways import raceways
 from lambda_core.model.machine_model import SHAFT, MachineModel, Place
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L

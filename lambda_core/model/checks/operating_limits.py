@@ -67,7 +67,7 @@ def operating_warnings(model: BearingModel, *, on_shaft: bool = False) -> list[s
 
 def permissible_tilt(kind: str) -> float:
     """Return the angle between the rings that bearings of a kind take [rad]."""
-    return _TILTS[kind][0]
+    return kinds()[kind].tilt
 
 
 def tilt_warning(tilt: float, kind: str, what: str = "the inner ring tilts by", *, on_shaft: bool = False) -> list[str]:
