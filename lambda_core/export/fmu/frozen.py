@@ -32,8 +32,7 @@ from lambda_core.solver.drivers.given import Coupling, given_names, start
 from lambda_core.solver.drivers.machine_given import check_coupling
 from lambda_core.solver.drivers.machine_motion import MachineEngine, MachineStart, changed_start, machine_start
 from lambda_core.solver.drivers.solver_context import assemble
-from lambda_core.solver.integrator.arrow import factors_t
-from lambda_core.solver.integrator.blocks import blocks_t
+from lambda_core.solver.integrator.blocks import blocks_t, factors_t
 from lambda_core.solver.integrator.memory import evaluate_t, jacobian_t, memory_t
 from lambda_core.solver.sampling import observe_sig
 
