@@ -181,7 +181,7 @@ def _with_guided_cages(assembly: Assembly, equilibria: tuple[Equilibrium, ...], 
     members = list(assembly.members)
     for bearing, found, pose in zip(assembly.bearings, equilibria, outer, strict=True):
         number = bearing.members[CAGE]
-        x = float(np.mean(found.state[: L.NB * bearing.model.geometry.balls].view(R.BALL)["x"])) + float(pose[0])
+        x = float(np.mean(L.elements_in(found.context.bundle, found.state)["x"])) + float(pose[0])
         dofs = dict.fromkeys(DOFS, DofState("locked"))
         dofs |= {"x": DofState("prescribed", TimeFunction.constant(x))}
         dofs |= {SPIN: DofState("prescribed", TimeFunction.constant(found.orbit))}
