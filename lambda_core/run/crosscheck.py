@@ -185,8 +185,8 @@ def _trajectories(begun: _Begun, duration: float) -> CrossCheck:
     unit = tolerance * context.scale
     apart, theirs = ((found - fine.states[:-1]) / unit for found in (states[: grid.size - 1], same.states[:-1]))
     held = np.ones(apart.shape, dtype=bool)
-    rows, tail = context.bundle.rows, int(context.bundle.system["tail"][0])
-    held[:, :tail] = np.repeat(gripped[: grid.size - 1], np.repeat(rows["size"], rows["balls"]), axis=1)
+    table, tail = context.bundle.rows, int(context.bundle.system["tail"][0])
+    held[:, :tail] = np.repeat(gripped[: grid.size - 1], np.repeat(table["size"], table["balls"]), axis=1)
     deviation = float(_distance(apart, held).max())
     power = fine.dissipated()[-1] / end
     rows = [

@@ -8,7 +8,7 @@ from html import escape
 from typing import Any
 
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.model.bearing_model import kind_of
+from lambda_core.elements.ball.kinds import kind_of
 
 _HEIGHT, _MARGIN = 300.0, 60.0  # of the section of a bearing [px]
 _WIDE, _ACROSS = 760.0, 120.0  # of a shaft: length, largest diameter [px]
@@ -71,7 +71,7 @@ def _ring(geometry: Mapping[str, Any], ring: str, side: float, scale: float, at:
     depth = min(abs(race - shoulder), groove)
     reach = min(math.sqrt(depth * (2.0 * groove - depth)), half)
     path = [f"M{at(-half, side * rim)}"]
-    if ring == "outer" and kind_of(geometry) == "self-aligning":
+    if ring == "outer" and kind_of(geometry).on_sphere:
         edge = math.sqrt(max(race * race - half * half, 0.0))
         arc = f"A{race * scale:.2f},{race * scale:.2f} 0 0 {1 if side > 0 else 0} {at(half, side * edge)}"
         path += [f"L{at(-half, side * edge)}", arc]
@@ -106,7 +106,7 @@ def _words(geometry: Mapping[str, Any]) -> list[str]:
     """Return what the section is of."""
     count, rows = int(geometry["ball_count"]), int(geometry.get("rows", 1))
     found = [
-        kind_of(geometry),
+        kind_of(geometry).name,
         f"{'2 x ' if rows == 2 else ''}{count} balls of {1e3 * float(geometry['ball_diameter']):.4g} mm",
         f"pitch circle {1e3 * float(geometry['pitch_diameter']):.4g} mm",
         f"clearance {1e6 * float(geometry['clearance']):.3g} um",
