@@ -20,7 +20,7 @@ from lambda_core.solver.drivers.equilibrium import solve
 
 # Two rows in tandem: both take a thrust of the shaft to +x.
 TANDEM = """
-from lambda_core.elements.ball.kind import BallKind
+from lambda_core.elements.ball.ball_kind import BallKind
 
 
 def belongs(geometry):

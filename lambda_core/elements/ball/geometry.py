@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from lambda_core.elements.ball.kind import BallKind
+from lambda_core.elements.ball.ball_kind import BallKind
 from lambda_core.elements.ball.kinds import kind_of
 
 

@@ -1,10 +1,10 @@
-"""What bearings of two rows have in common: what a case may say of them, and their contact angle."""
+"""Read contact angle and consistency of bearings with two rows."""
 
 from __future__ import annotations
 
 import math
 
-from lambda_core.elements.ball.kind import Given
+from lambda_core.elements.ball.ball_kind import Given
 
 
 def contact_angle(given: Given) -> float:

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from lambda_core.case.parts import CLEARANCE_CLASSES, Bearing, InlineGeometry
 from lambda_core.catalogue.protocol import BearingRow, Catalogue
 from lambda_core.domain.units import show
+from lambda_core.elements.ball.ball_kind import Angles, BallKind, Given
 from lambda_core.elements.ball.geometry import Geometry
-from lambda_core.elements.ball.kind import Angles, BallKind, Given
 from lambda_core.elements.ball.kinds import written_kind
 from lambda_core.formulas.tolerances import Limits
 from lambda_core.model.geometry.geometry_checks import check_geometry, mm

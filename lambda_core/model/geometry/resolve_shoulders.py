@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from lambda_core.elements.ball.kind import Shoulders
+    from lambda_core.elements.ball.ball_kind import Shoulders
     from lambda_core.model.geometry.resolve_geometry import Picker
 
 # Shoulder diameters differ by 1.21 ball diameters: mean of catalogue shoulders, the same figure from

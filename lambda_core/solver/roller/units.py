@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from lambda_core.solver import row_code
-from lambda_core.solver.roller import columns, factors, rows
+from lambda_core.solver.roller import columns, roller_factors, rows
 
 UNITS: dict[str, tuple[Any, Any]] = {
     "roller_evaluate": (rows.evaluate, row_code.evaluate_sig),
@@ -13,6 +13,6 @@ UNITS: dict[str, tuple[Any, Any]] = {
     "roller_energy": (rows.energy, row_code.energy_sig),
     "roller_observe": (rows.observe, row_code.observe_sig),
     "roller_shares": (rows.shares, row_code.shares_sig),
-    "roller_factor": (factors.factor, row_code.factor_sig),
-    "roller_solve": (factors.solve, row_code.solve_sig),
+    "roller_factor": (roller_factors.factor, row_code.factor_sig),
+    "roller_solve": (roller_factors.solve, row_code.solve_sig),
 }

@@ -9,7 +9,7 @@ from functools import cache
 from types import MappingProxyType
 from typing import Any
 
-from lambda_core.elements.ball.kind import BallKind
+from lambda_core.elements.ball.ball_kind import BallKind
 
 
 @cache

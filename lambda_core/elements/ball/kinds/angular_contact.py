@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from lambda_core.elements.ball.kind import BallKind, Shoulders
+from lambda_core.elements.ball.ball_kind import BallKind, Shoulders
 from lambda_core.elements.ball.kinds.deep_groove import TILT
 
 # Height of the high shoulder over the raceway in ball diameters: means of SKF's 72 BE and 73 BE in the catalogue

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from lambda_core.elements.ball.kind import BallKind
+from lambda_core.elements.ball.ball_kind import BallKind
 
 # "2 to 10 minutes of arc" for single deep-groove ball bearings: SKF, Rolling bearings, PUB BU/P1 17000 EN (2018).
 TILT = math.radians(10.0 / 60.0)  # [rad]

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.units import show
-from lambda_core.elements.ball.kind import Angles, BallKind, Given
+from lambda_core.elements.ball.ball_kind import Angles, BallKind, Given
 from lambda_core.elements.ball.kinds.angular_contact import HIGH_SHOULDERS
 from lambda_core.elements.ball.two_rows import contact_angle, is_consistent
 from lambda_core.formulas.kind_clearance import DOUBLE_ROW

@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from lambda_core.domain.units import parse, show
-from lambda_core.elements.ball.kind import Angles, BallKind, Given, Shoulders
+from lambda_core.elements.ball.ball_kind import Angles, BallKind, Given, Shoulders
 from lambda_core.elements.ball.kinds.deep_groove import TILT
 from lambda_core.formulas.kind_clearance import FOUR_POINT as CLEARANCES
 from lambda_core.formulas.tolerances import Limits

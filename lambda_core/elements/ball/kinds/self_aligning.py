@@ -15,7 +15,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.units import parse, show
-from lambda_core.elements.ball.kind import Angles, BallKind, Given, Shoulders
+from lambda_core.elements.ball.ball_kind import Angles, BallKind, Given, Shoulders
 from lambda_core.elements.ball.two_rows import contact_angle, is_consistent
 from lambda_core.formulas.kind_clearance import SELF_ALIGNING
 from lambda_core.formulas.tolerances import Limits

@@ -1,4 +1,4 @@
-"""What the program asks of a kind of ball bearing: raceways, proportions, limits, and how a case writes it."""
+"""Questions that the program asks a kind of ball bearing: raceways, proportions, limits, and how a case writes it."""
 
 from __future__ import annotations
 
