@@ -13,7 +13,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import root
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elements.roller.line_contact import iso_approach
@@ -135,6 +134,8 @@ def distribute(
         return np.asarray(every[free])
 
     first = np.array([*(start / reach), 0.0])[free]
+    from scipy.optimize import root  # loaded where rollers are computed
+
     solution = root(imbalance, first, method="hybr", tol=1e-12)
     left = float(np.max(np.abs(imbalance(solution.x))))
     if left > _SETTLED:

@@ -10,7 +10,6 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from lambda_core.domain.arrays import FloatArray
 
@@ -137,6 +136,8 @@ def tabulated(x: FloatArray | float, positions: Sequence[float], drops: Sequence
     """
     if np.min(x) < positions[0] or np.max(x) > positions[-1]:
         raise ValueError(f"the table covers {positions[0]:g} to {positions[-1]:g} m: add points up to both ends")
+    from scipy.interpolate import PchipInterpolator  # loaded where rollers are computed
+
     found: FloatArray = np.asarray(PchipInterpolator(positions, drops)(x), dtype=np.float64)
     return found
 

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elements.roller.line_contact import EVEN_WIDTH, half_width, iso_approach, iso_load
@@ -169,6 +168,8 @@ def approach_at_load(
 
     while surplus(high) < 0.0:
         high += high - low
+    from scipy.optimize import brentq  # loaded where rollers are computed
+
     return float(brentq(surplus, low, high, xtol=1e-15, rtol=1e-13))
 
 
