@@ -41,6 +41,8 @@ def new_plugin(name: str, parent: Path) -> list[Path]:
         raise UsageError(f'"{name}" cannot name a plugin: use lower case and hyphens, for example "my-traction"')
     if any((found.name or "").replace("_", "-").lower() == name for found in distributions()):
         raise UsageError(f'"{name}" is the name of an installed package: choose another')
+    if label := _law_called(name):
+        raise UsageError(f'"{name}" is the name of the law {label}: choose another, for example "my-{name}"')
     target = parent / name
     if target.exists():
         raise UsageError(f"{target} exists already")
@@ -56,3 +58,11 @@ def new_plugin(name: str, parent: Path) -> list[Path]:
     except OSError as error:
         raise UsageError(f"cannot write {target}: {error.strerror}") from None
     return written
+
+
+def _law_called(name: str) -> str:
+    """Return "role/name" of an installed law of this name, or nothing."""
+    from lambda_core.discovery.manager import registry
+    from lambda_core.domain.roles import ROLES
+
+    return next((f"{role}/{name}" for role in ROLES if name in registry().names(role)), "")

@@ -68,6 +68,19 @@ def test_names_that_are_taken(tmp_path: Path) -> None:
         new_plugin("twice", tmp_path)
 
 
+def test_the_name_of_a_built_in_law_is_taken(tmp_path: Path) -> None:
+    """Its cases would not know which of the two is meant."""
+    with pytest.raises(UsageError, match='"ree-eyring" is the name of the law traction/ree-eyring: choose another'):
+        new_plugin("ree-eyring", tmp_path)
+    assert not (tmp_path / "ree-eyring").exists()
+
+
+def test_a_workflow_tests_and_checks_the_package(sources: Path) -> None:
+    text = (sources / ".github/workflows/test.yml").read_text()
+    assert "${{ matrix.python }}" in text
+    assert f"lambda-bearing plugins check {sources.name}" in text
+
+
 def test_every_file_of_the_template_is_text_without_leftovers(sources: Path) -> None:
     for path in (path for path in sources.rglob("*") if path.is_file() and path.suffix != ".pyc"):
-        assert "$" not in path.read_text(), path
+        assert "$" not in path.read_text().replace("${{", ""), path

@@ -81,6 +81,25 @@ def test_loads_balance_the_applied_force(radial_run: Result) -> None:
     assert np.all(mean.low[np.isfinite(mean.y)] <= mean.high[np.isfinite(mean.y)])
 
 
+def test_any_channel_over_time(radial_run: Result) -> None:
+    load = radial_run["load"]
+    inner, outer = data(radial_run, "channel", channel="load", ball="2").panels[0].series
+    assert (inner.name, outer.name) == ("ball 2, inner", "ball 2, outer")
+    assert inner.y[0] == load[0, 1, 0]
+    assert outer.y.max() <= load[:, 1, 1].max()
+    (every,) = data(radial_run, "channel", channel="load").panels[0].series
+    assert every.low is not None
+    assert every.high is not None
+    assert every.low[0] == load[0].min()
+    assert every.high[0] == load[0].max()
+    (torque,) = data(radial_run, "channel", channel="bearing_capacitance").panels[0].series
+    assert torque.y[0] == radial_run["bearing_capacitance"][0]
+    with pytest.raises(UsageError, match='"laod" is not a known channel of this run; nearest: load'):
+        data(radial_run, "channel", channel="laod")
+    with pytest.raises(NotApplicable, match="is not of each ball"):
+        data(radial_run, "channel", channel="bearing_capacitance", ball="2")
+
+
 def test_points_are_the_contacts_of_the_summary(combined_run: Result) -> None:
     summary = combined_run.summary()
     found = {

@@ -16,6 +16,7 @@ def register_views(register: Callable[[View], None]) -> None:
         cage,
         capacitance,
         catalogues,
+        channel,
         comparison,
         contact_map,
         electric,
@@ -45,6 +46,7 @@ def register_views(register: Callable[[View], None]) -> None:
         electric,
         machine,
         operating_point,
+        channel,
         comparison,
         study,
     ):

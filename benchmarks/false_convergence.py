@@ -1,0 +1,91 @@
+"""Rerun converged cases with a hundredth of the tolerance: ``python -m benchmarks.false_convergence --count 200``.
+
+Draws operating points as :mod:`benchmarks.static_points` does, runs each until it says "converged", and runs it again
+with `solver.tolerance` a hundred times smaller for twice as long. The friction torques agree within the combined 95 %
+half-width in at least 91 % of the cases (or within 0.1 %), and none differs by more than three half-widths and 1 %
+without a warning. Exit code 1 where that does not hold. A case takes minutes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from benchmarks.static_points import SEED, Point, points
+from lambda_core import api
+from lambda_core.domain.errors import LambdaError
+
+_FINER = 100.0
+_NEAR, _FAR = 1e-3, 1e-2  # of the torque
+_SHARE = 0.91
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Friction torque of one case, coarse and fine [N mm]."""
+
+    coarse: float
+    fine: float
+    half_width: float  # of both together
+    warned: bool
+
+    @property
+    def agrees(self) -> bool:
+        """Whether both are within their half-width, or nearly equal."""
+        return abs(self.coarse - self.fine) <= max(self.half_width, _NEAR * abs(self.fine))
+
+    @property
+    def is_false(self) -> bool:
+        """Whether a result that says "converged" is far off, and nothing warned of it."""
+        off = abs(self.coarse - self.fine)
+        return off > 3.0 * self.half_width and off > _FAR * abs(self.fine) and not self.warned
+
+
+def compared(point: Point, folder: Path, most: float) -> Pair | None:
+    """Run a point twice; None where the first run has not converged within `most` seconds of wall time."""
+    case = api.init_case("point", path=folder / "point.toml", bearing=point.bearing, overwrite=True)
+    changes = [*point.changes, f"solver.max_wall={most:g} s"]
+    first = api.run(case, changes, out=folder / "coarse.h5", force=True).summary()
+    if not first.converged or first.friction_torque_Nmm is None:
+        return None
+    tolerance = api.check(case, point.changes).solver.tolerance / _FINER
+    longer = [*point.changes, f"solver.tolerance={tolerance:g}", f"solver.duration={2e3 * first.simulated_s:.9g} ms"]
+    second = api.run(case, longer, out=folder / "fine.h5", force=True).summary()
+    if second.friction_torque_Nmm is None:
+        return None
+    widths = (first.friction_torque_ci_Nmm or 0.0, second.friction_torque_ci_Nmm or 0.0)
+    return Pair(first.friction_torque_Nmm, second.friction_torque_Nmm, math.hypot(*widths), bool(first.warnings))
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Compare the cases; print a line for each, then the share that agrees."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.false_convergence", description=__doc__)
+    parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=SEED)
+    parser.add_argument("--most", type=float, default=600.0, help="wall time of one run [s]")
+    options = parser.parse_args(arguments)
+    found: list[Pair] = []
+    with TemporaryDirectory() as folder:
+        for point in points(options.count, options.seed):
+            try:
+                pair = compared(point, Path(folder), options.most)
+            except LambdaError as error:
+                print(f"{point.bearing} {' '.join(point.changes)}: {' '.join(str(error).split())}", flush=True)
+                continue
+            if pair is not None:
+                found.append(pair)
+                word = "agrees" if pair.agrees else "FALSE" if pair.is_false else "differs"
+                print(f"{word}: {pair.coarse:.5g} and {pair.fine:.5g} ± {pair.half_width:.2g} N mm, {point.bearing}")
+    share = sum(pair.agrees for pair in found) / len(found) if found else math.nan
+    false = sum(pair.is_false for pair in found)
+    print(f"{len(found)} of {options.count} comparable: {100.0 * share:.1f} % agree, {false} far off without a warning")
+    return 0 if found and share >= _SHARE and not false else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,26 @@
+"""Benchmarks that draw operating points: the points are drawn alike every time, and verdicts follow their bars."""
+
+from __future__ import annotations
+
+from benchmarks.false_convergence import Pair
+from benchmarks.static_points import points
+
+
+def test_points_cover_kinds_speeds_and_loads() -> None:
+    drawn = list(points(300))
+    assert drawn == list(points(300))
+    assert {"deep groove", "angular contact", "self-aligning"} <= {point.kind for point in drawn}
+    speeds = [float(point.changes[0].split("=")[1].split()[0]) for point in drawn]
+    assert min(speeds) < 5.0
+    assert max(speeds) > 10_000.0
+    assert {point.changes[1] == "loads.radial=0 N" for point in drawn} >= {False}
+    assert any(point.changes[2] == "loads.axial=0 N" for point in drawn)
+
+
+def test_a_pair_is_judged_by_half_width_and_share() -> None:
+    assert Pair(100.0, 100.5, 1.0, warned=False).agrees
+    assert Pair(100.0, 100.05, 0.0, warned=False).agrees
+    far = Pair(100.0, 104.0, 1.0, warned=False)
+    assert (far.agrees, far.is_false) == (False, True)
+    assert not Pair(100.0, 104.0, 1.0, warned=True).is_false
+    assert not Pair(100.0, 100.9, 0.1, warned=False).is_false

@@ -1,0 +1,46 @@
+"""The iteration along the paths of balls says when it ends before paths and velocities agree."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.drivers.ball_paths import follow_paths
+from lambda_core.solver.drivers.warmer_oil import StaticReport
+
+
+class Nine:
+    """A row of nine balls."""
+
+    self_aligning, balls, rows = False, 9, 1
+
+
+def start() -> Any:
+    state = np.zeros(L.NB * Nine.balls)
+    balls = state.view(R.BALL)
+    balls["radius"], balls["velocity"][:, 2] = 0.03, 10.0
+    balls["azimuth"] = 2.0 * np.pi * np.arange(9) / 9
+    balls["x"] = 1e-5 * np.cos(balls["azimuth"])
+    return state
+
+
+@pytest.mark.parametrize("swing", [True, False], ids=["never settles", "settles"])
+def test_an_iteration_that_does_not_settle_says_so(swing: bool, caplog: pytest.LogCaptureFixture) -> None:
+    given: Any = Nine()
+    sign = [1.0]
+
+    def solve(state: Any) -> StaticReport:
+        if swing:  # each equilibrium has the opposite path of the one before
+            sign[0] = -sign[0]
+            balls = state.view(R.BALL)
+            balls["x"] = sign[0] * 1e-5 * np.cos(balls["azimuth"])
+        return np.zeros(1, dtype=[("orbit", float)])
+
+    follow_paths(given, start(), np.zeros(1, dtype=[("orbit", float)]), solve)
+    told = [record.getMessage() for record in caplog.records]
+    assert bool(told) == swing
+    assert all("differ from their paths by" in text for text in told)
