@@ -80,10 +80,12 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.model.checks.oil_table import oil_table
     from lambda_core.model.checks.operating_limits import operating_warnings
     from lambda_core.model.machine_model import MachineModel, MountedBearing
+    from lambda_core.results.bearing_summary import BearingSummary
+    from lambda_core.results.quantity import shown_numbers
     from lambda_core.results.reader import Result
     from lambda_core.results.run_status import Status, process_identity, this_process
     from lambda_core.results.side_by_side import SideBySide
-    from lambda_core.results.summary import BearingSummary, Summary
+    from lambda_core.results.summary import Summary
     from lambda_core.run.estimate import Estimate, MachineEstimate
     from lambda_core.run.progress import Progress
     from lambda_core.study.duty_cycle import DutyCycle

@@ -16,7 +16,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from lambda_core.results.summary import BearingSummary
+from lambda_core.results.bearing_summary import BearingSummary
 
 MODULES = ("lambda_core.api", "lambda_core.plugins", "lambda_core.testing")
 SECTIONS = ("Parameters", "Attributes", "Returns", "Yields", "Raises", "Examples", "Notes")

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from rich.text import Text
 
-from lambda_core.domain.number_text import NONE, hours, interval, number
+from lambda_core import api
+from lambda_core.domain.number_text import interval
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_gui.shown_units import fact_in_units
 
@@ -48,27 +49,15 @@ def summary_view(summary: Summary, colours: Mapping[str, str], units: UnitSystem
     for warning in summary.warnings:
         text.append("▲ ", style=colours["warning"]).append(f"{units.sentence(warning)}\n")
     _breakdown(text, summary, units)
-    x, y, z = (number(value, 2) for value in summary.inner_ring_displacement_um)
-    slip = summary.cage_speed_over_epicyclic
-    rows: Sequence[tuple[str, str, str]] = (
-        ("power loss", number(summary.power_loss_W, 1), "W"),
-        *_rated(summary),
-        ("input torque", number(summary.input_torque_Nmm), "N mm"),
-        ("cage speed", number(summary.cage_speed_ratio, 4), "of inner ring"),
-        ("  slip", "-" if slip is None else f"{100.0 * (1.0 - slip):.2f}", "% against epicyclic"),
-        ("inner ring", f"{x}  {y}  {z}", "um (x, y, z)"),
-        ("tilt", "  ".join(number(angle, 2) for angle in summary.inner_ring_tilt_mrad), "mrad (y, z)"),
-        ("p_max", number(summary.max_pressure_GPa, 3), "GPa"),
-        ("smallest film", number(summary.min_film_um, 2), "um (minimum)"),
-        ("central film", interval(summary.film_um, 2), "um"),
-        ("Lambda", interval(summary.film_parameter, 1), ""),
-        ("C of contacts", interval(summary.contact_capacitance_pF, 0), "pF"),
-        ("C of bearing", number(summary.bearing_capacitance_nF, 3), "nF"),
-        *_currents(summary),
-        ("energy residual", "-" if summary.energy_residual is None else f"{summary.energy_residual:.1e}", "of input"),
+    rows: list[tuple[str, str, str]] = [
+        *_declared(summary, ("friction",), units),
+        *_rated(summary, units),
+        *_declared(summary, ("cage", "place", "contact", "film", "capacitance"), units),
+        *(fact_in_units(row, units) for row in _currents(summary)),
+        *_declared(summary, ("trust",), units),
         ("wall time", f"{summary.wall_s:.2f}", f"s for {summary.simulated_s:.4g} s"),
-    )
-    for label, value, unit in (fact_in_units(row, units) for row in rows):
+    ]
+    for label, value, unit in rows:
         text.append(f"{label:<{_LABEL}}", style="dim").append(value).append(f" {unit}\n", style="dim")
     if summary.assumptions:
         text.append("\nassumed\n", style="dim")
@@ -77,23 +66,22 @@ def summary_view(summary: Summary, colours: Mapping[str, str], units: UnitSystem
     return text
 
 
-def _rated(summary: Summary) -> list[tuple[str, str, str]]:
+def _declared(summary: Summary, groups: Sequence[str], units: UnitSystem) -> list[tuple[str, str, str]]:
+    """Return the numbers of groups as they are declared: name, number, unit."""
+    return [
+        (one.column, one.number(value, units), units.unit(one.unit))
+        for one, value in api.shown_numbers(summary, groups)
+        if one.name != "friction_torque_Nmm"
+    ]
+
+
+def _rated(summary: Summary, units: UnitSystem) -> list[tuple[str, str, str]]:
     """Return the ratings of standards and catalogues for the run."""
     rating = summary.rating
     if rating is None:
         return []
-    return [
-        ("  SKF", number(rating.skf_torque_Nmm, 0), "N mm"),
-        ("  Schaeffler", number(rating.schaeffler_torque_Nmm, 0), "N mm"),
-        ("life L10rh", _life(rating.reference_life_h), "h (ISO/TS 16281)"),
-        ("life L10h", _life(rating.basic_life_h), "h (ISO 281)"),
-        ("static safety", number(rating.static_safety, 1), "C0/P0"),
-        ("kappa", number(rating.viscosity_ratio, 1), ""),
-    ]
-
-
-def _life(life_h: float | None) -> str:
-    return NONE if life_h is None else hours(life_h).removesuffix(" h")
+    shown = api.shown_numbers(rating, ("catalogue", "life"))
+    return [(one.column, one.number(value, units), units.unit(one.unit)) for one, value in shown]
 
 
 def _breakdown(text: Text, summary: Summary, units: UnitSystem) -> None:

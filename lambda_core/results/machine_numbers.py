@@ -15,8 +15,8 @@ from lambda_core.results.averages import finite
 from lambda_core.results.record import Record
 
 if TYPE_CHECKING:
+    from lambda_core.results.bearing_summary import BearingSummary
     from lambda_core.results.reader import Result
-    from lambda_core.results.summary import BearingSummary
 
 
 class Swing(Record):

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from lambda_core.domain.number_text import NONE, hours
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import wrapped
 from lambda_core.results.band_text import ends, named_sources
-from lambda_core.results.text import assumption_lines, line, small, warning_lines, watched_lines
+from lambda_core.results.quantity import quantities, shown
+from lambda_core.results.text import assumption_lines, line, warning_lines, watched_lines
 
 if TYPE_CHECKING:
+    from lambda_core.results.bearing_summary import BearingSummary
     from lambda_core.results.machine_numbers import Swing
     from lambda_core.results.rating import Rating
     from lambda_core.results.summary import Summary
@@ -43,8 +45,8 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
         line("friction torque", f"{torque} of all bearings", verdict),
         *(line("not converged" if i == 0 else "", reason) for i, reason in enumerate(found.reasons)),
         *_band_lines(found, units),
-        line("power loss", f"{units.text(found.power_loss_W, 'W', 2)} of all bearings"),
-        line("drive torque", units.text(found.drive_torque_Nm, "N m", 3)),
+        line("power loss", f"{shown(found, 'power_loss_W', units)} of all bearings"),
+        line("drive torque", shown(found, "drive_torque_Nm", units)),
         *([line("rating life", f"{hours(found.system_life_h)} of all bearings together (ISO/TS 16281, 90 %)")]
           if found.system_life_h is not None and len(each) > 1 else []),
         line(
@@ -55,7 +57,7 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
         *(text for one in each for text in watched_lines(one)),
         *(line("failed" if i == 0 else "", fault) for i, fault in enumerate(found.plugin_faults)),
         *warning_lines([units.sentence(warning) for warning in found.warnings], width),
-        line("energy residual", f"{small(found.energy_residual)} of input"),
+        line("energy residual", f"{shown(found, 'energy_residual')} of input"),
         *([line("vibrations", found.vibrations.sentence())] if found.vibrations else []),
         line("wall time", f"{found.wall_s:.2f} s for {found.simulated_s:.4g} s"),
         *assumption_lines(found.assumptions, found.file),
@@ -73,60 +75,40 @@ def _band_lines(found: Summary, units: UnitSystem) -> list[str]:
     return [line("" if i else "model band", text) for i, text in enumerate([both, *sources])]
 
 
+_GROUPS = ("friction", "catalogue", "life", "cage", "film", "contact")  # of numbers that have a row
+
+
 def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
     """Return a row for every number of the bearings: its name with unit, and a cell for each."""
     each = list(found.bearings.values())
-
-    def of(unit: str, values: Sequence[float | None], digits: int = 4) -> list[str]:
-        return [_digits(None if value is None else units.value(value, unit), digits) for value in values]
-
-    ratings = [one.rating for one in each]
-    torque, power, force = units.unit("N mm"), units.unit("W"), units.unit("N")
-    rows = [
-        (f"friction torque {torque}",
-         [_pair(one.friction_torque_Nmm, one.friction_torque_ci_Nmm, "N mm", units) for one in each]),
-        *([("  model band", [ends(one.friction_torque_Nmm_band, "N mm", units) for one in each])]
-          if found.friction_torque_Nmm_band else []),
-        (f"power loss {power}", of("W", [one.power_loss_W for one in each], 3)),
-        *_catalogues(ratings, units),
-        ("cage over inner ring", [_digits(one.cage_speed_ratio) for one in each]),
-        ("  over epicyclic", [_digits(one.cage_speed_over_epicyclic) for one in each]),
-        (f"smallest film {units.unit('um')}", of("um", [one.min_film_um for one in each], 2)),
-        (f"p_max {units.unit('GPa')}", of("GPa", [one.max_pressure_GPa for one in each], 3)),
-    ]  # fmt: skip
+    rows = [row for group in _GROUPS for row in _of_group(each, group, units)]
     if any(one.currents for one in each):
         voltages = [max(map(abs, one.currents.bearing_voltage_V)) if one.currents else None for one in each]
         rates = [one.currents.discharges_per_s if one.currents else None for one in each]
-        rows += [("bearing voltage V", of("V", voltages, 3)), ("discharges 1/s", [_digits(rate) for rate in rates])]
+        rows += [("bearing voltage V", [_digits(volts, 3) for volts in voltages])]
+        rows += [("discharges 1/s", [_digits(rate) for rate in rates])]
     for k, axis in enumerate("xyz"):
-        head = f"{'force on shaft' if axis == 'x' else ' '} {axis} {force}"
+        head = f"{'force on shaft' if axis == 'x' else ' '} {axis} {units.unit('N')}"
         rows.append((head, [_pair(one.force_N[k], one.force_swing_N[k], "N", units) for one in each]))
     return rows
 
 
-def _catalogues(ratings: Sequence[Rating | None], units: UnitSystem) -> list[tuple[str, list[str]]]:
-    """Return the rows of catalogues and standards, without those that no bearing has."""
-    heads = {
-        "skf_torque_Nmm": f"  SKF {units.unit('N mm')}",
-        "schaeffler_torque_Nmm": f"  Schaeffler {units.unit('N mm')}",
-        "reference_life_h": "L_10rh (ISO/TS 16281)",
-        "basic_life_h": "L_10h (ISO 281)",
-        "static_safety": "static safety C0/P0",
-        "viscosity_ratio": "viscosity ratio kappa",
-    }
-    rows = []
-    for name, head in heads.items():
-        values = [None if one is None else getattr(one, name) for one in ratings]
-        if all(value is None for value in values):
-            continue
-        if name.endswith("_h"):
-            cells = [NONE if value is None else hours(value) for value in values]
-        elif name.endswith("Nmm"):
-            cells = [_digits(None if value is None else units.value(value, "N mm")) for value in values]
-        else:
-            cells = [_digits(value, 3) for value in values]
-        rows.append((head, cells))
-    return rows
+def _of_group(each: Sequence[BearingSummary], group: str, units: UnitSystem) -> Iterator[tuple[str, list[str]]]:
+    """Yield the rows of a group: of the bearings, then of their ratings, without those that no bearing has."""
+    sources: tuple[list[BearingSummary] | list[Rating | None], ...] = (list(each), [one.rating for one in each])
+    for source in sources:
+        kind = next((type(one) for one in source if one is not None), None)
+        for name, one in quantities(kind).items() if kind is not None else ():
+            values = [getattr(record, name, None) for record in source]
+            if one.group != group or not one.column or all(value is None for value in values):
+                continue
+            if name == "friction_torque_Nmm":
+                cells = [_pair(b.friction_torque_Nmm, b.friction_torque_ci_Nmm, one.unit, units) for b in each]
+            else:
+                cells = [one.cell(value, units) for value in values]
+            yield one.head(units), cells
+            if name == "friction_torque_Nmm" and any(b.friction_torque_Nmm_band for b in each):
+                yield "  model band", [ends(b.friction_torque_Nmm_band, one.unit, units) for b in each]
 
 
 def _pair(value: float | None, width: float | None, unit: str, units: UnitSystem) -> str:

@@ -16,19 +16,14 @@ from lambda_core.formulas.loading import CARRYING, Ring, largest_contact, loaded
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.results.averages import finite
+from lambda_core.results.bearing_summary import BearingSummary, Contact
+from lambda_core.results.bearing_summary import Equilibrium as StartState
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
 from lambda_core.results.model_band import Banded
+from lambda_core.results.quantity import quantity, same_as
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.results.summary import (
-    LOADED_BALLS,
-    MAX_LOAD,
-    Contact,
-    capacitance_note,
-    contact_list,
-    merged_cage,
-    span,
-)
+from lambda_core.results.summary import capacitance_note, contact_list, merged_cage, span
 from lambda_core.results.verdict import Verdict, rated_verdict
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import Equilibrium
@@ -63,20 +58,25 @@ class QuasiStatic(Banded):
     headline: str
     verdict: Verdict | None = Field(description="against required life and limits", default=None)
     rating: Rating | None = Field(description="life, safety and catalogue friction", default=None)
-    power_loss_W: float | None = Field(description="of the friction, without the cage", default=None)
-    loaded_balls: int = Field(description=LOADED_BALLS)
-    max_load_N: float = Field(description=MAX_LOAD)
+    power_loss_W: float | None = same_as(
+        BearingSummary, "power_loss_W", "of the friction, without the cage", default=None
+    )
+    loaded_balls: int = same_as(StartState, "loaded_balls")
+    max_load_N: float = same_as(StartState, "max_load_N")
     max_load_ring: Ring = Field(description="the ring that the largest contact load stands at")
-    max_pressure_GPa: float
-    friction_torque_Nmm: float | None = Field(description="dissipated power over |Omega_i - Omega_o|")
+    max_pressure_GPa: float = same_as(StartState, "max_pressure_GPa")
+    friction_torque_Nmm: float | None = same_as(BearingSummary, "friction_torque_Nmm")
     friction_breakdown_Nmm: dict[str, float | None]
-    orbit_speed_ratio: float | None = Field(description="mean orbital speed of the loaded balls over inner ring speed")
+    orbit_speed_ratio: float | None = quantity(
+        "mean orbital speed of the loaded balls over inner ring speed",
+        label="orbital speed of the balls over inner ring speed", decimals=4, group="cage",
+    )  # fmt: skip
     contacts: list[Contact]
-    inner_ring_displacement_um: list[float]
-    inner_ring_tilt_mrad: list[float]
+    inner_ring_displacement_um: list[float] = same_as(BearingSummary, "inner_ring_displacement_um", "x, y, z")
+    inner_ring_tilt_mrad: list[float] = same_as(BearingSummary, "inner_ring_tilt_mrad", "about y and z")
     ring_shapes: list[RingShape] = Field(description="how elastic rings bend; empty where all are rigid", default=[])
-    film_um: list[float] = Field(description="smallest and largest central film under load")
-    film_parameter: list[float] = Field(description="smallest and largest Lambda under load")
+    film_um: list[float] = same_as(BearingSummary, "film_um", "smallest and largest central film under load")
+    film_parameter: list[float] = same_as(BearingSummary, "film_parameter", "smallest and largest Lambda under load")
     capacitance_note: str = Field(description="which contacts asperities short, where they do", default="")
     shoulders: list[Shoulder] = Field(description="how near contacts come to the shoulders, the worst on each ring")
     warnings: list[str] = Field(

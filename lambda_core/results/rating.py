@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from lambda_core.results.quantity import FLOATING, quantity
 from lambda_core.results.record import Record
 from lambda_core.results.verdict import Limits
 
@@ -11,19 +12,48 @@ from lambda_core.results.verdict import Limits
 class Rating(Record):
     """Life, safety and catalogue friction of a case at its start; null where a method does not answer."""
 
-    basic_life_h: float | None = Field(description="L_10h of ISO 281, from the catalogue's C and the equivalent load")
-    reference_life_h: float | None = Field(description="L_10rh of ISO/TS 16281, from the load of every ball")
-    modified_life_h: float | None = Field(description="L_nmh = a_ISO L_10h of ISO 281", default=None)
-    modified_reference_life_h: float | None = Field(description="L_nmrh of ISO/TS 16281", default=None)
+    basic_life_h: float | None = quantity(
+        "L_10h of ISO 281, from the catalogue's C and the equivalent load", "h",
+        label="basic rating life L_10h of ISO 281", column="L_10h", group="life",
+    )  # fmt: skip
+    reference_life_h: float | None = quantity(
+        "L_10rh of ISO/TS 16281, from the load of every ball", "h",
+        label="reference rating life L_10rh of ISO/TS 16281", column="L_10rh", group="life",
+    )  # fmt: skip
+    modified_life_h: float | None = quantity(
+        "L_nmh = a_ISO L_10h of ISO 281", "h", label="modified rating life L_nmh of ISO 281", column="L_nmh",
+        group="life",
+        default=None,
+    )  # fmt: skip
+    modified_reference_life_h: float | None = quantity(
+        "L_nmrh of ISO/TS 16281",
+        "h",
+        label="modified reference rating life L_nmrh",
+        column="L_nmrh",
+        group="life",
+        default=None,
+    )
     life_factor: float | None = Field(description="a_ISO of ISO 281", default=None)
     contamination: float | None = Field(description="e_C that a_ISO was computed with", default=None)
     contamination_given: bool = Field(
         description="whether the case gives e_C; otherwise it is the lower end of normal cleanliness", default=False
     )
-    equivalent_load_N: float | None = Field(description="P of ISO 281")
-    static_safety: float | None = Field(description="C_0/P_0 of ISO 76")
-    viscosity_ratio: float | None = Field(description="kappa = nu/nu_1 of ISO 281")
-    skf_torque_Nmm: float | None = Field(description="friction torque after SKF's catalogue")
-    schaeffler_torque_Nmm: float | None = Field(description="friction torque after Schaeffler's catalogue")
+    equivalent_load_N: float | None = quantity(
+        "P of ISO 281", "N", label="equivalent load P of ISO 281", decimals=FLOATING, digits=4, group="load"
+    )
+    static_safety: float | None = quantity(
+        "C_0/P_0 of ISO 76", label="static safety", column="static safety C0/P0", group="life"
+    )
+    viscosity_ratio: float | None = quantity(
+        "kappa = nu/nu_1 of ISO 281", label="viscosity ratio kappa", column="viscosity ratio kappa", group="life"
+    )
+    skf_torque_Nmm: float | None = quantity(
+        "friction torque after SKF's catalogue", "N mm", label="friction torque, SKF's catalogue", column="  SKF",
+        decimals=0, digits=4, group="catalogue",
+    )  # fmt: skip
+    schaeffler_torque_Nmm: float | None = quantity(
+        "friction torque after Schaeffler's catalogue", "N mm", label="friction torque, Schaeffler's catalogue",
+        column="  Schaeffler", decimals=0, digits=4, group="catalogue",
+    )  # fmt: skip
     limits: Limits | None = Field(description="what the bearing has to keep to", default=None)
     notes: list[str] = Field(description="why a method does not answer, one sentence each")

@@ -17,7 +17,8 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.elements.ball.kinds import kind_of
 from lambda_core.formulas.loading import CARRYING, Ring, carries, largest_contact, loaded_balls
 from lambda_core.results.averages import Interval, finite
-from lambda_core.results.bent import Bent, bent_parts
+from lambda_core.results.bearing_summary import BearingSummary, Contact, Equilibrium
+from lambda_core.results.bent import bent_parts
 from lambda_core.results.convergence import (
     settings_of,
     shortfalls,
@@ -25,8 +26,7 @@ from lambda_core.results.convergence import (
     torque_together,
     window_of,
 )
-from lambda_core.results.currents import Currents, currents_of
-from lambda_core.results.event_rows import EventSeen, ObserverNumber
+from lambda_core.results.currents import currents_of
 from lambda_core.results.followed import FOURTH_POWERS, ITERATION_WORK, Followed, followed
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_warning, warnings, worst
 from lambda_core.results.machine_numbers import (
@@ -37,12 +37,12 @@ from lambda_core.results.machine_numbers import (
     said_once,
     total,
 )
-from lambda_core.results.model_band import Banded, sum_of_bands
-from lambda_core.results.rating import Rating
+from lambda_core.results.model_band import sum_of_bands
+from lambda_core.results.quantity import FLOATING, SMALL, quantity
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.rolling import ROLLING, rolling_of
 from lambda_core.results.run_status import Status
-from lambda_core.results.verdict import Verdict, rated_verdict
+from lambda_core.results.verdict import rated_verdict
 from lambda_core.results.watched import events_seen, observed_numbers
 
 if TYPE_CHECKING:
@@ -52,91 +52,8 @@ _MECHANISMS_OF_CAGE = ("pocket", "land")
 _NO_COUNTS = (FOURTH_POWERS, ITERATION_WORK)  # statistics of a run that stand elsewhere in its summary
 
 
-LOADED_BALLS = "balls that the inner ring loads with more than 1 % of its largest contact load"
-MAX_LOAD = "largest contact load, of both rings"
-
-
 class FieldOfOneBearingError(BearingNeededError, AttributeError):
     """A summary of several bearings was asked for a field of one; an AttributeError too, for hasattr."""
-
-
-class Contact(Record):
-    """One ball - raceway contact at the end of the run."""
-
-    ball: int = Field(description="number of the ball, from 1")
-    ring: Ring
-    azimuth_deg: float = Field(description="azimuth of the ball from +y towards +z, 0..360")
-    load_N: float
-    contact_angle_deg: float
-    film_um: float | None = Field(description="central film thickness; null without contact")
-    capacitance_pF: float | None = Field(description="null where asperities short the contact")
-
-
-class Equilibrium(Record):
-    """The quasi-static state that the run started from."""
-
-    loaded_balls: int = Field(description=LOADED_BALLS)
-    max_load_N: float = Field(description=MAX_LOAD)
-    max_load_ring: Ring = Field(description="the ring that the largest contact load stands at")
-    max_pressure_GPa: float
-
-
-class BearingSummary(Banded):
-    """Averages of one bearing over whole cage revolutions, and its end state.
-
-    A number that does not exist yet (an average before the first whole cage revolution) is null.
-    """
-
-    title: str
-    headline: str = Field(
-        description="lines: bearing and oil; loads, speed and depth; laws of plugins, where there are any"
-    )
-    converged: bool = Field(description="whether its averages are known as well as the run needs them")
-    reasons: list[str] = Field(description="why they are not; empty when they are")
-
-    friction_torque_Nmm: float | None = Field(description="dissipated power over |Omega_i - Omega_o|")
-    friction_torque_ci_Nmm: float | None = Field(description="95 % confidence half-width of friction_torque_Nmm")
-    power_loss_W: float | None = Field(description="mean dissipated power")
-    input_torque_Nmm: float | None = Field(description="work of the drives over the relative angle")
-    friction_breakdown_Nmm: dict[str, float | None] = Field(description="parts of friction_torque_Nmm; they add up")
-    cage_speed_ratio: float | None = Field(description="mean cage speed over inner ring speed")
-    cage_speed_over_epicyclic: float | None
-    epicyclic_ratio: float | None = Field(
-        description="cage speed over inner ring speed without slip: of balls that roll at both raceways at their "
-        "contact angles about their own axes, weighted by load"
-    )
-    contacts: list[Contact] = Field(description="every ball - raceway contact at the end state")
-    inner_ring_displacement_um: list[float | None] = Field(description="mean position x, y, z")
-    inner_ring_tilt_mrad: list[float | None] = Field(description="mean tilt about y and z")
-    bent: list[Bent] = Field(description="elastic rings and cage; empty where all are rigid", default=[])
-    max_pressure_GPa: float | None = Field(description="largest Hertzian pressure of the averaging window")
-    min_film_um: float | None = Field(description="smallest minimum film under load in the averaging window")
-    film_um: list[float] = Field(description="smallest and largest central film under load at the end state")
-    film_parameter: list[float] = Field(description="smallest and largest Lambda under load at the end state")
-    contact_capacitance_pF: list[float] = Field(description="smallest and largest under load at the end state")
-    bearing_capacitance_nF: float | None = Field(description="at the end state")
-    capacitance_note: str = Field(description="which contacts asperities short, where they do", default="")
-    currents: Currents | None = Field(description="of a case with a circuit; null without one", default=None)
-    observed: list[ObserverNumber] = Field(description="numbers of the observers of the case", default=[])
-    events: list[EventSeen] = Field(description="events that the case looks out for", default=[])
-    verdict: Verdict | None = Field(description="against required life and limits", default=None)
-    rating: Rating | None = Field(description="life, safety and catalogue friction of the case at its start")
-    shoulders: list[Shoulder] = Field(description="how near contacts came to the shoulders, the worst on each ring")
-    force_N: list[float] = Field(description="mean force of a machine's bearing on the shaft: x, y, z", default=[])
-    force_swing_N: list[float] = Field(
-        description="half of what lies between the smallest and largest value of that force: x, y, z", default=[]
-    )
-    moment_Nm: list[float] = Field(
-        description="mean moment of a machine's bearing on the shaft about y and z", default=[]
-    )
-    warnings: list[str] = Field(description="where case or run left what bearing, oil and laws are made for")
-    revolutions_discarded: int = Field(description="whole cage revolutions before averaging")
-    revolutions_averaged: int = Field(description="whole cage revolutions averaged")
-    wall_per_revolution_s: float | None = Field(
-        description="wall time per revolution of the inner ring against the outer"
-    )
-    equilibrium: Equilibrium
-    assumptions: list[str]
 
 
 class Summary(Record):
@@ -156,34 +73,49 @@ class Summary(Record):
     converged: bool
     reasons: list[str] = Field(description="why the run is not converged; empty when it is")
 
-    friction_torque_Nmm: float | None = Field(description="of all bearings: dissipated power over |Omega_i - Omega_o|")
-    friction_torque_ci_Nmm: float | None = Field(
-        description="95 % confidence half-width of friction_torque_Nmm; of several bearings the sum of theirs"
-    )
-    power_loss_W: float | None = Field(description="mean dissipated power of all bearings")
+    friction_torque_Nmm: float | None = quantity(
+        "of all bearings: dissipated power over |Omega_i - Omega_o|", "N mm", label="friction torque of all bearings",
+        digits=4, group="friction",
+    )  # fmt: skip
+    friction_torque_ci_Nmm: float | None = quantity(
+        "95 % confidence half-width of friction_torque_Nmm; of several bearings the sum of theirs", "N mm",
+        label="95 % confidence half-width of the friction torque", decimals=2,
+    )  # fmt: skip
+    power_loss_W: float | None = quantity(
+        "mean dissipated power of all bearings", "W", label="power loss of all bearings", decimals=FLOATING, digits=3,
+        group="friction",
+    )  # fmt: skip
     friction_torque_Nmm_band: list[float] = Field(
         description="ends of the 90 % model band, of several bearings the sum of theirs; empty without one", default=[]
     )
     power_loss_W_band: list[float] = Field(description="the same of power_loss_W", default=[])
     bearings: dict[str, BearingSummary] = Field(description="each bearing by its name")
     speed_rpm: float | None = Field(description="of a machine's shaft at t = 0", default=None)
-    drive_torque_Nm: float | None = Field(
-        description="of the coupling on a machine's shaft, with friction; null where torques change", default=None
-    )
-    system_life_h: float | None = Field(
-        description="of all bearings of a machine by their reference rating lives at the start, 90 %", default=None
-    )
+    drive_torque_Nm: float | None = quantity(
+        "of the coupling on a machine's shaft, with friction; null where torques change", "N m",
+        label="torque of the coupling on the shaft", decimals=3, group="friction", default=None,
+    )  # fmt: skip
+    system_life_h: float | None = quantity(
+        "of all bearings of a machine by their reference rating lives at the start, 90 %", "h",
+        label="life of all bearings, 90 %", group="life", default=None,
+    )  # fmt: skip
     orbit: list[Swing] = Field(description="of a machine's shaft at every lump", default=[])
     bodies: dict[str, Swing] = Field(description="bodies of a machine other than the shaft", default={})
     markers: dict[str, Swing] = Field(description="named places of a machine", default={})
     plugin_faults: list[str] = Field(description="observers and events that failed, and why", default=[])
     warnings: list[str] = Field(description="where case or run left what bearings, oil and laws are made for")
-    energy_residual: float | None = Field(description="(input - dissipated - stored) over integral of |input power|")
-    iteration_residual: float | None = Field(
-        description="work of early ends of Newton's iteration, counted positive, over the same", default=None
-    )
+    energy_residual: float | None = quantity(
+        "(input - dissipated - stored) over integral of |input power|", label="energy residual",
+        column="energy residual", decimals=SMALL, group="trust",
+    )  # fmt: skip
+    iteration_residual: float | None = quantity(
+        "work of early ends of Newton's iteration, counted positive, over the same",
+        label="ends of Newton's iterations", decimals=SMALL, group="trust", default=None,
+    )  # fmt: skip
 
-    simulated_s: float
+    simulated_s: float = quantity(
+        "simulated time", "s", label="simulated time", decimals=FLOATING, digits=4, group="trust"
+    )
     wall_s: float = Field(description="wall time of the integration")
     wall_per_simulated_second: float | None
     vibrations: Followed | None = Field(description="how far vibrations can be believed")

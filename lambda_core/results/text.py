@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-import math
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from lambda_core.domain.number_text import NONE, hours, interval, number
+from lambda_core.domain.number_text import NONE, hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.results.band_text import banded, ends, source_lines
+from lambda_core.results.quantity import quantities, shown
 
 if TYPE_CHECKING:
+    from lambda_core.results.bearing_summary import BearingSummary
     from lambda_core.results.bent import Bent
     from lambda_core.results.currents import Currents
     from lambda_core.results.limits import Shoulder
     from lambda_core.results.model_band import ModelBand
     from lambda_core.results.quasistatic import QuasiStatic, RingShape
     from lambda_core.results.rating import Rating
-    from lambda_core.results.summary import BearingSummary, Summary
+    from lambda_core.results.summary import Summary
     from lambda_core.results.verdict import Verdict
 
 _PER_RING = ("sliding", "spin", "rolling", "hysteresis", "boundary", "damping")
@@ -46,24 +47,24 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *verdict_lines(summary.verdict, units),
         *_torque_lines(summary, (mean, window, verdict), units),
         *breakdown_lines(summary.friction_breakdown_Nmm, units),
-        line("power loss", _banded(summary, "power_loss_W", "W", _digits(summary.power_loss_W), units)),
+        line("power loss", shown(summary, "power_loss_W", units)),
         *rating_lines(summary.rating, units, summary.reference_life_h_band),
         line(
             "film",
-            f"minimum {_banded(summary, 'min_film_um', 'um', 2, units)}",
-            f"central {units.interval(summary.film_um, 'um', 2)}",
-            f"Lambda {interval(summary.film_parameter, 1)} (central)",
+            f"minimum {shown(summary, 'min_film_um', units)}",
+            f"central {shown(summary, 'film_um', units)}",
+            f"Lambda {shown(summary, 'film_parameter')} (central)",
         ),
         *warning_lines([units.sentence(warning) for warning in summary.warnings], width),
-        line("input torque", units.text(summary.input_torque_Nmm, "N mm")),
-        line("cage speed", f"{number(summary.cage_speed_ratio, 4)} of inner ring", _slip(summary)),
+        line("input torque", shown(summary, "input_torque_Nmm", units)),
+        line("cage speed", f"{shown(summary, 'cage_speed_ratio')} of inner ring", _slip(summary)),
         line("inner ring", f"{_place(summary.inner_ring_displacement_um, units)} (mean)", _tilt(summary)),
         *(line("" if i else "ovality", _oval(bent, units)) for i, bent in enumerate(summary.bent)),
-        line("pressure", f"p_max {_banded(summary, 'max_pressure_GPa', 'GPa', 2, units)}"),
+        line("pressure", f"p_max {shown(summary, 'max_pressure_GPa', units)}"),
         line(
             "capacitance",
-            f"contacts {interval(summary.contact_capacitance_pF, 0)} pF",
-            f"bearing {_banded(summary, 'bearing_capacitance_nF', 'nF', 3, units)}",
+            f"contacts {shown(summary, 'contact_capacitance_pF')}",
+            f"bearing {shown(summary, 'bearing_capacitance_nF')}",
         ),
         *([line("", summary.capacitance_note)] if summary.capacitance_note else []),
         *_currents(summary.currents),
@@ -71,7 +72,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *(line("failed" if index == 0 else "", fault) for index, fault in enumerate(summary.plugin_faults)),
         line("shoulders", *(_margin(edge, units) for edge in summary.shoulders)),
         *band_lines(summary.model_band),
-        line("energy residual", f"{small(summary.energy_residual)} of input", _iteration(summary)),
+        line("energy residual", f"{shown(summary, 'energy_residual')} of input", _iteration(summary)),
         *([line("vibrations", summary.vibrations.sentence())] if summary.vibrations else []),
         line("wall time", *_wall(summary)),
         *assumption_lines(summary.assumptions, summary.file),
@@ -95,12 +96,6 @@ def _torque_lines(summary: Summary, plain: Sequence[str], units: UnitSystem) -> 
     ]
 
 
-def _banded(found: Summary | QuasiStatic, name: str, unit: str, digits: int, units: UnitSystem) -> str:
-    """Return a number with its model band, where there is one."""
-    value = getattr(found, name)
-    return banded(value, getattr(found, f"{name}_band"), unit, units.text(value, unit, digits), units)
-
-
 def band_lines(band: ModelBand | None) -> list[str]:
     """Return what the model bands come from."""
     return [line("" if i else "model band", text) for i, text in enumerate(source_lines(band))]
@@ -109,7 +104,7 @@ def band_lines(band: ModelBand | None) -> list[str]:
 def _iteration(summary: Summary) -> str:
     """Return what early ends of Newton's iteration put in or took, where it is known."""
     found = summary.iteration_residual
-    return "" if found is None else f"ends of iterations {small(found)}"
+    return "" if found is None else f"ends of iterations {shown(summary, 'iteration_residual')}"
 
 
 def _currents(found: Currents | None) -> list[str]:
@@ -147,8 +142,12 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Seque
     """Return the ratings of standards and catalogues for the run; their numbers are those of the case at its start."""
     if rating is None:
         return []
+    facts = quantities(type(rating))
     makers = (("SKF", rating.skf_torque_Nmm), ("Schaeffler", rating.schaeffler_torque_Nmm))
-    says = [f"{maker} {units.number(torque, 'N mm', 0)}" for maker, torque in makers if torque is not None]
+    torques = facts["skf_torque_Nmm"]
+    names = {"static_safety": "static C0/P0", "viscosity_ratio": "viscosity ratio kappa"}
+    safeties = [(name, words) for name, words in names.items() if getattr(rating, name) is not None]
+    says = [f"{maker} {torques.number(torque, units)}" for maker, torque in makers if torque is not None]
     rated = [
         f"{standard}: {_lives(zip(names, found, strict=True))}"
         for standard, *found, names in (
@@ -162,11 +161,7 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Seque
         *(line("" if i else "rating life", text) for i, text in enumerate(rated)),
         *([line("", f"L_10rh by the model band {ends(life_band, 'h', units)} h")] if life_band else []),
         *([line("", contamination_text(rating))] if rating.modified_life_h is not None else []),
-        line(
-            "safety",
-            f"static C0/P0 {number(rating.static_safety)}" if rating.static_safety is not None else "",
-            f"viscosity ratio kappa {number(rating.viscosity_ratio, 1)}" if rating.viscosity_ratio is not None else "",
-        ),
+        line("safety", *(f"{words} {facts[name].number(getattr(rating, name))}" for name, words in safeties)),
     ]
 
 
@@ -187,11 +182,6 @@ def verdict_lines(verdict: Verdict | None, units: UnitSystem = SI) -> list[str]:
         return []
     sentence, margins = verdict.lines(units)
     return [line("verdict", sentence), *([line("margins", *margins)] if margins else [])]
-
-
-def _digits(value: float | None) -> int:
-    """Return the decimals that leave a number three digits."""
-    return 1 if not value else min(3, max(0, 2 - math.floor(math.log10(abs(value)))))
 
 
 def _oval(found: Bent, units: UnitSystem) -> str:
@@ -219,30 +209,25 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
             f"{units.value(contact.load_N, 'N'):>10.1f}{contact.contact_angle_deg:>11.2f}"
             f"{units.number(contact.film_um, 'um', 3):>10}{number(contact.capacitance_pF, 1):>9}"
         )
-    power = found.power_loss_W
     lines = [
         *verdict_lines(found.verdict, units),
         units.sentence(found.headline),
         line(
             "equilibrium",
             f"{found.loaded_balls} balls loaded",
-            f"Q_max {units.text(found.max_load_N, 'N', 0)} ({found.max_load_ring} ring)",
-            f"p_max {_banded(found, 'max_pressure_GPa', 'GPa', 3, units)}",
+            f"Q_max {shown(found, 'max_load_N', units)} ({found.max_load_ring} ring)",
+            f"p_max {shown(found, 'max_pressure_GPa', units)}",
         ),
         line(
             "inner ring", _place(found.inner_ring_displacement_um, units), f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad"
         ),
         *(line("" if i else "shape of rings", *_bent(bent, units)) for i, bent in enumerate(found.ring_shapes)),
-        line("friction torque", _banded(found, "friction_torque_Nmm", "N mm", 1, units), "(without cage)"),
+        line("friction torque", shown(found, "friction_torque_Nmm", units), "(without cage)"),
         *breakdown_lines(found.friction_breakdown_Nmm, units),
-        *(
-            [line("power loss", _banded(found, "power_loss_W", "W", _digits(power), units))]
-            if power is not None
-            else []
-        ),
+        *([line("power loss", shown(found, "power_loss_W", units))] if found.power_loss_W is not None else []),
         *rating_lines(found.rating, units, found.reference_life_h_band),
-        line("ball orbit", f"{number(found.orbit_speed_ratio, 4)} of inner ring"),
-        line("film", units.interval(found.film_um, "um", 2), f"Lambda {interval(found.film_parameter, 1)}"),
+        line("ball orbit", f"{shown(found, 'orbit_speed_ratio')} of inner ring"),
+        line("film", shown(found, "film_um", units), f"Lambda {shown(found, 'film_parameter')}"),
         line("shoulders", *(_margin(edge, units) for edge in found.shoulders)),
         *([line("capacitance", found.capacitance_note)] if found.capacitance_note else []),
         *band_lines(found.model_band),
@@ -292,11 +277,6 @@ def assumption_lines(assumptions: Sequence[str], file: str = "") -> list[str]:
     return [line("assumed", f"{len(assumptions)} thing{'s' * (len(assumptions) != 1)}: {where}")]
 
 
-def small(value: float | None) -> str:
-    """Write a small number."""
-    return NONE if value is None else f"{value:.1e}"
-
-
 def _place(position: Sequence[float | None], units: UnitSystem) -> str:
     """Write a displacement [um] along x, y and z."""
     axes = (f"{axis} {units.number(value, 'um', 2)}" for axis, value in zip("xyz", position, strict=True))
@@ -312,7 +292,7 @@ def _slip(summary: Summary) -> str:
     ratio = summary.cage_speed_over_epicyclic
     if ratio is None:
         return ""
-    return f"(epicyclic {number(summary.epicyclic_ratio, 4)}, slip {100.0 * (1.0 - ratio):.2f} %)"
+    return f"(epicyclic {shown(summary, 'epicyclic_ratio')}, slip {100.0 * (1.0 - ratio):.2f} %)"
 
 
 def _wall(summary: Summary) -> list[str]:

@@ -7,34 +7,24 @@ methods ("left.skf/friction/total"). Bearing currents are those of the machine's
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from lambda_core.analysis.electric.current_numbers import UNITS, CurrentNumbers, machine_numbers, meaning
+from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
+from lambda_core.results.bearing_summary import BearingSummary
+from lambda_core.results.quantity import quantities
+from lambda_core.results.summary import Summary
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
-from lambda_core.study.responses import RESPONSES, DynamicPoint, Number, Response, StaticPoint
+from lambda_core.study.responses import RESPONSES, DynamicPoint, Number, Response, StaticPoint, of_fields
 
 if TYPE_CHECKING:
-    from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
     from lambda_core.analysis.rotor.machine_modes import MachineModes
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.equilibrium import Equilibrium
-
-# Fields of BearingEquilibrium: name, unit, meaning.
-_OF_BEARING = (
-    ("radial_load_N", "N", "radial load"),
-    ("axial_load_N", "N", "axial load"),
-    ("equivalent_load_N", "N", "equivalent load P of ISO 281"),
-    ("basic_rating_life_h", "h", "basic rating life L_10h of ISO 281"),
-    ("reference_rating_life_h", "h", "reference rating life L_10rh of ISO/TS 16281"),
-    ("modified_rating_life_h", "h", "modified reference rating life L_nmrh"),
-    ("viscosity_ratio", "", "viscosity ratio kappa"),
-    ("static_safety", "", "static safety"),
-    ("clearance_um", "um", "clearance in operation"),
-)
 
 
 @dataclass
@@ -110,20 +100,16 @@ def usual_responses(bearings: tuple[str, ...], mode: str) -> tuple[str, ...]:
 
 
 def _of_machine() -> list[Response]:
-    both = [("friction_torque_Nmm", "N mm", "friction torque of all bearings"),
-            ("system_life_h", "h", "life of all bearings, 90 %"),
-            ("drive_torque_Nm", "N m", "torque of the coupling on the shaft")]  # fmt: skip
-    dynamic = [("friction_torque_ci_Nmm", "N mm", "95 % confidence half-width of the friction torque"),
-               ("energy_residual", "", "energy residual"), ("simulated_s", "s", "simulated time")]  # fmt: skip
+    still, moving = quantities(MachineEquilibrium), quantities(Summary)
+    found = []
+    for one in of_fields(Summary, moving):
+        read = _number(one.name)
+        static = _power if one.name == "power_loss_W" else read if one.name in still else None
+        found.append(replace(one, static=static, dynamic=read))
     return [
-        *(Response(name, unit, meaning, _number(name), _number(name)) for name, unit, meaning in both),
-        Response(
-            "system_life_h", "h", "life of all bearings, 90 %", _number("system_life_h"), _number("system_life_h")
-        ),
-        Response("power_loss_W", "W", "power loss of all bearings", _power, _number("power_loss_W")),
+        *found,
         Response("max_deflection_um", "um", "largest deflection of the shaft across its axis", _deflection),
         Response("first_critical_speed_rpm", "rpm", "first critical speed", _critical),
-        *(Response(name, unit, meaning, None, _number(name)) for name, unit, meaning in dynamic),
         Response("converged", "", "1 when converged", None, lambda point: float(point.summary.converged)),
     ]
 
@@ -149,8 +135,16 @@ def _critical(point: Any) -> Number:
     return found[0].speed_rpm if found else None
 
 
+# Responses of one bearing that a machine has once.
+_OF_MACHINE = {"converged", *quantities(Summary)} - set(quantities(BearingSummary))
+
+
 def _of_bearing(name: str) -> list[Response]:
-    own = [Response(f"{name}.{key}", unit, f"{name}: {words}", _field(name, key)) for key, unit, words in _OF_BEARING]
+    fields = (key for key in quantities(BearingEquilibrium) if key not in RESPONSES)
+    own = [
+        Response(f"{name}.{one.name}", one.unit, f"{name}: {one.meaning}", _field(name, one.name))
+        for one in of_fields(BearingEquilibrium, fields)
+    ]
     currents = [
         Response(f"{name}.{key}", unit, f"{name}: {meaning(key)}", _current(name, key), _current(name, key))
         for key, unit in UNITS.items()
@@ -162,14 +156,19 @@ def _of_bearing(name: str) -> list[Response]:
             None if one.dynamic is None else _dynamic(name, one.dynamic),
         )
         for one in RESPONSES.values()
-        if one.name not in UNITS and one.name not in ("energy_residual", "simulated_s", "converged")
+        if one.name not in UNITS and one.name not in _OF_MACHINE
     ]  # fmt: skip
 
 
-def _field(name: str, key: str) -> Callable[[Any], Number]:
+def _field(name: str, path: str) -> Callable[[Any], Number]:
+    key, _, axis = path.partition(".")
+    axes = quantities(BearingEquilibrium)[key].axes
+
     def read(point: Any) -> Number:
-        value: Number = getattr(point.summary.bearing(name), key)
-        return value
+        value: Any = getattr(point.summary.bearing(name), key)
+        if axis:
+            value = value[axes.index(axis)]
+        return None if value is None else float(value)
 
     return read
 

@@ -9,8 +9,8 @@ states of contacts add their own (:mod:`~lambda_core.study.watched_responses`).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -24,14 +24,17 @@ from lambda_core.analysis.electric.current_numbers import (
 )
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import CaseError, Problem, nearest, unknown_name
+from lambda_core.results.bearing_summary import BearingSummary
+from lambda_core.results.quantity import quantities
+from lambda_core.results.quasistatic import QuasiStatic
+from lambda_core.results.record import Record
+from lambda_core.results.summary import Summary
 from lambda_core.study import measures
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
-    from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.results.reader import Result
-    from lambda_core.results.summary import Summary
     from lambda_core.solver.drivers.compiled_laws import Kernels
     from lambda_core.solver.drivers.equilibrium import Equilibrium
     from lambda_core.study.machine_responses import MachinePoint
@@ -109,16 +112,42 @@ def _parts() -> list[Response]:
     ]
 
 
-def _axes() -> list[Response]:
-    shift, tilt = "inner_ring_displacement_um", "inner_ring_tilt_mrad"
-    found = [
-        Response(f"{shift}.{axis}", "um", f"inner ring displacement {axis}", _field(shift, i), _field(shift, i))
-        for i, axis in enumerate("xyz")
-    ]
-    return found + [
-        Response(f"{tilt}.{axis}", "mrad", f"inner ring tilt about {axis}", _field(tilt, i))
-        for i, axis in enumerate("yz")
-    ]
+def of_fields(kind: type[Record], names: Iterable[str]) -> Iterator[Response]:
+    """Yield the numbers of a record as responses without values; of a vector one for each axis."""
+    for name in names:
+        one = quantities(kind)[name]
+        if one.axes:
+            for axis in one.axes:
+                yield Response(f"{name}.{axis}", one.unit, f"{one.label} {axis}")
+        elif not one.is_list:
+            yield Response(name, one.unit, one.label)
+
+
+def _fields() -> list[Response]:
+    """Return the numbers of an equilibrium and of a run that have a value for each point."""
+    still, moving = quantities(QuasiStatic), quantities(BearingSummary)
+    of_run = [name for name, one in quantities(Summary).items() if one.group == "trust"]
+    found = [*of_fields(BearingSummary, moving), *of_fields(Summary, of_run)]
+    found += of_fields(QuasiStatic, (name for name in still if name not in moving))
+    return [_with_values(one, still, {*moving, *of_run}) for one in found]
+
+
+def _with_values(one: Response, still: Collection[str], moving: Collection[str]) -> Response:
+    """Return a response with where its values come from: the field of its name, or a measure of its own."""
+    name, _, axis = one.name.partition(".")
+    index = None if not axis else "xyz".index(axis) - (name == "inner_ring_tilt_mrad")
+    own = _field(name, index)
+    static, dynamic = _MEASURED.get(name, (own if name in still else None, own if name in moving else None))
+    return replace(one, static=static, dynamic=dynamic)
+
+
+# What a study computes otherwise than the summary of a point: quasi-static, dynamic.
+_MEASURED: Mapping[str, tuple[Any, Any]] = {
+    "power_loss_W": (measures.static_power, measures.dynamic_power),
+    "max_load_N": (_field("max_load_N"), measures.max_load),
+    "min_film_um": (measures.static_film, _field("min_film_um")),
+    "bearing_capacitance_nF": (measures.static_capacitance, measures.dynamic_capacitance),
+}
 
 
 def _current(name: str) -> Callable[[Any], Number]:
@@ -134,39 +163,12 @@ def _currents() -> list[Response]:
 
 
 def _catalogue() -> dict[str, Response]:
-    both = [
-        ("friction_torque_Nmm", "N mm", "friction torque"),
-        ("max_pressure_GPa", "GPa", "largest contact pressure"),
-    ]
-    dynamic = [
-        ("friction_torque_ci_Nmm", "N mm", "95 % confidence half-width of the friction torque"),
-        ("input_torque_Nmm", "N mm", "input torque"),
-        ("cage_speed_ratio", "", "cage speed over inner ring speed"),
-        ("cage_speed_over_epicyclic", "", "cage speed over kinematic speed"),
-        ("energy_residual", "", "energy residual"),
-        ("wall_per_revolution_s", "s", "wall time per revolution"),
-        ("simulated_s", "s", "simulated time"),
-    ]
-    static = [
-        ("loaded_balls", "", "balls that the inner ring loads"),
-        ("orbit_speed_ratio", "", "orbital speed of the balls over inner ring speed"),
-    ]
     found = [
-        *(Response(name, unit, meaning, _field(name), _field(name)) for name, unit, meaning in both),
-        Response("power_loss_W", "W", "power loss", measures.static_power, measures.dynamic_power),
+        *_fields(),
         *_parts(),
-        Response("max_load_N", "N", "largest contact load of both rings", _field("max_load_N"), measures.max_load),
-        Response("min_film_um", "um", "smallest film under load", measures.static_film, _field("min_film_um")),
         Response(
             "min_film_parameter", "", "smallest Lambda under load", measures.static_lambda, measures.dynamic_lambda
         ),
-        Response(
-            "bearing_capacitance_nF", "nF", "capacitance of the bearing", measures.static_capacitance,
-            measures.dynamic_capacitance,
-        ),
-        *_axes(),
-        *(Response(name, unit, meaning, _field(name)) for name, unit, meaning in static),
-        *(Response(name, unit, meaning, None, _field(name)) for name, unit, meaning in dynamic),
         Response("converged", "", "1 when converged", None, lambda point: float(point.summary.converged)),
         Response(
             "cage_speed_deviation", "", "standard deviation of the cage speed over its mean", None,

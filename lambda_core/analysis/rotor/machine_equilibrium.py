@@ -21,11 +21,15 @@ from lambda_core.formulas.loading import Ring
 from lambda_core.model.checks.operating_limits import load_warnings, operating_warnings
 from lambda_core.model.machine_model import MachineModel, MountedBearing, Place
 from lambda_core.results.averages import finite
+from lambda_core.results.bearing_summary import BearingSummary, Contact
+from lambda_core.results.bearing_summary import Equilibrium as StartState
 from lambda_core.results.limits import warnings
 from lambda_core.results.model_band import Banded, MachineBand, sum_of_bands
+from lambda_core.results.quantity import FLOATING, quantity, same_as
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
+from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.results.summary import LOADED_BALLS, MAX_LOAD, Contact
+from lambda_core.results.summary import Summary
 from lambda_core.results.verdict import Found, Verdict, limits_of, verdict
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
@@ -37,30 +41,74 @@ class BearingEquilibrium(Banded):
 
     name: str
     title: str
-    position_mm: float = Field(description="of its middle, from the shaft's left end")
-    force_N: list[float] = Field(description="of the bearing on the shaft: x, y, z")
-    moment_Nm: list[float] = Field(description="of the bearing on the shaft about y and z")
-    radial_load_N: float
-    axial_load_N: float = Field(description="along x on the bearing, with its sign")
-    displacement_um: list[float] = Field(description="of the inner ring against the outer ring: x, y, z")
-    misalignment_mrad: list[float] = Field(description="of the inner ring against the outer ring about y and z")
+    position_mm: float = quantity(
+        "of its middle, from the shaft's left end",
+        "mm",
+        label="position",
+        column="position",
+        decimals=FLOATING,
+        digits=5,
+    )
+    radial_load_N: float = quantity(
+        "across the shaft", "N", label="radial load", column="radial load", decimals=FLOATING, digits=4, group="load"
+    )
+    axial_load_N: float = quantity(
+        "along x on the bearing, with its sign", "N", label="axial load", column="axial load",
+        decimals=FLOATING, digits=4,
+        group="load",
+    )  # fmt: skip
+    force_N: list[float] = quantity(
+        "of the bearing on the shaft: x, y, z", "N", label="force on the shaft", column="force on shaft",
+        decimals=FLOATING, digits=4, group="load", axes="xyz",
+    )  # fmt: skip
+    moment_Nm: list[float] = quantity(
+        "of the bearing on the shaft about y and z", "N m", label="moment on the shaft about", column="moment about",
+        decimals=FLOATING, digits=3, group="load", axes="yz",
+    )  # fmt: skip
+    displacement_um: list[float] = quantity(
+        "of the inner ring against the outer ring: x, y, z", "um", label="displacement of the rings",
+        column="displacement", decimals=FLOATING, digits=3, group="place", axes="xyz",
+    )  # fmt: skip
+    misalignment_mrad: list[float] = quantity(
+        "of the inner ring against the outer ring about y and z", "mrad", label="misalignment about",
+        column="misalignment", decimals=FLOATING, digits=3, group="place", axes="yz",
+    )  # fmt: skip
     outer_ring_um: list[float] = Field(description="of the outer ring in the housing: x, y, z")
-    clearance_um: float = Field(description="in operation")
-    loaded_balls: int = Field(description=LOADED_BALLS)
-    max_load_N: float = Field(description=MAX_LOAD)
+    clearance_um: float = quantity(
+        "in operation",
+        "um",
+        label="clearance in operation",
+        column="clearance",
+        decimals=FLOATING,
+        digits=3,
+        group="place",
+    )
+    loaded_balls: int = same_as(StartState, "loaded_balls")
+    max_load_N: float = same_as(StartState, "max_load_N")
     max_load_ring: Ring = Field(description="the ring that the largest contact load stands at")
-    max_pressure_GPa: float
-    contact_angle_deg: list[float] = Field(description="smallest and largest of the loaded contacts, sizes")
-    equivalent_load_N: float = Field(description="P of ISO 281")
-    basic_rating_life_h: float | None = Field(description="L_10h of ISO 281; null at rest or without load")
-    reference_rating_life_h: float | None = Field(description="L_10rh of ISO/TS 16281, from the load of every ball")
-    modified_basic_life_h: float | None = Field(description="L_nmh of ISO 281; needs life.contamination")
-    modified_rating_life_h: float | None = Field(description="L_nmrh; needs life.contamination")
-    viscosity_ratio: float | None = Field(description="kappa")
-    static_safety: float | None = Field(description="C_0 over P_0")
-    friction_torque_Nmm: float | None
-    power_loss_W: float | None = Field(description="of the friction; null where the balls found no steady motion")
-    film_um: list[float] = Field(description="smallest and largest central film under load")
+    max_pressure_GPa: float = same_as(StartState, "max_pressure_GPa")
+    contact_angle_deg: list[float] = quantity(
+        "smallest and largest of the loaded contacts, sizes", "deg", label="contact angles", column="contact angles",
+        decimals=FLOATING, digits=3, group="contact",
+    )  # fmt: skip
+    equivalent_load_N: float = same_as(Rating, "equivalent_load_N")
+    basic_rating_life_h: float | None = same_as(
+        Rating, "basic_life_h", "L_10h of ISO 281; null at rest or without load"
+    )
+    reference_rating_life_h: float | None = same_as(Rating, "reference_life_h")
+    modified_basic_life_h: float | None = same_as(
+        Rating, "modified_life_h", "L_nmh of ISO 281; needs life.contamination"
+    )
+    modified_rating_life_h: float | None = same_as(
+        Rating, "modified_reference_life_h", "L_nmrh; needs life.contamination"
+    )
+    viscosity_ratio: float | None = same_as(Rating, "viscosity_ratio", "kappa")
+    static_safety: float | None = same_as(Rating, "static_safety", "C_0 over P_0")
+    friction_torque_Nmm: float | None = same_as(BearingSummary, "friction_torque_Nmm")
+    power_loss_W: float | None = same_as(
+        BearingSummary, "power_loss_W", "of the friction; null where the balls found no steady motion"
+    )
+    film_um: list[float] = same_as(BearingSummary, "film_um", "smallest and largest central film under load")
     stiffness: list[list[float]] = Field(
         description="6 x 6, inner ring against outer ring, order of `axes` [N/m, N/rad, N m/rad]; no row turns about x"
     )
@@ -90,12 +138,14 @@ class MachineEquilibrium(Record):
     )
     bodies: dict[str, BodyMoved] = Field(default={}, description="bodies other than the shaft")
     markers: dict[str, BodyMoved] = Field(default={}, description="named places")
-    system_life_h: float | None = Field(description="of all bearings by their reference rating lives, 90 %")
-    friction_torque_Nmm: float | None = Field(description="of all bearings")
+    system_life_h: float | None = same_as(
+        Summary, "system_life_h", "of all bearings by their reference rating lives, 90 %"
+    )
+    friction_torque_Nmm: float | None = same_as(Summary, "friction_torque_Nmm", "of all bearings")
     friction_torque_Nmm_band: list[float] = Field(
         default=[], description="ends of the 90 % model band, the sum of those of the bearings; empty without one"
     )
-    drive_torque_Nm: float = Field(description="of the coupling on the shaft, friction left out")
+    drive_torque_Nm: float = same_as(Summary, "drive_torque_Nm", "of the coupling on the shaft, friction left out")
     shaft_mass_kg: float = Field(description="with its discs")
     positions_mm: list[float] = Field(description="of the nodes along the shaft")
     deflection_um: list[list[float]] = Field(description="x, y, z at each position")

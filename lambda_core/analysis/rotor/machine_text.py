@@ -7,11 +7,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.number_text import NONE, hours, hours_alone
+from lambda_core.domain.number_text import NONE, hours
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.results.band_text import ends, named_sources
+from lambda_core.results.quantity import Quantity, quantities
 from lambda_core.results.text import line
 
 if TYPE_CHECKING:
@@ -29,18 +30,15 @@ def _digits(value: float | None, digits: int = 4) -> str:
     return f"{0.0 if abs(value) < 5e-5 else value:.{digits}g}"
 
 
-def _span(values: list[float], digits: int = 3) -> str:
-    return "..".join(f"{value:.{digits}g}" for value in dict.fromkeys(values)) or NONE
-
-
 @dataclass(frozen=True)
 class _Row:
     """One line of a table over bearings; a number in `unit`, or text that is ready."""
 
     label: str
     unit: str
-    value: Callable[[Any], float | list[float] | str | None]
+    value: Callable[[Any], float | str | None]
     digits: int = 4
+    quantity: Quantity | None = None  # how the number is written
 
     def head(self, units: UnitSystem) -> str:
         """Return what stands before the numbers."""
@@ -51,47 +49,19 @@ class _Row:
         found = self.value(bearing)
         if isinstance(found, str):
             return found
-        if isinstance(found, list):
-            return _span([units.value(one, self.unit) for one in found], self.digits)
+        if self.quantity is not None:
+            return self.quantity.cell(found, units)
         return _digits(None if found is None else units.value(found, self.unit), self.digits)
 
 
 # The unit of a direction that stands below the first one is that of the first.
-_ROWS = (
-    _Row("bearing", "", lambda b: str(b.title.split(" (")[0])),
-    _Row("position", "mm", lambda b: b.position_mm, 5),
-    _Row("radial load", "N", lambda b: b.radial_load_N),
-    _Row("axial load", "N", lambda b: b.axial_load_N),
-    _Row("force on shaft x", "N", lambda b: b.force_N[0]),
-    _Row("  y", "N", lambda b: b.force_N[1]),
-    _Row("  z", "N", lambda b: b.force_N[2]),
-    _Row("moment about y", "N m", lambda b: b.moment_Nm[0], 3),
-    _Row("  about z", "N m", lambda b: b.moment_Nm[1], 3),
-    _Row("displacement x", "um", lambda b: b.displacement_um[0], 3),
-    _Row("  y", "um", lambda b: b.displacement_um[1], 3),
-    _Row("  z", "um", lambda b: b.displacement_um[2], 3),
-    _Row("misalignment y", "mrad", lambda b: b.misalignment_mrad[0], 3),
-    _Row("  z", "mrad", lambda b: b.misalignment_mrad[1], 3),
-    _Row("clearance", "um", lambda b: b.clearance_um, 3),
-    _Row("loaded balls", "", lambda b: str(b.loaded_balls)),
-    _Row("Q_max", "N", lambda b: b.max_load_N),
-    _Row("p_max", "GPa", lambda b: b.max_pressure_GPa, 3),
-    _Row("contact angles", "deg", lambda b: list(b.contact_angle_deg), 3),
-    _Row("L_10h", "h", lambda b: hours_alone(b.basic_rating_life_h)),
-    _Row("L_nmh", "h", lambda b: hours_alone(b.modified_basic_life_h)),
-    _Row("L_10rh", "h", lambda b: hours_alone(b.reference_rating_life_h)),
-    _Row("L_nmrh", "h", lambda b: hours_alone(b.modified_rating_life_h)),
-    _Row("static safety", "", lambda b: b.static_safety, 3),
-    _Row("friction torque", "N mm", lambda b: b.friction_torque_Nmm, 3),
-    _Row("  model band", "N mm", lambda b: list(b.friction_torque_Nmm_band), 2),
-    _Row("power loss", "W", lambda b: b.power_loss_W, 3),
-    _Row("film", "um", lambda b: list(b.film_um), 2),
+_STIFFNESS = (
     _Row("stiffness x", "N/um", lambda b: 1e-6 * b.stiffness[0][0], 3),
     _Row("  y", "N/um", lambda b: 1e-6 * b.stiffness[1][1], 3),
     _Row("  z", "N/um", lambda b: 1e-6 * b.stiffness[2][2], 3),
 )
 _MATRICES = (
-    *_ROWS[-3:],
+    *_STIFFNESS,
     _Row("with housing x", "N/um", lambda b: 1e-6 * b.housed_stiffness[0][0], 3),
     _Row("  y", "N/um", lambda b: 1e-6 * b.housed_stiffness[1][1], 3),
     _Row("  z", "N/um", lambda b: 1e-6 * b.housed_stiffness[2][2], 3),
@@ -99,6 +69,25 @@ _MATRICES = (
     _Row("  y", "N s/m", lambda b: b.damping[1][1], 3),
     _Row("  z", "N s/m", lambda b: b.damping[2][2], 3),
 )
+
+
+def _equilibrium_rows(bearings: Sequence[BearingEquilibrium], units: UnitSystem) -> tuple[_Row, ...]:
+    """Return a row for every number of the bearings, those of an axis one below the other."""
+    rows = [_Row("bearing", "", lambda b: str(b.title.split(" (")[0]))]
+    for one in quantities(type(bearings[0])).values():
+        if one.column and one.axes:
+            rows += [_axis(one, k) for k in range(len(one.axes))]
+        elif one.column:
+            rows.append(_Row(one.column, one.unit, lambda b, q=one: getattr(b, q.name), quantity=one))  # type: ignore[misc]
+        if one.name == "friction_torque_Nmm" and any(bearing.friction_torque_Nmm_band for bearing in bearings):
+            rows.append(_Row("  model band", "", lambda b: ends(b.friction_torque_Nmm_band, "N mm", units)))
+    return (*rows, *_STIFFNESS)
+
+
+def _axis(one: Quantity, k: int) -> _Row:
+    """Return the row of one axis of a vector."""
+    label = f"{one.column} {one.axes[k]}" if k == 0 else f"  {one.axes[k]}"
+    return _Row(label, one.unit, lambda b: getattr(b, one.name)[k], quantity=one)
 
 
 def _table(
@@ -125,7 +114,9 @@ def equilibrium_text(found: MachineEquilibrium, width: int | None = None, units:
     verdicts = [line(f"verdict {name}", verdict.lines(units)[0]) for name, verdict in judged]
     margins = [line(f"margins {name}", *verdict.lines(units)[1]) for name, verdict in judged if verdict.lines(units)[1]]
     head = [*wrapped([*verdicts, *margins], width), "", f"{found.case}, {found.speed_rpm:.5g} 1/min", ""]
-    return "\n".join([*head, *_table(_ROWS, found.bearings, units), "", *wrapped(own, width)])
+    return "\n".join(
+        [*head, *_table(_equilibrium_rows(found.bearings, units), found.bearings, units), "", *wrapped(own, width)]
+    )
 
 
 def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem = SI) -> str:

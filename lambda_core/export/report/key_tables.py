@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import show
+from lambda_core.results.quantity import quantity_of
 from lambda_core.views.table import StudyTable
 
 if TYPE_CHECKING:
@@ -52,24 +53,24 @@ def key_figures(
     name = "friction torque (95 %)" if width is not None else "friction torque"
     rows = [(name, mean.strip(), torque)]
     rows += _band("friction_torque_Nmm", "N mm", "friction torque, 90 % model band", units, bands)
-    rows.append(_figure("power loss", found.power_loss_W, "W", units))
+    rows.append(_figure(found, "power_loss_W", units))
     rows += _band("power_loss_W", "W", "power loss, 90 % model band", units, bands)
     if rating is not None:
         rows += [
-            _figure("friction torque, SKF's catalogue", rating.skf_torque_Nmm, "N mm", units),
-            _figure("friction torque, Schaeffler's catalogue", rating.schaeffler_torque_Nmm, "N mm", units),
+            _figure(rating, "skf_torque_Nmm", units),
+            _figure(rating, "schaeffler_torque_Nmm", units),
         ]
     rows += [(f"{text} {symbol}, {standard}", _life(life), "") for text, symbol, standard, life in _every_life(found)]
     source = rating or found
     rows += [
-        ("static safety C0/P0, ISO 76", rounded(source.static_safety, 2), ""),
-        ("viscosity ratio kappa, ISO 281", rounded(source.viscosity_ratio, 2), ""),
+        _figure(source, "static_safety", units, "static safety C0/P0, ISO 76"),
+        _figure(source, "viscosity_ratio", units, "viscosity ratio kappa, ISO 281"),
     ]
     film = getattr(found, "min_film_um", None)
     rows.append(
-        _figure("smallest minimum film", film, "um", units)
+        _figure(found, "min_film_um", units)
         if film is not None
-        else _figure("smallest central film", min(found.film_um, default=None), "um", units)
+        else ("smallest central film", rounded(_least(found.film_um, units)), units.unit("um"))
     )
     lambdas = getattr(found, "film_parameter", [])
     if lambdas:
@@ -77,7 +78,7 @@ def key_figures(
     tilts = getattr(found, "inner_ring_tilt_mrad", None) or getattr(found, "misalignment_mrad", [])
     return [
         *rows,
-        _figure("largest contact pressure", found.max_pressure_GPa, "GPa", units),
+        _figure(found, "max_pressure_GPa", units),
         ("tilt of the inner ring y, z", ", ".join(number(angle, 2) for angle in tilts), "mrad"),
     ]
 
@@ -163,23 +164,25 @@ def machine_figures(found: Any, units: UnitSystem = SI) -> Table:
     each = found.bearings
     head = ("", *(one.name for one in each))
 
-    def row(name: str, unit: str, values: Iterable[float | None], digits: int = 3) -> tuple[str, ...]:
-        shown = [None if value is None else units.value(value, unit) for value in values]
-        return (f"{name} {units.unit(unit)}".rstrip(), *(rounded(value, digits) for value in shown))
+    def row(name: str) -> tuple[str, ...]:
+        one = quantity_of(each[0], name)
+        values = (getattr(bearing, name) for bearing in each)
+        shown = [None if value is None else units.value(value, one.unit) for value in values]
+        return (f"{one.label} {units.unit(one.unit)}".rstrip(), *(rounded(value, one.digits) for value in shown))
 
     rows = [
         ("bearing", *(one.title for one in each)),
-        row("position", "mm", (one.position_mm for one in each), 4),
-        row("radial load", "N", (one.radial_load_N for one in each)),
-        row("axial load", "N", (one.axial_load_N for one in each)),
+        row("position_mm"),
+        row("radial_load_N"),
+        row("axial_load_N"),
         *(
             (f"{symbol}, {standard}", *(_life(_every_life(one)[i][3]) for one in each))
             for i, (_, symbol, standard, _) in enumerate(_every_life(each[0]))
         ),
-        row("static safety", "", (one.static_safety for one in each)),
-        row("largest pressure", "GPa", (one.max_pressure_GPa for one in each)),
-        row("friction torque", "N mm", (one.friction_torque_Nmm for one in each)),
-        row("power loss", "W", (one.power_loss_W for one in each)),
+        row("static_safety"),
+        row("max_pressure_GPa"),
+        row("friction_torque_Nmm"),
+        row("power_loss_W"),
         ("film um", *("..".join(rounded(v, 2) for v in one.film_um) for one in each)),
     ]
     life = _life(found.system_life_h)
@@ -205,21 +208,28 @@ def machine_reactions(found: Any, units: UnitSystem = SI) -> Table:
     return Table("forces and moments of the bearings on the shaft", head, tuple(rows))
 
 
-def _figure(name: str, value: float | None, unit: str, units: UnitSystem, digits: int = 3) -> tuple[str, str, str]:
-    return name, rounded(None if value is None else units.value(value, unit), digits), units.unit(unit)
+def _figure(record: Any, name: str, units: UnitSystem, label: str = "") -> tuple[str, str, str]:
+    """Return name, number and unit of a field as it is declared."""
+    one, value = quantity_of(record, name), getattr(record, name)
+    number = None if value is None else units.value(value, one.unit)
+    return label or one.label, rounded(number, one.digits), units.unit(one.unit)
+
+
+def _least(values: Sequence[float], units: UnitSystem) -> float | None:
+    return units.value(min(values), "um") if values else None
 
 
 def run_figures(summary: Any, units: UnitSystem = SI) -> Table:
     """Return the remaining averages of a run."""
     position = ", ".join(units.number(value, "um", 2) for value in summary.inner_ring_displacement_um)
     rows = (
-        _figure("input torque", summary.input_torque_Nmm, "N mm", units, 4),
-        ("cage over inner ring speed", rounded(summary.cage_speed_ratio, 4), ""),
-        ("cage over kinematic speed", rounded(summary.cage_speed_over_epicyclic, 4), ""),
-        ("capacitance of the bearing", rounded(summary.bearing_capacitance_nF), "nF"),
+        _figure(summary, "input_torque_Nmm", units),
+        _figure(summary, "cage_speed_ratio", units),
+        _figure(summary, "cage_speed_over_epicyclic", units),
+        _figure(summary, "bearing_capacitance_nF", units),
         ("inner ring x, y, z (mean)", position, units.unit("um")),
-        ("energy residual", rounded(summary.energy_residual, 2), "of input"),
-        ("ends of Newton's iterations", rounded(summary.iteration_residual, 2), "of input"),
+        (*_figure(summary, "energy_residual", units)[:2], "of input"),
+        (*_figure(summary, "iteration_residual", units)[:2], "of input"),
         *([("vibrations", summary.vibrations.sentence(), "")] if summary.vibrations else []),
     )
     return Table("averages of the run", ("", "value", "unit"), rows)

@@ -1,0 +1,175 @@
+"""Declare the numbers of the machine interface: each one's unit, names, digits and group in one place.
+
+A field is declared once, with :func:`quantity`. The text of a result, the columns of a machine's text, the responses of
+studies, the tables of reports and the builder read the declaration.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import Field
+from pydantic_core import PydanticUndefined
+
+from lambda_core.domain.number_text import NONE, hours, hours_alone, number
+from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.results.band_text import banded
+from lambda_core.results.record import Record
+
+_MARK = "quantity"  # key of the declaration in a field
+SMALL = -1  # in place of decimals: two digits and an exponent
+FLOATING = -2  # in place of decimals: as many as leave `digits` significant digits, three at most
+_NOTHING = 5e-5  # a number below, in its unit, is written as 0 in a cell
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """How a number is named and written.
+
+    Attributes
+    ----------
+    name : str
+        Of the field.
+    meaning : str
+        What it is, with what it depends on.
+    label : str
+        What it is, in a few words: responses of studies, reports.
+    column : str
+        The same for narrow tables; "" where it is in none.
+    unit : str
+        Of the program; "h" is written as a life.
+    decimals : int
+        In sentences, in `unit`; SMALL or FLOATING.
+    digits : int
+        Significant digits in tables.
+    group : str
+        What it tells about: "friction", "life", "cage", "film", "contact", "trust", ...
+    axes : tuple of str
+        Of a list with a number for each axis; a list without axes holds a smallest and a largest value.
+    is_list : bool
+    """
+
+    name: str
+    meaning: str
+    label: str
+    column: str
+    unit: str
+    decimals: int
+    digits: int
+    group: str
+    axes: tuple[str, ...]
+    is_list: bool
+
+    def number(self, value: float | Sequence[float | None] | None, units: UnitSystem = SI) -> str:
+        """Write a value without its unit; a dash for none."""
+        if value is None:
+            return NONE
+        if isinstance(value, Sequence):
+            each = [self.number(one, units) for one in value]
+            return ("  " if self.axes else "..").join(each) or NONE
+        if self.unit == "h":
+            return hours(value).removesuffix(" h")
+        if self.decimals == SMALL:
+            return f"{value:.1e}"
+        return (
+            units.number(value, self.unit, self._decimals(value)) if self.unit else number(value, self._decimals(value))
+        )
+
+    def text(self, value: float | Sequence[float | None] | None, units: UnitSystem = SI) -> str:
+        """Write a value with its unit."""
+        return f"{self.number(value, units)} {units.unit(self.unit)}".rstrip()
+
+    def cell(self, value: float | Sequence[float | None] | None, units: UnitSystem = SI) -> str:
+        """Write a value for a cell of a table, without its unit."""
+        if value is None:
+            return NONE
+        if isinstance(value, Sequence):
+            each = [self.cell(one, units) for one in value]
+            return ("  " if self.axes else "..").join(each if self.axes else dict.fromkeys(each)) or NONE
+        if self.unit == "h":
+            return hours_alone(value)
+        there = units.value(value, self.unit) if self.unit else value
+        small = self.decimals != SMALL and abs(there) < _NOTHING
+        return f"{0.0 if small else there:.{self.digits}g}"
+
+    def head(self, units: UnitSystem = SI) -> str:
+        """Return the head of a row in a narrow table, with the unit."""
+        return f"{self.column} {units.unit(self.unit)}".rstrip()
+
+    def _decimals(self, value: float) -> int:
+        if self.decimals != FLOATING:
+            return self.decimals
+        return 1 if not value else min(3, max(0, self.digits - 1 - math.floor(math.log10(abs(value)))))
+
+
+def quantity(
+    meaning: str,
+    unit: str = "",
+    *,
+    label: str,
+    column: str = "",
+    decimals: int = 1,
+    digits: int = 3,
+    group: str = "",
+    axes: str = "",
+    default: Any = PydanticUndefined,
+) -> Any:
+    """Declare a field of a record that is a number, or a list of numbers; see :class:`Quantity`."""
+    facts: dict[str, Any] = {
+        "label": label, "column": column, "unit": unit, "decimals": decimals, "digits": digits,
+        "group": group, "axes": list(axes),
+    }  # fmt: skip
+    return Field(default, description=meaning, json_schema_extra={_MARK: facts})
+
+
+def same_as(record: type[Record], name: str, meaning: str = "", default: Any = PydanticUndefined) -> Any:
+    """Declare a field that is a number of another record, too; `meaning` where it differs."""
+    info = record.model_fields[name]
+    return Field(default, description=meaning or info.description, json_schema_extra=info.json_schema_extra)
+
+
+_KNOWN: dict[type[Record], dict[str, Quantity]] = {}
+
+
+def quantities(record: type[Record]) -> dict[str, Quantity]:
+    """Return the declared numbers of a record by name, in their order."""
+    if record in _KNOWN:
+        return _KNOWN[record]
+    found = _KNOWN[record] = {}
+    for name, info in record.model_fields.items():
+        extra = info.json_schema_extra
+        facts: Any = extra.get(_MARK) if isinstance(extra, dict) else None
+        if facts is not None:
+            more = {**facts, "axes": tuple(facts["axes"]), "is_list": str(info.annotation).startswith("list")}
+            found[name] = Quantity(name, info.description or "", **more)
+    return found
+
+
+def quantity_of(record: Record, name: str) -> Quantity:
+    """Return the declaration of a field of a record, of the only bearing's where the record has none."""
+    own = quantities(type(record))
+    return own[name] if name in own else quantity_of(next(iter(record.bearings.values())), name)  # type: ignore[attr-defined]
+
+
+def shown_numbers(record: Record, groups: Sequence[str]) -> list[tuple[Quantity, Any]]:
+    """Return the numbers of a record, and of its only bearing, that stand in narrow tables, group by group."""
+    each = {**quantities(type(record))}
+    if len(bearings := list(getattr(record, "bearings", {}).values())) == 1:
+        each = {**each, **quantities(type(bearings[0]))}
+    return [
+        (one, getattr(record, name))
+        for group in groups
+        for name, one in each.items()
+        if one.group == group and one.column
+    ]
+
+
+def shown(record: Record, name: str, units: UnitSystem = SI) -> str:
+    """Write a number of a record with its unit, and with its model band where there is one."""
+    one, value = quantity_of(record, name), getattr(record, name)
+    plain = one.text(value, units)
+    band = getattr(record, f"{name}_band", [])
+    return banded(value, band, one.unit, plain, units) if band else plain
