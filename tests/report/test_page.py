@@ -79,7 +79,7 @@ def test_the_page_says_what_was_found(page: Page, radial_run: Result) -> None:
     first = page.text[: page.text.index("friction torque by mechanism")]  # what an engineer looks for stands first
     for words in (
         "within all limits", "of 4.2 GPa", "power loss", "90 % model band", "Lnmh, ISO 281", "L10rh, ISO/TS 16281",
-        "static safety", "kappa", "SKF's catalogue", "smallest minimum",
+        "static safety", "kappa", "SKF's catalogue", "smallest film",
     ):  # fmt: skip
         assert words in first
     assert page.tags.index("svg") < page.tags.index("table")

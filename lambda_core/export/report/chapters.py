@@ -28,9 +28,9 @@ from lambda_core.results.model_band import FIELDS
 from lambda_core.results.verdict import Verdict
 
 if TYPE_CHECKING:
+    from lambda_core.results.bearing_summary import BearingSummary
     from lambda_core.results.citation import Citation
     from lambda_core.results.reader import Result
-    from lambda_core.results.summary import BearingSummary
 
 _SIZES = ("bore_diameter", "outside_diameter", "width")
 
