@@ -72,6 +72,19 @@ class Section:
         inner, outer = self._profiles
         return RING if r <= 1e3 * inner(1e-3 * x) or r >= 1e3 * outer(1e-3 * x) else AIR
 
+    def is_contact_line(self, x: float, r: float, half: float) -> bool:
+        """Tell whether a point of a ball is within `half` of the line through its contacts [mm]."""
+        angle = self.geometry.contact_angle or self.geometry.resting_angle
+        if not angle:
+            return False
+        for place in self._places:
+            is_back_to_back = self.geometry.arrangement == "O"
+            leans = -1.0 if len(self._places) == 1 or (place < 0.0) == is_back_to_back else 1.0
+            away = (x - place) * math.cos(angle) + leans * (r - 0.5 * self.pitch) * math.sin(angle)
+            if abs(x - place) <= 0.5 * self.ball and abs(away) < half:
+                return True
+        return False
+
     @cached_property
     def _places(self) -> tuple[float, ...]:
         return tuple(1e3 * place for place in row_places(self.geometry))

@@ -74,7 +74,7 @@ def app_of(pilot: Pilot[None]) -> BuilderApp:
 async def checked(pilot: Pilot[None]) -> None:
     """Wait for the first check."""
     builder = app_of(pilot).builder
-    await until(pilot, lambda: builder.check.resolved or builder.check.problems)
+    await until(pilot, lambda: builder.check.model or builder.check.problems)
 
 
 async def estimated(pilot: Pilot[None]) -> None:

@@ -10,13 +10,13 @@ from rich.text import Text
 from textual import work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
-from textual.containers import Horizontal, Vertical, VerticalScroll
+from textual.containers import VerticalScroll
 from textual.screen import Screen
 from textual.widget import Widget
-from textual.widgets import Footer, OptionList, Static
-from textual.widgets.option_list import Option
+from textual.widgets import Footer, Static, Tab, Tabs
 
 from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.wrapping import wrapped
 from lambda_core.views.other_units import in_units
 from lambda_gui.charts import rows_of
 from lambda_gui.helper import Helper
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from lambda_core.domain.unit_systems import UnitSystem
     from lambda_core.views.chart import ViewData
 
-# Question, and the words in the list; the helper process has a function for each question
+# Question, and the words on its tab; the helper process has a function for each question
 QUESTIONS = {
     "equilibrium": "equilibrium",
     "temperatures": "temperatures",
@@ -38,7 +38,7 @@ QUESTIONS = {
 
 
 class AnswerScreen(Screen[None]):
-    """Questions at the left, the answer to the one under the cursor at the right.
+    """Questions on tabs, and below them the answer to the chosen one.
 
     Parameters
     ----------
@@ -46,23 +46,21 @@ class AnswerScreen(Screen[None]):
         The case, without mistakes; later changes of it do not count.
     """
 
-    HORIZONTAL_BREAKPOINTS = [(0, "-narrow"), (112, "-wide")]  # noqa: RUF012
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("f1", "app.help", "Help", priority=True),
         Binding("pagedown,space", "scroll(1)", "Scroll", priority=True),
         Binding("pageup", "scroll(-1)", show=False, priority=True),
+        Binding("down", "line(1)", show=False),
+        Binding("up", "line(-1)", show=False),
         Binding("escape,f10,ctrl+g", "app.pop_screen", "Back", key_display="Esc"),
     ]
     DEFAULT_CSS = """
     AnswerScreen { background: $background; }
-    AnswerScreen OptionList { width: 23; height: 1fr; background: $background; border: none; padding: 0 1;
-        border-right: vkey $border-blurred; }
-    AnswerScreen OptionList:focus { border: none; border-right: vkey $border; }
-    AnswerScreen #title { height: 2; padding: 0 1; width: 1fr; }
+    AnswerScreen Tab { padding: 0 1; }
+    AnswerScreen #title { height: 1; padding: 0 1; width: 1fr; color: $text-muted; }
     AnswerScreen #content { height: 1fr; padding: 0 1; scrollbar-size-vertical: 1; }
     AnswerScreen #content Static { width: 1fr; height: auto; }
     AnswerScreen .row { width: 1fr; }
-    AnswerScreen.-wide OptionList { width: 30; }
     """
 
     def __init__(self, draft: Draft) -> None:
@@ -73,17 +71,15 @@ class AnswerScreen(Screen[None]):
         self._helper = Helper(self._say, lambda: is_here(self))
 
     def compose(self) -> ComposeResult:
-        """Lay out the questions at the left of the answer."""
-        with Horizontal():
-            yield OptionList(*(Option(words, id=name) for name, words in QUESTIONS.items()), markup=False)
-            with Vertical():
-                yield Static(id="title")
-                yield VerticalScroll(id="content", can_focus=False)
+        """Lay out the questions over the answer."""
+        yield Tabs(*(Tab(words, id=name) for name, words in QUESTIONS.items()))
+        yield Static(id="title")
+        yield VerticalScroll(id="content", can_focus=False)
         yield Footer()
 
     def on_mount(self) -> None:
         """Take the keyboard; a change of the theme draws the answer anew."""
-        self.query_one(OptionList).focus()
+        self.query_one(Tabs).focus()
         self.app.theme_changed_signal.subscribe(self, lambda _: self._show())
 
     async def on_unmount(self) -> None:
@@ -94,25 +90,23 @@ class AnswerScreen(Screen[None]):
         """Draw for the new size."""
         self._show()
 
-    def on_option_list_option_highlighted(self, event: OptionList.OptionHighlighted) -> None:
-        """Answer the question under the cursor."""
+    def on_tabs_tab_activated(self, event: Tabs.TabActivated) -> None:
+        """Answer the question on the tab."""
         self._show()
 
     @property
     def question(self) -> str:
-        """The question under the cursor."""
-        at = self.query_one(OptionList).highlighted
-        return list(QUESTIONS)[at or 0]
+        """The question on the tab that is shown."""
+        return self.query_one(Tabs).active or next(iter(QUESTIONS))
 
     @property
     def is_answered(self) -> bool:
-        """Whether the answer to the question under the cursor is known."""
+        """Whether the answer to the question is known."""
         return self.question in self._found
 
     def _say(self, words: str) -> None:
         if is_here(self):
-            title = Text(f"{self._name}  {QUESTIONS[self.question]}", style="bold")
-            self.query_one("#title", Static).update(title.append(f"\n{words}", style="dim not bold"))
+            self.query_one("#title", Static).update(Text(f"{self._name}: {words}", no_wrap=True, overflow="ellipsis"))
 
     @work(exclusive=True, group="answer")
     async def _show(self) -> None:
@@ -130,7 +124,7 @@ class AnswerScreen(Screen[None]):
         text, views = self._found[question]
         self._say("the case as it stands, without a run")
         room = self.query_one("#content", VerticalScroll).size
-        shown: list[Widget] = [Static(Text(text))]
+        shown: list[Widget] = [Static(Text("\n".join(wrapped(text.splitlines(), max(40, room.width - 2)))))]
         for view in views:
             shown += rows_of(_drawn(in_units(view, units)), room.width - 2, room.height)
         await self._put(*shown)
@@ -152,6 +146,10 @@ class AnswerScreen(Screen[None]):
         """Scroll by a screen."""
         content = self.query_one("#content", VerticalScroll)
         content.scroll_relative(y=by * max(1, content.size.height - 1), animate=False)
+
+    def action_line(self, by: int) -> None:
+        """Scroll by a line."""
+        self.query_one("#content", VerticalScroll).scroll_relative(y=by, animate=False)
 
 
 def _drawn(view: ViewData) -> ViewData:

@@ -195,11 +195,17 @@ _LONG = {
 
 
 def _warned_by(found: Any) -> list[str]:
-    """Return the warnings of an equilibrium; those of a bearing on a shaft begin with its name."""
+    """Return requirements that are not met, and warnings; those of a bearing on a shaft begin with its name."""
     bearings = getattr(found, "bearings", None)
     if bearings is None:
-        return list(found.warnings)
-    return [f"{bearing.name}: {text}" for bearing in bearings for text in bearing.warnings]
+        return [*_not_met(found.verdict), *found.warnings]
+    return [
+        f"{bearing.name}: {text}" for bearing in bearings for text in (*_not_met(bearing.verdict), *bearing.warnings)
+    ]
+
+
+def _not_met(verdict: Any) -> list[str]:
+    return [] if verdict is None else [one.text() for one in verdict.margins if one.is_required and not one.met]
 
 
 def _geometry(model: BearingModel, values: Sequence[ValueReport]) -> Iterable[Fact]:

@@ -57,8 +57,8 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
         "(of a shaft also its deflection, moments and critical speeds), steady temperatures under the case's own "
         "losses, bearing voltages and discharges, friction over speed, and all assumptions.",
         (
-            ("↑ ↓", "between the questions"),
-            ("PgUp PgDn", "scroll the answer; Space scrolls on, too"),
+            ("← →", "between the questions"),
+            ("↑ ↓ PgUp PgDn", "scroll the answer; Space scrolls on, too"),
             ("Esc or F10", "back"),
             *_ALL,
         ),

@@ -12,6 +12,7 @@ import json
 import os
 import pickle
 import sys
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -62,11 +63,11 @@ def _friction(say: Say, model: Any, units: Any) -> Any:
     from lambda_core import api
 
     names = [bearing.name for bearing in model.bearings] if api.is_machine(model) else [None]
-    curves = [api.stribeck(model, bearing=name, announce=say) for name in names]
-    texts = [
-        f"{name}\n{curve.text(units)}" if name else curve.text(units) for name, curve in zip(names, curves, strict=True)
+    case = tomllib.loads(model.case_toml)
+    curves = [api.stribeck(case, bearing=name, announce=say) for name in names]
+    return "\n".join(f"{curve.title}: {curve.note}" for curve in curves), [
+        api.stribeck_picture(curve) for curve in curves
     ]
-    return "\n\n".join(texts), [api.stribeck_picture(curve) for curve in curves]
 
 
 def _assumptions(say: Say, model: Any, units: Any) -> Any:

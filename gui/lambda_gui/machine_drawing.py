@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from rich.text import Text
+from textual.color import Color
 
 if TYPE_CHECKING:
     from lambda_core.api import MachineEquilibrium, MachineModel, MountedBearing
@@ -14,6 +16,8 @@ if TYPE_CHECKING:
 _DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))  # of a braille sign: four down, two across
 _HALF = 1.4  # a half section is drawn where a whole one would be that much smaller
 _ROOMY = 15  # lines from which on the bend has an axis of its own
+_PARTS = (0.125, 0.375, 0.625, 0.875)  # places along a pixel, for smooth edges
+_LINE = 0.5  # half the width of a contact line in pixels
 _BALL = 1.9  # radius in pixels from which on a ball is drawn as a circle
 _FACE = 0.12  # width of a gear over its pitch diameter, which the case does not say
 _DISC = 0.5  # height of a disc beyond the largest radius of the shaft, which the case does not say either
@@ -43,12 +47,28 @@ class Canvas:
             for column in range(max(0, first), min(self.width, last)):
                 self._pixels[row, column] = colour
 
-    def circle(self, x: float, y: float, radius: float, colour: str) -> None:
-        """Fill a circle given in pixels."""
-        for row in range(int(y - radius), int(y + radius) + 1):
-            for column in range(int(x - radius), int(x + radius) + 1):
-                if (column + 0.5 - x) ** 2 + (row + 0.5 - y) ** 2 < radius**2:
-                    self._pixels[row, column] = colour
+    def ball(self, x: float, y: float, radius: float, colours: tuple[str, str, str], angle: float | None) -> None:
+        """Draw a ball given in pixels, with a smooth edge, and its contact line.
+
+        Parameters
+        ----------
+        colours : tuple of str
+            Around the ball, of the ball, of the contact line.
+        angle : float or None
+            Of the contact line against the radial direction [rad]; None draws none.
+        """
+        around, inside, line = map(Color.parse, colours)
+        along = None if angle is None else (math.sin(angle), math.cos(angle))
+        for row in range(max(0, int(y - radius)), min(2 * self.height, int(y + radius) + 1)):
+            for column in range(max(0, int(x - radius)), min(self.width, int(x + radius) + 1)):
+                points = [(column + i - x, row + j - y) for i in _PARTS for j in _PARTS]
+                share = sum(dx * dx + dy * dy < radius**2 for dx, dy in points) / len(points)
+                colour = around.blend(inside, share)
+                if along is not None and share == 1.0:
+                    near = sum(abs(dx * along[1] - dy * along[0]) < _LINE for dx, dy in points) / len(points)
+                    colour = colour.blend(line, near)
+                if share:
+                    self._pixels[row, column] = colour.hex
 
     def dot(self, across: int, down: int, colour: str) -> None:
         """Set a braille dot: two across and four down per character."""
@@ -194,11 +214,14 @@ def _bearing(
         )
         centre = scale.rows(0.5 * g.pitch_diameter, 0.5 * g.pitch_diameter, below=below)[0]
         size = 0.5 * g.ball_diameter / scale.unit
+        leans = -1.0 if (bearing.takes > 0) != below else 1.0  # as ╱ does, or as ╲
         if size >= _BALL:
-            canvas.circle(middle, centre, size, colours["background"])
-        if size < _BALL or bearing.nominal_angle:
-            sign = ("╱" if (bearing.takes > 0) != below else "╲") if bearing.takes and bearing.nominal_angle else "●"
-            canvas.words(int(centre) // 2, int(middle), sign, colours["foreground" if size >= _BALL else "background"])
+            angle = leans * bearing.nominal_angle if bearing.nominal_angle and bearing.takes else None
+            paint = (colours["accent"], colours["background"], colours["foreground"])
+            canvas.ball(middle, centre, size, paint, angle)
+        else:
+            sign = ("╱" if leans < 0.0 else "╲") if bearing.takes and bearing.nominal_angle else "●"
+            canvas.words(int(centre) // 2, int(middle), sign, colours["background"])
 
 
 def _names_above(canvas: Canvas, model: MachineModel, scale: _Scale, colours: Mapping[str, str]) -> None:

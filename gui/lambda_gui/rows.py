@@ -14,6 +14,7 @@ from textual.widget import Widget
 from textual.widgets import Static
 
 from lambda_core.api import FieldCard
+from lambda_gui.labels import label_of
 from lambda_gui.nodes import Keys
 from lambda_gui.places import Place
 
@@ -100,7 +101,7 @@ class Row(Vertical):
     ) -> None:
         super().__init__(classes="-deep" if deep else "")
         self.place, self.card, self.around = place, card, around
-        self.label = label or card.name.replace("_", " ")
+        self.label = label or label_of(place.keys, card.name)
         self.short = short or self.label  # where the form is narrow
         self.words = self.label  # what stands before the control
         self.stands = False  # whether the parts are there

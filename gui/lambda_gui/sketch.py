@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from lambda_gui.checking import Check
     from lambda_gui.nodes import Node
 
+_LINE = 0.6  # half the width of a contact line in pixels
 _POINTS = 4  # along each side of a pixel, for smooth edges
 _WITH_AXES = ("motion", "operation", "loads", "boundary", "gravity", "markers")
 _NOTHING = "the shaft is drawn here as soon as it has a piece, a bearing, a speed and an oil"
@@ -78,7 +80,8 @@ class Sketch(Static):
         elif self._is_about_axes:
             self.update(axes_sketch(colours).append(f"\n{SIGNS}", style="dim"))
         elif self._section is not None:
-            self.update(drawn(self._section, min(height - 2, 22), width, colours))
+            clearance = 1e6 * self._section.geometry.clearance
+            self.update(drawn(self._section, min(height - 2, 22), width, colours, clearance))
 
 
 def section_of_geometry(geometry: Geometry) -> Section:
@@ -86,8 +89,8 @@ def section_of_geometry(geometry: Geometry) -> Section:
     return Section(geometry)
 
 
-def drawn(section: Section, height: int, width: int, colours: dict[str, str]) -> Text:
-    """Draw a section with its diameters at the side; edges are blended, so that they look smooth.
+def drawn(section: Section, height: int, width: int, colours: dict[str, str], clearance: float | None = None) -> Text:
+    """Draw a section with its contact line, and diameters, clearance and angle at the side; edges are smooth.
 
     Parameters
     ----------
@@ -95,13 +98,17 @@ def drawn(section: Section, height: int, width: int, colours: dict[str, str]) ->
         Room in characters; a cell is taken as twice as high as wide.
     colours : dict
         Variables of the theme.
+    clearance : float, optional
+        Radial clearance [um]; too small to be seen to scale.
     """
     high = 0.5 * (section.outside - section.bore)
     rows = 2 * height
     while rows > 8 and section.width / high * rows > width - _MARKS:
         rows -= 2
     columns = max(4, round(section.width / high * rows))
-    pixels = _pixels(section, rows, columns, *(colours[name] for name in ("background", "secondary", "accent")))
+    pixels = _pixels(
+        section, rows, columns, *(colours[name] for name in ("background", "secondary", "accent", "foreground"))
+    )
     marks = {
         0: f"D {section.outside:g} mm",
         _row(section.race_outer, section, rows): f"⌀ {section.race_outer:.2f}",
@@ -109,6 +116,12 @@ def drawn(section: Section, height: int, width: int, colours: dict[str, str]) ->
         _row(section.race_inner, section, rows): f"⌀ {section.race_inner:.2f}",
         rows // 2 - 1: f"d {section.bore:g} mm",
     }
+    angle = math.degrees(section.geometry.contact_angle or section.geometry.resting_angle)
+    told = [f"clearance {clearance:.3g} um"] if clearance is not None else []
+    told += [f"angle {angle:.3g}°"] if angle else []
+    for line in range(1, rows // 2 - 1):
+        if told and line not in marks:
+            marks[line] = told.pop(0)
     text = Text(no_wrap=True)
     for line in range(rows // 2):
         for top, bottom in zip(pixels[2 * line], pixels[2 * line + 1], strict=True):
@@ -119,19 +132,20 @@ def drawn(section: Section, height: int, width: int, colours: dict[str, str]) ->
 
 
 @lru_cache(maxsize=32)
-def _pixels(section: Section, rows: int, columns: int, air: str, ring: str, ball: str) -> list[list[str]]:
+def _pixels(section: Section, rows: int, columns: int, air: str, ring: str, ball: str, line: str) -> list[list[str]]:
     """Return the colour of each pixel: the mean over points in it."""
     colours = {AIR: Color.parse(air), RING: Color.parse(ring), BALL: Color.parse(ball)}
     high = 0.5 * (section.outside - section.bore)
     inside = [(n + 0.5) / _POINTS for n in range(_POINTS)]
 
+    def at(x: float, r: float) -> Color:
+        what = section.cell(x, r)
+        is_line = what == BALL and section.is_contact_line(x, r, _LINE * high / rows)
+        return Color.parse(line) if is_line else colours[what]
+
     def colour(row: int, column: int) -> str:
         found = [
-            colours[
-                section.cell(
-                    ((column + x) / columns - 0.5) * section.width, 0.5 * section.outside - (row + y) / rows * high
-                )
-            ]
+            at(((column + x) / columns - 0.5) * section.width, 0.5 * section.outside - (row + y) / rows * high)
             for x in inside
             for y in inside
         ]

@@ -227,8 +227,14 @@ def _in_full(value: Any) -> Any:
 
 
 def new_draft(name: str = "untitled", *, shaft: bool = False) -> Draft:
-    """Return a draft that says nothing but its name: the case of one bearing, or of a shaft in several."""
-    return Draft(None, "", {"name": name}, Path.cwd(), ShaftCase if shaft else Case)
+    """Return a draft with a name: the case of one bearing, or of a shaft in several.
+
+    The inner ring of one bearing does not tilt, as in every new case: a shaft on two bearings hardly does.
+    """
+    tables: dict[str, Any] = {"name": name}
+    if not shaft:
+        tables["bodies"] = {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}}
+    return Draft(None, "", tables, Path.cwd(), ShaftCase if shaft else Case)
 
 
 def open_draft(source: str | Path) -> Draft:

@@ -104,6 +104,14 @@ def test_an_empty_model_says_what_it_needs() -> None:
     assert not of_maker
 
 
+def test_a_new_bearing_is_held_as_init_holds_it() -> None:
+    """One rule: the empty model and every template lock the tilts of the inner ring."""
+    alone = [name for name, text in api.templates().items() if "shaft in two bearings" not in text]
+    assert alone
+    held = [api.draft(template=name).get("bodies", "inner_ring") for name in alone]
+    assert held == [api.draft().get("bodies", "inner_ring")] * len(alone)
+
+
 def test_a_mistake_stands_once_at_the_innermost_row() -> None:
     problems = [Problem("loads.axial.frequency", "is required"), Problem("loads", "is odd"), Problem("solver", "no")]
     places = [("loads", "radial"), ("loads", "axial"), ("loads", "axial", "frequency"), ("loads", "axial", "phase")]

@@ -1,0 +1,126 @@
+"""Label the options of a case in plain words; the help of an option has its name in the file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+# By the last two parts of the place in the file, or by the last one
+_LABELS = {
+    "clearance": "radial clearance",
+    "clearance_pick": "value within the class",
+    "ball_count": "number of balls",
+    "groove_radius_inner": "inner groove radius",
+    "groove_radius_outer": "outer groove radius",
+    "conformity_inner": "inner conformity",
+    "conformity_outer": "outer conformity",
+    "race_diameter_inner": "inner raceway diameter",
+    "race_diameter_outer": "outer raceway diameter",
+    "shoulder_diameter_inner": "inner shoulder diameter",
+    "shoulder_diameter_outer": "outer shoulder diameter",
+    "bore_diameter": "bore d",
+    "outside_diameter": "outside diameter D",
+    "geometry.width": "width B",
+    "geometry.rows": "rows of balls",
+    "row_distance": "distance of the rows",
+    "geometry.arrangement": "arrangement of the rows",
+    "dynamic_rating": "dynamic rating C",
+    "static_rating": "static rating C0",
+    "fits.shaft": "fit on the shaft",
+    "fits.housing": "fit in the housing",
+    "temperatures.reference": "when it was measured",
+    "materials.inner": "inner ring",
+    "materials.outer": "outer ring",
+    "cage.type": "cage type",
+    "guidance": "guided by",
+    "pocket_clearance": "clearance in the pocket",
+    "land_clearance": "clearance at the land",
+    "orders": "waves around the ring",
+    "radial": "radial load",
+    "radial_direction": "azimuth of the radial load",
+    "axial": "axial load",
+    "force_x": "force along x",
+    "force_y": "force along y",
+    "force_z": "force along z",
+    "moment_x": "moment about x",
+    "moment_y": "moment about y",
+    "moment_z": "moment about z",
+    "about_x": "turned about x",
+    "about_y": "turned about y",
+    "about_z": "turned about z",
+    "markers.x": "x, axial",
+    "markers.y": "y, horizontal",
+    "markers.z": "z, vertical",
+    "bodies.x": "x, axial",
+    "bodies.y": "y, horizontal",
+    "bodies.z": "z, vertical",
+    "gravity.x": "x, axial",
+    "gravity.y": "y, horizontal",
+    "gravity.z": "z, vertical",
+    "lubricant.name": "oil or grease",
+    "lubrication": "way of lubrication",
+    "starvation": "share of the full film",
+    "base_type": "base oil",
+    "kinematic_viscosity_40": "viscosity at 40 degC",
+    "kinematic_viscosity_100": "viscosity at 100 degC",
+    "density_15": "density at 15 degC",
+    "roughness": "composite roughness",
+    "ambient": "ambient temperature",
+    "thermal.start": "temperature at the start",
+    "thermal.inlet": "oil at the contacts",
+    "thermal.limit": "limit of the temperature",
+    "air_speed": "speed of the air",
+    "seat_conductance": "conductance of seats",
+    "oil_supply": "temperature of supplied oil",
+    "requirements.life": "required life",
+    "requirements.static_safety": "required static safety",
+    "requirements.viscosity_ratio": "required viscosity ratio",
+    "requirements.film_parameter": "required film parameter",
+    "depth.rows": "rows of cells",
+    "strips": "strips across the contact",
+    "resolve": "vibrations resolved up to",
+    "duration": "simulated time",
+    "max_duration": "longest simulated time",
+    "discard_revolutions": "cage turns discarded",
+    "average_revolutions": "cage turns averaged",
+    "max_step": "longest step",
+    "max_wall": "longest wall time",
+    "interval": "time between samples",
+    "checkpoint_interval": "time between checkpoints",
+    "seed": "random seed",
+    "dc_link": "voltage of the dc link",
+    "winding_rotor": "winding to rotor C_wr",
+    "rotor_frame": "rotor to frame C_rf",
+    "brush": "resistance of the brush",
+    "insulation": "capacitance of insulation",
+    "shunt": "resistance of the shunt",
+    "film.conductivity": "conductivity of the oil",
+    "film.surroundings": "capacitance past the balls",
+    "film.seals": "capacitance of seals",
+    "cage.pocket": "one ball to the cage",
+    "reduced": "file of a reduced model",
+    "drive": "place of the coupling",
+    "twists": "shaft twists",
+    "at": "position",
+    "bearings.outer": "outer ring sits in",
+    "takes": "axial force that it takes",
+    "preload_force": "preload by a spring",
+    "gears.role": "role in the mesh",
+    "mesh": "azimuth of the mesh",
+    "hand": "hand of the helix",
+    "connections.to": "other end",
+}
+_NAMED = ("markers", "bodies", "bearings", "gears", "connections")  # sections of tables under names
+
+
+def label_of(keys: Sequence[str], name: str) -> str:
+    """Return the label of an option.
+
+    Parameters
+    ----------
+    keys : sequence of str
+        Its place in the case.
+    name : str
+        Its name in the file.
+    """
+    table = keys[0] if len(keys) == 3 and keys[0] in _NAMED else keys[-2] if len(keys) > 1 else ""
+    return _LABELS.get(f"{table}.{name}") or _LABELS.get(name) or name.replace("_", " ")
