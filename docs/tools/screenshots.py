@@ -22,6 +22,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
+from lambda_gui.answer_screen import AnswerScreen
 from lambda_gui.app import BuilderApp
 from lambda_gui.derived import Derived
 from lambda_gui.dialogs import Ask, OpenCase
@@ -235,6 +236,15 @@ async def duty(pilot: Pilot[None]) -> None:
     await settled(pilot)
 
 
+async def answers(pilot: Pilot[None]) -> None:
+    await estimated(pilot)
+    await pilot.press("f10")
+    await until(pilot, lambda: isinstance(pilot.app.screen, AnswerScreen))
+    screen = cast(AnswerScreen, pilot.app.screen)
+    await until(pilot, lambda: screen.is_answered)
+    await settled(pilot)
+
+
 async def study_curves(pilot: Pilot[None]) -> None:
     await study(pilot)
     await pilot.press("f5")
@@ -299,6 +309,7 @@ SCENES: dict[str, Scene] = {
     **{view: Scene(_6208, results(view)) for view in VIEWS},
     "comparison": Scene(_6208, results("comparison", marked=2)),
     "differences": Scene(_6208, results("what differs", marked=2)),
+    "answers": Scene("box.toml", answers),
     "study": Scene(_6208, study),
     "duty": Scene(_6208, duty),
     "study-curves": Scene(_6208, study_curves),

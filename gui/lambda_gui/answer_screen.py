@@ -20,7 +20,7 @@ from lambda_core.domain.wrapping import wrapped
 from lambda_core.views.other_units import in_units
 from lambda_gui.charts import rows_of
 from lambda_gui.helper import Helper
-from lambda_gui.presence import is_here
+from lambda_gui.lifecycle import is_here
 
 if TYPE_CHECKING:
     from lambda_core.api import Draft

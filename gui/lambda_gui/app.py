@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from textual.widget import Widget
 
     from lambda_core.api import QueuedRun, RunKind
-    from lambda_gui.taken import Kind, Taken
+    from lambda_gui.from_catalogue import Kind, Taken
 
 _POLL = 0.2  # how often runs are asked what is new [s]
 

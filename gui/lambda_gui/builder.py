@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from lambda_core.api import Draft
-    from lambda_gui.taken import Taken
+    from lambda_gui.from_catalogue import Taken
 
 
 class BuilderScreen(LiveDraft):

@@ -14,9 +14,9 @@ from textual.widgets import DataTable, Footer, Input, Static
 
 from lambda_core.domain.errors import LambdaError
 from lambda_gui.details import bearing_text, lubricant_text
-from lambda_gui.presence import is_here
+from lambda_gui.from_catalogue import Kind, Taken, bearing_taken
+from lambda_gui.lifecycle import is_here
 from lambda_gui.sketch import drawn
-from lambda_gui.taken import Kind, Taken, bearing_taken
 
 if TYPE_CHECKING:
     from lambda_core.api import BearingRow, Catalogue, LubricantRow

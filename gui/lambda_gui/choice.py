@@ -19,7 +19,7 @@ from textual.widget import Widget
 from textual.widgets import OptionList, Static
 from textual.widgets.option_list import Option
 
-from lambda_gui.presence import is_here
+from lambda_gui.lifecycle import is_here
 
 
 @dataclass(frozen=True)

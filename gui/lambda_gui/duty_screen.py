@@ -19,14 +19,14 @@ from lambda_gui.dialogs import AskText
 from lambda_gui.duty_values import FIRST_TIME, NAME, TIME, Column, Phase, columns_of, cycle_tables, cycle_view
 from lambda_gui.entry import Entry
 from lambda_gui.helper import Helper
+from lambda_gui.lifecycle import is_here
 from lambda_gui.new_files import save_beside
 from lambda_gui.option_help import OptionHelp
-from lambda_gui.presence import is_here
 from lambda_gui.rows import Rows
 
 if TYPE_CHECKING:
     from lambda_core.api import Draft
-    from lambda_gui.around import CaseAround
+    from lambda_gui.case_context import CaseContext
 
 _HINT = "F5 solves every phase and adds up life and losses; an empty place is as in the case"
 
@@ -74,7 +74,7 @@ class DutyScreen(Screen[None]):
         Name of the case.
     case_toml : str
         The same, complete.
-    around : CaseAround
+    around : CaseContext
         The values that hold where the case says nothing.
     width : int
         Columns of the screen.
@@ -101,7 +101,7 @@ class DutyScreen(Screen[None]):
     DutyScreen #sum { height: 1fr; padding: 0 1; border-top: hkey $border-blurred; }
     """
 
-    def __init__(self, draft: Draft, name: str, case_toml: str, around: CaseAround, width: int) -> None:
+    def __init__(self, draft: Draft, name: str, case_toml: str, around: CaseContext, width: int) -> None:
         super().__init__()
         self._draft, self._name, self._case_toml = draft, name, case_toml
         self.columns = columns_of(draft, width)
@@ -236,7 +236,7 @@ def _about(column: Column) -> Text:
     return Text.assemble((column.key, "bold"), f"  {column.card.description}", (units, "dim"))
 
 
-def _usual(written: Any, around: CaseAround, column: Column) -> str:
+def _usual(written: Any, around: CaseContext, column: Column) -> str:
     """Return the value of the case where a phase says nothing."""
     if isinstance(written, str):
         return written

@@ -12,8 +12,8 @@ from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.unit_systems import UnitSystem
 from lambda_gui.dialogs import AskText
 from lambda_gui.helper import Helper
+from lambda_gui.lifecycle import is_here
 from lambda_gui.new_files import save_new
-from lambda_gui.presence import is_here
 
 SUMMARY, DIFFERENCES = "summary", "what differs"  # words, no pictures
 

@@ -18,7 +18,7 @@ from textual.widgets import Button, Input, Static
 
 from lambda_core.api import FieldCard, field_card
 from lambda_core.domain.option_tree import members
-from lambda_gui.around import CaseAround
+from lambda_gui.case_context import CaseContext
 from lambda_gui.checking import by_place
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.details import Sources
@@ -57,7 +57,7 @@ _STRANGER = FieldCard(
 )
 
 
-def row_at(draft: Draft, keys: Keys, around: CaseAround) -> Row:
+def row_at(draft: Draft, keys: Keys, around: CaseContext) -> Row:
     """Return the row for one option of the case."""
     table, name, place = table_model(draft.root, keys[:-1]), keys[-1], Option(draft, keys)
     card, annotation = field_card(table, name), table.model_fields[name].annotation
@@ -109,7 +109,7 @@ class NodeForm(VerticalScroll, can_focus=False):
             super().__init__()
             self.what, self.name = what, name
 
-    def __init__(self, node: Node, draft: Draft, around: CaseAround) -> None:
+    def __init__(self, node: Node, draft: Draft, around: CaseContext) -> None:
         super().__init__()
         self.node, self._draft, self._around = node, draft, around
         self.is_ready = False

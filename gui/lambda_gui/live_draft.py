@@ -14,10 +14,10 @@ from textual.timer import Timer
 from textual.worker import get_current_worker
 
 from lambda_core.domain.errors import LambdaError
-from lambda_gui.around import CaseAround
+from lambda_gui.case_context import CaseContext
 from lambda_gui.checking import Check, Checker, plugin_faults
 from lambda_gui.helper import Estimator
-from lambda_gui.presence import is_here
+from lambda_gui.lifecycle import is_here
 from lambda_gui.recovery import Keeper
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class LiveDraft(Screen[None]):
     def __init__(self, draft: Draft) -> None:
         super().__init__()
         self.draft = draft
-        self.around = CaseAround(draft)
+        self.around = CaseContext(draft)
         self.check = Check()
         self.checked_in = 0.0  # how long the last check took [s]
         self.keeper = Keeper()

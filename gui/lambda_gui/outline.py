@@ -196,6 +196,7 @@ class _Outline:
         node = Node("shaft", "Shaft", about(self.root, ("shaft",)), [self._group(("shaft",))], pieces, kind="named",
                     section=_PIECES, table=table)  # fmt: skip
         node.in_file = [("shaft", "temperatures")]
+        node.groups += self._inner_groups(("shaft",), {"sections", "temperatures"})
         return node
 
     def _bearing(self) -> Node | None:
@@ -300,11 +301,7 @@ class _Outline:
         node.help = about(self.root, table)
         is_bearing = section == "bearings"
         below = {inner.split(".")[0] for inner in _OF_A_BEARING} | {"forces"} if is_bearing else set()
-        node.groups = [self._group(table)]
-        node.groups += [
-            Group(_title(inner), (*table, inner), tuple(self._options((*table, inner))))
-            for inner in self._tables(table) if inner not in below
-        ]  # fmt: skip
+        node.groups = [self._group(table), *self._inner_groups(table, below)]
         if is_bearing:
             words = "laws of this bearing alone, by contact, before the general ones: a defect in one of its raceways"
             node.children = self._below(table, heading=f"{name} · ")
@@ -357,6 +354,11 @@ class _Outline:
         names = self._options(table)
         first = [name for name in _FIRST.get(table[0], ()) if name in names] if len(table) > 1 else []
         return Group("", table, (*first, *(name for name in names if name not in first)))
+
+    def _inner_groups(self, table: Keys, without: set[str]) -> list[Group]:
+        """Return a group for each table in a table, but for some."""
+        inner = [name for name in self._tables(table) if name not in without]
+        return [Group(_title(name), (*table, name), tuple(self._options((*table, name)))) for name in inner]
 
     def _options(self, table: Keys) -> list[str]:
         """Return the options of a table; a material or a degree of freedom is one."""

@@ -20,8 +20,8 @@ from lambda_core.views.other_units import in_units
 from lambda_gui.charts import rows_of
 from lambda_gui.dialogs import AskText
 from lambda_gui.export import DIFFERENCES, SUMMARY, ExportScreen
+from lambda_gui.lifecycle import is_here
 from lambda_gui.pictures import NONE_HERE
-from lambda_gui.presence import is_here
 from lambda_gui.result_files import is_study, named, results_in, stamp_of
 from lambda_gui.summary_view import summary_view
 from lambda_gui.table_views import differences_view, study_view

@@ -13,7 +13,7 @@ from textual.widgets import DataTable, Footer, Static
 
 from lambda_core.domain.number_text import plus_minus
 from lambda_gui.derived import duration
-from lambda_gui.presence import is_here
+from lambda_gui.lifecycle import is_here
 from lambda_gui.traces import CageTrace, LoadTrace, TorqueTrace, Trace
 
 if TYPE_CHECKING:

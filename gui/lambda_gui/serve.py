@@ -45,7 +45,7 @@ def serve(case: str | None, host: str, port: int, announce: Callable[[str], None
         When textual-serve is not installed, or the port is taken.
     """
     try:
-        from lambda_gui.door import LockedServer
+        from lambda_gui.auth import LockedServer
     except ImportError:
         raise UsageError('serving needs another package: pip install "lambda-bearing[serve]"') from None
     names = {host, LOOPBACK, "127.0.0.1", "::1"} if is_loopback(host) else set()

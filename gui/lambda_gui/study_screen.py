@@ -18,10 +18,10 @@ from lambda_gui.dialogs import AskText
 from lambda_gui.entry import Entry
 from lambda_gui.fields import TextRow, row_for
 from lambda_gui.helper import Helper
+from lambda_gui.lifecycle import is_here
 from lambda_gui.new_files import save_beside
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.places import Held
-from lambda_gui.presence import is_here
 from lambda_gui.rows import Edited, Row, Rows, Surroundings
 from lambda_gui.study_values import MODES, POINTS, Values, asked, card, card_of, first_values, studied, study_tables
 

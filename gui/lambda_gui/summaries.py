@@ -11,7 +11,7 @@ from lambda_gui.nodes import Keys, Node, table_model
 
 if TYPE_CHECKING:
     from lambda_core.api import Draft
-    from lambda_gui.around import CaseAround
+    from lambda_gui.case_context import CaseContext
 
 
 # Options that tell most of a table, in order: of named tables, and of sections
@@ -34,7 +34,7 @@ _TELL = {
 }
 
 
-def summary(node: Node, draft: Draft, around: CaseAround) -> str:
+def summary(node: Node, draft: Draft, around: CaseContext) -> str:
     """Return a few words about a node, "" where there is nothing to say.
 
     Parts after a tab are left out where the room is short.
@@ -116,11 +116,11 @@ def _freedoms(node: Node, draft: Draft) -> str:
     return "all " + next(iter(modes)) if len(modes) == 1 else "\t".join(f"{n} {mode}" for mode, n in modes.items())
 
 
-def _known(draft: Draft, around: CaseAround, *keys: str) -> str:
+def _known(draft: Draft, around: CaseContext, *keys: str) -> str:
     return _text(draft.get(*keys)) or around.resolved(keys)
 
 
-def _mass(draft: Draft, around: CaseAround, keys: Keys) -> str:
+def _mass(draft: Draft, around: CaseContext, keys: Keys) -> str:
     value = around.value(keys)
     if value is None:
         return _text(draft.get(*keys))
@@ -128,7 +128,7 @@ def _mass(draft: Draft, around: CaseAround, keys: Keys) -> str:
     return f"≈ {float(number):.3g} {unit}"
 
 
-def _balls(around: CaseAround) -> str:
+def _balls(around: CaseContext) -> str:
     count, size = (around.value(("bearing", "geometry", name)) for name in ("ball_count", "ball_diameter"))
     if count is None or size is None:
         return ""

@@ -19,7 +19,7 @@ from lambda_gui.summaries import summary
 if TYPE_CHECKING:
     from lambda_core.api import Draft
     from lambda_core.domain.errors import Problem
-    from lambda_gui.around import CaseAround
+    from lambda_gui.case_context import CaseContext
 
 _ROOMY = 44  # width of the tree from which on roles have their full names
 _NARROW = 38
@@ -64,7 +64,7 @@ class ModelTree(Tree[Node]):
             super().__init__()
             self.what, self.node = what, node
 
-    def __init__(self, draft: Draft, around: CaseAround) -> None:
+    def __init__(self, draft: Draft, around: CaseContext) -> None:
         super().__init__("case", id="tree")
         self.show_root, self.guide_depth, self.auto_expand = False, 2, False
         self.draft, self._around = draft, around

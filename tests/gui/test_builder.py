@@ -30,6 +30,8 @@ from lambda_gui.checking import Checker
 from lambda_gui.choice import Choice
 from lambda_gui.dialogs import Ask, AskText
 from lambda_gui.help import HelpScreen
+from lambda_gui.option_help import OptionHelp
+from lambda_gui.theme import DARK, LIGHT
 from lambda_gui.tree import ModelTree
 from textual.pilot import Pilot
 from textual.widgets import Button, Input
@@ -44,24 +46,7 @@ def changed_lines(before: str, after: str) -> list[str]:
     return [line for line in lines if line[0] in "+-" and not line.startswith(("+++", "---"))]
 
 
-async def test_a_load_of_a_hand_written_case_is_changed_in_one_line(hand_written: Path) -> None:
-    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
-        await checked(pilot)
-        await find(pilot, "loads.radial")
-        await pilot.press("ctrl+a", "ctrl+k")
-        await write(pilot, "1800")
-        await pilot.press("enter")
-        assert builder(pilot).draft.get("loads", "radial") == "1800 N"
-        await checked(pilot)
-        assert "● unsaved" in screen_text(pilot.app)
-        await pilot.press("ctrl+s")
-        await wait_for(pilot, lambda: not builder(pilot).draft.is_changed())
-    after = hand_written.read_text(encoding="utf-8")
-    assert changed_lines(HAND_WRITTEN, after) == ['-radial = "1.5 kN"      # belt', '+radial = "1800 N"      # belt']
-    assert api.case(hand_written).loads.radial == 1800.0
-
-
-async def test_a_mistake_stands_at_its_field_and_in_the_tree(hand_written: Path) -> None:
+async def test_a_mistake_is_corrected_and_a_load_changed_in_one_line(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
         assert "ready" in screen_text(pilot.app)
@@ -81,9 +66,21 @@ async def test_a_mistake_stands_at_its_field_and_in_the_tree(hand_written: Path)
         await checked(pilot)
         assert builder(pilot).draft.get("lubricant", "temperature") == "62.5 degC"
         assert not builder(pilot).check.problems
+        await find(pilot, "loads.radial")
+        await pilot.press("ctrl+a", "ctrl+k")
+        await write(pilot, "1800")
+        await pilot.press("enter")
+        assert builder(pilot).draft.get("loads", "radial") == "1800 N"
+        await checked(pilot)
+        assert "● unsaved" in screen_text(pilot.app)
+        await pilot.press("ctrl+s")
+        await wait_for(pilot, lambda: not builder(pilot).draft.is_changed())
+    after = hand_written.read_text(encoding="utf-8")
+    assert changed_lines(HAND_WRITTEN, after) == ['-radial = "1.5 kN"      # belt', '+radial = "1800 N"      # belt']
+    assert api.case(hand_written).loads.radial == 1800.0
 
 
-async def test_undo_and_redo_go_through_every_kind_of_row(hand_written: Path) -> None:
+async def test_every_kind_of_row_is_changed_undone_and_redone(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
         await go_to(pilot, "bearing.clearance_pick")
@@ -99,6 +96,30 @@ async def test_undo_and_redo_go_through_every_kind_of_row(hand_written: Path) ->
         assert not draft.is_changed()
         await pilot.press("ctrl+y", "ctrl+y")
         assert draft.get("depth") == {"cage": False}
+        await pilot.press("ctrl+z", "ctrl+z")
+        assert not draft.is_changed()
+        # a material of one's own begins with the values so far
+        builder(pilot).go_to(("materials", "balls"))
+        await wait_for(pilot, lambda: focused_place(pilot) == ("materials", "balls"))
+        await pilot.press("enter", "end", "enter")
+        await checked(pilot)
+        own = builder(pilot).draft.get("materials", "balls")
+        assert own["youngs_modulus"] == "210 GPa"
+        assert own["poisson_ratio"] == 0.3
+        assert not builder(pilot).check.problems
+        # a law of one contact, and its parameter
+        await go_to(pilot, "forces.ball_inner.models.traction")
+        await pilot.press("enter", "down", "down", "enter")
+        await checked(pilot)
+        chosen = builder(pilot).draft.get("forces", "ball_inner", "models", "traction")
+        assert chosen in [item.name for item in api.plugins().items if item.role == "traction"]
+        shown = screen_text(pilot.app)
+        card = api.plugin_model(f"traction/{chosen}")
+        assert card.reference.split(",")[0] in shown.replace("\n", " ")
+        await pilot.press("down")
+        place = focused_place(pilot)
+        assert place[:4] == ("forces", "ball_inner", "parameters", "traction")
+        assert place[4] == card.parameters[0].name
 
 
 @pytest.mark.full
@@ -189,36 +210,6 @@ async def test_a_ring_is_moved_and_supported(hand_written: Path) -> None:
         assert "needs a motion" in screen_text(pilot.app)
         await pilot.press("enter", "up", "enter")  # locked, which is its default
         assert draft.get("bodies", "outer_ring") is None
-
-
-async def test_a_material_of_ones_own_begins_with_the_values_so_far(hand_written: Path) -> None:
-    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
-        await checked(pilot)
-        builder(pilot).go_to(("materials", "balls"))
-        await wait_for(pilot, lambda: focused_place(pilot) == ("materials", "balls"))
-        await pilot.press("enter", "end", "enter")
-        await checked(pilot)
-        own = builder(pilot).draft.get("materials", "balls")
-        assert own["youngs_modulus"] == "210 GPa"
-        assert own["poisson_ratio"] == 0.3
-        assert not builder(pilot).check.problems
-
-
-async def test_a_model_of_one_contact_and_its_parameter(hand_written: Path) -> None:
-    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
-        await checked(pilot)
-        await go_to(pilot, "forces.ball_inner.models.traction")
-        await pilot.press("enter", "down", "down", "enter")
-        await checked(pilot)
-        chosen = builder(pilot).draft.get("forces", "ball_inner", "models", "traction")
-        assert chosen in [item.name for item in api.plugins().items if item.role == "traction"]
-        shown = screen_text(pilot.app)
-        card = api.plugin_model(f"traction/{chosen}")
-        assert card.reference.split(",")[0] in shown.replace("\n", " ")
-        await pilot.press("down")
-        place = focused_place(pilot)
-        assert place[:4] == ("forces", "ball_inner", "parameters", "traction")
-        assert place[4] == card.parameters[0].name
 
 
 @pytest.mark.full
@@ -373,24 +364,9 @@ async def test_unsaved_work_survives_a_crash(hand_written: Path, monkeypatch: py
     assert not list((recovery.state_folder() / "unsaved").glob("*.json"))
 
 
-async def test_leaving_asks_for_unsaved_work(hand_written: Path) -> None:
+async def test_a_file_changed_elsewhere_is_not_overwritten_silently_and_leaving_asks(hand_written: Path) -> None:
     app = BuilderApp(str(hand_written))
     async with app.run_test(size=SMALL) as pilot:
-        await checked(pilot)
-        builder(pilot).draft.set("loads", "radial", value="9 kN")
-        await pilot.press("ctrl+q")
-        await wait_for(pilot, lambda: isinstance(pilot.app.screen, Ask))
-        await pilot.press("escape")
-        assert app.is_running
-        await pilot.press("ctrl+q")
-        await wait_for(pilot, lambda: isinstance(pilot.app.screen, Ask))
-        await pilot.press("enter")  # save
-        await wait_for(pilot, lambda: not app.is_running)
-    assert api.case(hand_written).loads.radial == 9000.0
-
-
-async def test_a_file_changed_elsewhere_is_not_overwritten_silently(hand_written: Path) -> None:
-    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
         hand_written.write_text(HAND_WRITTEN + "# theirs\n", encoding="utf-8")
         builder(pilot).draft.set("loads", "radial", value="9 kN")
@@ -402,11 +378,21 @@ async def test_a_file_changed_elsewhere_is_not_overwritten_silently(hand_written
         await write(pilot, "mine")
         await pilot.press("enter")
         await wait_for(pilot, lambda: Path("mine.toml").exists())
-    assert hand_written.read_text(encoding="utf-8").endswith("# theirs\n")
-    assert api.case("mine.toml").loads.radial == 9000.0
+        assert hand_written.read_text(encoding="utf-8").endswith("# theirs\n")
+        assert api.case("mine.toml").loads.radial == 9000.0
+        builder(pilot).draft.set("loads", "radial", value="8 kN")
+        await pilot.press("ctrl+q")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, Ask))
+        await pilot.press("escape")
+        assert app.is_running
+        await pilot.press("ctrl+q")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, Ask))
+        await pilot.press("enter")  # save
+        await wait_for(pilot, lambda: not app.is_running)
+    assert api.case("mine.toml").loads.radial == 8000.0
 
 
-async def test_help_stands_on_every_screen(hand_written: Path) -> None:
+async def test_help_stands_on_every_screen_and_is_complete_for_a_field(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
         for way in ((), ("f2",), ("f7",), ("f6",)):
@@ -419,14 +405,28 @@ async def test_help_stands_on_every_screen(hand_written: Path) -> None:
             if way:
                 await pilot.press("escape")
             assert isinstance(pilot.app.screen, BuilderScreen)
+        await pilot.resize_terminal(*SMALL)
+        await go_to(pilot, "models.traction")
+        await pilot.press("down")
+        short = pilot.app.screen.query_one(OptionHelp)
+        await wait_for(pilot, lambda: "F1 shows the rest" in str(short.visual))
+        await pilot.press("f1")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, HelpScreen))
+        shown = screen_text(pilot.app)
+        assert "limit ratio" in shown
+        assert "parameters.traction.limit_ratio" in shown
 
 
-async def test_themes_and_resizing(hand_written: Path) -> None:
-    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+async def test_colours_follow_the_theme_and_the_screen_its_size(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
+        await wait_for(pilot, lambda: "ready" in screen_text(pilot.app))
+        assert str(DARK.success) in pilot.app.export_screenshot().lower()
         dark = pilot.app.theme
         await pilot.press("f9")
         assert pilot.app.theme != dark
-        for size in (SMALL, (60, 16), LARGE, (200, 60)):
+        await wait_for(pilot, lambda: str(LIGHT.success) in pilot.app.export_screenshot().lower())
+        assert str(DARK.success) not in pilot.app.export_screenshot().lower()
+        for size in (LARGE, SMALL, (60, 16), LARGE, (200, 60)):
             await pilot.resize_terminal(*size)
             assert "drive-end.toml" in screen_text(pilot.app)

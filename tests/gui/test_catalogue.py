@@ -9,9 +9,9 @@ import pytest
 from driving import LARGE, SMALL, builder, checked, screen_text, wait_for, write
 from lambda_gui.app import BuilderApp
 from lambda_gui.catalogue import CatalogueScreen
+from lambda_gui.from_catalogue import bearing_taken
 from lambda_gui.own_row import OwnRow
 from lambda_gui.rows import Row
-from lambda_gui.taken import bearing_taken
 from textual.widgets import DataTable
 
 from lambda_core import api

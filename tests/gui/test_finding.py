@@ -52,13 +52,21 @@ async def test_f8_goes_through_all_mistakes_and_typing_keeps_what_is_written(wor
         assert draft.get("solver", "duration") == "1 ms"
 
 
-async def test_an_oil_is_found_by_the_middle_of_its_name(hand_written: Path) -> None:
+async def test_a_picture_of_the_screen_and_an_oil_by_the_middle_of_its_name(hand_written: Path) -> None:
     assert meant("VG 68", ["FVA3", "mineral-vg68", "pag-vg100"]) == ["mineral-vg68"]
     assert meant("vg", ["mineral-vg68", "pag-vg100"]) == ["mineral-vg68", "pag-vg100"]
     assert meant("fva", ["FVA2", "FVA3"]) == ["FVA2"]
     assert meant("-", ["a-b"]) == []
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
+        await pilot.press("ctrl+p", *"picture of")
+        await wait_for(pilot, lambda: "Picture of the screen" in screen_text(pilot.app))
+        await pilot.press("enter")
+        target = hand_written.with_name("drive-end-screen.svg")
+        await wait_for(pilot, target.exists)
+        assert "drive-end.toml" in target.read_text(encoding="utf-8")
+        pilot.app.save_picture()
+        await wait_for(pilot, hand_written.with_name("drive-end-screen-2.svg").exists)
         draft = builder(pilot).draft
         await go_to(pilot, "lubricant.name")
         await write(pilot, "vg100")
@@ -93,16 +101,3 @@ async def test_temporary_files_are_no_recent_cases(
     async with BuilderApp().run_test(size=SMALL) as pilot:
         await wait_for(pilot, lambda: "drive-end.toml" in screen_text(pilot.app))
         assert "trial.toml" not in screen_text(pilot.app)
-
-
-async def test_a_picture_of_the_screen_from_the_palette(hand_written: Path) -> None:
-    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
-        await checked(pilot)
-        await pilot.press("ctrl+p", *"picture of")
-        await wait_for(pilot, lambda: "Picture of the screen" in screen_text(pilot.app))
-        await pilot.press("enter")
-        target = hand_written.with_name("drive-end-screen.svg")
-        await wait_for(pilot, target.exists)
-        assert "drive-end.toml" in target.read_text(encoding="utf-8")
-        pilot.app.save_picture()
-        await wait_for(pilot, hand_written.with_name("drive-end-screen-2.svg").exists)

@@ -7,14 +7,13 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
-from driving import LARGE, SMALL, checked, go_to, screen_text, wait_for
+from driving import LARGE, SMALL, checked, screen_text, wait_for
 from lambda_db.drawing import Section, section_of
 from lambda_gui.app import BuilderApp
 from lambda_gui.axes import HEIGHT, WIDTH, axes_sketch
 from lambda_gui.derived import Derived
-from lambda_gui.help import ABOUT, HelpScreen
+from lambda_gui.help import ABOUT
 from lambda_gui.labels import _LABELS, label_of
-from lambda_gui.option_help import OptionHelp
 from lambda_gui.outline import outline
 from lambda_gui.plots import labels_of, series_colour
 from lambda_gui.sketch import drawn, section_of_geometry
@@ -85,9 +84,7 @@ def test_a_section_has_clearance_angle_and_contact_line() -> None:
     assert "clearance 14 um" in deep.plain
     assert "angle" not in deep.plain
     with closing(api.catalogue()) as catalogue:
-        single, double, aligning = (
-            section_of(catalogue.bearing(name, "SKF")) for name in ("7208BE", "3208A", "1208E")
-        )
+        single, double, aligning = (section_of(catalogue.bearing(name, "SKF")) for name in ("7208BE", "3208A", "1208E"))
     assert single is not None
     assert double is not None
     assert aligning is not None
@@ -150,20 +147,6 @@ def test_every_screen_has_its_own_help() -> None:
     assert found | {"BuilderScreen"} == set(ABOUT)
 
 
-async def test_help_of_a_field_is_told_whole(hand_written: Path) -> None:
-    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
-        await checked(pilot)
-        await go_to(pilot, "models.traction")
-        await pilot.press("down")
-        short = pilot.app.screen.query_one(OptionHelp)
-        await wait_for(pilot, lambda: "F1 shows the rest" in str(short.visual))
-        await pilot.press("f1")
-        await wait_for(pilot, lambda: isinstance(pilot.app.screen, HelpScreen))
-        shown = screen_text(pilot.app)
-        assert "limit ratio" in shown
-        assert "parameters.traction.limit_ratio" in shown
-
-
 async def test_all_numbers_that_follow_fit(hand_written: Path, estimates: None) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
@@ -173,13 +156,3 @@ async def test_all_numbers_that_follow_fit(hand_written: Path, estimates: None) 
             await pilot.resize_terminal(*size)
             await wait_for(pilot, lambda last=last: last in screen_text(pilot.app))
             assert len(str(derived.visual).splitlines()) <= derived.size.height
-
-
-async def test_colours_follow_the_theme(hand_written: Path) -> None:
-    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
-        await checked(pilot)
-        await wait_for(pilot, lambda: "ready" in screen_text(pilot.app))
-        assert str(DARK.success) in pilot.app.export_screenshot().lower()
-        await pilot.press("f9")
-        await wait_for(pilot, lambda: str(LIGHT.success) in pilot.app.export_screenshot().lower())
-        assert str(DARK.success) not in pilot.app.export_screenshot().lower()

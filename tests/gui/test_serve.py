@@ -23,7 +23,7 @@ pytest.importorskip("playwright")
 
 import aiohttp
 from browsing import CHROMIUM, Browser, chromium, client
-from lambda_gui.door import MOST_SOCKETS
+from lambda_gui.auth import MOST_SOCKETS
 
 
 def test_only_this_machine_unless_told_otherwise() -> None:

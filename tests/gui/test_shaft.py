@@ -127,12 +127,17 @@ async def from_tree(pilot: Pilot[None], key: str, place: tuple[str, ...]) -> Non
     await wait_for(pilot, lambda: focused_place(pilot)[:-1] == place)
 
 
-async def test_a_shaft_from_nothing_by_keys(work_folder: Path) -> None:
+async def test_a_shaft_from_nothing_by_keys(work_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first table is added on a slow machine: the cursor rests on the first node until the new one is reached."""
+    at_once = ModelTree._move_to
     async with BuilderApp().run_test(size=SMALL) as pilot:
         await wait_for(pilot, lambda: "new shaft" in screen_text(pilot.app))  # type: ignore[arg-type]
         await pilot.press(*"new", "enter")
         await wait_for(pilot, lambda: has_a_shaft(pilot))
-        await from_tree(pilot, "shaft", ("shaft", "sections", "0"))
+        with monkeypatch.context() as slow:
+            slow.setattr(ModelTree, "_move_to", lambda self, key: self.set_timer(0.3, lambda: at_once(self, key)))
+            await from_tree(pilot, "shaft", ("shaft", "sections", "0"))
+        assert builder(pilot).draft.get("shaft", "sections") == [{}]
         await pilot.press(*"170", "enter", *"40", "enter", "enter", "enter")  # the last one adds a piece
         await wait_for(pilot, lambda: focused_place(pilot)[:-1] == ("shaft", "sections", "1"))
         await pilot.press(*"30", "enter", *"35", "enter")
@@ -168,7 +173,7 @@ async def test_a_shaft_from_nothing_by_keys(work_folder: Path) -> None:
 
 
 @pytest.mark.usefixtures("answered")
-async def test_a_defect_in_one_bearing_is_chosen_in_the_tree(work_folder: Path) -> None:
+async def test_a_defect_of_one_bearing_and_the_number_of_warnings(work_folder: Path) -> None:
     """The law of one contact of one bearing, and nothing for the others."""
     (node,) = (node for node in nodes() if node.key == "bearings.b.forces.ball_outer.surface")
     assert node.heading == "b · Ball - outer · surface"
@@ -183,6 +188,21 @@ async def test_a_defect_in_one_bearing_is_chosen_in_the_tree(work_folder: Path) 
         assert draft.get("bearings", "right", "forces") == {"ball_outer": {"models": {"surface": "defect"}}}
         assert draft.get("bearings", "left", "forces") is None
         assert not builder(pilot).check.problems
+        # the head counts the warnings of the equilibrium, too
+        screen = builder(pilot)
+        screen.draft.set("bearings", "left", "designation", value="SKF 6209")  # a bore of 45 mm on 40 mm
+        await checked(pilot)
+        derived = pilot.app.screen.query_one(Derived)
+        await wait_for(pilot, lambda: derived.is_current)
+        before = len(derived.warnings())
+        assert before > 0
+        await wait_for(pilot, lambda: f"▲ {before} warning" in head(pilot))
+        found = report()
+        found.equilibrium.bearings[0].warnings.extend(["too much", "far too much"])
+        screen.show_estimate(found, "")
+        assert len(derived.warnings()) == before + 2
+        await wait_for(pilot, lambda: f"▲ {before + 2} warnings  F8" in head(pilot))
+        await wait_for(pilot, lambda: f"▲ {before + 2} warnings: F8" in screen_text(pilot.app))  # type: ignore[arg-type]
 
 
 @pytest.mark.full
@@ -210,28 +230,6 @@ async def test_a_shaft_file_keeps_its_comments_and_says_what_it_does(work_folder
         await wait_for(pilot, lambda: not screen.draft.is_changed())
     after = path.read_text(encoding="utf-8").splitlines()
     assert [line for line in after if line not in before] == ['at = "149 mm"']
-
-
-@pytest.mark.usefixtures("answered")
-async def test_the_head_counts_the_warnings_of_the_answer_too(work_folder: Path) -> None:
-    """Both say the same number: what does not fit on the shaft, and what loads of the equilibrium are too much."""
-    api.init_case("box", template="geared-shaft")
-    async with BuilderApp("box.toml").run_test(size=LARGE) as pilot:
-        await checked(pilot)
-        screen = builder(pilot)
-        screen.draft.set("bearings", "left", "designation", value="SKF 6209")  # a bore of 45 mm on 40 mm
-        await checked(pilot)
-        derived = pilot.app.screen.query_one(Derived)
-        await wait_for(pilot, lambda: derived.is_current)
-        before = len(derived.warnings())
-        assert before > 0
-        await wait_for(pilot, lambda: f"▲ {before} warning" in head(pilot))
-        found = report()
-        found.equilibrium.bearings[0].warnings.extend(["too much", "far too much"])
-        screen.show_estimate(found, "")
-        assert len(derived.warnings()) == before + 2
-        await wait_for(pilot, lambda: f"▲ {before + 2} warnings  F8" in head(pilot))
-        await wait_for(pilot, lambda: f"▲ {before + 2} warnings: F8" in screen_text(pilot.app))  # type: ignore[arg-type]
 
 
 def head(pilot: Pilot[None]) -> str:
@@ -319,17 +317,3 @@ def test_a_new_name_goes_wherever_it_is_named(tmp_path: Path) -> None:
     assert draft.get("connections", "mount", "at") == "paw"
     assert "# A housing that gives way" in draft.text()
     assert api.check(draft.tables).bodies[0].name == "case"
-
-
-async def test_an_added_table_has_the_keyboard_on_a_slow_machine_too(
-    work_folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The tree is planted anew and its cursor rests on the first node until the new one is reached."""
-    at_once = ModelTree._move_to
-    monkeypatch.setattr(ModelTree, "_move_to", lambda self, key: self.set_timer(0.3, lambda: at_once(self, key)))
-    async with BuilderApp().run_test(size=SMALL) as pilot:
-        await wait_for(pilot, lambda: "new shaft" in screen_text(pilot.app))  # type: ignore[arg-type]
-        await pilot.press(*"new", "enter")
-        await wait_for(pilot, lambda: has_a_shaft(pilot))
-        await from_tree(pilot, "shaft", ("shaft", "sections", "0"))
-        assert builder(pilot).draft.get("shaft", "sections") == [{}]

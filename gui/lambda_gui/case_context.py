@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 Name = Literal["bearing", "lubricant", "material", "cage"]
 
 
-class CaseAround(Surroundings):
+class CaseContext(Surroundings):
     """Resolved values of the last check without mistakes, and the catalogue's names."""
 
     def __init__(self, draft: Draft) -> None:
