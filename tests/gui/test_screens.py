@@ -26,7 +26,7 @@ from textual.theme import Theme
 from lambda_core import api
 from lambda_core.case.case import Case
 from lambda_core.case.shaft import ShaftCase
-from lambda_core.model.geometry.raceways import row_places
+from lambda_core.elements.ball.raceways import row_places
 
 _PAINT = {"background": "#000000", "secondary": "#0000ff", "accent": "#ff0000", "foreground": "#00ff00"}
 _SECTIONS = ("bearings", "gears", "discs", "loads", "connections", "bodies", "markers")
