@@ -30,6 +30,10 @@ def fit(
     measured: MeasuredArgument,
     vary: VaryOption,
     changes: SetOption = None,
+    predict: Annotated[
+        Path | None,
+        typer.Option("--predict", metavar="OTHER.csv", help="Predict measured points that the fit does not see."),
+    ] = None,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="Write a case file with the fitted values.")
     ] = None,
@@ -53,7 +57,7 @@ def fit(
     if draw is not None:
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
-        found = api.fit(case, measured, vary, changes or (), announce=speaker.say)
+        found = api.fit(case, measured, vary, changes or (), predict=predict, announce=speaker.say)
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
     if out is not None:
         typer.echo(str(api.fitted_case(case, found, out, changes or (), overwrite=force)), err=True)

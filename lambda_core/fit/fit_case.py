@@ -21,13 +21,15 @@ from lambda_core.fit.least_squares import Fit
 from lambda_core.fit.least_squares import fit as fit_values
 from lambda_core.fit.measurements import Measurements, read_measurements
 from lambda_core.fit.next_point import next_point
-from lambda_core.fit.problem import CaseProblem
+from lambda_core.fit.predictions import discrepancy_sizes, predicted
+from lambda_core.fit.problem import CaseProblem, Entry
 from lambda_core.fit.report import (
     FitReport,
     FittedParameter,
     FittedPoint,
     ParameterCombination,
     PatternTest,
+    PredictedPoint,
     SuggestedPoint,
     known,
 )
@@ -46,6 +48,7 @@ def fit(
     vary: Sequence[str],
     overrides: Iterable[str] = (),
     *,
+    predict: str | Path | Measurements | None = None,
     suggest: bool = True,
     announce: Announce | None = None,
 ) -> FitReport:
@@ -61,6 +64,8 @@ def fit(
     vary : sequence of str
         Parameters: the path or its end ("loss_factor"), with a range where none is published
         ("tau_eyring=3 MPa..10 MPa").
+    predict : path-like or Measurements, optional
+        Measured points that the fit does not see, to be compared with its predictions.
     suggest : bool
         Look for the operating point to measure next.
     announce : callable, optional
@@ -102,7 +107,40 @@ def fit(
     except ValueError as error:
         raise UsageError(f"{data.name}: {error}") from None
     suggestion = _suggestion(problem, found) if suggest and not found.is_interrupted else None
-    return _report(model.name, model.title, data, problem, found, suggestion, time.perf_counter() - begin)
+    sizes = {} if found.is_interrupted else discrepancy_sizes(problem, found)
+    report = _report(model.name, model.title, data, problem, found, suggestion, sizes)
+    unseen = [] if predict is None or found.is_interrupted else _unseen(problem, found, sizes, predict)
+    return report.model_copy(update={"predictions": unseen, "seconds": time.perf_counter() - begin})
+
+
+def _unseen(
+    problem: CaseProblem, found: Fit, sizes: dict[str, float], source: str | Path | Measurements
+) -> list[PredictedPoint]:
+    """Return measured points that the fit has not seen with their predictions."""
+    data = source if isinstance(source, Measurements) else read_measurements(source)
+    asked = problem.elsewhere(data)
+    values, _, new = predicted(problem, found, sizes, asked)
+    return [
+        PredictedPoint(
+            **_where(data, entry),
+            measured=float(asked.data.values[i]),
+            predicted=float(values[i]),
+            band=[float(low), float(high)],
+            is_inside=bool(low <= asked.data.values[i] <= high),
+        )
+        for i, (entry, (low, high)) in enumerate(zip(asked.entries, new.band(), strict=True))
+    ]
+
+
+def _where(data: Measurements, entry: Entry) -> dict[str, Any]:
+    """Return line, label, conditions and quantity of a measured value."""
+    return {
+        "line": data.lines[entry.row],
+        "label": data.labels[entry.row],
+        "conditions": {name: float(column[entry.row]) for name, column in data.conditions.items()},
+        "quantity": entry.quantity,
+        "unit": MEASURED[entry.quantity].unit,
+    }
 
 
 def _suggestion(problem: CaseProblem, found: Fit) -> SuggestedPoint | None:
@@ -132,7 +170,7 @@ def _report(
     problem: CaseProblem,
     found: Fit,
     suggestion: SuggestedPoint | None,
-    seconds: float,
+    sizes: dict[str, float],
 ) -> FitReport:
     free = [problem.varied[index].short for index in found.free]
     share = found.predicted / found.data.values - 1.0
@@ -160,7 +198,9 @@ def _report(
             ParameterCombination(weights=d.weights, spread=known(d.spread), is_determined=d.is_determined)
             for d in found.directions
         ],
-        points=_points(data, problem, found),
+        points=_points(data, problem, found, sizes),
+        predictions=[],
+        discrepancy_pct={name: 100.0 * size for name, size in sizes.items()},
         next_point=suggestion,
         scatter_pct=None if is_known else 100.0 * found.scale,
         chi_square_per_degree=chi_square,
@@ -168,7 +208,7 @@ def _report(
         left_out_rms_error_pct=100.0 * _rms(left_out),
         degrees_of_freedom=degrees,
         evaluations=problem.solved,
-        seconds=seconds,
+        seconds=0.0,
         is_interrupted=found.is_interrupted,
     )
 
@@ -202,23 +242,22 @@ def _parameters(problem: CaseProblem, found: Fit) -> list[FittedParameter]:
     return rows
 
 
-def _points(data: Measurements, problem: CaseProblem, found: Fit) -> list[FittedPoint]:
+def _points(data: Measurements, problem: CaseProblem, found: Fit, sizes: dict[str, float]) -> list[FittedPoint]:
     quantile = found.quantile()
     own = quantile * found.prediction_deviation(found.jacobian)
     new = quantile * found.prediction_deviation(found.jacobian, found.errors)
+    ends = np.column_stack([found.predicted - new, found.predicted + new])
+    if sizes:
+        ends = predicted(problem, found, sizes)[2].band()
     standardised, left_out, outliers = found.standardised, found.left_out, found.outliers
     return [
         FittedPoint(
-            line=data.lines[entry.row],
-            label=data.labels[entry.row],
-            conditions={name: float(column[entry.row]) for name, column in data.conditions.items()},
-            quantity=entry.quantity,
-            unit=MEASURED[entry.quantity].unit,
+            **_where(data, entry),
             measured=float(found.data.values[i]),
             error=float(found.errors[i] * found.scale),
             predicted=float(found.predicted[i]),
             band=[float(found.predicted[i] - own[i]), float(found.predicted[i] + own[i])],
-            new_measurement_band=[float(found.predicted[i] - new[i]), float(found.predicted[i] + new[i])],
+            new_measurement_band=ends[i].tolist(),
             standardised_residual=float(standardised[i]),
             left_out_error=float(left_out[i]),
             is_outlier=i in outliers,

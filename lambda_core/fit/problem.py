@@ -17,6 +17,8 @@ from lambda_core.fit.least_squares import Data
 from lambda_core.fit.measurements import Measurements
 from lambda_core.fit.operating_points import at_line, condition_change, point_values
 from lambda_core.fit.parameters import Parameter
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.study.job import resolve_point, with_temperatures
 
 _STEP = 0.05  # of a parameter's spread before the fit, for slopes: above the scatter of the equilibrium's iteration
 _MOST_CONDITIONS = 3  # that candidates of the next point combine
@@ -120,6 +122,28 @@ class CaseProblem:
             columns.append((self._stacked(values, moved, one=True) - base) / steps)
         return np.column_stack(columns)
 
+    def input_deviations(self, values: FloatArray) -> FloatArray:
+        """Return the standard deviations of the predicted values by the errors of the conditions, shape (n,)."""
+        data = self.data
+        if not data.input_errors.size:
+            return np.zeros(len(self.entries))
+        moved = self.input_slopes(values) * data.input_errors
+        found: FloatArray = np.sqrt(np.sum(moved**2, axis=1))
+        return found
+
+    def conditions_of_entries(self) -> list[dict[str, float]]:
+        """Return the operating conditions of each measured value, SI."""
+        return [self._conditions[entry.row] for entry in self.entries]
+
+    def model_at(self, row: int, values: FloatArray) -> BearingModel:
+        """Return the model of the case at the operating point of one measured value."""
+        changes = self._changes(values, self._conditions[self.entries[row].row])
+        return with_temperatures(resolve_point(self._case, changes))
+
+    def elsewhere(self, measurements: Measurements) -> CaseProblem:
+        """Return the same problem for other measurements."""
+        return CaseProblem(self._case, measurements, self.varied)
+
     def candidates(self) -> list[dict[str, float]]:
         """Return operating points that could be measured next: corners of and beyond what was measured."""
         levels = {}
@@ -159,18 +183,17 @@ class CaseProblem:
             answers.append(dict(zip(self._asked[row], found.tolist(), strict=True)))
         return np.array([answers[entry.row][entry.quantity] for entry in self.entries])
 
+    def _changes(self, values: FloatArray, conditions: dict[str, float]) -> tuple[str, ...]:
+        """Return what the case is changed by at one operating point."""
+        own = [condition_change(name, value) for name, value in conditions.items()]
+        pairs = zip(self.varied, values.tolist(), strict=True)
+        return (*own, *(change for graded, value in pairs for change in graded.changes(value)))
+
     def _value(
         self, values: FloatArray, conditions: dict[str, float], names: tuple[str, ...], *, one: bool
     ) -> FloatArray:
         """Return the quantities at one operating point; equal ones are computed once."""
-        changes = (
-            *(condition_change(name, value) for name, value in conditions.items()),
-            *(
-                change
-                for graded, value in zip(self.varied, values, strict=True)
-                for change in graded.changes(float(value))
-            ),
-        )
+        changes = self._changes(values, conditions)
         key = (*changes, *names)
         for kind in ("all", "one") if one else ("all",):
             if (kind, *key) in self._known:

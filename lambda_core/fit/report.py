@@ -42,11 +42,27 @@ class FittedPoint(Record):
     measured: float
     error: float = Field(description="standard deviation, with that of the operating conditions")
     predicted: float
-    band: list[float] = Field(description="95 % confidence band of the prediction")
-    new_measurement_band: list[float] = Field(description="95 % band of one more measurement")
+    band: list[float] = Field(description="95 % confidence band of the prediction, the laws taken as exact")
+    new_measurement_band: list[float] = Field(
+        description="95 % band of one more measurement, with what the laws may be wrong by"
+    )
     standardised_residual: float
     left_out_error: float = Field(description="prediction from all other points, less the measured value")
     is_outlier: bool
+
+
+class PredictedPoint(Record):
+    """A measured value that the fit has not seen, and its prediction."""
+
+    line: int = Field(description="of its file")
+    label: str
+    conditions: dict[str, float] = Field(description="operating conditions in SI")
+    quantity: str
+    unit: str
+    measured: float
+    predicted: float = Field(description="by the fitted values")
+    band: list[float] = Field(description="95 % band of the measurement: errors of fit, laws, conditions and its own")
+    is_inside: bool
 
 
 class ParameterCombination(Record):
@@ -92,6 +108,10 @@ class FitReport(Record):
     combinations: list[ParameterCombination] = Field(description="best determined first")
     tests: list[PatternTest] = Field(description="clearest pattern first")
     points: list[FittedPoint] = Field(description="measured values, in the order of the file")
+    predictions: list[PredictedPoint] = Field(description="points of a second file that the fit has not seen")
+    discrepancy_pct: dict[str, float] = Field(
+        description="standard deviation of what the laws may be wrong by, by quantity: the ranges that are not fitted"
+    )
     next_point: SuggestedPoint | None = Field(description="to measure next; null where none was looked for")
     scatter_pct: float | None = Field(description="standard deviation of the residuals; null where errors are known")
     chi_square_per_degree: float | None = Field(description="null where errors are not known")

@@ -26,6 +26,7 @@ def report_text(report: FitReport, width: int | None, units: UnitSystem) -> str:
     lines += [f"pattern of residuals: {t.name}, p = {t.adjusted_p_value:.2g}" for t in report.tests if t.is_significant]
     lines += _outliers(report)
     lines += ["", *_points(report, units)]
+    lines += _predictions(report, units)
     lines += _next(report, units)
     return "\n".join(wrapped(lines, width))
 
@@ -102,6 +103,27 @@ def _points(report: FitReport, units: UnitSystem) -> list[str]:
     ]
     rest = len(report.points) - len(shown)
     return [*_table([head, *rows]), *([f"and {rest} more points (--json has all)"] if rest else []), ""]
+
+
+def _predictions(report: FitReport, units: UnitSystem) -> list[str]:
+    """Return the points that the fit has not seen."""
+    if not report.predictions:
+        return []
+    head = ("line", "quantity", "measured", "predicted", "95 % band with errors of laws", "")
+    rows = [
+        (
+            str(p.line),
+            f"{p.quantity} [{units.unit(p.unit)}]",
+            f"{units.value(p.measured, p.unit):.4g}",
+            f"{units.value(p.predicted, p.unit):.4g}",
+            "..".join(f"{units.value(end, p.unit):.4g}" for end in p.band),
+            "inside" if p.is_inside else "OUTSIDE",
+        )
+        for p in report.predictions
+    ]
+    inside = sum(p.is_inside for p in report.predictions)
+    title = f"points that the fit has not seen: {inside} of {len(rows)} inside the band"
+    return [title, *_table([head, *rows]), ""]
 
 
 def _next(report: FitReport, units: UnitSystem) -> list[str]:
