@@ -1,4 +1,4 @@
-"""Model discrepancy: the part of measured values that no parameter explains.
+"""The discrepancy between a fitted model and what would be measured: errors of its laws.
 
 A fit finds the best values of its parameters under laws that are not exact. Measured values are taken as
 

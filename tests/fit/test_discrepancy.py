@@ -1,4 +1,4 @@
-"""What laws get wrong: bands of predicted values at points that a fit has not seen."""
+"""Bands of predicted values at points that a fit has not seen, with errors of the laws."""
 
 from __future__ import annotations
 
