@@ -8,7 +8,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from lambda_plugins.methods.schaeffler import idle_torque, load_torque
-from lambda_plugins.methods.skf import SERIES, load_variables, skf_friction
+from lambda_plugins.methods.skf import (
+    SERIES,
+    SKF,
+    continuous_sliding,
+    load_variables,
+    series_constants,
+    skf_friction,
+)
 from lambda_plugins.methods.skf_drag import drag_torque, drag_torque_2008
 from lambda_plugins.methods.skf_seals import SEALS, seal_torque, seals_of
 
@@ -245,3 +252,32 @@ def test_a_sealed_bearing_turns_harder_in_the_catalogue() -> None:
     assert opened.value("skf", "friction", "seals") is None
     (method,) = sealed.methods
     assert any(line.startswith("2 RS1 seals on the shoulder") for line in method.assumptions)
+
+
+def test_the_companion_of_the_sliding_variable_has_no_step() -> None:
+    """A 6208 (d_m 60 mm, C_0 19 kN): the print steps by 60^0.115 = 1.60 at F_a = 0; the companion does not."""
+    constants, diameter, rating = series_constants("62"), 60e-3, 19e3
+    radial = 3000.0
+    _, alone = load_variables(constants, diameter, radial)
+    _, beyond = load_variables(constants, diameter, radial, 0.0011 * radial, rating)
+    assert beyond / alone == pytest.approx(60.0**0.115, rel=1e-3)
+    near = continuous_sliding(constants, diameter, radial, 0.0011 * radial, rating)
+    assert near == pytest.approx(alone, rel=1e-6)
+    assert continuous_sliding(constants, diameter, radial, 0.0, rating) == pytest.approx(alone, rel=1e-12)
+    _, axial = load_variables(constants, diameter, 0.0, 2000.0, rating)
+    assert continuous_sliding(constants, diameter, 0.0, 2000.0, rating) == pytest.approx(axial, rel=1e-12)
+    for load in (10.0, 100.0, 1000.0, 5000.0):
+        printed = load_variables(constants, diameter, radial, load, rating)[1]
+        found = continuous_sliding(constants, diameter, radial, load, rating)
+        assert printed / 60.0**0.115 * (1.0 - 1e-12) <= found <= printed
+
+
+def test_the_method_keeps_the_print_and_adds_the_companion() -> None:
+    from lambda_core.testing import method_inputs
+
+    combined = SKF.evaluate(method_inputs(radial_load=3000.0, axial_load=300.0, static_rating=19e3))
+    assert combined.value("friction", "total, continuous") < combined.value("friction", "total")
+    step = combined.value("friction", "sliding") - combined.value("friction", "sliding, continuous")
+    assert combined.value("friction", "total") - combined.value("friction", "total, continuous") == pytest.approx(step)
+    alone = SKF.evaluate(method_inputs(radial_load=3000.0, axial_load=0.0, static_rating=19e3))
+    assert not any("continuous" in row.name for row in alone.rows)

@@ -102,7 +102,8 @@ def load_variables(
 
     F_a = 0 (below 0.1 % of F_r): G_rr = R1 d_m^1.96 F_r^0.54, G_sl = S1 d_m^-0.26 F_r^(5/3); else G_rr = R1 d_m^1.96
     (F_r + R2 F_a/sin alpha_F)^0.54, G_sl = S1 d_m^-0.145 (F_r^5 + S2 d_m^1.5 F_a^4/sin alpha_F)^(1/3). The
-    catalogue's G_sl jumps by d_m^0.115 where F_a leaves zero (a factor 1.6 to 1.8); that is its own, kept as printed.
+    catalogue's G_sl jumps by d_m^0.115 where F_a leaves zero (a factor 1.6 to 1.8), kept as printed;
+    :func:`continuous_sliding` has no step.
 
     Parameters
     ----------
@@ -121,6 +122,24 @@ def load_variables(
     rolling = constants.r1 * diameter**1.96 * (radial_load + constants.r2 * axial_load / sine) ** 0.54
     combined = radial_load**5 + constants.s2 * diameter**1.5 / sine * axial_load**4
     return rolling, constants.s1 * diameter**-0.145 * combined ** (1.0 / 3.0)
+
+
+def continuous_sliding(
+    constants: SeriesConstants, mean_diameter: float, radial_load: float, axial_load: float, static_rating: float
+) -> float:
+    """Sliding variable G_sl without the step of the print where the axial load leaves zero [N mm over mu_sl].
+
+    G_sl = S1 ((d_m^-0.26)^3 F_r^5 + (d_m^-0.145)^3 S2 d_m^1.5 F_a^4/sin alpha_F)^(1/3): each load keeps the power of
+    d_m that the catalogue prints for it alone, so that both pure loads have the printed value. Own work; under combined
+    load it lies below the print by at most d_m^0.115.
+    """
+    diameter = mean_diameter * 1e3
+    radial = (diameter**-0.26) ** 3 * radial_load**5
+    if axial_load <= 0.0:
+        return float(constants.s1 * radial ** (1.0 / 3.0))
+    sine = math.sin(operating_contact_angle(axial_load, static_rating))
+    axial = (diameter**-0.145) ** 3 * constants.s2 * diameter**1.5 / sine * axial_load**4
+    return float(constants.s1 * (radial + axial) ** (1.0 / 3.0))
 
 
 def inlet_heating_factor(speed_rpm: float, mean_diameter: float, viscosity: float) -> float:
@@ -277,7 +296,25 @@ def evaluate(inputs: MethodInputs) -> MethodTable:
     ]
     rows = [MethodRow("friction", name, value * 1e3, "N mm", meaning) for name, value, meaning in torque]
     rows += [MethodRow("friction", name, value, "-", meaning) for name, value, meaning in factors]
+    sliding = _without_step(inputs, result)
+    if sliding is not None:
+        words = "own continuous form of G_sl: the printed one steps where the axial load leaves zero"
+        rows.append(MethodRow("friction", "sliding, continuous", sliding * 1e3, "N mm", f"M_sl, {words}"))
+        total = result.total + seals - result.sliding + sliding
+        rows.append(MethodRow("friction", "total, continuous", total * 1e3, "N mm", f"M, {words}"))
     return MethodTable(tuple(rows), tuple(assumptions))
+
+
+def _without_step(inputs: MethodInputs, result: SkfFriction) -> float | None:
+    """Return M_sl of the continuous form [N m]; None where the print has no step: other series, a pure load."""
+    if inputs.series in skf_angular.SERIES or inputs.static_rating is None or not inputs.radial_load > 0.0:
+        return None
+    if inputs.axial_load <= NEGLIGIBLE_AXIAL_SHARE * inputs.radial_load:
+        return None
+    mean_diameter = 0.5 * (inputs.bore_diameter + inputs.outside_diameter)
+    loads = (inputs.radial_load, inputs.axial_load, inputs.static_rating)
+    variable = continuous_sliding(series_constants(inputs.series), mean_diameter, *loads)
+    return variable * result.friction_coefficient * 1e-3
 
 
 def _seals(inputs: MethodInputs) -> tuple[float, str]:
