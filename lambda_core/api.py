@@ -42,6 +42,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.model.checking import check, describe, problems, resolve
     from lambda_core.model.laws.law_trials import law_problems
     from lambda_core.model.long_form import long_form
+    from lambda_core.model.roller_case import roller_model
     from lambda_core.run.answers import cite, compare, result, side_by_side, summary
     from lambda_core.run.plugin_trials import check_plugins, watch_problems
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
@@ -80,6 +81,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.model.checks.oil_table import oil_table
     from lambda_core.model.checks.operating_limits import operating_warnings
     from lambda_core.model.machine_model import MachineModel, MountedBearing
+    from lambda_core.model.roller_case import RollerModel
     from lambda_core.results.bearing_summary import BearingSummary
     from lambda_core.results.quantity import shown_numbers
     from lambda_core.results.reader import Result

@@ -150,7 +150,9 @@ def _template_text(name: str, template: str | None, bearing: str | None) -> str:
     from contextlib import closing
 
     from lambda_core.catalogue.designation import designated
+    from lambda_core.catalogue.roller_designation import roller_designation
     from lambda_core.model.fresh_case import fresh_case
+    from lambda_core.model.fresh_roller_case import fresh_roller_case
     from lambda_core.model.machine_templates import GENERAL, MACHINES, geared_shaft
 
     if template == GEARED_SHAFT:
@@ -161,6 +163,11 @@ def _template_text(name: str, template: str | None, bearing: str | None) -> str:
         raise UsageError(unknown_name("template", template, [*MACHINES, GEARED_SHAFT]))
     kind = GENERAL if template is None else MACHINES[template]
     with closing(catalogue()) as opened:
+        rollers = roller_designation(opened, bearing) if bearing is not None else None
+        if rollers is not None:
+            if template is not None:
+                raise UsageError(f"templates of machines are for balls: leave out --template with {bearing}")
+            return fresh_roller_case(name, rollers)
         return fresh_case(name, *designated(opened, bearing or kind.bearing), kind)
 
 

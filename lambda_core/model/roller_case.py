@@ -26,6 +26,7 @@ from lambda_core.elements.roller.roller_ratings import (
     roller_fatigue_load_limit,
     roller_static_rating,
 )
+from lambda_core.model.bearing_model import ResolvedValue
 from lambda_core.model.bodies.resolve_materials import is_grease, lubrication_of, resolve_lubricant, resolve_oil_level
 from lambda_core.model.checks.oil_table import OilLaw, coefficients_of
 from lambda_core.model.laws.time_functions import initial, time_function
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
 
 _WHERE = "bearing.designation"
 _NEEDED = ("kind", "roller_count", "roller_diameter", "effective_length", "pitch_diameter")
+_QUANTITIES = {"roller_count": "", "contact_angle": "angle"}  # of what is no length
 _BOUNDARY = ("bore_diameter", "outside_diameter", "width")
 _REPLENISHMENT = {"oil bath": 3e-8, "oil jet": 3e-8, "under-race": 3e-8, "grease": 6e-8, "oil-air": 6e-8}
 _SHORTER = 0.1  # effective length: roller less this share of the diameter at each end where nothing is known
@@ -72,6 +74,8 @@ class RollerModel:
         Laminae.
     assumptions : tuple of str
         In plain words.
+    values : tuple of ResolvedValue
+        Every value with its origin.
     """
 
     name: str
@@ -88,10 +92,32 @@ class RollerModel:
     temperature: float
     slices: int
     assumptions: tuple[str, ...]
+    values: tuple[ResolvedValue, ...] = ()
+
+    def text(self) -> str:
+        """Return what the bearing is made of, where every value comes from, and what is assumed."""
+        lines = [self.title, "", "values"]
+        for value in self.values:
+            number = value.value
+            if not isinstance(number, str):
+                number = show(number, value.quantity, 5) if value.quantity else f"{number:.5g}"
+            grade = f", grade {value.grade}" if value.grade else ""
+            lines.append(f"  {value.path} = {number} ({value.status}{grade}): {value.source}")
+        return "\n".join([*lines, "", "assumptions", *(f"  {sentence}" for sentence in self.assumptions)])
 
 
 def roller_model(source: Source, overrides: Iterable[str] = ()) -> RollerModel | None:
     """Return the roller bearing of a case; None where the case is about balls or cannot be read as one bearing.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`.
+
+    Returns
+    -------
+    RollerModel or None
+        Geometry, loads, oil and surfaces at t = 0, with the origin of every value.
 
     Raises
     ------
@@ -155,6 +181,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         temperature=case.lubricant.temperature,
         slices=rollers.slices,
         assumptions=tuple(ledger.assumptions),
+        values=tuple(ledger.values),
     )
 
 
@@ -222,11 +249,12 @@ def _pick(rollers: InlineRollers, row: RollerRow | None, name: str, ledger: Ledg
     """Return a value of the case, else of the catalogue; an assumed or derived one is said."""
     written: float | None = getattr(rollers, name)
     if written is not None:
-        ledger.given(f"bearing.rollers.{name}", written)
+        ledger.given(f"bearing.rollers.{name}", written, _QUANTITIES.get(name, "length"))
         return written
     value: Value | None = getattr(row, name) if row else None
     if value is None:
         return None
+    ledger.row(f"bearing.rollers.{name}", value, _QUANTITIES.get(name, "length"), silent=True)
     if value.status != "published" and name == "roller_count":
         ledger.assume(f"rollers of the catalogue, grade {value.grade}: {value.source}")
     return value.value

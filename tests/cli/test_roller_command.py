@@ -80,7 +80,7 @@ def test_what_cannot_be(
 
 
 def test_motion_says_what_computes_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["check", case(tmp_path, "NU 208")]) == 3
+    assert main(["run", case(tmp_path, "NU 208")]) == 3
     assert "is a roller bearing" in capsys.readouterr().err
 
 
@@ -130,3 +130,18 @@ def test_methods_stand_side_by_side(tmp_path: Path, capsys: pytest.CaptureFixtur
     }
     assert set(totals) == {"quasi-static", "skf", "schaeffler", "houpert"}
     assert all(value > 0.0 for value in totals.values())
+
+
+@pytest.mark.parametrize("bearing", ["SKF 32216", "NU 208 ECP/C3", "NCF 3008", "Timken LM12749"])
+def test_a_case_starts_from_the_catalogue(
+    bearing: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["init", "start", "--bearing", bearing]) == 0
+    assert main(["check", "start.toml"]) == 0
+    shown = capsys.readouterr().out
+    assert "roller_count" in shown
+    assert "grade" in shown
+    assert main(["quasistatic", "start.toml"]) == 0
+    assert main(["check", "start.toml", "--json"]) == 0
+    assert main(["init", "other", "--bearing", bearing, "--template", "pump"]) == 2

@@ -1,0 +1,60 @@
+"""A commented case to start from, for any roller bearing of the catalogue."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from lambda_core.catalogue.roller_designation import RollerDesignation
+
+_TEXT = """\
+# {kind} roller bearing {designation} of {maker}: change what differs on your machine.
+name = "{name}"
+description = "{designation} of {maker}"
+
+[bearing]
+designation = "{designation}"
+maker = "{maker}"
+{clearance}
+[lubricant]
+name = "FVA3"
+temperature = "60 degC"
+
+[loads]
+radial = "{radial:.3g} kN"       # a tenth of C = {rating:.4g} kN
+axial = "{axial:.3g} kN"        # {why}
+
+[operation]
+speed = "1500 rpm"
+"""
+_CLEARANCE = """\
+clearance = "CN"          # class of ISO 5753-1, or a measured value such as "40 um"
+clearance_pick = "middle"
+"""
+_SHARE = 0.1  # of C that a new case is loaded with
+# Thrust over radial load times tan(alpha) at which half the circumference is loaded, line contact (Harris and Kotzalas,
+# vol. 1, ch. 7: 1.215), and some more.
+_HALF_LOADED = 1.3
+
+
+def fresh_roller_case(name: str, found: RollerDesignation) -> str:
+    """Return the text of a case for a roller bearing: loads by its rating, everything else default."""
+    row = found.row
+    rating = 1e-3 * row.dynamic_rating.value
+    radial, axial, why = _SHARE * rating, 0.0, "along the shaft; NU and N take none, NJ and NUP through their ribs"
+    if row.contact_angle is not None:
+        axial = _HALF_LOADED * math.tan(row.contact_angle.value) * radial
+        why = "along the shaft; with less the bearing alone opens"
+    kind = {"tapered": "Tapered", "needle": "Needle"}.get(row.kind, f"Cylindrical ({row.kind})")
+    return _TEXT.format(
+        kind=kind,
+        designation=" ".join(word for word in found.text.split() if word.upper() != row.maker.upper()),
+        maker=row.maker,
+        name=name,
+        clearance="" if row.contact_angle is not None or found.clearance else _CLEARANCE,
+        radial=radial,
+        axial=axial,
+        rating=rating,
+        why=why,
+    )
