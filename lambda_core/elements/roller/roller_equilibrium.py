@@ -60,8 +60,8 @@ class RollerEquilibrium:
 
 
 @dataclass(frozen=True)
-class _Springs:
-    """Contacts of one roller: penetration = rollers @ u + ring @ v - gap, energy c/(p + 1) penetration^(p + 1)."""
+class Springs:
+    """All contacts of one roller: penetration = rollers @ u + ring @ v - gap, energy c/(p + 1) penetration^(p + 1)."""
 
     roller: FloatArray  # (m, 3)
     ring: FloatArray  # (m, 3), of the inner ring's motion in the roller's plane
@@ -128,7 +128,7 @@ def balance(
         When no equilibrium is found: a free direction that nothing holds, or loads beyond all stiffness.
     """
     _refuse(bearing, loads, held)
-    springs = _springs(bearing, slices)
+    springs = single_springs(bearing, slices)
     azimuths = first_angle + 2.0 * math.pi * np.arange(bearing.count) / bearing.count
     carry = _carry(azimuths)
     free = ~np.array(held)
@@ -194,7 +194,7 @@ def _refuse(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -
         raise ValueError(f"a roller bearing of kind {bearing.kind} takes no thrust in this direction")
 
 
-def _springs(bearing: RollerBearing, slices: int) -> _Springs:
+def single_springs(bearing: RollerBearing, slices: int) -> Springs:
     """Return all contacts of one roller: outer slices, inner slices, ribs."""
     angles, half = bearing.angles, 0.5 * bearing.diameter
     inner, outer, axis = angles.inner, angles.outer, angles.roller
@@ -223,7 +223,7 @@ def _springs(bearing: RollerBearing, slices: int) -> _Springs:
     line = single_contact_constant(bearing.effective_length) / slices
     constants = [np.full(2 * slices, line)]
     constants += [np.array([stiffness_constant(r.contact.radius_x, r.contact.radius_y, _STEEL) for r in ribs])]
-    return _Springs(
+    return Springs(
         roller=-np.column_stack([normal, turned]),
         ring=ring,
         gap=np.concatenate([drop + clearance, drop + clearance, [rib.gap for rib in ribs]]),
@@ -272,7 +272,7 @@ def _start(
 
 
 def _newton(
-    springs: _Springs,
+    springs: Springs,
     slope: FloatArray,
     carry: FloatArray,
     free: NDArray[np.bool_],
