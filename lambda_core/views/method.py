@@ -124,14 +124,14 @@ class RollerMethodInputs:
     """Everything a method may look at of a roller bearing: plain SI numbers, frozen."""
 
     title: str  # the bearing for people: "NU 208 (SKF)"
-    bearing: RollerBearing
+    bearing: RollerBearing  # its inner geometry, at operating clearance
     oil: OilState  # at the bulk temperature
     base_type: str  # of the oil, "mineral" ...
     radial_load: float  # magnitude [N]
     axial_load: float  # magnitude [N]
     inner_speed: float  # signed [rad/s]
     outer_speed: float  # signed [rad/s]
-    lubrication: Lubrication
+    lubrication: Lubrication  # "oil bath", "oil jet", "under-race", "oil-air", "grease"
     oil_height: float  # above the lowest point of the outer raceway [m]; 0: no bath
     state: RollerEquilibrium  # quasi-static loads of slices and ribs
     friction: RollerFriction | None  # of the program's own; None at rest
