@@ -26,7 +26,7 @@ from lambda_core.case.shaft_parts import (
     ShaftDisc,
     ShaftSupport,
 )
-from lambda_core.case.signals import SpeedSignal
+from lambda_core.case.signals import MomentSignal, SpeedSignal
 from lambda_core.case.thermal import BearingThermal, MachineThermal, PlaceTemperature, rising
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.units import Force, Length, SmallLength, Temperature
@@ -200,7 +200,13 @@ class ShaftBearing(Bearing, Placed):
 class ShaftOperation(Section):
     """What turns the shaft."""
 
-    speed: SpeedSignal = option(description="speed of the shaft over time; the equilibrium is that of t = 0")
+    speed: SpeedSignal = option(
+        description="speed of the shaft over time (initial speed where a torque drives it); the equilibrium is that of "
+        "t = 0"
+    )
+    torque: MomentSignal | None = option(
+        None, "in motion: torque of the coupling on the shaft, in place of its speed; the shaft then twists"
+    )
     temperatures: Literal["given", "computed"] = option(
         "given", 'of oil, bearings, shaft and housing: as the case says, or "computed" by [thermal] for t = 0'
     )

@@ -30,8 +30,6 @@ _LOADS = {  # on the inner ring, and as loads at a place
 }
 _CAGE_FREEDOMS = (*_FREEDOMS, "spin")
 _NO_PLACE = {
-    "operation.torque": "a torque that drives the inner ring: the shaft turns at its speed",
-    "bodies.inner_ring.spin": "a spin of the inner ring that is not prescribed",
     "bodies.outer_ring.spin": "an outer ring that turns",
     "loads.outer_ring": "loads on the outer ring: load the body that carries it",
     "loads.cage": "loads on the cage",
@@ -87,7 +85,7 @@ def expand(case: Case, *, bore: float, width: float, takes: Literal["+x", "-x"] 
     bearing |= _support(bodies.get("outer_ring", {}), differences)
     tables: dict[str, Any] = {key: written[key] for key in ("name", "description", "assumptions") if key in written}
     tables |= {
-        "operation": {"speed": written["operation"]["speed"]},
+        "operation": _operation(written["operation"], bodies.get("inner_ring", {}).get("spin"), differences),
         "shaft": {
             "material": _RIGID,
             "sections": [{"length": show(width, "length", 9), "diameter": show(bore, "length", 9)}],
@@ -115,6 +113,15 @@ def _at(tables: Mapping[str, Any], path: str) -> Any:
     for key in path.split("."):
         found = found.get(key) if isinstance(found, Mapping) else None
     return found
+
+
+def _operation(written: Mapping[str, Any], spin: Any, differences: list[str]) -> dict[str, Any]:
+    """Return what turns the shaft: its speed, or where the inner ring turns freely a torque."""
+    mode = spin.get("mode", "free") if isinstance(spin, Mapping) else spin
+    if isinstance(spin, Mapping) and "damping" in spin:
+        differences.append("bodies.inner_ring.spin.damping: a resistance to the rotation of the shaft")
+    torque = {"torque": written.get("torque", "0 N m")} if mode == "free" else {}
+    return {"speed": written["speed"], **torque}
 
 
 def _cage(written: Mapping[str, Any], differences: list[str]) -> dict[str, Any]:

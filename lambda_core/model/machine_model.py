@@ -206,6 +206,7 @@ class MachineModel:
     speed_over_time: TimeFunction = ZERO
     varying: tuple[tuple[int, TimeFunction], ...] = ()  # row of `loads` and its value over time
     twists: bool = False  # in motion
+    torque: TimeFunction | None = None  # of the coupling, in motion; None: it prescribes the speed
     springs: tuple[ShaftSpring, ...] = ()
     links: tuple[MachineLink, ...] = ()
     hold: ShaftHold | None = None
@@ -231,10 +232,11 @@ class MachineModel:
 
     @property
     def held_places(self) -> tuple[float, ...]:
-        """Where springs, connections and supports hold the shaft [m]."""
+        """Where springs, connections, supports and a driving torque act on the shaft [m]."""
         springs = [s.place.point[0] for s in self.springs if SHAFT in (s.place.body, s.to)]
         ends = [end.point[0] for link in self.links for end in (link.first, link.second) if end.body == SHAFT]
-        return (*springs, *ends, *([self.hold.position] if self.hold else []))
+        drive = [] if self.torque is None else [float(self.body.positions[self.drive // 6])]
+        return (*springs, *ends, *([self.hold.position] if self.hold else []), *drive)
 
     @property
     def has_changing_torque(self) -> bool:

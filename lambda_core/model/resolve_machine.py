@@ -172,6 +172,7 @@ def _shaft(
     check_heat(case, ledger)
     material = body_material(case.shaft.material, "shaft.material", catalogue, ledger)
     around = body_material(case.housing.material, "housing.material", catalogue, ledger)
+    _check_torque(case, ledger)
     gears = _gears(case, ledger)
     discs = _discs(case, catalogue, ledger)
     bodies = rigid_bodies(case, catalogue, ledger)
@@ -234,7 +235,8 @@ def _shaft(
         speed=initial(time_function(case.operation.speed)),
         speed_over_time=time_function(case.operation.speed),
         varying=varying,
-        twists=case.shaft.twists,
+        twists=case.shaft.twists or case.operation.torque is not None,
+        torque=None if case.operation.torque is None else time_function(case.operation.torque),
         springs=springs,
         links=links,
         hold=hold,
@@ -316,6 +318,17 @@ def _check_cells(bearings: Sequence[MountedBearing], ledger: Ledger) -> None:
                     f'is {getattr(two, option)}, and {getattr(one, option)} of "{bearings[0].name}": '
                     "all bearings of a machine need the same",
                 )
+
+
+def _check_torque(case: ShaftCase, ledger: Ledger) -> None:
+    """Note what contradicts a torque that drives the shaft."""
+    if case.operation.torque is None:
+        return
+    if any(term.kind != "constant" for term in time_function(case.operation.speed).terms):
+        ledger.problem("operation.speed", "where a torque drives the shaft this is the initial speed: write one value")
+    for name, gear in case.gears.items():
+        if gear.power is not None:
+            ledger.problem(f"gears.{name}.power", "a torque drives the shaft: write the torque of the gear, too")
 
 
 def _gears(case: ShaftCase, ledger: Ledger) -> dict[str, GearForces]:

@@ -65,3 +65,29 @@ def test_mistakes_of_a_support() -> None:
         with pytest.raises(api.CaseError) as found:
             machine(**support)
         assert [problem.where for problem in found.value.problems] == [where]
+
+
+def test_a_torque_drives_the_shaft() -> None:
+    """Its work is torque times angle, 1 % for the change of speed; the balance of energy closes to 1e-3."""
+    works = []
+    for torque in (0.0, 2.0):
+        tables = tomllib.loads(geared_shaft("box")) | {"gears": {}}
+        tables["operation"]["torque"] = f"{torque} N m"
+        engine = machine_engine(api.check(tables))
+        assert engine.advance(3e-3).ok
+        row = engine.integrals()[0]
+        losses = sum(value for name, value in row.items() if name.startswith("loss"))
+        assert abs(row["input"] - losses - row["stored"]) < 1e-3 * max(row["input_abs"], losses)
+        works.append((row["input"], row["stored"], engine.time))
+    (_, coasting, _), (work, stored, time) = works
+    assert work == pytest.approx(2.0 * 100.0 * np.pi * time, rel=0.01)
+    assert coasting < 0.0 < stored
+
+
+def test_a_torque_and_a_speed_over_time_contradict() -> None:
+    tables = tomllib.loads(geared_shaft("box"))
+    ramp = {"kind": "ramp", "start": "0 rpm", "end": "3000 rpm", "end_time": "1 s"}
+    tables["operation"] = {"speed": ramp, "torque": "2 N m"}
+    with pytest.raises(api.CaseError) as found:
+        api.check(tables)
+    assert {problem.where for problem in found.value.problems} == {"operation.speed", "gears.wheel.power"}

@@ -25,7 +25,10 @@ from lambda_core.model.settings.resolve_solver import (
 
 def changing(case: ShaftCase) -> list[tuple[str, Any]]:
     """Return the path of everything that loads or leads the shaft, and its value or course."""
-    found: list[tuple[str, Any]] = [("operation.speed", case.operation.speed)]
+    found: list[tuple[str, Any]] = [
+        ("operation.speed", case.operation.speed),
+        ("operation.torque", case.operation.torque),
+    ]
     for key, load in case.loads.items():
         found += [(f"loads.{key}.{name}", getattr(load, name)) for name in LOADS]
     found += [(f"shaft.support.{dof}.motion", getattr(case.shaft.support, dof).motion) for dof in POSE]

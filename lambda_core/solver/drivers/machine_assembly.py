@@ -11,6 +11,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,7 @@ from lambda_core.domain.elements import DOFS, POSE, SPIN
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bearing_model import ZERO, BearingModel, Body, DofState, TimeFunction
 from lambda_core.model.laws.law_context import ContactFrame
-from lambda_core.model.laws.time_functions import initial, scaled
+from lambda_core.model.laws.time_functions import added, initial, scaled
 from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel, Place, RigidBody
 from lambda_core.solver.drivers.assembly import AssembledBearing, AssembledLink, Assembly, Member, Ties
 from lambda_core.solver.drivers.compiled_laws import Kernels
@@ -151,14 +152,18 @@ def _lumps(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) ->
         if machine.hold is not None and k == shaft.at(machine.hold.position):
             held = zip(POSE, machine.hold.lead, strict=True)
             dofs |= {name: _led(lead) for name, lead in held if lead is not None}
-        body = _loaded(Body(mass, transverse, polar, dofs, unbalance=float(unbalances[k])), loads[k])
+        load = loads[k]
+        if machine.torque is not None and number in numbers.led:
+            load = (*load[:_ABOUT_X], added(load[_ABOUT_X], machine.torque), *load[_ABOUT_X + 1 :])
+        body = _loaded(Body(mass, transverse, polar, dofs, unbalance=float(unbalances[k])), load)
         found[number] = Member(f"shaft at {1e3 * float(shaft.positions[k]):.4g} mm", body)
     return found
 
 
 def _turned(machine: MachineModel, others: DofState) -> dict[str, DofState]:
-    """Return the degrees of freedom of a member that the coupling turns."""
-    return {**dict.fromkeys(DOFS, others), SPIN: DofState("prescribed", machine.speed_over_time)}
+    """Return the degrees of freedom of a member that the coupling turns, by its speed or by a torque."""
+    mode: Literal["free", "prescribed"] = "prescribed" if machine.torque is None else "free"
+    return {**dict.fromkeys(DOFS, others), SPIN: DofState(mode, machine.speed_over_time)}
 
 
 def _outer_ring(machine: MachineModel, i: int, model: BearingModel) -> Body:

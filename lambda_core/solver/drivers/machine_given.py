@@ -113,7 +113,7 @@ def machine_given(machine: MachineModel, shaft: LumpedShaft, context: SolverCont
     numbers = member_numbers(machine, shaft)
     loads = dict(_all_loads(machine, shaft, numbers))
     names = list(loads)
-    if all(term.kind == "constant" for term in machine.speed_over_time.terms):
+    if machine.torque is None and all(term.kind == "constant" for term in machine.speed_over_time.terms):
         names.append(SHAFT_SPIN)
     turned = [PER_BODY * int(member) + MOTION + _SPIN for member in numbers.led]
     of_signal: dict[int, list[tuple[int, float]]] = {}

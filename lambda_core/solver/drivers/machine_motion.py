@@ -63,8 +63,9 @@ class MachineStart:
 
     @property
     def drive_torque(self) -> float:
-        """Mean torque of the coupling without friction [N m]; nan where torques on the shaft change over time."""
-        return math.nan if self.machine.has_changing_torque else self.state.drive_torque
+        """Mean torque of the coupling without friction [N m]; nan where torques change or one drives the shaft."""
+        is_given = self.machine.has_changing_torque or self.machine.torque is not None
+        return math.nan if is_given else self.state.drive_torque
 
 
 def machine_start(
