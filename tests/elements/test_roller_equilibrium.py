@@ -120,6 +120,34 @@ def test_both_raceways_roll(bearing: RollerBearing) -> None:
         assert motion.turning[0] == pytest.approx(rib.relative_speed(bearing.angles, 350.0), rel=1e-9)
 
 
+def test_clearance_narrows_the_loaded_zone() -> None:
+    many = replace(NU, count=16)
+    loads = np.array([0.0, 5e3, 0.0, 0.0, 0.0])
+    carrying = [
+        int((balance(replace(many, clearance=gap), loads).inner.sum(axis=1) > 1.0).sum()) for gap in (-2e-5, 0.0, 5e-5)
+    ]
+    assert carrying == sorted(carrying, reverse=True)
+    assert carrying[0] > carrying[2]
+
+
+@pytest.mark.parametrize("kind", ["needle", "NCF"])
+def test_needles_and_full_complements_resist_more_with_load_and_speed(kind: str) -> None:
+    sizes = {
+        "needle": (34, 2.5e-3, 12e-3, 10e-3, 32.5e-3, 25e-3, 42e-3, 17e-3, 24.2e3, 34.5e3, 4.2e3),
+        "NCF": (24, 7e-3, 13e-3, 10.8e-3, 54.74e-3, 40e-3, 68e-3, 21e-3, 57.2e3, 69.5e3, 8.2e3),
+    }[kind]
+    bearing = RollerBearing(kind, *sizes, clearance=30e-6, rib_height=0.8e-3)
+    slow, loaded, fast = (
+        torque(bearing, [0.0, load, 0.0, 0.0, 0.0], rpm, FrictionParameters()).total
+        for load, rpm in ((2e3, 500.0), (8e3, 500.0), (2e3, 3000.0))
+    )
+    assert slow < loaded
+    assert slow < fast
+    state = balance(bearing, np.array([0.0, 2e3, 0.0, 0.0, 0.0]))
+    assert state.inner.sum(axis=1).argmax() == 0
+    assert (state.inner.sum(axis=1) > 0.0).sum() < bearing.count / 2
+
+
 def test_slices_do_not_matter() -> None:
     loads = np.array([6e3, 9e3, 0.0, 0.0, 0.0])
     few, many = (balance(TAPERED, loads, slices=n) for n in (40, 160))
