@@ -77,10 +77,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
             except LambdaError as error:
                 print(f"{point.bearing} {' '.join(point.changes)}: {' '.join(str(error).split())}", flush=True)
                 continue
-            if pair is not None:
-                found.append(pair)
-                word = "agrees" if pair.agrees else "FALSE" if pair.is_false else "differs"
-                print(f"{word}: {pair.coarse:.5g} and {pair.fine:.5g} ± {pair.half_width:.2g} N mm, {point.bearing}")
+            if pair is None:
+                print(f"not converged: {point.bearing} {' '.join(point.changes)}", flush=True)
+                continue
+            found.append(pair)
+            word = "agrees" if pair.agrees else "FALSE" if pair.is_false else "differs"
+            numbers = f"{pair.coarse:.5g} and {pair.fine:.5g} ± {pair.half_width:.2g} N mm"
+            print(f"{word}: {numbers}, {point.bearing}", flush=True)
     share = sum(pair.agrees for pair in found) / len(found) if found else math.nan
     false = sum(pair.is_false for pair in found)
     print(f"{len(found)} of {options.count} comparable: {100.0 * share:.1f} % agree, {false} far off without a warning")
