@@ -61,9 +61,15 @@ def init(
 
 
 def check(
-    case: CaseArgument, changes: SetOption = None, as_json: JsonOption = False, units: UnitsOption = Units.SI
+    case: CaseArgument,
+    changes: SetOption = None,
+    everything: Annotated[
+        bool, typer.Option("--all", help="Also laws, published and numerical values, and the source of each.")
+    ] = False,
+    as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
 ) -> None:
-    """Say what a case is, what it assumes, and everything that is wrong with it."""
+    """Check a case: errors or none first, then what it is, warnings, and assumptions by what they affect."""
     from lambda_db.recent import remember
 
     from lambda_core import api
@@ -71,7 +77,7 @@ def check(
     remember(case)
     try:
         if api.is_machine(case):
-            _check_machine(case, changes or [], units, as_json=as_json)
+            _check_machine(case, changes or [], units, as_json=as_json, everything=everything)
             return
         rollers = api.roller_model(case, changes or ())
         if rollers is not None:
@@ -91,7 +97,7 @@ def check(
     if as_json:
         typer.echo(json.dumps(report.model_dump(mode="json"), indent=2, allow_nan=False))
         return
-    typer.echo("\n".join(wrapped(units.system.sentence(report.text()).splitlines(), columns())))
+    typer.echo("\n".join(wrapped(units.system.sentence(report.text(everything)).splitlines(), columns())))
 
 
 def _say_rollers(model: RollerModel, units: Units, *, as_json: bool) -> None:
@@ -111,7 +117,7 @@ def _watch_problems(model: BearingModel) -> list[Problem]:
     return api.watch_problems(model) if model.observers or model.events else []
 
 
-def _check_machine(case: str, changes: list[str], units: Units, *, as_json: bool) -> None:
+def _check_machine(case: str, changes: list[str], units: Units, *, as_json: bool, everything: bool) -> None:
     """Say what a machine is."""
     from lambda_core import api
 
@@ -128,7 +134,8 @@ def _check_machine(case: str, changes: list[str], units: Units, *, as_json: bool
         told = {"warnings": api.machine_warnings(model), "assumptions": list(model.assumptions)}
         typer.echo(json.dumps({**found, **told}, indent=2))
     else:
-        typer.echo("\n".join(wrapped(units.system.sentence(api.describe_machine(model)).splitlines(), columns())))
+        text = units.system.sentence(api.describe_machine(model, everything=everything))
+        typer.echo("\n".join(wrapped(text.splitlines(), columns())))
 
 
 def schema(out: FileOption = None) -> None:

@@ -273,7 +273,7 @@ def assumption_lines(assumptions: Sequence[str], file: str = "") -> list[str]:
     """Return how much was assumed, in one line, and where it stands with its reasons."""
     if not assumptions:
         return []
-    where = f"lambda-bearing show {file} --assumptions" if file else "lambda-bearing check"
+    where = f"lambda-bearing show {file} --assumptions" if file else "lambda-bearing check --all"
     return [line("assumed", f"{len(assumptions)} thing{'s' * (len(assumptions) != 1)}: {where}")]
 
 

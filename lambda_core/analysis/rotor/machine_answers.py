@@ -95,13 +95,15 @@ def machine_of(source: Source | MachineModel, overrides: Iterable[str] = ()) -> 
     return source
 
 
-def describe_machine(model: MachineModel) -> str:
+def describe_machine(model: MachineModel, *, everything: bool = False) -> str:
     """Return what a resolved machine is, in lines for people: bearings, loads, mass, assumptions.
 
     Parameters
     ----------
     model : MachineModel
         From :func:`check`.
+    everything : bool
+        Every assumption with its source, not only those that leave something open.
 
     Returns
     -------
@@ -109,4 +111,4 @@ def describe_machine(model: MachineModel) -> str:
     """
     from lambda_core.analysis.rotor.machine_text import model_text
 
-    return model_text(model)
+    return model_text(model, everything=everything)

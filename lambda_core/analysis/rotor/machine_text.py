@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.number_text import NONE, hours
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
+from lambda_core.model.checks.describe import assumption_block, verdict_line
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.results.band_text import ends, named_sources
 from lambda_core.results.quantity import Quantity, quantities
@@ -226,10 +227,12 @@ def machine_warnings(model: MachineModel) -> list[str]:
     return [*model.warnings, *(f"{name}: {warning}" for name, told in beyond for warning in told)]
 
 
-def model_text(model: MachineModel) -> str:
-    """Return what a resolved shaft is."""
-    length = 1e3 * model.outline[-1][1]
+def model_text(model: MachineModel, *, everything: bool = False) -> str:
+    """Return what a resolved shaft is: the verdict, its parts, warnings, assumptions by effect."""
+    length, warned = 1e3 * model.outline[-1][1], machine_warnings(model)
     lines = [
+        verdict_line(model.name, warned, model.assumptions),
+        "",
         f"{model.name}: shaft of {length:.6g} mm, {model.body.total_mass:.4g} kg, "
         f"{30.0 / math.pi * model.speed:.5g} 1/min, {len(model.bearings)} bearings",
     ]
@@ -245,5 +248,5 @@ def model_text(model: MachineModel) -> str:
     for name, forces in model.gears.items():
         x, y, z = forces.force
         lines.append(f"{'gear ' + name:<{HEAD}}force x {x:.4g} N, y {y:.4g} N, z {z:.4g} N")
-    lines += [f"{'assumption' if i == 0 else '':<{HEAD}}{text}" for i, text in enumerate(model.assumptions)]
-    return "\n".join(lines + [f"{'WARNING':<{HEAD}}{text}" for text in machine_warnings(model)])
+    lines += [f"{'WARNING':<{HEAD}}{text}" for text in warned]
+    return "\n".join([*lines, *assumption_block(model.assumptions, everything=everything)])

@@ -50,22 +50,24 @@ def effect(assumption: str) -> str:
     return next(found, _OTHER)
 
 
-def by_effect(assumptions: Sequence[str], heaviest_only: bool = True) -> list[tuple[str, list[str]]]:
+def by_effect(assumptions: Sequence[str], *, everything: bool = False) -> list[tuple[str, list[str]]]:
     """Group assumptions by what they affect: load and life first, then friction, film and the rest.
 
     Parameters
     ----------
     assumptions : sequence of str
         Sentences of a resolved model.
-    heaviest_only : bool
-        Leave out published values and numerical settings.
+    everything : bool
+        Each sentence with its source; otherwise published values and numerical settings are left out, and the
+        parameters of a law are joined.
     """
     names = ("load and life", "friction", "film", "temperature", "cage", "motion", "electric", _OTHER)
     found: dict[str, list[str]] = {name: [] for name in names}
     for sentence in assumptions:
-        if not heaviest_only or weight(sentence) == _OPEN:
+        if everything or weight(sentence) == _OPEN:
             found[effect(sentence)].append(sentence)
-    return [(name, _joined(sorted(sentences, key=weight))) for name, sentences in found.items() if sentences]
+    ordered = {name: sorted(sentences, key=weight) for name, sentences in found.items() if sentences}
+    return [(name, some if everything else _joined(some)) for name, some in ordered.items()]
 
 
 def _joined(sentences: Sequence[str]) -> list[str]:

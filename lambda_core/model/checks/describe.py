@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Literal
 
 from pydantic import BaseModel
@@ -10,6 +11,7 @@ from pydantic import BaseModel
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.units import from_si, show
 from lambda_core.model.bearing_model import BearingModel, Body, TableTerm, Term, TimeFunction
+from lambda_core.model.checks.assumption_effects import by_effect
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.model.laws.law_packages import laws_line
 from lambda_core.model.laws.time_functions import scaled
@@ -59,16 +61,36 @@ class CaseReport(BaseModel):
     assumptions: list[str]
     values: list[ValueReport]
 
-    def text(self) -> str:
-        """Return the lines for people."""
-        lines = [*self.headline, ""]
-        lines += _block("bodies", [f"{_BODY_NAMES[name]}: {text}" for name, text in self.bodies.items()])
-        lines += _block("models", _model_lines(self.models))
-        lines += _block("assumed", self.assumptions)
+    def text(self, everything: bool = False) -> str:
+        """Return the lines for people: the verdict, what the case is, warnings, assumptions by effect.
+
+        Parameters
+        ----------
+        everything : bool
+            Also the laws, and every assumption with its source.
+        """
+        lines = [verdict_line(self.name, self.warnings, self.assumptions), "", *self.headline]
         lines += _block("WARNING", self.warnings)
-        counts = [(self.warnings, "warning"), (self.assumptions, "assumption")]
-        told = ", ".join(f"{len(some)} {name}{'s' * (len(some) != 1)}" for some, name in counts if some)
-        return "\n".join([*lines, "", f"{self.name}: " + ", ".join(filter(None, ("no errors", told)))])
+        lines += _block("bodies", [f"{_BODY_NAMES[name]}: {text}" for name, text in self.bodies.items()])
+        if everything:
+            lines += _block("models", _model_lines(self.models))
+        return "\n".join([*lines, *assumption_block(self.assumptions, everything=everything)])
+
+
+def verdict_line(name: str, warnings: Sequence[str], assumptions: Sequence[str]) -> str:
+    """Return in one line that a case is valid, and what to look at."""
+    counts = [(warnings, "warning"), (assumptions, "assumption")]
+    told = (f"{len(some)} {word}{'s' * (len(some) != 1)}" for some, word in counts if some)
+    return f"{name}: {', '.join(('no errors', *told))}"
+
+
+def assumption_block(assumptions: Sequence[str], *, everything: bool = False) -> list[str]:
+    """Return assumptions by what they affect; by default those that leave something open, without their sources."""
+    if everything:
+        return _block("assumed", [text for _, some in by_effect(assumptions, everything=True) for text in some])
+    shown = by_effect(assumptions)
+    lines = _block("assumed", [f"{effect}: {'; '.join(some)}" for effect, some in shown])
+    return [*lines, *_block("", ["laws, published and numerical values, sources: --all"] if assumptions else [])]
 
 
 def describe(model: BearingModel) -> CaseReport:
