@@ -46,6 +46,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.run.answers import cite, compare, result, side_by_side, summary
     from lambda_core.run.plugin_trials import check_plugins, watch_problems
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
+    from lambda_core.study.choose import Choice, choose
     from lambda_core.study.current_map import electric_map
     from lambda_core.study.duty_cycle import duty
     from lambda_core.study.speed_curve import stribeck, stribeck_picture

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lambda_cli.db_text import list_bearings, list_lubricants, print_json, show_bearing, show_lubricant, show_plain
-from lambda_cli.options import JsonOption
+from lambda_cli.options import JsonOption, Units, UnitsOption
+from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 
 if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
@@ -71,6 +72,48 @@ def search(
             list_lubricants(found_some(catalogue, "lubricant", text, catalogue.lubricants(text, limit)), json)
         else:
             list_bearings(found_some(catalogue, "bearing", text, catalogue.bearings(text, limit)), json)
+
+
+@app.command()
+def choose(
+    radial: Annotated[str, typer.Option("--radial", metavar="FORCE", help='Radial load, "5 kN".')],
+    speed: Annotated[str, typer.Option("--speed", metavar="SPEED", help='Of the inner ring, "3000 rpm".')],
+    life: Annotated[str, typer.Option("--life", metavar="TIME", help='Required rating life, "20000 h".')],
+    axial: Annotated[str, typer.Option("--axial", metavar="FORCE", help="Axial load.")] = "0 N",
+    bore: Annotated[str | None, typer.Option("--bore", metavar="LENGTH", help='Only this bore, "40 mm".')] = None,
+    outside: Annotated[
+        str | None, typer.Option("--outside", metavar="LENGTH", help="Largest outside diameter.")
+    ] = None,
+    kind: Annotated[
+        str | None,
+        typer.Option(
+            metavar="KIND", help="Only deep groove, angular contact, four-point, double row or self-aligning."
+        ),
+    ] = None,
+    maker: Annotated[str | None, typer.Option(help="Only bearings of this maker.")] = None,
+    oil: Annotated[str, typer.Option(metavar="NAME", help="Oil or grease of the catalogue.")] = "mineral-vg68",
+    temperature: Annotated[str, typer.Option(metavar="TEMPERATURE", help="Of the oil in operation.")] = "70 degC",
+    contamination: Annotated[
+        str | None,
+        typer.Option(metavar="E_C|LEVEL", help='e_C, or a level such as "normal cleanliness": modified lives count.'),
+    ] = None,
+    static_safety: Annotated[float, typer.Option("--static-safety", min=0.0, help="Least C0/P0.")] = 1.0,
+    limit: Annotated[int, typer.Option(min=1, max=100, help="Bearings to show.")] = 10,
+    json: JsonOption = False,
+    units: UnitsOption = Units.SI,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Choose ball bearings by load, speed and required life: the smallest that meet everything first."""
+    from lambda_core import api
+
+    with talk(progress, quiet) as speaker:
+        found = api.choose(
+            radial=radial, axial=axial, speed=speed, life=life, bore=bore, outside=outside, kind=kind, maker=maker,
+            oil=oil, temperature=temperature, contamination=contamination, static_safety=static_safety, limit=limit,
+            announce=speaker.say,
+        )  # fmt: skip
+    typer.echo(found.model_dump_json(indent=2) if json else found.text(units.system))
 
 
 @app.command()

@@ -40,7 +40,7 @@ _PICK = '\nclearance_pick = "middle"'
 _MEASURED = 'or a measured value such as "14 um"'
 # Thrust over radial load times tan(alpha) at which half the circumference is loaded (NSK, CAT. No. E728, 5.1);
 # with less fewer balls carry, and an angular contact bearing alone comes apart.
-_HALF_LOADED = 1.216
+HALF_LOADED = 1.216
 
 
 def fresh_case(name: str, bearing: BearingRow, read: Designation, machine: MachineTemplate = GENERAL) -> str:
@@ -92,7 +92,7 @@ def _thrust(machine: MachineTemplate, bearing: BearingRow) -> tuple[float, str]:
     if least > 0.0:
         return max(machine.thrust, least), f"along the shaft: {least:g} of the radial load at least, SKF"
     alone = bearing.kind == "angular contact" and bearing.contact_angle is not None
-    least = _HALF_LOADED * math.tan(bearing.contact_angle.value) if alone and bearing.contact_angle else 0.0
+    least = HALF_LOADED * math.tan(bearing.contact_angle.value) if alone and bearing.contact_angle else 0.0
     if least > machine.thrust:
         return 1.1 * least, "along the shaft; less opens an angular contact bearing that stands alone"
     return machine.thrust, f"{machine.thrust:.2g} of it, along the shaft" if machine.thrust else "along the shaft"

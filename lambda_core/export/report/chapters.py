@@ -24,12 +24,11 @@ from lambda_core.export.report.key_tables import (
     value_tables,
 )
 from lambda_core.export.report.sketch import bearing_sketch, load_sketch, shaft_sketch
-from lambda_core.results.model_band import FIELDS
 from lambda_core.results.verdict import Verdict
 
 if TYPE_CHECKING:
-    from lambda_core.results.bearing_summary import BearingSummary
     from lambda_core.results.citation import Citation
+    from lambda_core.results.model_band import ModelBand
     from lambda_core.results.reader import Result
 
 _SIZES = ("bore_diameter", "outside_diameter", "width")
@@ -103,7 +102,7 @@ class Chapter:
 
 def bearing_part(
     found: Any, geometry: Mapping[str, Any], *, name: str = "", loads: Sequence[float] = (), speed: str = "",
-    units: UnitSystem = SI, bands: Mapping[str, tuple[float, float]] | None = None,
+    units: UnitSystem = SI,
 ) -> BearingPart:  # fmt: skip
     """Return what there is to say of one bearing.
 
@@ -115,8 +114,6 @@ def bearing_part(
         Of the resolved model, SI.
     loads : sequence of float
         Radial and axial load [N].
-    bands : mapping, optional
-        Field of `found` -> ends of the 90 % model band.
     """
     verdict: Verdict | None = found.verdict
     tables = [table for table in (lives(found, units), breakdown(found, units), contacts(found, units)) if table.rows]
@@ -128,7 +125,7 @@ def bearing_part(
         is_met=verdict is None or verdict.met,
         margin_line="   ".join(verdict.lines(units)[1]) if verdict is not None else "",
         margins=margins(verdict, units) if verdict is not None else None,
-        figures=key_figures(found, units, bands or {}),
+        figures=key_figures(found, units),
         sketch=bearing_sketch(geometry, loads, speed, units),
         loads=load_sketch(found.contacts, units),
         tables=tuple(tables),
@@ -151,9 +148,7 @@ def case_chapter(model: Any, found: Any, units: UnitSystem = SI, pictures: Seque
         return _machine_chapter(model, found, units, pictures)
     loads = _applied(model)
     speed = _speed(model)
-    part = bearing_part(
-        found, plain(model.geometry), loads=loads, speed=speed, units=units, bands=_bands(model.case_toml)
-    )
+    part = bearing_part(found, plain(model.geometry), loads=loads, speed=speed, units=units)
     return Chapter(
         kind="case", title=found.title, subtitle=f"{model.name}, quasi-static at t = 0", state="equilibrium found",
         good=True, bearings=(part,), warnings=_sentences(found.warnings, units), inputs=case_inputs(model, units),
@@ -189,11 +184,12 @@ def run_bearings(result: Result, units: UnitSystem) -> tuple[BearingPart, ...]:
     """Return the parts of the bearings of a run."""
     summary = result.summary()
     several = result.is_machine and len(summary.bearings) > 1
+    band = None if result.is_machine or result.model_band is not None else _band(result.case_toml)
     return tuple(
         bearing_part(
-            one, result.of_bearing(name).model["geometry"] if result.is_machine else result.model["geometry"],
+            one.with_band(band) if band is not None else one,
+            result.of_bearing(name).model["geometry"] if result.is_machine else result.model["geometry"],
             name=name if several else "", loads=_carried(one), units=units,
-            bands=_written_bands(one) or ({} if result.is_machine else _bands(result.case_toml)),
         )
         for name, one in summary.bearings.items()
     )  # fmt: skip
@@ -232,23 +228,18 @@ def _sentences(lines: Sequence[str], units: UnitSystem) -> tuple[str, ...]:
     return tuple(map(units.sentence, lines))
 
 
-def _written_bands(found: BearingSummary) -> Mapping[str, tuple[float, float]]:
-    """Return the model bands that a run was asked for by field; empty where it was not."""
-    ends = {name: getattr(found, f"{name}_band") for name in FIELDS.values()}
-    return {name: (both[0], both[1]) for name, both in ends.items() if both}
-
-
 @lru_cache(maxsize=8)
-def _bands(case_toml: str) -> Mapping[str, tuple[float, float]]:
-    """Return the 90 % model bands of a case by field; empty where there are none."""
+def _band(case_toml: str) -> ModelBand | None:
+    """Return the 90 % model band of the case of one bearing; None where there is none."""
     from lambda_core.analysis.band.model_band import model_band
     from lambda_core.case.case_io import parse_case
+    from lambda_core.results.model_band import ModelBand
 
     try:
-        fields = model_band(parse_case(case_toml)).fields()
+        found = model_band(parse_case(case_toml))
     except LambdaError:
-        return {}
-    return {name.removesuffix("_band"): (low, high) for name, (low, high) in fields.items()}
+        return None
+    return found if isinstance(found, ModelBand) else None
 
 
 def run_inputs(result: Result, units: UnitSystem = SI) -> Inputs:

@@ -40,21 +40,19 @@ class Table:
     rows: tuple[tuple[str, ...], ...]
 
 
-def key_figures(
-    found: Any, units: UnitSystem = SI, bands: Mapping[str, tuple[float, float]] | None = None
-) -> list[tuple[str, str, str]]:
+def key_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]]:
     """Return what an engineer looks for first: loss, life, safety, lubrication; each name, number, unit.
 
-    `bands` are 90 % model bands by field; `found` is a run, an equilibrium, or a bearing of one.
+    `found` is a run, an equilibrium, or a bearing of one.
     """
     rating, torque = getattr(found, "rating", None), units.unit("N mm")
     width = getattr(found, "friction_torque_ci_Nmm", None)
     mean = units.plus_minus(found.friction_torque_Nmm, width, "N mm").removesuffix(torque)
     name = "friction torque (95 %)" if width is not None else "friction torque"
     rows = [(name, mean.strip(), torque)]
-    rows += _band("friction_torque_Nmm", "N mm", "friction torque, 90 % model band", units, bands)
+    rows += _band(found, "friction_torque_Nmm", "N mm", "friction torque, 90 % model band", units)
     rows.append(_figure(found, "power_loss_W", units))
-    rows += _band("power_loss_W", "W", "power loss, 90 % model band", units, bands)
+    rows += _band(found, "power_loss_W", "W", "power loss, 90 % model band", units)
     if rating is not None:
         rows += [
             _figure(rating, "skf_torque_Nmm", units),
@@ -83,13 +81,12 @@ def key_figures(
     ]
 
 
-def _band(
-    field: str, unit: str, name: str, units: UnitSystem, bands: Mapping[str, tuple[float, float]] | None
-) -> list[tuple[str, str, str]]:
+def _band(found: Any, field: str, unit: str, name: str, units: UnitSystem) -> list[tuple[str, str, str]]:
     """Return the row of a model band, where there is one."""
-    if not bands or field not in bands:
+    ends = getattr(found, f"{field}_band", [])
+    if not ends:
         return []
-    low, high = (units.value(value, unit) for value in bands[field])
+    low, high = (units.value(value, unit) for value in ends)
     return [(name, f"{rounded(low, 2)}..{rounded(high, 2)}", units.unit(unit))]
 
 

@@ -365,9 +365,9 @@ def _case_chapter(source: str | PathLike[str], bearing: str | None, cover: Cover
     refuse_bearing(bearing)
     if not is_machine(Path(source)):
         model = ready_model(Path(source), is_static=True)
-        return case_chapter(model, quasistatic(model), cover.units)
+        return case_chapter(model, quasistatic(model, band=True), cover.units)
     machine = ready_machine_of(Path(source), ())
-    found = quasistatic(machine)
+    found = quasistatic(machine, band=True)
     return case_chapter(machine, found, cover.units, machine_drawings(registry(), machine, found, cover))
 
 

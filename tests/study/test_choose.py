@@ -1,0 +1,50 @@
+"""Choosing bearings of the catalogue by load, speed and required life."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from lambda_cli.main import main
+
+from lambda_core import api
+from lambda_core.domain.errors import UsageError
+
+QUESTION = {"radial": "5 kN", "axial": "1 kN", "speed": "3000 rpm", "life": "2000 h", "oil": "FVA3A", "bore": "40 mm"}
+
+
+def test_the_smallest_that_reach_the_life_come_first() -> None:
+    found = api.choose(**QUESTION, kind="deep groove", limit=3)  # type: ignore[arg-type]
+    assert [one.met for one in found.candidates] == [True, True, True]
+    volumes = [one.outside_mm**2 * one.width_mm for one in found.candidates]
+    assert volumes == sorted(volumes)
+    for one in found.candidates:
+        assert one.bore_mm == 40.0
+        assert one.life_h is not None
+        assert one.life_h >= 2000.0
+        assert one.life_name == "L_10rh"
+    sums = sum(found.left_out.values())
+    assert found.left_out["do not reach the life"] > 0
+    assert sums > 100  # each of the other bearings has its reason
+    assert found.text().splitlines()[0].startswith("radial 5 kN, axial 1 kN, 3000 rpm, 2 000 h required")
+
+
+def test_given_cleanliness_makes_modified_lives_count(capsys: pytest.CaptureFixture[str]) -> None:
+    words = [text for key, value in QUESTION.items() for text in (f"--{key}", value)]
+    more = ["--kind", "deep groove", "--contamination", "0.5", "--life", "20000 h", "--limit", "2", "--json", "--quiet"]
+    assert main(["db", "choose", *words, *more]) == 0
+    found = json.loads(capsys.readouterr().out)
+    best = found["candidates"][0]
+    assert best["life_name"] == "L_nmrh"
+    assert best["met"]
+    assert best["basic_life_h"] < 20000.0 < best["life_h"]  # a_ISO above 1 at kappa of about 4
+
+
+def test_what_cannot_be_asked_is_named() -> None:
+    for changes, words in (
+        ({"kind": "deep grove"}, "nearest: deep groove"),
+        ({"radial": "5"}, 'write "5 N"'),
+        ({"radial": "0 N", "axial": "0 N"}, "give a radial or an axial one"),
+    ):
+        with pytest.raises(UsageError, match=words):
+            api.choose(**{**QUESTION, **changes})  # type: ignore[arg-type]
