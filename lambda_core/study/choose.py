@@ -15,6 +15,7 @@ from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import parse, show
+from lambda_core.elements.ball.kinds import kinds
 from lambda_core.formulas.life import (
     basic_rating_life,
     contamination_range,
@@ -25,11 +26,10 @@ from lambda_core.formulas.life import (
     static_equivalent_load,
 )
 from lambda_core.formulas.ratings import fatigue_load_limit, static_factor
-from lambda_core.model.checks.operating_limits import MINIMUM_LOAD, ONE_SIDE
+from lambda_core.model.checks.operating_limits import MINIMUM_LOAD
 from lambda_core.model.fresh_case import HALF_LOADED
 from lambda_core.results.record import INTERFACE, Record
 
-KINDS = ("deep groove", "angular contact", "four-point", "double row", "self-aligning")
 _ALL = 1_000_000  # rows of the catalogue
 _TRIALS = 3  # equilibria that are solved at most for every bearing that is shown
 _LEAST_SAFETY = 1.0  # static, unless more is asked for
@@ -152,8 +152,8 @@ def choose(
     """
     from lambda_core.discovery.manager import registry
 
-    if kind is not None and kind not in KINDS:
-        raise UsageError(unknown_name("kind of bearing", kind, KINDS))
+    if kind is not None and kind not in kinds():
+        raise UsageError(unknown_name("kind of bearing", kind, kinds()))
     if isinstance(contamination, str) and contamination.replace(".", "", 1).isdigit():
         contamination = float(contamination)
     wanted = _Wanted(radial, axial, speed, life, bore, outside, static_safety)
@@ -225,8 +225,8 @@ class _Wanted:
 
     def _by_kind(self, row: BearingRow) -> str:
         """Return why a kind of bearing cannot stand alone under this load."""
-        if row.kind == "four-point" and self.axial < ONE_SIDE * self.radial:
-            return "have four-point contact and need more axial load"
+        if self.axial < kinds()[row.kind].least_thrust * self.radial:
+            return f"need more axial load as {row.kind} bearings"
         if row.kind == "angular contact" and row.contact_angle is not None:
             least = HALF_LOADED * math.tan(row.contact_angle.value) * self.radial
             if self.axial < least:
@@ -237,16 +237,17 @@ class _Wanted:
         """Return whether life, static safety or minimum load speak against a bearing (ISO 281, ISO 76)."""
         assert row.dynamic_rating is not None
         assert row.static_rating is not None
-        aligning, rows = row.kind == "self-aligning", 2 if row.kind in ("four-point", "double row") else 1
+        of_kind = kinds()[row.kind]
+        aligning, rows = of_kind.on_sphere, of_kind.rows * of_kind.arcs
         angle = row.contact_angle.value if row.contact_angle is not None and row.kind != "deep groove" else 0.0
         dynamic, static = row.dynamic_rating.value, row.static_rating.value
         mean = 0.5 * (row.bore_diameter.value + row.outside_diameter.value)
         pitch = row.pitch_diameter.value if row.pitch_diameter is not None else mean
         gamma = row.ball_diameter.value * math.cos(angle) / pitch if row.ball_diameter is not None else 0.2
-        factor = static_factor(gamma, self_aligning=aligning)
+        factor = static_factor(gamma, on_sphere=aligning)
         kind = (angle, rows)
-        load = dynamic_equivalent_load(self.radial, self.axial, static, factor, *kind, self_aligning=aligning).load
-        resting = static_equivalent_load(self.radial, self.axial, *kind, self_aligning=aligning)
+        load = dynamic_equivalent_load(self.radial, self.axial, static, factor, *kind, on_sphere=aligning).load
+        resting = static_equivalent_load(self.radial, self.axial, *kind, on_sphere=aligning)
         if static < self.safety * resting:
             return "have too little static safety"
         if self.speed > 0.0 and load < MINIMUM_LOAD * dynamic:
