@@ -1,11 +1,14 @@
 """Dynamics of rolling bearings: machines, contact mechanics, integrator, results.
 
-``import lambda_core as lb`` and build a :class:`lb.Machine <lambda_core.machine.Machine>`; all other calls are in
-:mod:`lambda_core.api` (running things) and :mod:`lambda_core.plugins` (extending things). Everything else is internal.
+``import lambda_core as lb``: build a :class:`lb.Machine <lambda_core.machine.Machine>` and ask it: ``machine.run()``,
+``machine.study(...)``. Calls of :mod:`lambda_core.api` for cases and files are here, too, where no package has their
+name: ``lb.quasistatic``, ``lb.result``, ``lb.modes``. Plugins extend the program by :mod:`lambda_core.plugins`.
+Everything else is internal.
 """
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -16,14 +19,20 @@ __all__ = ["Machine"]
 
 
 def __getattr__(name: str) -> Any:
-    """Import the class of machines when it is first asked for: commands start faster without it."""
-    if name != "Machine":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from lambda_core.machine import Machine
+    """Import what is asked for when it is first asked for: commands start faster without it."""
+    if name == "Machine":
+        from lambda_core.machine import Machine
 
-    return Machine
+        return Machine
+    if not name.startswith("_"):
+        api = import_module("lambda_core.api")
+        if name == "api":
+            return api
+        if name in api.__all__:
+            return getattr(api, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
     """Return the names that a notebook completes."""
-    return sorted({*globals(), *__all__})
+    return sorted({*globals(), *__all__, "api", *import_module("lambda_core.api").__all__})

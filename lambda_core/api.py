@@ -13,57 +13,38 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.analysis.band.model_band import model_band
-    from lambda_core.analysis.electric.api import check_discharges_file, write_discharges
     from lambda_core.analysis.electric.bearing_currents import electric, film_from_capacitance
-    from lambda_core.analysis.rotor.machine_answers import describe_machine, modes
-    from lambda_core.analysis.rotor.machine_text import machine_warnings
-    from lambda_core.analysis.thermal.api import thermal, thermal_pictures, warm_up
-    from lambda_core.case.case_io import is_machine
+    from lambda_core.analysis.rotor.machine_answers import modes
+    from lambda_core.analysis.thermal.api import thermal, warm_up
     from lambda_core.discovery.manager import use_plugin
-    from lambda_core.discovery.packages import new_plugin, plugin_faults, plugin_model, plugins, watchers
+    from lambda_core.discovery.packages import plugins
     from lambda_core.domain.errors import CaseError, LambdaError, UsageError
     from lambda_core.export.fmu.unit_file import export_fmu
-    from lambda_core.export.report.pictures import (
-        animate,
-        draw,
-        machine_pictures,
-        report,
-        view,
-        view_all,
-        view_stem,
-        views,
-    )
+    from lambda_core.export.report.pictures import animate, draw, report, view, views
     from lambda_core.export.ross import ross_rotor
-    from lambda_core.export.stiffness import stiffness_target, write_stiffness
+    from lambda_core.export.stiffness import write_stiffness
     from lambda_core.fit.fit_case import fit
-    from lambda_core.fit.fitted_case import fitted_case
-    from lambda_core.fit.measured import compare_measured, measured_series
-    from lambda_core.model.cases import builtin_cases, case, catalogue, draft, init_case, save, schema, templates
-    from lambda_core.model.checking import check, describe, problems, resolve
-    from lambda_core.model.laws.law_trials import law_problems
-    from lambda_core.model.long_form import long_form
-    from lambda_core.model.roller_case import roller_model
+    from lambda_core.fit.measured import compare_measured
+    from lambda_core.model.cases import builtin_cases, case, catalogue, init_case, save, schema
+    from lambda_core.model.checking import check, describe
     from lambda_core.run.answers import cite, compare, result, side_by_side, summary
-    from lambda_core.run.plugin_trials import check_plugins, watch_problems
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.study.choose import Choice, choose
     from lambda_core.study.current_map import electric_map
     from lambda_core.study.duty_cycle import duty
-    from lambda_core.study.speed_curve import stribeck, stribeck_picture
-    from lambda_core.study.study_files import init_study, study_examples
-    from lambda_core.study.study_runs import (
-        study_check,
-        study_resume,
-        study_run,
-        study_schema,
-        study_status,
-        study_table,
-    )
+    from lambda_core.study.in_python import study
+    from lambda_core.study.speed_curve import stribeck
+    from lambda_core.study.study_runs import study_check, study_resume, study_run, study_status, study_table
 if TYPE_CHECKING:  # what the faces build on, and the classes that calls take and return
+    from lambda_core.analysis.electric.api import check_discharges_file, write_discharges
+    from lambda_core.analysis.rotor.machine_answers import describe_machine
     from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
     from lambda_core.analysis.rotor.machine_modes import MachineModes
+    from lambda_core.analysis.rotor.machine_text import machine_warnings
+    from lambda_core.analysis.thermal.api import thermal_pictures
     from lambda_core.case.cards import FieldCard, Kind, field_card
     from lambda_core.case.case import Case
+    from lambda_core.case.case_io import is_machine
     from lambda_core.case.case_writer import save_text
     from lambda_core.case.draft import Draft
     from lambda_core.case.modelling import Models
@@ -73,16 +54,25 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.catalogue.designation import Designation, read_designation
     from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue, LubricantRow, MaterialRow
     from lambda_core.discovery.manager import registry, switch_off
+    from lambda_core.discovery.packages import new_plugin, plugin_faults, plugin_model, watchers
     from lambda_core.discovery.registry import Registry
     from lambda_core.discovery.survey import CheckCard, ModelCard, NoteCard, Verdict
     from lambda_core.elements.ball.geometry import Geometry
+    from lambda_core.export.report.pictures import machine_pictures, view_all, view_stem
+    from lambda_core.export.stiffness import stiffness_target
+    from lambda_core.fit.fitted_case import fitted_case
+    from lambda_core.fit.measured import measured_series
     from lambda_core.fit.report import FitReport
     from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.cases import draft, templates
+    from lambda_core.model.checking import problems, resolve
     from lambda_core.model.checks.describe import ValueReport, value_reports
     from lambda_core.model.checks.oil_table import oil_table
     from lambda_core.model.checks.operating_limits import operating_warnings
+    from lambda_core.model.laws.law_trials import law_problems
+    from lambda_core.model.long_form import long_form
     from lambda_core.model.machine_model import MachineModel, MountedBearing
-    from lambda_core.model.roller_case import RollerModel
+    from lambda_core.model.roller_case import RollerModel, roller_model
     from lambda_core.results.bearing_summary import BearingSummary
     from lambda_core.results.quantity import shown_numbers
     from lambda_core.results.reader import Result
@@ -90,12 +80,16 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.results.side_by_side import SideBySide
     from lambda_core.results.summary import Summary
     from lambda_core.run.estimate import Estimate, MachineEstimate
+    from lambda_core.run.plugin_trials import check_plugins, watch_problems
     from lambda_core.run.progress import Progress
     from lambda_core.study.duty_cycle import DutyCycle
     from lambda_core.study.machine_duty import MachineDutyCycle
     from lambda_core.study.run_queue import QueuedRun, RunKind, RunQueue
     from lambda_core.study.scheduler import StudyProgress
+    from lambda_core.study.speed_curve import stribeck_picture
     from lambda_core.study.studies import StudyStatus
+    from lambda_core.study.study_files import init_study, study_examples
+    from lambda_core.study.study_runs import study_schema
 
 
 def _declared() -> list[dict[str, str]]:

@@ -210,6 +210,15 @@ class Machine:
         """Compute the temperatures that the machine's own losses cause."""
         return self._ask("thermal")
 
+    def study(self, varies: Mapping[str, Sequence[Any]], asks: Iterable[str] = (), **options: Any) -> Any:
+        """Vary options and return a table of the points; as :func:`lambda_core.api.study`.
+
+        Examples
+        --------
+        ``machine.study({"gears.wheel.power": ["5 kW", "15 kW"]}, asks=["system_life_h"])``
+        """
+        return self._ask("study", varies=varies, asks=asks, **options)
+
     def run(self, out: str | Path | None = None, **options: Any) -> Any:
         """Simulate the motion and return the result; options as for :func:`lambda_core.api.run`."""
         return self._ask("run", out=out, **options)

@@ -16,3 +16,9 @@ class Record(BaseModel):
         """Return the lines for people where there are any, else the short form."""
         text = getattr(type(self), "text", None)
         return str(text(self)) if callable(text) else repr(self)
+
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows: the lines for people."""
+        from html import escape
+
+        return f"<pre>{escape(str(self))}</pre>"

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, PrivateAttr
 
 from lambda_core.analysis.rotor.bearing_life import bearing_life
 from lambda_core.analysis.rotor.machine_modes import AXES, six
@@ -25,7 +25,7 @@ from lambda_core.results.bearing_summary import BearingSummary, Contact
 from lambda_core.results.bearing_summary import Equilibrium as StartState
 from lambda_core.results.limits import warnings
 from lambda_core.results.model_band import Banded, MachineBand, sum_of_bands
-from lambda_core.results.quantity import FLOATING, quantity, same_as
+from lambda_core.results.quantity import FLOATING, quantities, quantity, same_as
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
@@ -171,9 +171,70 @@ class MachineEquilibrium(Record):
 
         return equilibrium_text(self, width, units)
 
+    _model: MachineModel | None = PrivateAttr(default=None)
+
     def to_dict(self) -> dict[str, Any]:
         """Return plain data, ready for JSON."""
         return self.model_dump(mode="json")
+
+    def with_(self, **changes: Any) -> MachineEquilibrium:
+        """Solve the same machine with changes to its case, section by section.
+
+        Examples
+        --------
+        ``found.with_(gears={"wheel": {"power": "20 kW"}}).system_life_h``
+
+        Raises
+        ------
+        UsageError
+            For an equilibrium that was read from data and has no machine.
+        CaseError, SolverError
+            With a sentence about the case, or about why there is no equilibrium.
+        """
+        from lambda_core.analysis.rotor.machine_answers import machine_equilibrium
+        from lambda_core.case.case_io import read_case, toml_tables
+
+        case = read_case(toml_tables(self._solved().case_toml, self.case))
+        return machine_equilibrium(case.with_(**changes))
+
+    def plot(self, name: str = "shaft", **options: Any) -> Any:
+        """Return a view of the machine as a matplotlib figure: its shaft with deflection and bending moment."""
+        from lambda_core.discovery.manager import registry
+        from lambda_core.discovery.shown import data_of, view_of
+        from lambda_core.views.view import MachineData
+
+        view = view_of(registry(), name, "machine")
+        return registry().figure(view, data_of(view, MachineData(self._solved(), self, None), options))
+
+    def to_xarray(self) -> Any:
+        """Return the numbers of the bearings and the deflection of the shaft as an xarray.Dataset, with units.
+
+        Raises
+        ------
+        UsageError
+            When xarray is not installed; it comes with the extra "data".
+        """
+        try:
+            import xarray
+        except ImportError:
+            raise UsageError('xarray comes with the extra "data": pip install "lambda-bearing[data]"') from None
+
+        data = {}
+        for name, one in quantities(BearingEquilibrium).items():
+            if one.is_list and not one.axes:
+                continue
+            values = np.array([getattr(bearing, name) for bearing in self.bearings], dtype=float)
+            dims = ("bearing", "".join(one.axes)) if one.axes else ("bearing",)
+            data[name] = (dims, values, {"units": one.unit, "long_name": one.label})
+        data["deflection_um"] = (("position", "xyz"), np.array(self.deflection_um), {"units": "um"})
+        names = [bearing.name for bearing in self.bearings]
+        labels = {"bearing": names, "position": self.positions_mm, "xyz": list("xyz"), "yz": list("yz")}
+        return xarray.Dataset(data, labels, {"case": self.case, "speed_rpm": self.speed_rpm})
+
+    def _solved(self) -> MachineModel:
+        if self._model is None:
+            raise UsageError(f"{self.case}: this equilibrium has no machine; solve its case anew")
+        return self._model
 
     def bearing(self, name: str) -> BearingEquilibrium:
         """Return one bearing by its name; UsageError with the nearest name where there is none."""
@@ -202,7 +263,7 @@ def equilibrium_of(
     lives = [b.reference_rating_life_h for b in bearings if b.reference_rating_life_h is not None]
     torques = [b.friction_torque_Nmm for b in bearings]
     rpm, rows = 30.0 / math.pi * model.speed, static_rows(model)
-    return MachineEquilibrium(
+    found = MachineEquilibrium(
         case=model.name,
         speed_rpm=rpm,
         bearings=bearings,
@@ -229,6 +290,8 @@ def equilibrium_of(
         warnings=list(model.warnings),
         assumptions=list(model.assumptions),
     )
+    found._model = model
+    return found
 
 
 def _moved(motion: FloatArray) -> BodyMoved:
