@@ -122,7 +122,7 @@ def section_names(draft: Draft) -> dict[str, tuple[str, ...]]:
     found: dict[str, tuple[str, ...]] = {}
     for section, info in draft.root.model_fields.items():
         tables = draft.get(section)
-        if get_origin(info.annotation) is dict and isinstance(tables, dict):
+        if section != "parameters" and get_origin(info.annotation) is dict and isinstance(tables, dict):
             found[section] = tuple(name for name, table in tables.items() if isinstance(table, dict))
     pieces = draft.get(*SECTIONS.split("."))
     if isinstance(pieces, list):
