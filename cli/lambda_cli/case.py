@@ -48,6 +48,10 @@ def init(
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="File to write; default: NAME.toml.")
     ] = None,
+    radial: Annotated[str | None, typer.Option("--radial", metavar="FORCE", help="With --bearing: load.")] = None,
+    axial: Annotated[str | None, typer.Option("--axial", metavar="FORCE", help="With --bearing: load.")] = None,
+    speed: Annotated[str | None, typer.Option("--speed", metavar="SPEED", help="With --bearing.")] = None,
+    oil: Annotated[str | None, typer.Option("--oil", metavar="NAME", help="With --bearing: lubricant.")] = None,
     force: ForceOption = False,
 ) -> None:
     """Write a commented case file to start from."""
@@ -55,7 +59,9 @@ def init(
 
     from lambda_core import api
 
-    target = api.init_case(name, start, out, overwrite=force, bearing=bearing, template=template)
+    given = {"loads.radial": radial, "loads.axial": axial, "operation.speed": speed, "lubricant.name": oil}
+    changes = [f"{path}={value}" for path, value in given.items() if value is not None]
+    target = api.init_case(name, start, out, overwrite=force, bearing=bearing, template=template, changes=changes)
     remember(target)
     typer.echo(f"wrote {target}; next: lambda-bearing check {target}", err=True)
 

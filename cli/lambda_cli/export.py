@@ -84,3 +84,5 @@ def fmu(
             announce=speaker.say,
         )
     typer.echo(json.dumps({"file": str(written)}) if as_json else str(written))
+    if not vary:
+        typer.echo("this FMU has no parameters: --vary PATH makes an option of the case one", err=True)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.errors import UsageError, unknown_name
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
     from lambda_core.case.case import Case
     from lambda_core.case.draft import Draft
@@ -86,6 +86,7 @@ def init_case(
     *,
     bearing: str | None = None,
     template: str | None = None,
+    changes: Sequence[str] = (),
 ) -> Path:
     """Write a commented case called `name` that starts from another, or from a bearing of the catalogue.
 
@@ -104,6 +105,8 @@ def init_case(
     template : str, optional
         Instead of `start`: one of :func:`templates`. ``geared-shaft`` is a shaft in two bearings; the others are one
         bearing with what is usual in such a machine, with `bearing` for another one.
+    changes : sequence of str
+        ``path=value``: what the new case has otherwise, with `bearing` or a `template` of one bearing.
 
     Returns
     -------
@@ -123,6 +126,8 @@ def init_case(
     from lambda_core.case.case_writer import new_case, write_new
 
     target = Path(path) if path is not None else Path(f"{name}.toml")
+    if changes and ((bearing is None and template is None) or template == GEARED_SHAFT):
+        raise UsageError("load, speed and oil of a new case go with --bearing or a template of one bearing")
     if bearing is None and template is None:
         return new_case(name, start or "6319-cp10-1500", target, overwrite)
     if start is not None:
@@ -140,9 +145,10 @@ def init_case(
         validate(ShaftCase, tomllib.loads(text), f'new machine "{name}"')
         save_text(text, check_new(target, overwrite))
         return target
-    from lambda_core.case.case_io import parse_case
+    from lambda_core.case.case_io import apply_overrides, parse_case
 
-    return write_new(parse_case(text, f"case {name}"), text, target, overwrite)
+    changed = apply_overrides(parse_case(text, f"case {name}"), changes)
+    return write_new(changed, text, target, overwrite)
 
 
 def _template_text(name: str, template: str | None, bearing: str | None) -> str:
