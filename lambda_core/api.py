@@ -61,7 +61,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.export.report.pictures import machine_pictures, view_all, view_stem
     from lambda_core.export.stiffness import stiffness_target
     from lambda_core.fit.fitted_case import fitted_case
-    from lambda_core.fit.measured import measured_series
+    from lambda_core.fit.measured import add_measured, measured_series
     from lambda_core.fit.report import FitReport
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.cases import draft, templates

@@ -1,13 +1,14 @@
-"""The commands measured list and measured compare: measured series next to the program."""
+"""The commands measured list, compare and add: measured series next to the program."""
 
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from lambda_cli.options import JsonOption
+from lambda_cli.options import ForceOption, JsonOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 from lambda_core.domain.wrapping import wrapped
 
@@ -32,6 +33,20 @@ def list_(as_json: JsonOption = False) -> None:
         lines += [f"{series.name}: {series.title}", f"  {series.source} ({series.licence})"]
         lines += [f"  {series.how_read}; {series.uncertainty}"]
     typer.echo("\n".join(wrapped(lines, columns())))
+
+
+@app.command()
+def add(
+    file: Annotated[Path, typer.Argument(metavar="FILE.toml", help="Description; the points are in FILE.csv.")],
+    force: ForceOption = False,
+) -> None:
+    """Add a measured series of your own: both files are copied into your data folder."""
+    from lambda_core import api
+
+    series = api.add_measured(file, overwrite=force)
+    typer.echo(
+        f"added {series.name.removesuffix('.toml')}; next: lambda-bearing measured compare {file.stem}", err=True
+    )
 
 
 @app.command()

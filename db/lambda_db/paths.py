@@ -10,6 +10,8 @@ from pathlib import Path
 
 import platformdirs
 
+from lambda_core.domain.files import user_data_folder
+
 APPLICATION = "lambda-bearing"
 
 
@@ -19,12 +21,6 @@ def cache_folder() -> Path:
     return Path(given) if given else platformdirs.user_cache_path(APPLICATION)
 
 
-def data_folder() -> Path:
-    """Folder of the user's own database: ``LAMBDA_BEARING_DATA`` or the user's data folder."""
-    given = os.environ.get("LAMBDA_BEARING_DATA")
-    return Path(given) if given else platformdirs.user_data_path(APPLICATION)
-
-
 def user_database() -> Path:
     """File of the user's own rows."""
-    return data_folder() / "catalogue.sqlite"
+    return user_data_folder() / "catalogue.sqlite"

@@ -8,13 +8,13 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
-from lambda_db.paths import data_folder
+from lambda_core.domain.files import user_data_folder
 
 _MOST = 20  # files that are kept in mind
 
 
 def _file() -> Path:
-    return data_folder() / "recent.json"
+    return user_data_folder() / "recent.json"
 
 
 def _is_temporary(path: Path) -> bool:

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
 def state_folder() -> Path:
     """Return where the builder keeps recovery files and the files of runs."""
-    from lambda_db.paths import data_folder
+    from lambda_core.domain.files import user_data_folder
 
-    return data_folder() / "builder"
+    return user_data_folder() / "builder"
 
 
 @dataclass(frozen=True)

@@ -126,3 +126,11 @@ def read_bytes(path: Path, largest: int = LARGEST_TEXT) -> bytes:
 def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
     """Return the text of a regular file in UTF-8, without a byte order mark; errors as :func:`read_bytes`."""
     return read_bytes(path, largest).decode("utf-8-sig")
+
+
+def user_data_folder() -> Path:
+    """Return the folder of the user's own data: ``LAMBDA_BEARING_DATA`` or the one that the system has for it."""
+    import platformdirs
+
+    given = os.environ.get("LAMBDA_BEARING_DATA")
+    return Path(given) if given else platformdirs.user_data_path("lambda-bearing")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
@@ -17,6 +18,7 @@ from lambda_core.analysis.band.quantities import MEASURED
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, unknown_name
+from lambda_core.domain.files import user_data_folder
 from lambda_core.fit.measurements import Measurements, parse_measurements, read_measurements
 from lambda_core.fit.operating_points import condition_change, point_values
 from lambda_core.fit.scores import interval_score
@@ -110,11 +112,53 @@ def measured_series() -> list[MeasuredSeries]:
     Returns
     -------
     list of MeasuredSeries
-        Sorted by name, each with its source, licence, reading and uncertainty.
+        Those of the program, then those that were added, each with its source, licence, reading and uncertainty.
     """
-    folder = files(__package__).joinpath(_FOLDER)
-    names = sorted(entry.name for entry in folder.iterdir() if entry.name.endswith(".toml"))
-    return [_read(folder.joinpath(name).read_text(encoding="utf-8"), name) for name in names]
+    found = []
+    for folder in (files(__package__).joinpath(_FOLDER), _own_folder()):
+        entries = folder.iterdir() if folder.is_dir() else ()
+        names = sorted(entry.name for entry in entries if entry.name.endswith(".toml"))
+        found += [_read(folder.joinpath(name).read_text(encoding="utf-8"), name) for name in names]
+    return found
+
+
+def _own_folder() -> Path:
+    return user_data_folder() / "measured"
+
+
+def add_measured(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries:
+    """Add a measured series of one's own to the catalogue of series.
+
+    Parameters
+    ----------
+    path : path-like
+        TOML file with the entries `title`, `case`, `source`, `licence`, `how_read` and `uncertainty`; the points are in
+        the CSV file of the same name next to it. Both are copied into the user's data folder.
+    overwrite : bool
+        Replace a series of that name that was added before.
+
+    Returns
+    -------
+    MeasuredSeries
+
+    Raises
+    ------
+    UsageError, CaseError
+        When a file is missing or has mistakes, or the name is taken.
+    """
+    source = Path(path)
+    if source.suffix != ".toml" or not source.is_file():
+        raise UsageError(f"{source} is no TOML file: write title, source, licence, how_read and uncertainty into one")
+    series, name = _load(str(source)).series, source.stem
+    target = _own_folder() / source.name
+    known = {one.name for one in measured_series()}
+    if name in known and not (overwrite and target.is_file()):
+        why = "--force replaces it" if target.is_file() else "it comes with the program: rename your files"
+        raise UsageError(f'there is a measured series "{name}" already; {why}')
+    target.parent.mkdir(parents=True, exist_ok=True)
+    for ending in (".csv", ".toml"):  # a description without points is never seen
+        shutil.copyfile(source.with_suffix(ending), target.with_suffix(ending))
+    return series
 
 
 @one_blas_thread()
@@ -171,6 +215,9 @@ def _load(name: str) -> _Loaded:
     known = {series.name: series for series in measured_series()}
     if name not in known:
         raise UsageError(unknown_name("measured series", name, known))
+    own = _own_folder() / f"{name}.csv"
+    if own.is_file():
+        return _Loaded(known[name], read_measurements(own))
     text = files(__package__).joinpath(_FOLDER, f"{name}.csv").read_text(encoding="utf-8")
     return _Loaded(known[name], parse_measurements(text, f"{name}.csv"))
 

@@ -55,3 +55,39 @@ def test_the_list_has_every_series(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["measured", "list"]) == 0
     text = capsys.readouterr().out
     assert all(series.name in text for series in api.measured_series())
+
+
+def test_an_added_series_is_listed_and_compared(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("LAMBDA_BEARING_DATA", str(tmp_path / "data"))
+    (tmp_path / "rig.toml").write_text(
+        'title = "rig"\ncase = "6319-cp10-1500"\nsource = "us"\nlicence = "CC0"\n'
+        'how_read = "sensor"\nuncertainty = "2 %"\n'
+    )
+    (tmp_path / "rig.csv").write_text("speed [1/min],friction torque [N mm]\n1500,1250\n")
+    assert main(["measured", "add", str(tmp_path / "rig.toml")]) == 0
+    assert "rig" in [series.name for series in api.measured_series()]
+    (one,) = api.compare_measured(["rig"], band=False).compared
+    assert one.points[0].measured == 1250.0
+    assert main(["measured", "add", str(tmp_path / "rig.toml")]) == 2
+    assert "--force" in capsys.readouterr().err
+    (tmp_path / "rig.csv").write_text("speed [1/min],friction torque [N mm]\n1500,1300\n")
+    assert main(["measured", "add", str(tmp_path / "rig.toml"), "--force"]) == 0
+    (one,) = api.compare_measured(["rig"], band=False).compared
+    assert one.points[0].measured == 1300.0
+
+
+@pytest.mark.parametrize("name", ["none.toml", "6319-friction.toml"])
+def test_a_series_without_points_or_with_a_taken_name_is_not_added(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("LAMBDA_BEARING_DATA", str(tmp_path / "data"))
+    if name.startswith("6319"):
+        (tmp_path / name).write_text(
+            'title = "x"\nsource = "us"\nlicence = "CC0"\nhow_read = "sensor"\nuncertainty = "2 %"\n'
+        )
+        (tmp_path / "6319-friction.csv").write_text("speed [1/min],friction torque [N mm]\n1500,1250\n")
+    with pytest.raises(UsageError):
+        api.add_measured(tmp_path / name)
+    assert not (tmp_path / "data" / "measured" / name).exists()
