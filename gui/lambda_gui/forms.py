@@ -25,6 +25,7 @@ from lambda_gui.details import Sources
 from lambda_gui.entries import free_name, is_list
 from lambda_gui.entry import Entry
 from lambda_gui.fields import ChoiceRow, ParagraphRow, TextRow, row_for
+from lambda_gui.labels import label_of
 from lambda_gui.laws import law_choice_row, law_choices, law_row
 from lambda_gui.nodes import Group, Keys, Node, is_freedom, table_model
 from lambda_gui.parts import FreedomRow, MaterialRow
@@ -228,7 +229,8 @@ class NodeForm(VerticalScroll, can_focus=False):
         for value in found:
             mark = "≈ " if value.status in ("derived", "assumed") else ""
             number = str(sources.number(value.source)) if self.size.width >= _ROOMY and value.source else ""
-            name = value.path.rpartition(".")[2].replace("_", " ")
+            keys = value.path.split(".")
+            name = label_of(keys, keys[-1])
             table.add_row(name, f"{mark}{value.text}", value.grade or "-", number)
         told = Text()
         sources.write(told)
