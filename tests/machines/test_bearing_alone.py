@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.analysis.rotor.bearing_alone import alone_under_load, at_speed
+from lambda_core.analysis.rotor.bearing_alone import alone_under_load, at_speed, bearing_alone
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
@@ -37,3 +37,12 @@ def test_a_bearing_alone_turns_at_another_speed() -> None:
     assert curve.torque_Nmm[0] < 0.9 * curve.torque_Nmm[1]
     machine = api.check(tables)
     assert at_speed(machine.bearings[0].model, 7.0).inner_ring.dofs["spin"].motion.terms[0].values == (7.0,)
+
+
+def test_a_bearing_taken_out_keeps_its_surroundings() -> None:
+    """The air is that of the machine's [thermal]; the load is the one that it has there."""
+    tables = tomllib.loads(geared_shaft("box")) | {"thermal": {"ambient": "50 degC"}}
+    machine = api.check(tables)
+    found = api.thermal(bearing_alone(machine, "left"))
+    assert found.temperatures_degC["ambient"] == pytest.approx(50.0)
+    assert found.temperatures_degC["outer ring"] > 55.0
