@@ -37,7 +37,8 @@ def test_own_tests_pass(site: Installation, sources: Path, tmp_path: Path) -> No
 def test_law_rows_method_and_command_are_found(site: Installation) -> None:
     answer = site.program("plugins", "check", "ferry-law", "--json")
     assert answer.code == 0
-    assert [card["name"] for card in answer.data["models"]] == ["ferry-law"]
+    assert [card["role"] for card in answer.data["models"]] == ["traction", "method", "view"]
+    assert all(card["ok"] for card in answer.data["models"])
     items = site.program("plugins", "list", "--json").data["items"]
     assert {i["kind"] for i in items if i["distribution"] == "ferry-law 0.1.0"} == {
         "model",
