@@ -65,6 +65,9 @@ def _drawing(model: Any, report: Any) -> Panel:
     if model.discs:
         series.append(_loop("discs", [_box(1e3 * x - 1.0, 1e3 * x + 1.0, -800.0 * tall, 800.0 * tall)
                                       for _, x in model.discs], "cage"))  # fmt: skip
+    if model.wheels:
+        series.append(_loop("gears", [_box(1e3 * x - 0.05 * pitch * 1e3, 1e3 * x + 0.05 * pitch * 1e3, -500.0 * pitch,
+                                           500.0 * pitch) for _, x, pitch in model.wheels], "reference"))  # fmt: skip
     if model.load_places:
         spots = np.array([1e3 * x for _, x in model.load_places])
         series.append(Series("loads", spots, np.zeros(spots.size), "points", "ball"))
@@ -101,7 +104,9 @@ def campbell(machine: MachineData, options: Options) -> ViewData:
         series.append(Series(kind, speeds, values, "line", _ROLES[kind], unlisted=kind in seen))
         seen.add(kind)
     series.append(Series("once per revolution", speeds, speeds / 60.0, "line", "ball"))
-    panel = Panel("natural frequencies", Axis("speed", "1/min"), Axis("frequency", "Hz", low=0.0), tuple(series))
+    running = (Mark("running speed", abs(report.speed_rpm), "x"),)
+    axes = Axis("speed", "1/min"), Axis("frequency", "Hz", low=0.0)
+    panel = Panel("natural frequencies", *axes, tuple(series), running)
     return ViewData(
         "whirl", "Natural frequencies over speed", _source(report), (panel,), 1,
         ("bearings as stiff as at the operating point",),
