@@ -129,7 +129,8 @@ class SqlCatalogue:
             query = select(Bearing).where(Bearing.designation.collate("NOCASE") == wanted).order_by(Bearing.maker)
             found = list(session.scalars(query))
             if not found:
-                names = self._names_of(session, maker) or self.names("bearing")
+                rollers = list(session.scalars(select(RollerDesign.designation)))
+                names = self._names_of(session, maker) or [*self.names("bearing"), *rollers]
                 raise _error("designation", unknown_name("bearing", designation, names))
             makers = ", ".join(row.maker for row in found)
             if maker is not None:

@@ -275,6 +275,11 @@ def _warnings(model: RollerModel, state: RollerEquilibrium, axial: float, limit:
             f"axial load {axial:.0f} N is above the permissible {limit.continuous:.0f} N "
             f"({names[limit.continuous]}; SKF, Rolling bearings, 2018)"
         )
+    for name, moment, held in zip(("tilt_y", "tilt_z"), model.loads[3:], model.held[3:], strict=True):
+        if held and moment != 0.0:
+            found.append(
+                f'{name} is locked: the moment goes into the shaft; bodies.inner_ring.{name} = "free" takes it'
+            )
     tilt = float(np.hypot(state.ring[3], state.ring[4]))
     if tilt > _MISALIGNED:
         found.append(f"tilt of the rings {1e3 * tilt:.2f} mrad is above the 4 minutes of arc of rollers (SKF, 2018)")

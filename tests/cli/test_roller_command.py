@@ -84,6 +84,19 @@ def test_motion_says_what_computes_rollers(tmp_path: Path, capsys: pytest.Captur
     assert "is a roller bearing" in capsys.readouterr().err
 
 
+def test_a_moment_on_a_locked_tilt_is_a_warning(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = case(tmp_path, "NU 208")
+    assert main(["quasistatic", path, "--set", "loads.moment_z=5 N m"]) == 0
+    assert "tilt_z is locked" in capsys.readouterr().out
+    assert main(["quasistatic", path, "--set", "loads.moment_z=5 N m", "--set", "bodies.inner_ring.tilt_z=free"]) == 0
+    assert "tilt_z is locked" not in capsys.readouterr().out
+
+
+def test_a_slip_in_a_designation_names_the_nearest(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["quasistatic", case(tmp_path, "NU 2O8")]) == 3
+    assert "NU 208" in capsys.readouterr().err
+
+
 def test_own_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "own.toml"
     path.write_text(
