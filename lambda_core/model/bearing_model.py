@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from lambda_core.domain.elements import BodyName
     from lambda_core.domain.lubrication import Lubrication
     from lambda_core.elements.ball.geometry import Geometry
+    from lambda_core.elements.roller.roller_bearing import RollerBearing
     from lambda_core.formulas.elastic.ring import RingWaves
     from lambda_core.formulas.fits import Mounting
     from lambda_core.laws.context import Material, Oil
@@ -246,6 +247,8 @@ class BearingModel:
         Rings and cage that bend, in the order of BODIES.
     values : tuple of ResolvedValue
         Every frozen number with its origin.
+    rollers : RollerBearing or None
+        The rollers that take the place of the balls; `geometry` has their count, diameter and pitch.
     """
 
     name: str
@@ -285,3 +288,4 @@ class BearingModel:
     elastic: Mapping[BodyName, RingWaves] = field(default_factory=dict)
     contamination: float | None = None  # e_C of ISO 281; None: not given
     requirements: Requirements = field(default_factory=Requirements)
+    rollers: RollerBearing | None = None

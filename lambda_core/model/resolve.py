@@ -55,13 +55,14 @@ from lambda_core.model.geometry.resolve_designation import resolve_designation
 from lambda_core.model.geometry.resolve_geometry import resolve_geometry, with_clearance
 from lambda_core.model.geometry.shadowed_data import tell_shadows
 from lambda_core.model.laws.interpolation import say_overshoot
-from lambda_core.model.laws.law_packages import with_packages
+from lambda_core.model.laws.law_packages import law_called, with_packages
 from lambda_core.model.laws.resolve_laws import LawResolver, ModelSource
 from lambda_core.model.laws.resolve_links import resolve_links, resolve_markers
 from lambda_core.model.laws.resolve_states import check_states
 from lambda_core.model.laws.time_functions import peak, time_function
 from lambda_core.model.laws.time_laws import resolve_time_laws, signals_of
 from lambda_core.model.ledger import Ledger
+from lambda_core.model.rollers_in_motion import as_balls, rollers_of, with_rollers
 from lambda_core.model.settings.resolve_electric import resolve_electric
 from lambda_core.model.settings.resolve_solver import resolve_solver
 from lambda_core.model.settings.resolve_thermal import check_thermal
@@ -105,6 +106,11 @@ def resolve(
     CaseError
         With everything that is unknown, missing, contradictory or impossible.
     """
+    found = rollers_of(case, catalogue)
+    if found is not None:
+        model = resolve(as_balls(case, found[0]), registry, catalogue, is_static=is_static, place=place)
+        model = with_rollers(model, case, *found, lambda role, name: law_called(registry, role, name, given=False))
+        return dataclasses.replace(model, case_toml=standalone_toml(with_packages(case, registry)))
     ledger, written = Ledger(assumptions=list(case.assumptions), place=place), case
     row, designation, case = resolve_designation(written, catalogue, ledger)
     known = row is not None or (case.bearing.designation is None and case.bearing.geometry is not None)
@@ -295,7 +301,7 @@ def case_hash(model: BearingModel) -> str:
     if model.electric is None:
         silent |= {"electric"}
     # Left out where a model has none: the hash is that from before there were any.
-    absent = [name for name in ("observers", "events", "links", "elastic") if not getattr(model, name)]
+    absent = [name for name in ("observers", "events", "links", "elastic", "rollers") if not getattr(model, name)]
     names = [f.name for f in dataclasses.fields(model) if f.name not in (*silent, *absent)]
     data = {name: _plain(getattr(model, name)) for name in names}
     if model.solver.resolve == 0.0:

@@ -143,7 +143,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         found = ledger.ask("bearing.", lambda: roller_designation(catalogue, str(bearing.designation), bearing.maker))
     if found is None and bearing.rollers is None and not ledger.problems:
         return None
-    geometry = _geometry(case, found, ledger)
+    geometry = roller_geometry(case, found, ledger)
     row, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
     state = None
     if row is not None and oil is not None:
@@ -163,7 +163,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
     height = 0.0 if lubrication != "oil bath" or is_grease(row) else max(level + 0.5 * geometry.diameter, 0.0)
     return RollerModel(
         name=case.name,
-        title=_title(case, found, geometry),
+        title=roller_title(case, found, geometry),
         bearing=geometry,
         loads=_loads(case),
         held=held,
@@ -185,14 +185,14 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
     )
 
 
-def _title(case: Case, found: RollerDesignation | None, geometry: RollerBearing) -> str:
+def roller_title(case: Case, found: RollerDesignation | None, geometry: RollerBearing) -> str:
     if found is None:
         return f"{case.name} (rollers of the case, {geometry.kind})"
     edited = ", rollers edited" if case.bearing.rollers else ""
     return f"{found.row.designation} ({found.row.maker}{edited})"
 
 
-def _geometry(case: Case, found: RollerDesignation | None, ledger: Ledger) -> RollerBearing | None:
+def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger) -> RollerBearing | None:
     """Return the geometry: the case's values first, then the catalogue's; None after a problem."""
     rollers, row = case.bearing.rollers or InlineRollers(), found.row if found else None
     boundary = _boundary(case, row, ledger)

@@ -55,7 +55,7 @@ def operating_warnings(model: BearingModel, *, on_shaft: bool = False) -> list[s
     """
     return [
         *model.contradictions,
-        *proportion_warnings(model.geometry),
+        *(proportion_warnings(model.geometry) if model.rollers is None else ()),
         *_speed(model),
         *(() if on_shaft else _load(model)),
         *(() if on_shaft else _tilt(model)),

@@ -11,7 +11,6 @@ from lambda_core.case.case import Case
 from lambda_core.case.parts import CLEARANCE_CLASSES
 from lambda_core.catalogue.designation import Designation, designated
 from lambda_core.catalogue.protocol import BearingRow, Catalogue
-from lambda_core.catalogue.roller_designation import roller_designation
 from lambda_core.catalogue.suffixes import Suffix
 from lambda_core.model.ledger import Ledger
 
@@ -30,12 +29,6 @@ def resolve_designation(case: Case, catalogue: Catalogue, ledger: Ledger) -> tup
             ledger.problem(WHERE, f"is required, or write the geometry in [{ledger.place('bearing.geometry')}]")
         return None, "", case
     text, maker = bearing.designation, bearing.maker
-    rollers = ledger.ask("bearing.", lambda: roller_designation(catalogue, text, maker))
-    if rollers is not None or bearing.rollers is not None:
-        ledger.problem(
-            WHERE, f'"{text}" is a roller bearing: "lambda-bearing quasistatic" computes it, motion in time takes balls'
-        )
-        return None, text, case
     found = ledger.ask("bearing.", lambda: designated(catalogue, text, maker))
     if found is None:
         return None, text, case

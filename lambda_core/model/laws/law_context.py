@@ -58,7 +58,10 @@ def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: O
     if element in ("ball_inner", "ball_outer"):
         i = 0 if element == "ball_inner" else 1
         groove = (g.groove_radius_inner, g.groove_radius_outer)[i]
-        rx, ry = ball_raceway_radii(g.ball_diameter, g.pitch_diameter, groove, frame.angles[i], inner=i == 0)
+        if model.rollers is None:
+            rx, ry = ball_raceway_radii(g.ball_diameter, g.pitch_diameter, groove, frame.angles[i], inner=i == 0)
+        else:  # to laws of line contacts the length stands for the radius across rolling
+            rx, ry = model.rollers.radius("inner" if i == 0 else "outer"), model.rollers.effective_length
         return dataclasses.replace(
             common,
             mean_load=frame.mean_loads[i],

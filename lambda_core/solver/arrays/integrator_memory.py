@@ -14,18 +14,18 @@ from lambda_core.solver.arrays.bundle import (
     BVR,
     BVX,
     BX,
+    ELEMENTS,
     INTEGERS,
     NS,
     SVX,
     SWY,
     SX,
     Bundle,
-    named_balls,
     power_count,
 )
 from lambda_core.solver.arrays.factors import Factors
 from lambda_core.solver.arrays.jacobian_blocks import Blocks
-from lambda_core.solver.records import BODY_STATE
+from lambda_core.solver.records import BODY_STATE, ROLLERS
 
 _NEWTON = 0.3  # of the error allowed per step, what the iteration may leave
 _FINE_NEWTON = 0.03  # the same where vibrations are followed: what it leaves shakes the modes that nothing damps
@@ -175,8 +175,11 @@ def inertias(bundle: Any) -> np.ndarray:
     """Return what each state carries kinetic energy with, shape (n,): mass, moment of inertia, 0 for positions."""
     elements = np.zeros(int(bundle.system["tail"][0]))
     for row in bundle.rows:
-        balls = named_balls(elements, row)
-        balls["velocity"], balls["spin"] = row["ball_mass"], row["ball_inertia"]
+        first, size = int(row["first_state"]), int(row["size"])
+        its = elements[first : first + size * int(row["balls"])].view(ELEMENTS[size])
+        its["velocity"], its["spin"] = row["ball_mass"], row["ball_inertia"]
+        if row["kind"] == ROLLERS:
+            its["spin"][:, 1:] = row["transverse_inertia"]
     bodies = np.zeros(bundle.bodies.size, BODY_STATE)
     bodies["velocity"] = bundle.bodies["mass"][:, None]
     bodies["tilt_velocity"] = bundle.bodies["transverse_inertia"][:, None]

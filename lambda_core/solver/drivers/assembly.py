@@ -16,9 +16,9 @@ from lambda_core.elements.ball.raceways import raceways
 from lambda_core.model.bearing_model import ELEMENT_PREFIX, BearingModel, Body
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.state_channels import states_of
-from lambda_core.solver.arrays.bundle import NB
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.law_inputs import Oils
+from lambda_core.solver.drivers.roller_tables import states_of_an_element
 from lambda_core.solver.drivers.wave_tables import waves_of
 
 GROUND = -1  # number of the ground among the bodies that a link connects
@@ -139,16 +139,16 @@ class Assembly:
     def spans(self) -> tuple[BearingSpan, ...]:
         """Return where each bearing stands in tables and states."""
         found: list[BearingSpan] = []
-        begin = balls = rows = grooves = states = 0
+        begin = balls = rows = grooves = states = lines = 0
         body = len(self.members)
         for bearing in self.bearings:
             model, g = bearing.model, bearing.model.geometry
             every, waves = raceways(g), len(waves_of(model))
             kept = g.ball_count * sum(len(states_of(model, groove.element)) for groove in every)
-            bodies, end = (*bearing.members, *range(body, body + waves)), begin + NB * g.balls
-            found.append(BearingSpan(bodies, begin, end, balls, g.balls, rows, grooves, states, kept))
+            bodies, end = (*bearing.members, *range(body, body + waves)), begin + states_of_an_element(model) * g.balls
+            found.append(BearingSpan(bodies, begin, end, balls, g.balls, rows, grooves, states, kept, lines))
             balls, rows, grooves, states = balls + g.balls, rows + g.rows, grooves + len(every), states + kept
-            begin = end
+            begin, lines = end, lines + (len(every) if model.rollers is not None else 0)
             body += waves
         return tuple(found)
 
@@ -166,6 +166,8 @@ class BearingSpan:
     first_ball, balls, first_row, first_raceway : int
     first_state, states : int
         Among what contacts keep.
+    first_line : int
+        Among the line contacts of all bearings.
     """
 
     bodies: tuple[int, ...]
@@ -177,6 +179,7 @@ class BearingSpan:
     first_raceway: int
     first_state: int
     states: int
+    first_line: int = 0
 
 
 def assembly_of(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> Assembly:

@@ -16,7 +16,7 @@ from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
-from lambda_core.solver.arrays.factors import RollerBlocks, make_factors
+from lambda_core.solver.arrays.factors import make_factors
 from lambda_core.solver.arrays.integrator_memory import Handle, Memory
 from lambda_core.solver.arrays.jacobian_blocks import make_blocks
 from lambda_core.solver.core import core
@@ -25,15 +25,16 @@ from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.contact_grid import cell_blocks, unit_grid
 from lambda_core.solver.drivers.contact_memory import state_arrays, state_tail
 from lambda_core.solver.drivers.law_inputs import Oils
+from lambda_core.solver.drivers.roller_tables import lines_of, roller_code
 from lambda_core.solver.drivers.tables import build
 
 
 def state_scales(assembly: Assembly, active: NDArray[np.int64]) -> FloatArray:
     """Return the absolute scales that the tolerance multiplies, shape (size,).
 
-    Positions 50 um, velocities 0.1 m/s, ball spins 7 rad/s; angles and angular speeds of the big bodies and
-    azimuths are the same lengths and velocities at the pitch radius; states of contacts have their own. Members that
-    are no outer ring or cage have the mean over the bearings.
+    Positions 50 um, velocities 0.1 m/s, ball spins 7 rad/s, tilts of rollers 50 um at their ends; angles and angular
+    speeds of the big bodies and azimuths are the same lengths and velocities at the pitch radius; states of contacts
+    have their own. Members that are no outer ring or cage have the mean over the bearings.
     """
     length, speed, spin = 50e-6, 0.1, 7.0
     spans, count = assembly.spans(), len(assembly.bearings)
@@ -43,9 +44,11 @@ def state_scales(assembly: Assembly, active: NDArray[np.int64]) -> FloatArray:
     for body in bodies:
         shared += np.array(body) / count
     balls = []
-    for span, arm, body in zip(spans, arms, bodies, strict=True):
+    for bearing, span, arm, body in zip(assembly.bearings, spans, arms, bodies, strict=True):
         shared[list(span.bodies[OUTER:])] = body
         ball = [length, length, length / arm, speed, speed, speed, spin, spin, spin]
+        if bearing.model.rollers is not None:
+            ball += [2.0 * length / bearing.model.rollers.effective_length] * 2
         balls.append(np.tile(ball, span.balls))
     tails = [state_tail(bearing.model) for bearing in assembly.bearings]
     return np.concatenate([*balls, shared.ravel()[active], *tails])
@@ -67,7 +70,7 @@ class SolverContext:
     def __post_init__(self) -> None:
         self.blocks = make_blocks(self.bundle)
         coupled, size = self.blocks.cross.shape[0], self.blocks.a.shape[1]
-        rollers = np.zeros((0, len(RollerBlocks._fields)), dtype=np.int64)
+        _, rollers = roller_code(core(), bool((self.bundle.rows["kind"] == R.ROLLERS).any()))
         self.factors = make_factors(self.blocks.reach, self.bundle.active.size, coupled, size, rollers)
 
     @property
@@ -143,6 +146,7 @@ def context_of(assembly: Assembly) -> SolverContext:
     tables, compiled, depth = build(assembly), core(), assembly.bearings[0].model.depth
     grid = unit_grid(depth.strips, depth.rows)
     bodies, balls = tables.bodies.size, int(tables.system[0]["balls"])
+    lines = lines_of([bearing.model for bearing in assembly.bearings])
     inputs, now, rates = np.zeros(bodies, R.INPUTS), np.zeros(bodies, R.BODY_STATE), np.zeros(bodies, R.BODY_STATE)
     bundle = L.Bundle(
         **tables._asdict(),
@@ -165,10 +169,10 @@ def context_of(assembly: Assembly) -> SolverContext:
         ball_wrenches=np.zeros(balls, R.WRENCH),
         resting=np.zeros(len(assembly.bearings), dtype=np.int64),
         bearing_powers=np.zeros(len(assembly.bearings), R.RUNNING),
-        rollers=np.zeros((0, len(L.RollerCode._fields)), dtype=np.int64),
-        lines=np.zeros((0, L.LINE_ROWS, 0)),
-        slices=np.zeros((L.SLICE_ROWS, 0)),
-        line_cells=np.zeros((L.CELL_ROWS, L.GUARD)),
+        rollers=roller_code(compiled, bool(lines.size))[0],
+        lines=lines,
+        slices=np.zeros((L.SLICE_ROWS, lines.shape[2])),
+        line_cells=cell_blocks(lines.shape[2])[0],
         **state_arrays(assembly, tables),
     )
     return SolverContext(assembly, bundle, state_scales(assembly, tables.active))

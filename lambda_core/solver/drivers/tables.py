@@ -28,6 +28,7 @@ from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.assembly import AssembledBearing, Assembly, BearingSpan
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, guides, oil_of, times
+from lambda_core.solver.drivers.roller_tables import states_of_an_element, write_line, write_row
 from lambda_core.solver.drivers.time_tables import build_times
 from lambda_core.solver.drivers.wave_tables import give_waves, wave_bodies, wave_rows
 
@@ -121,7 +122,9 @@ def running(powers: FloatArray) -> Any:
 
 
 def ball_mass(model: BearingModel) -> float:
-    """Return the mass of one ball [kg]."""
+    """Return the mass of one ball, or of one roller [kg]."""
+    if model.rollers is not None:
+        return model.rollers.mass
     return model.ball_material.density * math.pi * model.geometry.ball_diameter**3 / 6.0
 
 
@@ -266,6 +269,8 @@ def _raceways(bearing: AssembledBearing, span: BearingSpan, offsets: _Offsets, p
         record["modulus"] = effective_modulus(model.ball_material, material)
         record["radius_deformed"] = 2.0 * groove.groove_radius * radius / (groove.groove_radius + radius)
         record["roughness"] = model.roughness
+        if model.rollers is not None:
+            write_line(record, model.rollers, ring, span.first_line + i)
         record["surface_on"] = int(model.laws[element]["surface"].model.name != "none")
         _oil(record["oil"], bearing.oils[ring])
         damping = model.laws[element]["damping"].model
@@ -306,14 +311,16 @@ def _rows(bearing: AssembledBearing, number: int, span: BearingSpan, offsets: _O
     model = bearing.model
     g, radius, mass = model.geometry, 0.5 * model.geometry.ball_diameter, ball_mass(model)
     rows, pocket = np.zeros(g.rows, R.ROW), parameters.add(bearing, guides(model)[0], "cage_contact")
-    each = len(raceways_of_a_ball(g))
+    each, size = len(raceways_of_a_ball(g)), states_of_an_element(model)
     for i, (record, place) in enumerate(zip(rows, row_places(g), strict=True)):
         record["number"], record["bearing"] = span.first_row + i, number
         record["first_ball"], record["balls"] = span.first_ball + i * g.ball_count, g.ball_count
-        record["first_state"], record["size"] = span.begin + i * L.NB * g.ball_count, L.NB
+        record["first_state"], record["size"] = span.begin + i * size * g.ball_count, size
         record["first_raceway"], record["raceways"] = span.first_raceway + i * each, each
         record["cage"], record["caged"] = span.bodies[CAGE], int(model.depth.cage)
         record["ball_radius"], record["ball_mass"], record["ball_inertia"] = radius, mass, 0.4 * mass * radius**2
+        if model.rollers is not None:
+            write_row(record, model.rollers, model.cage)
         record["pocket_circle"], record["pocket_offset"] = 0.5 * g.pitch_diameter, place
         record["pocket_phase"] = i * math.pi / g.ball_count  # the rows' balls stand in turn
         record["drag_on"] = int(model.laws["fluid_drag"]["fluid_drag"].model.name != "none")

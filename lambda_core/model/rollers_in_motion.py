@@ -1,0 +1,143 @@
+"""Rollers in the place of balls: from a case of a cylindrical roller or needle bearing to the model of its motion.
+
+Rings, cage, loads and settings are those of a bearing with as many elements of the same size; the rollers bring lines
+for contacts, their own laws and inertias. Ends of rollers are guided by the pockets of the cage: ribs stand still in
+the quasi-static answer alone, so that bearings whose ribs carry are refused here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from lambda_core.case.case import Case
+from lambda_core.case.parts import InlineGeometry
+from lambda_core.catalogue.protocol import Catalogue
+from lambda_core.catalogue.roller_designation import roller_designation
+from lambda_core.domain.errors import CaseError, Problem
+from lambda_core.domain.roles import DEFAULT_LINE_MODELS
+from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.roller_friction import SKF_CONSTANTS, skf_kind
+from lambda_core.model.bearing_model import BearingModel, ChosenLaw, ResolvedValue
+from lambda_core.model.ledger import Ledger
+from lambda_core.model.roller_case import roller_geometry, roller_title
+
+if TYPE_CHECKING:
+    from lambda_core.laws.law import Law
+
+_ELEMENTS = ("ball_inner", "ball_outer")
+_POCKET, _NO_DRAG = "roller-pocket", "none"
+_CAGED = ("NU", "N", "NJ", "NUP", "needle")
+
+
+def rollers_of(case: Case, catalogue: Catalogue) -> tuple[RollerBearing, str, tuple[str, ...]] | None:
+    """Return the rollers of a case, their title and what is assumed; None of a case with balls.
+
+    Raises
+    ------
+    CaseError
+        With everything that is missing, contradictory, or not followed in motion.
+    """
+    bearing, ledger, found = case.bearing, Ledger(), None
+    if bearing.designation is not None:
+        found = ledger.ask("bearing.", lambda: roller_designation(catalogue, str(bearing.designation), bearing.maker))
+    if found is None and bearing.rollers is None:
+        return None
+    rollers = roller_geometry(case, found, ledger)
+    if rollers is not None and rollers.kind not in _CAGED:
+        ledger.problem(
+            "bearing.designation",
+            f"{rollers.kind} rollers have no motion in time yet: quasistatic computes them; in motion: "
+            + ", ".join(_CAGED),
+        )
+    if case.loads.axial:
+        ledger.problem("loads.axial", "ribs carry thrust in quasistatic alone: leave it out in motion")
+    if not case.depth.cage:
+        ledger.problem("depth.cage", "rollers in motion need their cage: full complements are computed by quasistatic")
+    ledger.check(case.name)
+    assert rollers is not None  # else a problem says why
+    ledger.assume("rollers are guided along the shaft by the pockets of their cage, ribs carry nothing")
+    return rollers, roller_title(case, found, rollers), tuple(ledger.assumptions)
+
+
+def as_balls(case: Case, rollers: RollerBearing) -> Case:
+    """Return the case of a bearing with as many balls of the same diameter, its inner ring held along the shaft."""
+    sizes = {
+        "bore_diameter": rollers.bore,
+        "outside_diameter": rollers.outside,
+        "width": rollers.width,
+        "ball_count": rollers.count,
+        "ball_diameter": rollers.diameter,
+        "pitch_diameter": rollers.pitch_diameter,
+    }
+    geometry = InlineGeometry().model_copy(update=sizes)
+    changes = {"designation": None, "maker": None, "rollers": None, "geometry": geometry}
+    bearing = case.bearing.model_copy(update={**changes, "clearance": f"{rollers.clearance!r} m"})
+    inner = case.bodies.inner_ring
+    if "x" not in inner.model_fields_set:
+        inner = inner.model_copy(update={"x": type(inner.x)(mode="locked")})
+    models = case.models.model_copy(update=dict.fromkeys(DEFAULT_LINE_MODELS))
+    bodies = case.bodies.model_copy(update={"inner_ring": inner})
+    return case.model_copy(update={"bearing": bearing, "bodies": bodies, "models": models})
+
+
+def with_rollers(
+    model: BearingModel,
+    case: Case,
+    rollers: RollerBearing,
+    title: str,
+    assumptions: tuple[str, ...],
+    law: Callable[[str, str], Law],
+) -> BearingModel:
+    """Return the model with rollers in the place of its balls.
+
+    Parameters
+    ----------
+    model : BearingModel
+        Of :func:`as_balls`.
+    case : Case
+        As it is written: its laws of line contacts take the place of the defaults.
+    rollers, title, assumptions
+        Of :func:`rollers_of`.
+    law : callable
+        Returns a law from role and name.
+
+    Raises
+    ------
+    CaseError
+        For a law of point contacts.
+    """
+
+    def chosen(role: str, name: str) -> ChosenLaw:
+        found = law(role, name)
+        if role in DEFAULT_LINE_MODELS and found.contact == "point":
+            problem = Problem(f"models.{role}", f'"{name}" is a law of points: the contacts of rollers are lines')
+            raise CaseError(case.name, [problem])
+        return ChosenLaw(found, found.parameters(), {})
+
+    lines = {role: chosen(role, getattr(case.models, role) or name) for role, name in DEFAULT_LINE_MODELS.items()}
+    laws = {element: {**roles, **lines} if element in _ELEMENTS else roles for element, roles in model.laws.items()}
+    for element in _ELEMENTS:
+        laws[element]["supply"] = _with_constant(laws[element]["supply"], SKF_CONSTANTS[skf_kind(rollers)][1])
+    laws["ball_cage"] = {"cage_contact": chosen("cage_contact", _POCKET)}
+    laws["fluid_drag"] = {"fluid_drag": chosen("fluid_drag", _NO_DRAG)}
+    ratings = tuple(
+        ResolvedValue(f"bearing.{name}", getattr(rollers, name), "force", "of the rollers", "", "given")
+        for name in ("dynamic_rating", "static_rating", "fatigue_limit")
+    )
+    return replace(
+        model,
+        laws=laws,
+        title=title,
+        rollers=rollers,
+        assumptions=(*model.assumptions, *assumptions),
+        values=(*model.values, *ratings),
+    )
+
+
+def _with_constant(supply: ChosenLaw, k_z: float) -> ChosenLaw:
+    """Return a law of supply with SKF's geometry constant K_Z of these rollers, where it has one."""
+    if "k_z" not in type(supply.parameters).model_fields:
+        return supply
+    return replace(supply, parameters=supply.parameters.model_copy(update={"k_z": k_z}))

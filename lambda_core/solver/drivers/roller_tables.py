@@ -1,0 +1,94 @@
+"""Write rollers down as the tables that compiled code works on, and give them their code."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import INNER
+from lambda_core.elements.kind import LINE
+from lambda_core.elements.roller.roller_bearing import Ring, RollerBearing
+from lambda_core.elements.roller.slices import slice_positions
+from lambda_core.laws.jit.words import addresses
+from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.factors import RollerBlocks
+
+if TYPE_CHECKING:
+    from lambda_core.model.bearing_model import BearingModel, Cage
+    from lambda_core.solver.core import Core
+
+SLICES = 32  # of a line contact: two of the widest vectors
+_BAR = 0.9  # length of the bars that rollers touch, over the effective length: ends are relieved
+
+
+def states_of_an_element(model: BearingModel) -> int:
+    """Return how many states each ball or roller of a bearing has."""
+    return L.NB if model.rollers is None else L.NR
+
+
+def write_line(record: Any, rollers: RollerBearing, ring: int, line: int) -> None:
+    """Write what a raceway of rollers has in another way than one of balls.
+
+    The clearance is shared by both rings, as are those of balls. To laws R_y is the effective length.
+    """
+    side, angles, half = record["side"], rollers.angles, 0.5 * rollers.diameter
+    name: Ring = "inner" if ring == INNER else "outer"
+    cone = angles.inner if ring == INNER else angles.outer
+    lean = np.cos(angles.roller)
+    record["kind"], record["line"], record["cone"] = LINE.number, line, -cone
+    record["groove_circle"] = rollers.centre + side * (half * lean + 0.25 * rollers.clearance / np.cos(cone))
+    record["axial_offset"] = side * half * np.sin(angles.roller)
+    record["groove_radius"], record["ball_radius"] = np.inf, half
+    record["radius_x"], record["radius_y"] = rollers.radius(name), rollers.effective_length
+    record["radius_deformed"] = np.inf
+
+
+def write_row(record: Any, rollers: RollerBearing, cage: Cage) -> None:
+    """Write what a row of rollers has in another way than one of balls; large ends of tapered rollers point to -x."""
+    polar, transverse = rollers.inertias
+    record["kind"], record["ball_radius"] = R.ROLLERS, 0.5 * rollers.diameter
+    record["ball_inertia"], record["transverse_inertia"] = polar, transverse
+    record["axis_angle"], record["cone_angle"] = -rollers.angles.roller, -rollers.angles.half
+    record["length"], record["total_length"] = rollers.effective_length, rollers.length
+    record["end_radius"] = rollers.end_radius
+    record["bar_gap"] = record["end_gap"] = 0.5 * cage.pocket_clearance
+    record["bar_length"] = _BAR * rollers.effective_length
+
+
+def lines_of(models: Sequence[BearingModel]) -> FloatArray:
+    """Return Bundle.lines of all bearings with rollers: inner raceway, then outer."""
+    found = [_lines(model.rollers) for model in models if model.rollers is not None]
+    return np.concatenate(found) if found else np.zeros((0, L.LINE_ROWS, 0))
+
+
+def _lines(rollers: RollerBearing) -> FloatArray:
+    """Return places along the contact, widths, drops and reduced radii, (2, LINE_ROWS, SLICES).
+
+    Places count along s = n x t, which is x of the outer raceway and -x of the inner one.
+    """
+    x = slice_positions(rollers.effective_length, SLICES)
+    width = np.full(SLICES, rollers.effective_length / SLICES)
+    share = np.tan(rollers.angles.half) / (0.5 * rollers.diameter)  # of the radius, towards the large end at -x
+    rings: tuple[tuple[Ring, float], ...] = (("inner", 1.0), ("outer", -1.0))
+    drop = rollers.drops(SLICES)
+    return np.array([[x, width, drop, rollers.radius(name) * (1.0 + sign * share * x)] for name, sign in rings])
+
+
+_kept: dict[str, Any] = {}  # code of rollers: tables of addresses do not keep it
+
+
+def roller_code(compiled: Core, has_rollers: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the addresses of RollerCode and RollerBlocks, compiled when a machine first has rollers."""
+    names = [*L.RollerCode._fields], [*RollerBlocks._fields]
+    if not has_rollers:
+        return np.zeros((0, len(names[0])), dtype=np.int64), np.zeros((0, len(names[1])), dtype=np.int64)
+    for name in (*names[0], *names[1]):
+        if name not in _kept:
+            _kept[name] = compiled.find(f"roller_{name}").pointer
+    code, blocks = (addresses([[_kept[name] for name in each]]) for each in names)
+    return code, blocks

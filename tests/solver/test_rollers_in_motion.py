@@ -1,0 +1,186 @@
+"""Rollers in motion: equations of a symmetrical top, line contacts, and a bearing that runs."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.elements.roller.roller_equilibrium import balance
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.drivers.dynamics import initial_state
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.drivers.right_hand_side import Handle
+
+from .support import FloatArray
+
+CASE: dict[str, Any] = {
+    "name": "rollers",
+    "bearing": {"designation": "SKF NU 208 ECP"},
+    "lubricant": {"name": "FVA3", "temperature": "70 degC"},
+    "loads": {"radial": "5 kN"},
+    "operation": {"speed": "3000 rpm"},
+    "bodies": {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}},
+}
+ROLLER = L.NR
+
+# Runs without Numba's compiler: functions of the compiled core as plain ones.
+PLAIN = """
+import math
+import numpy as np
+from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.roller_motion import rolling_motion
+from lambda_core.solver import records as R
+from lambda_core.solver.drivers.roller_tables import write_line, write_row
+from lambda_core.solver.roller import kinematics, motion
+
+rng = np.random.default_rng(1)
+
+
+def one(kind, values=None):
+    return (np.zeros(1, kind) if values is None else np.array(values, dtype=np.float64).view(kind))[0]
+
+
+def inertial(roller, v):
+    c, s = math.cos(roller.azimuth), math.sin(roller.azimuth)
+    return np.array([v[0], v[1] * c - v[2] * s, v[1] * s + v[2] * c])
+
+
+def momentum(roller):
+    a = np.array(motion._own_axis(roller))
+    polar, across = row.ball_inertia, row.transverse_inertia
+    own = across * np.array(roller.spin) + (polar - across) * np.dot(roller.spin, a) * a
+    return inertial(roller, motion.from_own(own, row))
+
+
+row = one(R.ROW)
+row.ball_mass, row.ball_inertia, row.transverse_inertia, row.axis_angle = 0.02, 4e-7, 7e-7, -0.2
+state = np.concatenate([[1e-3, 0.03, 0.7], rng.normal(size=3), 100.0 * rng.normal(size=3), [0.02, -0.03]])
+roller, rate, wrench = one(R.ROLLER, state), one(R.ROLLER), one(R.WRENCH)
+for moment in ((0.0, 0.0, 0.0), (0.1, -0.05, 0.07)):
+    wrench.moment[:] = moment
+    motion.roller_rates(roller, wrench, row, rate)
+    step = 1e-7 * np.array([rate.x, rate.radius, rate.azimuth, *rate.velocity, *rate.spin, *rate.tilt])
+    ahead, back = one(R.ROLLER, state + step), one(R.ROLLER, state - step)
+    turned = (momentum(ahead) - momentum(back)) / 2e-7
+    assert np.abs(turned - inertial(roller, moment)).max() < 1e-6 * np.abs(momentum(roller)).max() + 1e-9
+    axis = (inertial(ahead, motion.axis_of(ahead, row)) - inertial(back, motion.axis_of(back, row))) / 2e-7
+    omega = inertial(roller, motion.from_own(roller.spin, row))
+    assert np.abs(axis - np.cross(omega, inertial(roller, motion.axis_of(roller, row)))).max() < 1e-5
+    power = (motion.roller_energy(ahead, row) - motion.roller_energy(back, row)) / 2e-7
+    assert abs(power - np.dot(inertial(roller, moment), omega)) < 1e-6 * motion.roller_energy(roller, row) * 100.0
+
+
+class cage:
+    pocket_clearance = 2e-4
+
+
+tapered = RollerBearing(
+    kind="tapered", count=16, diameter=17e-3, length=22.7e-3, effective_length=20.7e-3, pitch_diameter=108.5e-3,
+    bore=0.08, outside=0.14, width=0.035, dynamic_rating=2e5, static_rating=2.6e5, fatigue_limit=3e4,
+    contact_angle=math.radians(15.64),
+)
+straight = RollerBearing(
+    kind="NU", count=14, diameter=11e-3, length=11e-3, effective_length=10e-3, pitch_diameter=60e-3, bore=0.04,
+    outside=0.08, width=0.018, dynamic_rating=6e4, static_rating=5e4, fatigue_limit=6e3, clearance=4e-5,
+)
+for bearing in (tapered, straight):
+    row, rolling = one(R.ROW), rolling_motion(bearing, 100.0)
+    write_row(row, bearing, cage)
+    for ring, side, speed in ((0, -1.0, 100.0), (1, 1.0, 0.0)):
+        raceway, body, kin = one(R.RACEWAY), one(R.BODY_STATE), one(R.KINEMATICS)
+        raceway.side, body.spin = side, speed
+        write_line(raceway, bearing, ring, ring)
+        roller = one(R.ROLLER)
+        roller.radius, roller.azimuth, roller.velocity[2] = bearing.centre, 0.4, rolling.cage * bearing.centre
+        axis = np.array(motion.from_own((1.0, 0.0, 0.0), row))
+        roller.spin[:] = motion.to_own(-rolling.spin * axis + np.array([rolling.cage, 0.0, 0.0]), row)
+        gap = kinematics.line_kinematics(roller, body, row, raceway, kin)
+        assert abs(gap + 0.25 * bearing.clearance) < 1e-15
+        assert max(abs(kin.line_tilt), abs(kin.slip_t), abs(kin.slip_s), abs(kin.normal_velocity)) < 1e-12
+        assert abs(kin.rotation_n) < 1e-9  # the taper rolls along the whole line
+        assert abs(abs(kin.rotation_s) / rolling.turning[ring] - 1.0) < 1e-12
+        assert abs(abs(kin.entrainment_t) / rolling.entrainment - 1.0) < 1e-12
+        force = one(R.WRENCH)
+        force.force[:], force.moment[:] = rng.normal(size=3), rng.normal(size=3)
+        on_roller, on_ring = one(R.WRENCH), one(R.WRENCH)
+        kinematics.apply_roller_wrench(kin, roller, body, force, on_roller, on_ring)
+        f, m = inertial(roller, on_roller.force), inertial(roller, on_roller.moment)
+        place = inertial(roller, (roller.x, roller.radius, 0.0))
+        assert np.abs(f + on_ring.force).max() < 1e-14
+        assert np.abs(m + np.cross(place, f) + on_ring.moment).max() < 1e-14
+"""
+
+
+def test_plain_equations_of_rollers(tmp_path: Path) -> None:
+    """Momentum, energy and axis of a top; pure rolling of tapered and straight rollers; equal and opposite forces."""
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", PLAIN],
+        cwd=tmp_path,
+        env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@cache
+def equilibrium() -> Equilibrium:
+    return solve(api.check(CASE))
+
+
+def test_loads_are_those_of_independent_laminae() -> None:
+    """Slices in compiled code against the convex energy of all contacts; the ring's weight counts here alone."""
+    found = equilibrium()
+    assert found.converged
+    rollers = found.context.model.rollers
+    assert rollers is not None
+    weight = found.context.model.inner_ring.mass * 9.81
+    alone = balance(rollers, np.array([0.0, 0.0, -5000.0 - weight, 0.0, 0.0]), first_angle=-0.5 * np.pi)
+    theirs = alone.inner.sum(axis=1)
+    loads = found.arcs[:, 0, L.R.CONTACT_CHANNELS.index("load")]
+    assert loads == pytest.approx(theirs, rel=0.01, abs=0.01 * theirs.max())
+    tilts = L.elements_in(found.context.bundle, found.state)["tilt"]
+    assert np.abs(tilts).max() < 1e-9  # nothing tilts between rings that do not
+
+
+def test_jacobian_of_rollers() -> None:
+    """Compiled blocks of eleven states against differences of the right-hand side."""
+    found = equilibrium()
+    context, y = found.context, initial_state(found)
+    y = y + np.random.default_rng(0).uniform(-1.0, 1.0, y.size) * 1e-3 * context.scale
+    handle, n = Handle(context), y.size
+    ours, exact = np.zeros((n, n)), np.zeros((n, n))
+    assert handle.jacobian(0.0, y, ours) == 1
+    for k in range(n):
+        step, ahead, back = 1e-5 * context.scale[k], np.zeros(n), np.zeros(n)
+        moved: FloatArray = y.copy()
+        moved[k] += step
+        handle.slope(0.0, moved, ahead)
+        moved[k] -= 2.0 * step
+        handle.slope(0.0, moved, back)
+        exact[:, k] = (ahead - back) / (2.0 * step)
+    scaled, found_scaled = (m * context.scale[None, :] / context.scale[:, None] for m in (exact, ours))
+    assert np.linalg.norm(found_scaled - scaled) < 5e-3 * np.linalg.norm(scaled)
+
+
+def test_a_roller_bearing_runs(tmp_path: Path) -> None:
+    """Energy is balanced, rollers neither skew nor slip away, and the torque is that of the equilibrium."""
+    path = tmp_path / "run.h5"
+    api.run(CASE, ["solver.duration=10 ms"], out=path)
+    result = api.result(path)
+    half = result["time"].size // 2
+    power = result["loss"][half:].sum(axis=1).mean()
+    assert power == pytest.approx(equilibrium().losses.sum(), rel=0.1)
+    sums = result.integrals()
+    assert np.isfinite(sums["input"]).all()
+    orbit = result["ball_velocity"][:, :, 2] / result["ball_radius"]
+    assert orbit == pytest.approx(np.full(orbit.shape, equilibrium().orbit), rel=0.05)
