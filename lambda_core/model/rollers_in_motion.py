@@ -117,9 +117,10 @@ def with_rollers(
         return ChosenLaw(found, found.parameters(), {})
 
     lines = {role: chosen(role, getattr(case.models, role) or name) for role, name in DEFAULT_LINE_MODELS.items()}
-    laws = {element: {**roles, **lines} if element in _ELEMENTS else roles for element, roles in model.laws.items()}
+    laws = dict(model.laws)
     for element in _ELEMENTS:
-        laws[element]["supply"] = _with_constant(laws[element]["supply"], SKF_CONSTANTS[skf_kind(rollers)][1])
+        supply = _with_constant(laws[element]["supply"], SKF_CONSTANTS[skf_kind(rollers)][1])
+        laws[element] = {**laws[element], **lines, "supply": supply}
     laws["ball_cage"] = {"cage_contact": chosen("cage_contact", _POCKET)}
     laws["fluid_drag"] = {"fluid_drag": chosen("fluid_drag", _NO_DRAG)}
     ratings = tuple(

@@ -79,9 +79,20 @@ def test_what_cannot_be(
     assert message in capsys.readouterr().err
 
 
-def test_motion_says_what_computes_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["run", case(tmp_path, "NU 208")]) == 3
-    assert "is a roller bearing" in capsys.readouterr().err
+@pytest.mark.parametrize(
+    ("designation", "axial", "more", "message"),
+    [
+        ("32216", "3 kN", "", "no motion in time yet: quasistatic computes them"),
+        ("NU 208", "500 N", "", "ribs carry thrust in quasistatic alone"),
+        ("NU 208", "0 N", "[depth]\ncage = false\n", "need their cage"),
+        ("NU 208", "0 N", '[models]\nfilm_thickness = "chittenden"\n', "is a law of points"),
+    ],
+)
+def test_motion_says_what_it_does_not_follow(
+    designation: str, axial: str, more: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", case(tmp_path, designation, axial, more)]) == 3
+    assert message in capsys.readouterr().err
 
 
 def test_a_moment_on_a_locked_tilt_is_a_warning(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

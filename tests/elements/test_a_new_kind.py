@@ -15,7 +15,11 @@ from lambda_core.elements.ball import BALL, kinds
 from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.elements.ball.kinds import kind_of
 from lambda_core.elements.ball.raceways import raceways
+from lambda_core.elements.kind import CONTACTS
+from lambda_core.elements.roller.roller_kinds import ROLLER
 from lambda_core.model.checks.describe import headline
+from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import solve
 
 # Two rows in tandem: both take a thrust of the shaft to +x.
@@ -63,6 +67,9 @@ def test_every_kind_is_found_and_no_two_claim_a_bearing() -> None:
     found = kinds.kinds()
     assert set(found) == {"deep groove", "angular contact", "four-point", "double row", "self-aligning"}
     assert BALL.kinds() == found
+    assert {kind.name: kind.states for kind in (BALL, ROLLER)} == {"ball": L.NB, "roller": L.NR}
+    assert {"NU", "tapered", "needle"} < set(ROLLER.kinds())
+    assert [kind.number for kind in CONTACTS] == [R.POINT, R.LINE, R.RIB]
     for rows, arrangement, resting, contact in (
         (1, "", 0.0, 0.0), (1, "", 0.0, 0.5), (1, "", 0.4, 0.6), (2, "O", 0.4, 0.5), (2, "X", 0.4, 0.5),
         (2, "spherical", 0.2, 0.2),

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import INNER
+from lambda_core.elements.ball import BALL
 from lambda_core.elements.kind import LINE
 from lambda_core.elements.roller.roller_bearing import Ring, RollerBearing
+from lambda_core.elements.roller.roller_kinds import ROLLER
 from lambda_core.elements.roller.slices import slice_positions
 from lambda_core.laws.jit.words import addresses
 from lambda_core.solver import records as R
@@ -28,7 +30,7 @@ _BAR = 0.9  # length of the bars that rollers touch, over the effective length: 
 
 def states_of_an_element(model: BearingModel) -> int:
     """Return how many states each ball or roller of a bearing has."""
-    return L.NB if model.rollers is None else L.NR
+    return (BALL if model.rollers is None else ROLLER).states
 
 
 def write_line(record: Any, rollers: RollerBearing, ring: int, line: int) -> None:
