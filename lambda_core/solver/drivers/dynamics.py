@@ -236,8 +236,9 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         bundle = self.context.bundle
         powers = L.power_count(bundle)
         extra, one = np.zeros((1, powers + 2)), np.zeros((1, 1, 3))
+        contacts = np.zeros((1, 1, 1, len(CONTACT_CHANNELS)))
         self._core.sample(
-            self._handle, np.array([self.time]), self._memory.y.reshape(1, -1), -1.0, np.zeros((1, 1, 1, 16)), one,
+            self._handle, np.array([self.time]), self._memory.y.reshape(1, -1), -1.0, contacts, one,
             one.copy(), extra, np.zeros((1, bundle.shared.size)), np.zeros((1, powers)), np.zeros(self.states),
         )  # fmt: skip
         return float(extra[0, 0])  # a records.TOTALS

@@ -333,7 +333,8 @@ def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) 
     """Return contact channels by raceway (balls, contacts of a ball, 16) and losses (16,) [W] at a state."""
     g, bundle, powers = context.model.geometry, context.bundle, L.power_count(context.bundle)
     z = g.balls
-    contacts, rates = np.zeros((1, z, len(raceways_of_a_ball(g)), 16)), np.zeros((1, powers))
+    contacts = np.zeros((1, z, len(raceways_of_a_ball(g)), len(CONTACT_CHANNELS)))
+    rates = np.zeros((1, powers))
     system = bundle.system[0]
     system["guides_on"], system["drag_azimuths"] = 0, _DRAG_AZIMUTHS
     ok = compiled.observe(
