@@ -85,7 +85,7 @@ def _named(name: str, effort: Effort) -> Section:
 
 
 def _measure(name: str, measure: Callable[[], Section]) -> Section:
-    """Run one benchmark; what goes wrong in it is told and does not stop the others."""
+    """Run one benchmark; an error is printed and does not stop the others."""
     print(f"{name}: {NAMES.get(name, 'this version and another one in turn')}", file=sys.stderr, flush=True)
     began = time.perf_counter()
     try:

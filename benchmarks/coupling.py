@@ -2,7 +2,7 @@
 
 The host knows mass and load of the rotor and leads the inner ring (``couple="motion"``); the bearing answers with its
 reaction. A push begins after about a millisecond and stays. Reference is the bearing that owns the ring, with the same
-mass. With ``--fmu`` the bearing that is led is an exported FMU, driven by FMPy; the reference stays the program's.
+mass. With ``--fmu`` the driven bearing is an exported FMU, driven by FMPy; the reference stays the program's.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class Scheme:
     Attributes
     ----------
     lead : function
-        (v, a, h) -> speed and acceleration that the ring is led with.
+        (v, a, h) -> speed and acceleration prescribed to the ring.
     speed : function
         (v, a, b, h) -> speed at the end.
     """

@@ -65,7 +65,7 @@ def _percent(share: float) -> str:
 
 
 def led_table() -> list[str]:
-    """Return the lines of the table with the cage led."""
+    """Return the lines of the table with the cage guided."""
     lines = [
         "| case | tolerance | power, reference | ours | CVODE | states, ours | CVODE | unloaded | calls, ours "
         "| CVODE |",

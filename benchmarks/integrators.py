@@ -1,4 +1,4 @@
-"""Our integrator beside CVODE and SciPy's, on the same compiled right-hand side in the same process."""
+"""Compare our integrator with CVODE and SciPy's, on the same compiled right-hand side in the same process."""
 
 from __future__ import annotations
 
@@ -229,7 +229,7 @@ def measure(effort: Effort) -> Section:
         tuple(rows),
         (
             f"{horizon.averaged:g} cage revolutions from the quasi-static equilibrium, {problem.initial.size} states, "
-            "the same absolute scales, longest and first step for all; CVODE up to order 2 where nothing else is said. "
+            "the same absolute scales, longest and first step for all; CVODE up to order 2 unless stated otherwise. "
             f"Others call back through Python: what that costs ({1e6 * callback:.1f} us a call) is taken off in the "
             "fifth column, and the targets compare with that. Their losses are integrated over their own steps after "
             "the timing.",

@@ -1,4 +1,4 @@
-"""The nearest open peer: Exudyn's rigid ball bearing, planar, without lubricant, beside our full model.
+"""The nearest open peer: Exudyn's rigid ball bearing, planar, without lubricant, and our full model.
 
 Needs the package exudyn (extra "peers"). Both compute the 6208 at 2 kN radial and 2750 1/min. Exudyn's bearing has nine
 balls as rigid bodies, Hertz's exponent, dry friction and springs for a cage; ours everything that the default has.
@@ -165,7 +165,7 @@ def _settings(exu: Any, step: float, duration: float, modified_newton: bool) -> 
 
 @dataclass(frozen=True)
 class Setting:
-    """Exudyn at one step, beside its reference step."""
+    """Exudyn at one step, and its reference step."""
 
     step: float  # [s]
     modified_newton: bool

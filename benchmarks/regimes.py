@@ -56,7 +56,7 @@ def run(regime: Regime, *options: str) -> Outcome:
 
 
 def refusal(changes: Sequence[str]) -> str:
-    """Return what is said of a case that cannot be simulated, "" when it can."""
+    """Return the message about a case that cannot be simulated, "" when it can."""
     try:
         BearingEngine(api.check(RADIAL, changes))
     except LambdaError as error:

@@ -1,4 +1,4 @@
-"""``python -m benchmarks.unit_slopes``: stiffness and damping of a led bearing, from its FMU and by differences of it.
+"""``python -m benchmarks.unit_slopes``: stiffness and damping of a driven bearing, from its FMU and by differences.
 
 All reactions of both rings with all poses and rates and the speed, by the FMU's directional derivatives (one call for
 each input), and by a host that sets each input to both sides and reads. Both in turn, the shortest of several,

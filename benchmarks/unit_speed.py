@@ -1,4 +1,4 @@
-"""``python -m benchmarks.unit_speed``: what an FMU takes beside the program, export and steps of 0.1 ms.
+"""``python -m benchmarks.unit_speed``: what an FMU takes compared with the program, export and steps of 0.1 ms.
 
 All ways through the same time are taken in turn, the shortest of several counts: the engine in Python that stops where
 a host stops; the same without stops, as a run has it; steps of ``api.iterate``, which look at every channel; FMUs whose
@@ -26,7 +26,7 @@ _READ = 20  # outputs
 UNITS: dict[str, dict[str, object]] = {
     "FMU, code for this machine": {"processor": "native"},
     "FMU as exported": {},
-    "FMU with Windows beside it": {"platforms": ("linux", "windows")},
+    "FMU with Windows in it": {"platforms": ("linux", "windows")},
 }
 
 

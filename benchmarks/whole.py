@@ -28,7 +28,7 @@ Passage = tuple[tuple[float, ...], Mapping[str, float]]  # time of each piece [s
 
 
 def starts(changes: tuple[str, ...] = CHANGES) -> dict[str, Callable[[], Engine]]:
-    """Return how the whole and each of its bearings alone are started, by name."""
+    """Return how the machine and each of its bearings alone are started, by name."""
     model = resolve_machine(tomllib.loads(geared_shaft("whole")), changes)
     first = machine_engine(model)
     found: dict[str, Callable[[], Engine]] = {WHOLE: lambda: machine_engine(model)}
@@ -51,7 +51,7 @@ def passage(engine: Engine, duration: float) -> Passage:
 
 
 def measure(effort: Effort) -> Section:
-    """Time the whole and its bearings in turn, piece by piece; of each piece the shortest repeat counts."""
+    """Time the machine and its bearings in turn, piece by piece; of each piece the shortest repeat counts."""
     duration = 1e-3 * effort.pick(_MILLISECONDS_QUICK, _MILLISECONDS)
     ways = starts()
     found: dict[str, list[Passage]] = {name: [] for name in ways}
@@ -66,13 +66,13 @@ def measure(effort: Effort) -> Section:
         cells: tuple[Cell, ...] = (name, *counts, evaluated, 1e3 * seconds[name], 1e6 * seconds[name] / evaluated)
         rows.append(cells)
     table = Table(
-        f"A whole and its bearings alone, 6208 and 6206, {1e3 * duration:.0f} ms",
+        f"A machine and its bearings alone, 6208 and 6206, {1e3 * duration:.0f} ms",
         (
             "what", "steps", "Newton iterations", "rests", "Jacobians", "of single balls", "factorisations",
             "bearings evaluated", "ms", "us per bearing evaluated",
         ),
         tuple(rows),
-        ("The template geared-shaft with 50 g mm at its wheel; alone under the loads of the whole's equilibrium.",),
+        ("The template geared-shaft with 50 g mm at its wheel; alone under the loads of the machine's equilibrium.",),
     )  # fmt: skip
     ratio = seconds[WHOLE] / sum(value for name, value in seconds.items() if name != WHOLE)
     return Section("whole", (table,), (Target("a whole over the sum of its bearings", "-", ratio, MOST),))

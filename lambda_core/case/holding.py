@@ -116,7 +116,7 @@ class Dof(Section):
 
     @property
     def hold(self) -> float:
-        """Stiffness of what holds it: inf where it is locked or led, 0 where it is free [N/m, N m/rad]."""
+        """Stiffness of what holds it: inf where it is locked or prescribed, 0 where it is free [N/m, N m/rad]."""
         return float(getattr(self, "stiffness", 0.0)) if self.mode == "free" else inf
 
 

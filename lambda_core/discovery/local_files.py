@@ -2,7 +2,7 @@
 
 Three ways lead in, each on purpose: ``--plugin FILE.py`` for one call, the variable ``LAMBDA_BEARING_PLUGINS`` for
 files and folders, and the folder ``plugins`` with the user's settings. The working directory is none of them, and
-a file sees no other files beside it.
+a file cannot import its neighbours.
 """
 
 from __future__ import annotations

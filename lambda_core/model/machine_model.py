@@ -65,7 +65,7 @@ class MountedBearing:
 
 @dataclass(frozen=True)
 class Unbalance:
-    """A mass that turns with the shaft beside its axis."""
+    """A mass that turns with the shaft off its axis."""
 
     position: float  # [m]
     amount: float  # mass times eccentricity [kg m]
@@ -122,7 +122,7 @@ class ShaftHold:
 
 @dataclass(frozen=True)
 class RigidBody:
-    """A body beside the shaft, SI."""
+    """A rigid body other than the shaft, SI."""
 
     name: str
     centre: tuple[float, float, float]  # of mass, from the left end of the shaft's axis [m]
@@ -136,7 +136,7 @@ class RigidBody:
 
     @property
     def shift(self) -> tuple[float, ...]:
-        """Where it is led at t = 0 [m, rad]."""
+        """Its prescribed pose at t = 0 [m, rad]."""
         return tuple(map(initial, self.lead))
 
 
@@ -174,7 +174,7 @@ class MachineModel:
     hold : ShaftHold or None
         Where the ground holds the shaft.
     bodies : tuple of RigidBody
-        Beside the shaft.
+        In addition to the shaft.
     markers : tuple of (str, Place)
         Named places.
     heat : MachineHeat

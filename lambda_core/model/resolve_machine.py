@@ -152,7 +152,7 @@ def _bearings(
 def _shaft(
     case: ShaftCase, models: Mapping[str, BearingModel], catalogue: Catalogue, ledger: Ledger, found: Sequence[Problem]
 ) -> MachineModel | None:
-    """Return the whole; None where something is wrong, here or as `found` before, after all else has been looked at."""
+    """Return the machine; None where something is wrong, here or as `found` before."""
     from lambda_core.discovery.manager import registry
 
     folder, outside, shape_known = case.folder or Path(), None, is_shape_known(found)

@@ -246,7 +246,7 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
 
 
 def _pick(rollers: InlineRollers, row: RollerRow | None, name: str, ledger: Ledger) -> float | None:
-    """Return a value of the case, else of the catalogue; an assumed or derived one is said."""
+    """Return a value of the case, else of the catalogue; assumed and derived ones are reported."""
     written: float | None = getattr(rollers, name)
     if written is not None:
         ledger.given(f"bearing.rollers.{name}", written, _QUANTITIES.get(name, "length"))

@@ -40,7 +40,7 @@ class DataReference(Record):
 
 
 class Citation(Record):
-    """What to cite beside a result."""
+    """References to cite with a result."""
 
     interface: int = INTERFACE
     file: str
@@ -70,7 +70,7 @@ class Citation(Record):
 
 
 def citation(result: Result) -> Citation:
-    """Return what to cite beside a result.
+    """Return the references to cite with a result.
 
     Parameters
     ----------

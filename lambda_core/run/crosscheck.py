@@ -148,7 +148,7 @@ def cross_check(
 
 
 def _bearing(model: BearingModel, free_cage: bool, announce: Callable[[str], None] | None) -> _Begun:
-    """Return a bearing at its start, its cage led unless it is free."""
+    """Return a bearing at its start, its cage guided unless it is free."""
     start = solve(model, announce=announce)
     _check_turning(start.relative_speed)
     orbit = abs(start.orbit)
@@ -159,7 +159,7 @@ def _bearing(model: BearingModel, free_cage: bool, announce: Callable[[str], Non
 
 
 def _machine(machine: MachineModel, free_cage: bool, announce: Callable[[str], None] | None) -> _Begun:
-    """Return a machine at its start, its cages led unless they are free."""
+    """Return a machine at its start, its cages guided unless they are free."""
     from lambda_core.solver.drivers.machine_motion import machine_start
 
     _check_turning(machine.speed)

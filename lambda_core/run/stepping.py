@@ -101,7 +101,7 @@ class Coupled(Protocol):
 
 
 class _OneBearing:
-    """A bearing that is pushed, or whose rings are led."""
+    """A bearing that is pushed, or whose rings are moved."""
 
     def __init__(self, model: BearingModel, couple: Coupling, announce: Announce | None) -> None:
         self.model, equilibrium = start(model, couple, announce)

@@ -191,7 +191,7 @@ def biboulet_houpert_point(
     F/(E' R_x^2) = (2 a/R_x) {[0.77 b^(-1/3) k^0.12 U2^(-1/12) - 1.8 b^(-1/4)]/(1 + M/6.6) + 1.8 b^(-1/4)} U2^0.75,
     b = (4/pi) E/(1 + R_x/R_y), M = b^(1/4) k W/U2^0.75, U2 = 2 eta0 u_m/(E' R_x), W = Q/(E' R_x^2), k = semi_b/semi_a,
     E the complete elliptic integral: Biboulet and Houpert 2010, Proc. IMechE J 224, Part 2: point contacts, doi
-    10.1243/13506501JET791. Slow or heavily loaded it is 1.15 times its line law on the width 2 a: oil beside the
+    10.1243/13506501JET791. Slow or heavily loaded it is 1.15 times its line law on the width 2 a: oil outside the
     ellipse resists too.
     """
     if load <= 0.0 or semi_a <= 0.0:

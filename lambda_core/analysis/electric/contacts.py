@@ -285,7 +285,7 @@ def ball_capacitance(contacts: Contacts, permittivity: float) -> FloatArray:
     larger semi-axis, K the complete elliptic integral of the first kind; a circle gives 4 eps_0 eps_r a. It is the
     spreading resistance rho K/(2 pi a) of an ellipse (Holm 1967, Electric Contacts, par. 3) with eps for 1/rho. An
     unloaded ball gets that of a circle of the mean size of the loaded ones in its sample, an upper bound. Field lines
-    beside the ellipse are left out, so that the result is a lower bound for loaded balls.
+    outside the ellipse are left out, so that the result is a lower bound for loaded balls.
     """
     from scipy.special import ellipk
 

@@ -159,7 +159,7 @@ def _grouped(speed: float) -> str:
 
 
 def _shaft_lines(report: MachineEquilibrium) -> list[str]:
-    """Return what there is to say of the shaft and of the whole."""
+    """Return the lines about the shaft and the machine."""
     largest = max(
         ((y * y + z * z) ** 0.5, place)
         for (_, y, z), place in zip(report.deflection_um, report.positions_mm, strict=True)
@@ -202,7 +202,7 @@ def _mostly(kind: str) -> str:
 
 
 def _with_bodies(share: float) -> str:
-    """Return a mark for a mode whose kinetic energy is mostly in the bodies beside the shaft."""
+    """Return a mark for a mode whose kinetic energy is mostly in other bodies than the shaft."""
     return " with bodies" if share > 0.5 else ""
 
 

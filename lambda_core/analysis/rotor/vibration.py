@@ -168,7 +168,7 @@ def _seen(whole: Any, kept: Any, others: list[int]) -> Any:
 
 
 def supported(model: MachineModel, state: ShaftState) -> FloatArray:
-    """Return the stiffness of the shaft on its bearings, and of the bodies beside it as they can move.
+    """Return the stiffness of the shaft on its bearings, and of the other bodies as they can move.
 
     Shape (rows of the shaft + free motions of bodies) squared; outer rings follow without inertia.
     """

@@ -113,7 +113,7 @@ def _unsealed(path: Path) -> memoryview | None:
 class _Results(CompileResultCacheImpl):
     """Rebuilds what was compiled from its machine code alone.
 
-    Beside it Numba keeps LLVM's code, for functions that are to be compiled and call this one. Reading it takes half of
+    Numba also keeps LLVM's code, for functions that are to be compiled and call this one. Reading it takes half of
     the time that the solver takes to load; here it is read when somebody asks for it.
     """
 

@@ -5,7 +5,7 @@ Python and C, optimised and turned into machine code, although a caller takes in
 optimised again together with its own. All this is left out here, half of the time that compiling the solver took.
 
 Such functions are also forced into their callers. Between compiled functions an array travels as its seven fields and
-a result through memory, beside a status: calls were a quarter of the right-hand side's time.
+a result through memory, next to a status: calls were a quarter of the right-hand side's time.
 """
 
 # Numba's compiler carries only part of its types.

@@ -35,8 +35,8 @@ from lambda_core.laws.jit.plain import is_plain
 def _take_wide_vectors() -> None:
     """Let loops over cells take all of 512 bits where the processor has them and keeps its clock with them.
 
-    LLVM takes half of them on Intel's processors, the first of which slowed down; later ones, from Ice Lake on, are
-    told by AVX512-VBMI2. What the user sets (NUMBA_CPU_NAME, NUMBA_CPU_FEATURES) stays.
+    LLVM takes half of them on Intel's processors, the first of which slowed down; AVX512-VBMI2
+    marks the later ones, from Ice Lake on. What the user sets (NUMBA_CPU_NAME, NUMBA_CPU_FEATURES) stays.
     """
     if config.CPU_NAME is not None or config.CPU_FEATURES is not None or not config.ENABLE_AVX:
         return
@@ -88,7 +88,7 @@ def returned_type(dispatcher: Any) -> Any:
 
 
 def environment_key() -> str:
-    """Return a hash of what compiled code depends on beside its sources (hex, 16 characters).
+    """Return a hash of what compiled code depends on besides its sources (hex, 16 characters).
 
     Versions of Python, numpy, Numba and llvmlite, the processor and its features, the
     optimisation level, how code is made here, and the bounds-check flag, to which Numba's own cache is blind.

@@ -2,7 +2,7 @@
 
 Numba hands a tuple over field by field: an array takes seven words, a tuple of forty arrays three hundred arguments
 that every function takes apart and puts together again. That was three quarters of the code that LLVM was given.
-Here a function takes one address. Fields are read where they are used; they never change, and LLVM is told so.
+Here a function takes one address. Fields are read where they are used; they never change, which LLVM may assume.
 """
 
 # Numba's compiler carries only part of its types.

@@ -47,7 +47,7 @@ _FAR_BEYOND = 1000.0  # times the static ratings: pressures ten times those that
 
 
 def rigid_bodies(case: ShaftCase, catalogue: Catalogue, ledger: Ledger) -> tuple[RigidBody, ...]:
-    """Return the bodies beside the shaft, masses given or from their shapes."""
+    """Return the bodies other than the shaft, masses given or from their shapes."""
     return tuple(_rigid(name, given, catalogue, ledger) for name, given in case.bodies.items())
 
 

@@ -29,7 +29,7 @@ def independent(found: Sequence[Problem], later: Iterable[Problem], tables: Mapp
     found : sequence of Problem
         Of the tables and of single bearings.
     later : iterable of Problem
-        Of the whole.
+        Of the machine.
     tables : mapping
         As they stand in the file.
     """

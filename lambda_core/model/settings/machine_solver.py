@@ -1,4 +1,4 @@
-"""Settings of the integrator of a whole: one integration of all bearings, for averages or for vibrations."""
+"""Settings of the integrator of a machine: one integration of all bearings, for averages or for vibrations."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def refuse_settings(case: ShaftCase, ledger: Ledger) -> None:
 
 
 def with_settings(case: ShaftCase, model: MachineModel, ledger: Ledger) -> MachineModel:
-    """Return the whole with bearings that are all followed alike: vibrations where one of them asks for that.
+    """Return the machine with bearings that are all followed alike: vibrations where one of them asks for that.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def with_settings(case: ShaftCase, model: MachineModel, ledger: Ledger) -> Machi
 
 
 def _excitation(case: ShaftCase) -> float:
-    """Return the highest frequency at which the shaft is loaded or led [Hz]; 0 where it is not."""
+    """Return the highest frequency at which the shaft is loaded or moved [Hz]; 0 where it is not."""
     return highest_frequency(*(time_function(signal) for _, signal in changing(case)))
 
 

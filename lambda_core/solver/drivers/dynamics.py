@@ -78,7 +78,7 @@ class MotionStart(Generic[Sampled, Summed_co]):
     resolve : float
         Highest frequency that vibrations are followed to [Hz]; 0: averages are the answer.
     modes_until : float, optional
-        Highest frequency of the modes that are told of [Hz]; by default those that are damped least are.
+        Highest frequency of the modes that are reported [Hz]; by default those that are damped least are.
     given : records.TERM[:]
         One row for each signal from outside.
     """

@@ -42,7 +42,7 @@ class LumpedShaft:
     follow : float64[:, :], shape (6 nodes, 6 n) or (6 nodes, 6 n + 1)
         How all nodes of the beam follow; turned round, how forces on nodes go to the lumps.
     driven : int
-        Lump that the coupling turns; n where it stands beside them.
+        Lump that the coupling turns; n where it is none of them.
     """
 
     positions: FloatArray

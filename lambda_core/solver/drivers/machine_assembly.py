@@ -3,7 +3,7 @@
 Members stand in the order: first lump, outer ring of the first bearing, the other lumps, then the other outer rings and
 cages bearing by bearing. A bearing's inner ring is the lump at its place; every bearing has its own origin at its place
 along the shaft, so that all positions are displacements. Rigid bodies follow. Where the shaft twists and the coupling
-turns it beside all lumps, a member without mass comes last, whose angle leads.
+turns it at none of the lumps, a member without mass comes last, whose angle leads.
 """
 
 from __future__ import annotations

@@ -47,7 +47,7 @@ class ShaftState:
     outer : float64[:, :], shape (bearings, 5)
         Of the outer rings in the order of POSE.
     bodies : float64[:, :], shape (bodies, 6)
-        Of the bodies beside the shaft [m, rad].
+        Of the other bodies [m, rad].
     reactions : float64[:, :], shape (bearings, 5)
         Force and moment of each bearing on the shaft [N, N m].
     stiffness : float64[:, :, :], shape (bearings, 5, 5)
@@ -87,7 +87,7 @@ class ShaftState:
 class _Whole:
     """The unknowns of shaft, outer rings and other bodies in one vector, and the forces on them.
 
-    The shaft's are the pose of the node that the coupling holds and, of all others, what they move beside a rigid
+    The shaft's are the pose of the node that the coupling holds and, of all others, what they move relative to a rigid
     shaft with that pose. Elastic forces then are those of deflections alone: however stiff the shaft is, its motion as
     a rigid body leaves no rounding in them.
     """
@@ -164,7 +164,7 @@ class _Whole:
         return found
 
     def tangent(self, each: FloatArray, q: FloatArray) -> FloatArray:
-        """Return the stiffness of the whole with one of (5, 5) at every bearing."""
+        """Return the stiffness of the machine with one of (5, 5) at every bearing."""
         found = np.asarray(self.linear + sum(reach.T @ k @ reach for reach, k in zip(self.reach, each, strict=True)))
         for link in self.links:
             found = found + self.moves.T @ link.slope(self.moves @ q) @ self.moves
@@ -191,7 +191,7 @@ class _Whole:
 
 
 def _carried(model: MachineModel, frame: NDArray[np.int64]) -> FloatArray:
-    """Return how all rows move with the unknowns: of a node its pose, of the others the way beside a rigid shaft."""
+    """Return how all rows move with the unknowns: a node's pose, or the way relative to a rigid shaft."""
     found: FloatArray = np.eye(model.body.stiffness.shape[0])
     at = model.body.positions[frame[0] // NODE]
     for node, place in enumerate(model.body.positions):

@@ -27,7 +27,7 @@ def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
     The balls follow: K = -(F_qq - F_qb F_bb^-1 F_bq), the Schur complement of the Jacobian of the contact forces
     F over the axial and radial positions b of the balls, q the ring's displacement and tilt. Centrifugal force and
     the azimuths of the balls stand still, friction is left out, as are elastic supports of the ring and force elements
-    beside the bearing.
+    outside the bearing.
 
     Parameters
     ----------

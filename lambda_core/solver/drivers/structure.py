@@ -1,4 +1,4 @@
-"""Springs, dampers and seats of a whole as matrices between the motions of shaft, outer rings and other bodies."""
+"""Springs, dampers and seats of a machine as matrices between the motions of shaft, outer rings and other bodies."""
 
 from __future__ import annotations
 
