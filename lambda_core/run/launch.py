@@ -166,13 +166,14 @@ def prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Pro
 def _with_bands(model: Runnable, provenance: Provenance, announce: Announce | None) -> Provenance:
     """Return where a run comes from with the model band of each bearing."""
     from lambda_core.analysis.band.model_band import band_of, bands_of_machine
-    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 
     if announce is not None:
         announce("computing the model band from the ranges of parameters and laws")
     if isinstance(model, BearingModel):
         bands = dict.fromkeys(provenance.bearings, band_of(model))
     else:
+        from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+
         bands = bands_of_machine(model, solve_shaft(model)).bearings
     origins = {name: dataclasses.replace(origin, band=bands[name]) for name, origin in provenance.bearings.items()}
     return dataclasses.replace(provenance, bearings=origins)
