@@ -180,6 +180,11 @@ class MachineEquilibrium(Record):
     def with_(self, **changes: Any) -> MachineEquilibrium:
         """Solve the same machine with changes to its case, section by section.
 
+        Returns
+        -------
+        MachineEquilibrium
+            Of the changed machine.
+
         Examples
         --------
         ``found.with_(gears={"wheel": {"power": "20 kW"}}).system_life_h``
@@ -198,7 +203,25 @@ class MachineEquilibrium(Record):
         return machine_equilibrium(case.with_(**changes))
 
     def plot(self, name: str = "shaft", **options: Any) -> Any:
-        """Return a view of the machine as a matplotlib figure: its shaft with deflection and bending moment."""
+        """Return a view of the machine as a matplotlib figure.
+
+        Parameters
+        ----------
+        name : str
+            View; default: the shaft with deflection and bending moment.
+        **options
+            Options of the view by name.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            ``savefig`` writes it.
+
+        Raises
+        ------
+        UsageError
+            For a view or an option that does not exist, or an equilibrium that has no machine.
+        """
         from lambda_core.discovery.manager import registry
         from lambda_core.discovery.shown import data_of, view_of
         from lambda_core.views.view import MachineData
@@ -208,6 +231,11 @@ class MachineEquilibrium(Record):
 
     def to_xarray(self) -> Any:
         """Return the numbers of the bearings and the deflection of the shaft as an xarray.Dataset, with units.
+
+        Returns
+        -------
+        xarray.Dataset
+            Dimensions bearing, position (along the shaft) and axes.
 
         Raises
         ------
