@@ -245,6 +245,8 @@ class BearingModel:
         Force elements between bodies, in addition to those of the bearing, by name.
     elastic : mapping of str to RingWaves
         Rings and cage that bend, in the order of BODIES.
+    requirements : Requirements
+        Life, safety and limits that the case asks for.
     values : tuple of ResolvedValue
         Every frozen number with its origin.
     rollers : RollerBearing or None

@@ -58,6 +58,8 @@ class ShaftState:
         Of the coupling on the shaft [N m].
     residual : float
         Largest unbalanced force over the loads.
+    iterations : int
+        Of Newton's method.
     links : list of SolvedLink
         Connections by laws.
     """
