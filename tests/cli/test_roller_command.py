@@ -108,6 +108,22 @@ def test_a_slip_in_a_designation_names_the_nearest(tmp_path: Path, capsys: pytes
     assert "NU 208" in capsys.readouterr().err
 
 
+def test_shafts_do_not_take_rollers_yet(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "shaft.toml"
+    path.write_text(
+        """\
+name = "rollers"
+operation = { speed = "3000 rpm" }
+lubricant = { name = "FVA3", temperature = "70 degC" }
+shaft = { sections = [{ length = "170 mm", diameter = "40 mm" }] }
+bearings = { left = { designation = "SKF 6208", at = "21 mm" }, right = { designation = "NU 208", at = "148 mm" } }
+""",
+        encoding="utf-8",
+    )
+    assert main(["check", str(path)]) == 3
+    assert "without ribs nothing holds tilted rollers" in capsys.readouterr().err
+
+
 def test_own_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "own.toml"
     path.write_text(

@@ -35,6 +35,12 @@ def mounted(
         ledger.problem(f"bearings.{name}.takes", 'is required: an angular contact bearing needs "+x" or "-x"')
     if takes and model.geometry.rated_rows > 1:
         ledger.problem(f"bearings.{name}.takes", "leave it out: this bearing takes thrust from both sides")
+    if model.rollers is not None:
+        ledger.problem(
+            f"bearings.{name}.designation",
+            f"{model.title}: a shaft tilts the rings of its bearings, and without ribs nothing holds tilted rollers; "
+            "solve this bearing alone, or take one with balls",
+        )
     if model.geometry.kind.on_sphere:
         ledger.assume(f"{name}: a self-aligning bearing follows every tilt of the shaft without resistance")
     play = axial_play(given, model) if takes else 0.0
