@@ -47,7 +47,7 @@ def test_law_rows_method_and_command_are_found(site: Installation) -> None:
         "data",
         "command",
     }
-    checked = site.program("check", "6319-cp10-1500", "--set", "models.traction=ferry-law")
+    checked = site.program("check", "6319-cp10-1500", "--all", "--set", "models.traction=ferry-law")
     assert checked.code == 0
     assert "traction ferry-law: limit_ratio 0.065, lubricant FVA3A" in checked.out
     curve = site.program("ferry-law", "--json").data
