@@ -259,7 +259,7 @@ def evaluate_methods(methods: Iterable[Method], inputs: MethodInputs | RollerMet
 
 def _asked(method: Method, inputs: MethodInputs | RollerMethodInputs) -> MethodTable:
     """Ask a method about balls or rollers; NotApplicable where it is about balls alone."""
-    if isinstance(inputs, MethodInputs):
+    if not isinstance(inputs, RollerMethodInputs):
         return method.evaluate(inputs)
     if method.evaluate_rollers is None:
         raise NotApplicable("is about ball bearings")

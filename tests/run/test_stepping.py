@@ -173,5 +173,5 @@ def test_what_is_given_without_sense_is_refused() -> None:
         stepping.give("inner_ring.xx", 0.0)
     with pytest.raises(UsageError, match="is prescribed in z"):
         stepping.push((0.0, 0.0, 1.0))
-    with pytest.raises(UsageError, match="force or motion"):
+    with pytest.raises(UsageError, match="force, motion"):
         api.iterate(CASE, couple="both")
