@@ -24,7 +24,8 @@ def test_an_estimate_of_a_machine_is_about_what_its_run_takes() -> None:
     assert engine.advance(0.1).ok
     assert found.processor_s == pytest.approx(time.process_time() - begin, rel=2.0)
     assert found.processor_s > (time.process_time() - begin) / 3.0
-    assert found.equilibrium == api.quasistatic(tables, ["solver.duration=0.1 s"])
+    equilibrium = api.quasistatic(tables, ["solver.duration=0.1 s"], band=False)
+    assert found.equilibrium.model_dump() == equilibrium.model_dump()
     assert found.basis.startswith("solver.duration of the case; a trial of 2.5")
 
 
