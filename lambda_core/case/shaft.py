@@ -290,6 +290,8 @@ def _own_thermal(tables: Mapping[str, Any], given: Mapping[str, Any]) -> dict[st
     found = {key: value for key, value in shared.items() if key in _AROUND} | dict(own)
     if "oil_flow" not in found:
         found.pop("oil_supply", None)
+    if found.get("conductances") == "none" and "links" not in own:
+        found.pop("conductances")  # the links of the machine lead where a bearing alone has nothing
     return found
 
 
