@@ -1,6 +1,6 @@
-"""Roller bearings of measured friction, each with the one set of parameters that it is compared with.
+"""Roller bearings of measured friction, and the sets of parameters that they are compared with.
 
-The sets were written down before the first comparison with the measured torques. Where a paper prints constants they
+The sets were written down before the first comparison with the measured torques, whose values were known. Where a paper prints constants they
 are the paper's; everything else has the default of :class:`FrictionParameters`.
 """
 
