@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
     from lambda_db.transfer import ImportReport
 
-    from lambda_core.api import Registry
+    from lambda_core.api import BearingRow, Registry
+    from lambda_core.catalogue.protocol import RollerRow
 
 app = typer.Typer(
     no_args_is_help=True, add_completion=False, help="Search and edit the catalogue of bearings, oils and materials."
@@ -65,13 +66,16 @@ def search(
     """List the bearings (or oils) that match every word."""
     options = {"d=": bore, "D=": outside, "B=": width, "series=": series, "maker=": maker, "C>=": rating}
     text = " ".join([*(words or []), *(f"{key}{value}" for key, value in options.items() if value is not None)])
-    from lambda_db.presentation import found_some
+    from lambda_db.presentation import found_some, rollers_found
 
     with _opened() as (catalogue, _):
         if lubricants:
             list_lubricants(found_some(catalogue, "lubricant", text, catalogue.lubricants(text, limit)), json)
         else:
-            list_bearings(found_some(catalogue, "bearing", text, catalogue.bearings(text, limit)), json)
+            rows: list[BearingRow | RollerRow] = [*catalogue.bearings(text, limit), *rollers_found(catalogue, text)][
+                :limit
+            ]
+            list_bearings(found_some(catalogue, "bearing", text, rows), json)
 
 
 @app.command()

@@ -11,10 +11,13 @@ from lambda_cli.talk import columns
 _ROOMY = 110  # columns of a terminal from which on notes stand in the table
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from lambda_db.catalogue import SqlCatalogue
     from rich.table import Table
 
     from lambda_core.api import BearingRow, CageRow, LubricantRow, MaterialRow, Registry
+    from lambda_core.catalogue.protocol import RollerRow
 
 
 def print_json(**data: object) -> None:
@@ -48,7 +51,7 @@ def _number(value: float | None, digits: int = 6) -> str:
     return "" if value is None else f"{value:.{digits}g}"
 
 
-def list_bearings(rows: list[BearingRow], json: bool) -> None:
+def list_bearings(rows: Sequence[BearingRow | RollerRow], json: bool) -> None:
     """Print one line per bearing; estimates are marked."""
     from lambda_db.presentation import bearing_summary
 
@@ -60,7 +63,11 @@ def list_bearings(rows: list[BearingRow], json: bool) -> None:
     for row in rows:
         s = bearing_summary(row)
         design, grade = "", "unknown"
-        if s["ball_count"] is not None:
+        if "roller_count" in s:
+            size = (s["roller_count"], _number(s["roller_diameter_mm"]), _number(s["roller_length_mm"]))
+            mark = "≈ " if s["geometry_status"] != "published" else ""
+            design, grade = mark + " x ".join(map(str, size)), f"{s['geometry_grade']} {s['geometry_status']}"
+        elif s["ball_count"] is not None:
             mark = "≈ " if s["geometry_status"] != "published" else ""
             design = f"{mark}{s['ball_count']} x {_number(s['ball_diameter_mm'])}"
             grade = f"{s['geometry_grade']} {s['geometry_status']}"

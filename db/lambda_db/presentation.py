@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeVar
 from pydantic import BaseModel
 
 from lambda_core.catalogue.designation import designated, read_designation
-from lambda_core.catalogue.protocol import BearingRow, CageRow, LubricantRow, MaterialRow, Value
+from lambda_core.catalogue.protocol import BearingRow, CageRow, LubricantRow, MaterialRow, RollerRow, Value
 from lambda_core.domain.errors import CatalogueError, Problem, UsageError, nearest, unknown_name
 from lambda_core.domain.units import from_si, parse
 from lambda_db.catalogue import SqlCatalogue
@@ -26,6 +26,8 @@ _SHOWN: dict[str, tuple[str, str]] = {
             "width",
             "chamfer",
             "ball_diameter",
+            "roller_diameter",
+            "roller_length",
             "pitch_diameter",
             "race_diameter_inner",
             "race_diameter_outer",
@@ -133,14 +135,38 @@ def clearance_lines(catalogue: SqlCatalogue, row: BearingRow) -> list[dict[str, 
     return lines
 
 
-def bearing_summary(row: BearingRow) -> dict[str, Any]:
+def rollers_found(catalogue: SqlCatalogue, text: str) -> list[RollerRow]:
+    """Return the roller bearings whose designation begins with the words; a maker's name may stand among them."""
+    words = text.upper().split()
+    found = []
+    for row in catalogue.rollers():
+        named = "".join(word for word in words if word != row.maker.upper())
+        if named and row.designation.upper().replace(" ", "").startswith(named):
+            found.append(row)
+    return found
+
+
+def bearing_summary(row: BearingRow | RollerRow) -> dict[str, Any]:
     """One line of a list of bearings."""
 
     def number(name: str) -> float | None:
         value = getattr(row, name)
         return None if value is None else _shown(name, value.value)[0]
 
-    balls = row.ball_count
+    design: Value | None
+    if isinstance(row, RollerRow):
+        design = row.roller_count
+        own: dict[str, Any] = {
+            "roller_count": int(row.roller_count.value),
+            "roller_diameter_mm": number("roller_diameter"),
+            "roller_length_mm": number("roller_length"),
+        }
+    else:
+        design = row.ball_count
+        own = {
+            "ball_count": None if design is None else int(design.value),
+            "ball_diameter_mm": number("ball_diameter"),
+        }
     return {
         "designation": row.designation,
         "maker": row.maker,
@@ -152,10 +178,9 @@ def bearing_summary(row: BearingRow) -> dict[str, Any]:
         "width_mm": number("width"),
         "C_kN": number("dynamic_rating"),
         "C0_kN": number("static_rating"),
-        "ball_count": None if balls is None else int(balls.value),
-        "ball_diameter_mm": number("ball_diameter"),
-        "geometry_status": None if balls is None else balls.status,
-        "geometry_grade": None if balls is None else balls.grade,
+        **own,
+        "geometry_status": None if design is None else design.status,
+        "geometry_grade": None if design is None else design.grade,
         "layer": row.layer,
     }
 
@@ -240,7 +265,8 @@ def found_some(catalogue: SqlCatalogue, kind: Literal["bearing", "lubricant"], t
     if kind == "bearing":
         makers = ", ".join(sorted({row.maker for row in catalogue.bearings("", 1_000_000)}))
         kinds = "deep groove, angular contact, four-point contact, double row and self-aligning"
-        holds = f"{kinds} ball bearings of {makers}; oils and greases: --lubricants"
+        holds = f"{kinds} ball bearings of {makers}; "
+        holds += "roller bearings by the start of a designation (NU 2, 322); oils and greases: --lubricants"
     else:
         greases = sum("nlgi" in row.properties for row in catalogue.lubricants("", 1_000_000))
         holds = f"{len(names) - greases} oils and {greases} greases"

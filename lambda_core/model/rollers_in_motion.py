@@ -55,10 +55,26 @@ def rollers_of(case: Case, catalogue: Catalogue) -> tuple[RollerBearing, str, tu
         ledger.problem("loads.axial", "ribs carry thrust in quasistatic alone: leave it out in motion")
     if not case.depth.cage:
         ledger.problem("depth.cage", "rollers in motion need their cage: full complements are computed by quasistatic")
+    _refuse_parameters(case, ledger)
     ledger.check(case.name)
     assert rollers is not None  # else a problem says why
     ledger.assume("rollers are guided along the shaft by the pockets of their cage, ribs carry nothing")
     return rollers, roller_title(case, found, rollers), tuple(ledger.assumptions)
+
+
+def _refuse_parameters(case: Case, ledger: Ledger) -> None:
+    """Refuse parameters and laws of single contacts that would have no effect."""
+    fixed = (*DEFAULT_LINE_MODELS, "cage_contact", "fluid_drag")
+    written = {f"parameters.{role}": role for role in case.parameters}
+    forces = {name: getattr(case.forces, name) for name in case.forces.model_fields_set}
+    for name, force in forces.items():
+        if force is not None:
+            written |= {f"forces.{name}.parameters.{role}": role for role in force.parameters}
+            written |= {f"forces.{name}.models.{role}": role for role in force.models.model_fields_set}
+    written |= {f"models.{role}": role for role in fixed[-2:] if getattr(case.models, role) is not None}
+    for path, role in written.items():
+        if role in fixed:
+            ledger.problem(path, "rollers in motion take the law's own values here: leave it out")
 
 
 def as_balls(case: Case, rollers: RollerBearing) -> Case:

@@ -25,6 +25,7 @@ from lambda_core.elements.roller.roller_ratings import lamina_ratings, roller_eq
 from lambda_core.formulas.life import life_hours, reference_viscosity
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.results.averages import finite
+from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.text import line, warning_lines
 
@@ -32,9 +33,7 @@ if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
 
 _RPM = 30.0 / math.pi
-_MOST_PRESSURE = 4e9  # [Pa], ISO 76: permanent deformation of 1e-4 of the roller's diameter
 _LEAST_KAPPA = 0.1  # of ISO 281's a_ISO
-_MISALIGNED = 1.2e-3  # [rad], 4 minutes of arc: SKF, Rolling bearings, 2018, cylindrical rollers of series 2
 
 
 class RollerLoad(Record):
@@ -160,7 +159,7 @@ def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
         inner_ring_displacement_um=[1e6 * x, 1e6 * y, 1e6 * z],
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
         inner_ring_moment_Nm=[-float(state.loads[3]), -float(state.loads[4])],
-        **_lives(model, state, radial, axial, motion),
+        **roller_lives(bearing, state, (radial, axial), motion.relative, model.oil.kinematic),
         axial_limit_N=limit.continuous if limit else None,
         rollers=_rollers(bearing, state),
         warnings=_warnings(model, state, axial, limit),
@@ -201,21 +200,33 @@ def _pressure(bearing: RollerBearing, state: RollerEquilibrium, model: RollerMod
     )
 
 
-def _lives(
-    model: RollerModel, state: RollerEquilibrium, radial: float, axial: float, motion: RollerMotion
+def roller_lives(
+    bearing: RollerBearing, state: RollerEquilibrium, load: tuple[float, float], speed: float, viscosity: float
 ) -> dict[str, Any]:
-    """Return lives, static safety and viscosity ratio; None where a standard gives none."""
-    bearing = model.bearing
+    """Return lives, static safety and viscosity ratio; None where a standard gives none.
+
+    Parameters
+    ----------
+    bearing, state
+        Geometry, and loads of every lamina.
+    load : tuple of float
+        Radial and axial [N].
+    speed : float
+        Of the inner ring against the outer [rad/s].
+    viscosity : float
+        Kinematic, of the oil [m2/s].
+    """
+    radial, axial = load
+    speed = abs(speed)
     angle, gamma = bearing.contact_angle, bearing.diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
     thrust = axial if angle > 0.0 else 0.0
     equivalent = roller_equivalent_load(radial, thrust, angle).load
     static = roller_static_load(radial, thrust, angle)
-    ratings = lamina_ratings(bearing.dynamic_rating, bearing.count, gamma, model.slices, contact_angle=angle)
+    ratings = lamina_ratings(bearing.dynamic_rating, bearing.count, gamma, state.inner.shape[1], contact_angle=angle)
     mean = 0.5 * (state.inner + state.outer)
     reference = lamina_life(mean, ratings, bearing.dynamic_rating).life
-    speed = abs(motion.relative)
     basic = roller_basic_life(bearing.dynamic_rating, equivalent)
-    kappa = model.oil.kinematic / reference_viscosity(speed, bearing.pitch_diameter) if speed > 0.0 else math.nan
+    kappa = viscosity / reference_viscosity(speed, bearing.pitch_diameter) if speed > 0.0 else math.nan
     return {
         "equivalent_load_N": equivalent,
         "basic_life_h": finite(life_hours(basic, speed)),
@@ -267,7 +278,7 @@ def _warnings(model: RollerModel, state: RollerEquilibrium, axial: float, limit:
     """Return what is beyond a limit."""
     found = []
     pressure = _pressure(model.bearing, state, model)
-    if pressure > _MOST_PRESSURE:
+    if pressure > HIGHEST_ROLLER_PRESSURE:
         found.append(f"contact pressure {1e-9 * pressure:.3g} GPa is above the 4 GPa of the static rating (ISO 76)")
     if limit is not None and axial > limit.continuous:
         names = {limit.thermal: "heat", limit.mechanical: "strength of the ribs", limit.guidance: "guidance of rollers"}
@@ -281,7 +292,7 @@ def _warnings(model: RollerModel, state: RollerEquilibrium, axial: float, limit:
                 f'{name} is locked: the moment goes into the shaft; bodies.inner_ring.{name} = "free" takes it'
             )
     tilt = float(np.hypot(state.ring[3], state.ring[4]))
-    if tilt > _MISALIGNED:
+    if tilt > ROLLER_TILT:
         found.append(f"tilt of the rings {1e3 * tilt:.2f} mrad is above the 4 minutes of arc of rollers (SKF, 2018)")
     return found
 

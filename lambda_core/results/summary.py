@@ -267,7 +267,26 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         equilibrium=_equilibrium(result),
         assumptions=list(result.assumptions),
     )
-    return found.with_band(result.model_band)
+    return found.with_band(result.model_band) if result.model.get("rollers") is None else _of_rollers(found, result)
+
+
+def _of_rollers(found: BearingSummary, result: Result) -> BearingSummary:
+    """Return the summary without what holds for balls alone: shoulders, capacitance, limits of tilt and pressure."""
+    left_out = {"rating life", "capacitance", "bearing capacitance"}
+    band = result.model_band
+    if band is not None:
+        band = band.model_copy(update={"bands": [one for one in band.bands if one.quantity not in left_out]})
+    verdict = found.verdict
+    beyond = [] if verdict is None or verdict.met else [verdict.sentence]
+    changes: dict[str, Any] = {
+        "shoulders": [],
+        "contact_capacitance_pF": [],
+        "bearing_capacitance_nF": None,
+        "capacitance_note": "",
+        "contacts": [contact.model_copy(update={"capacitance_pF": None}) for contact in found.contacts],
+        "warnings": [*result.case_warnings, *tolerance_warning(settings_of(result).tolerance), *beyond],
+    }
+    return found.model_copy(update=changes).with_band(band)
 
 
 def _iteration_residual(statistics: Mapping[str, float], whole: Interval) -> float | None:

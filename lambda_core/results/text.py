@@ -61,16 +61,12 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         line("inner ring", f"{_place(summary.inner_ring_displacement_um, units)} (mean)", _tilt(summary)),
         *(line("" if i else "ovality", _oval(bent, units)) for i, bent in enumerate(summary.bent)),
         line("pressure", f"p_max {shown(summary, 'max_pressure_GPa', units)}"),
-        line(
-            "capacitance",
-            f"contacts {shown(summary, 'contact_capacitance_pF')}",
-            f"bearing {shown(summary, 'bearing_capacitance_nF')}",
-        ),
+        *_capacitance(summary),
         *([line("", summary.capacitance_note)] if summary.capacitance_note else []),
         *_currents(summary.currents),
         *watched_lines(summary),
         *(line("failed" if index == 0 else "", fault) for index, fault in enumerate(summary.plugin_faults)),
-        line("shoulders", *(_margin(edge, units) for edge in summary.shoulders)),
+        *([line("shoulders", *(_margin(edge, units) for edge in summary.shoulders))] if summary.shoulders else []),
         *band_lines(summary.model_band),
         line("energy residual", f"{shown(summary, 'energy_residual')} of input", _iteration(summary)),
         *([line("vibrations", summary.vibrations.sentence())] if summary.vibrations else []),
@@ -80,6 +76,15 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *(line("not converged" if index == 0 else "", reason) for index, reason in enumerate(summary.reasons)),
     ]
     return "\n".join(wrapped(lines, width))
+
+
+def _capacitance(summary: Summary) -> list[str]:
+    """Return the capacitances, where there are any or a reason why not."""
+    found = (summary.contact_capacitance_pF, summary.capacitance_note, summary.bearing_capacitance_nF is not None)
+    if not any(found):
+        return []
+    each, bearing = (shown(summary, name) for name in ("contact_capacitance_pF", "bearing_capacitance_nF"))
+    return [line("capacitance", f"contacts {each}", f"bearing {bearing}")]
 
 
 def _torque_lines(summary: Summary, plain: Sequence[str], units: UnitSystem) -> list[str]:

@@ -20,7 +20,7 @@ from lambda_core.model.checks.operating_limits import (
     ratings,
     relative_speed,
 )
-from lambda_core.results.limits import highest_pressure
+from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT, highest_pressure
 from lambda_core.results.record import Record
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ class Limits(Record):
 
     speed_rpm: float = Field(description="largest relative speed of the rings")
     limiting_speed_rpm: float | None = Field(description="of the catalogue")
-    minimum_load_N: float | None = Field(description="0.01 C of ball bearings; null at rest")
+    minimum_load_N: float | None = Field(description="0.01 C of ball bearings; null at rest and of rollers")
     largest_load_N: float | None = Field(description="C/2 of ISO 281; null at rest")
     pressure_GPa: float = Field(description="where steel yields (ISO 76)")
     tilt_mrad: float = Field(description="that bearings of this kind take")
@@ -112,13 +112,14 @@ def limits_of(model: BearingModel) -> Limits:
     dynamic, _ = ratings(model)
     most = known_value(model, "bearing.limiting_speed")
     grease = known_value(model, "lubricant.highest_temperature")
+    kind, rollers = model.geometry.kind.name, model.rollers is not None
     return Limits(
         speed_rpm=speed,
         limiting_speed_rpm=None if most is None else 30.0 / math.pi * most,
-        minimum_load_N=MINIMUM_LOAD * dynamic if speed else None,
+        minimum_load_N=MINIMUM_LOAD * dynamic if speed and not rollers else None,
         largest_load_N=LARGEST_LIFE_LOAD * dynamic if speed else None,
-        pressure_GPa=1e-9 * highest_pressure(model.geometry.kind.name),
-        tilt_mrad=1e3 * permissible_tilt(model.geometry.kind.name),
+        pressure_GPa=1e-9 * (HIGHEST_ROLLER_PRESSURE if rollers else highest_pressure(kind)),
+        tilt_mrad=1e3 * (ROLLER_TILT if rollers else permissible_tilt(kind)),
         oil_degC=model.oil.temperature - _ZERO_CELSIUS,
         oil_limit_degC=OIL_TEMPERATURES[1] if grease is None else grease - _ZERO_CELSIUS,
         required_life_h=None if required.life is None else required.life / 3600.0,
@@ -198,8 +199,9 @@ def _general(limits: Limits, found: Found) -> Iterator[Margin]:
     load, maker = found.equivalent_load_N, "catalogue"
     if limits.limiting_speed_rpm is not None:
         yield _margin("n", limits.speed_rpm, limits.limiting_speed_rpm, "1/min", "at most", maker, required=False)
-    if load is not None and limits.minimum_load_N is not None and limits.largest_load_N is not None:
+    if load is not None and limits.minimum_load_N is not None:
         yield _margin("load", load, limits.minimum_load_N, "N", "at least", "SKF: 0.01 C", required=False)
+    if load is not None and limits.largest_load_N is not None:
         yield _margin("P", load, limits.largest_load_N, "N", "at most", "ISO 281: C/2", required=False)
     if found.pressure_GPa is not None:
         yield _margin("p", found.pressure_GPa, limits.pressure_GPa, "GPa", "at most", "ISO 76", required=False)

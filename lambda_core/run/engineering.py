@@ -4,13 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from lambda_core.formulas.life import contamination_range
+from lambda_core.model.laws.method_inputs import bearing_load
 from lambda_core.results.rating import Rating
 from lambda_core.results.verdict import limits_of
-from lambda_core.run.compare_methods import comparison_inputs
+from lambda_core.run.compare_methods import comparison_inputs, equilibrium_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.views.method import Method, evaluate_methods
+
+if TYPE_CHECKING:
+    from lambda_core.elements.roller.roller_bearing import RollerBearing
+    from lambda_core.model.bearing_model import BearingModel
 
 # Field of the rating -> method that answers it, group and name of the row.
 _ROWS: dict[str, tuple[str, str, str]] = {
@@ -35,6 +43,8 @@ def rating_of(found: Equilibrium, methods: Mapping[str, Method]) -> Rating:
     methods : mapping
         Installed comparison methods by name; numbers of one that is not there are None.
     """
+    if found.context.model.rollers is not None:
+        return _of_rollers(found, found.context.model.rollers)
     asked = [methods[name] for name in dict.fromkeys(row[0] for row in _ROWS.values()) if name in methods]
     model = found.context.model
     lower, _ = contamination_range("normal cleanliness", model.geometry.pitch_diameter)
@@ -55,3 +65,33 @@ def rating_of(found: Equilibrium, methods: Mapping[str, Method]) -> Rating:
         limits=limits_of(model),
         notes=notes,
     )
+
+
+def _of_rollers(found: Equilibrium, rollers: RollerBearing) -> Rating:
+    """Rate rollers as their quasi-static answer does, tilted as in the equilibrium; a_ISO of rollers is left out."""
+    from lambda_core.elements.roller.roller_equilibrium import balance
+    from lambda_core.elements.roller.roller_motion import rolling_motion
+    from lambda_core.results.roller_quasistatic import roller_lives
+
+    model, oil = found.context.model, found.context.oil
+    radial, axial = bearing_load(model, equilibrium_state(found))
+    _, y, z, *tilts = found.displacement
+    way = math.atan2(z, y)
+    loads = np.array([0.0, radial * math.cos(way), radial * math.sin(way), 0.0, 0.0])
+    motion = rolling_motion(rollers, found.relative_speed)
+    try:
+        state = balance(
+            rollers,
+            loads,
+            held=(True, False, False, True, True),
+            displacement=np.array([0.0, 0.0, 0.0, *tilts]),
+            inertial=motion.inertial(rollers),
+        )
+    except (ValueError, ArithmeticError) as error:
+        return _rating({}, model, f"rating lives: {error}")
+    lives = roller_lives(rollers, state, (radial, axial), found.relative_speed, oil.viscosity / oil.density)
+    return _rating(lives, model, "a_ISO of rollers is left out")
+
+
+def _rating(lives: Mapping[str, float | None], model: BearingModel, note: str) -> Rating:
+    return Rating.model_validate({**dict.fromkeys(_ROWS), **lives, "limits": limits_of(model), "notes": [note]})

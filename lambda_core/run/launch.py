@@ -194,7 +194,7 @@ def _one(model: BearingModel, announce: Announce | None) -> tuple[RunEngine, Pro
     with naming_laws(model):
         start = solve(model, announce=announce)
     if announce is not None:
-        announce(_start_line(quasistatic_of(start)))
+        announce(_start_line(quasistatic_of(start), "balls" if model.rollers is None else "rollers"))
     engine = BlamingBearingEngine(model, announce, start)
     rating = rating_of(start, registry().methods)
     return OneBearing(engine), Provenance.alone(model, engine.kernel_keys, rating), live
@@ -237,9 +237,9 @@ def _machine(model: MachineModel, announce: Announce | None) -> tuple[RunEngine,
 _DIMS = {"bearings": "bearing", "bodies": "body", "markers": "marker"}  # lists of names, and their dimensions
 
 
-def _start_line(start: QuasiStatic) -> str:
+def _start_line(start: QuasiStatic, elements: str = "balls") -> str:
     return (
-        f"equilibrium: {start.loaded_balls} balls loaded, "
+        f"equilibrium: {start.loaded_balls} {elements} loaded, "
         f"Q_max {start.max_load_N / 1e3:.2f} kN ({start.max_load_ring} ring), p_max {start.max_pressure_GPa:.2f} GPa"
     )
 

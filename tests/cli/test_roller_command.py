@@ -85,6 +85,9 @@ def test_what_cannot_be(
         ("32216", "3 kN", "", "no motion in time yet: quasistatic computes them"),
         ("NU 208", "500 N", "", "ribs carry thrust in quasistatic alone"),
         ("NU 208", "0 N", "[depth]\ncage = false\n", "need their cage"),
+        ("NU 208", "0 N", "[parameters.film_thickness]\nx = 1\n", "parameters.film_thickness"),
+        ("NU 208", "0 N", '[models]\nfluid_drag = "none"\n', "the law's own values here"),
+        ("NU 208", "0 N", "[forces.ball_inner.parameters.damping]\nx = 1\n", "forces.ball_inner.parameters.damping"),
         ("NU 208", "0 N", '[models]\nfilm_thickness = "chittenden"\n', "is a law of points"),
     ],
 )
@@ -185,3 +188,31 @@ def test_a_case_starts_from_the_catalogue(
     assert main(["quasistatic", "start.toml"]) == 0
     assert main(["check", "start.toml", "--json"]) == 0
     assert main(["init", "other", "--bearing", bearing, "--template", "pump"]) == 2
+
+
+def test_a_run_rates_rollers_as_rollers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Lives near those of the quasi-static answer, which leaves out the ring's weight; nothing of balls alone."""
+    monkeypatch.chdir(tmp_path)
+    path = case(tmp_path, "SKF NU 208 ECP")
+    assert main(["quasistatic", path, "--json"]) == 0
+    alone = json.loads(capsys.readouterr().out)
+    main(["run", path, "--set", "solver.duration=2 ms"])
+    capsys.readouterr()
+    assert main(["show", "case.h5", "--json"]) in (0, 5)
+    bearing = next(iter(json.loads(capsys.readouterr().out)["bearings"].values()))
+    for name in ("basic_life_h", "reference_life_h", "static_safety", "viscosity_ratio", "equivalent_load_N"):
+        assert bearing["rating"][name] == pytest.approx(alone[name], rel=0.05), name
+    assert bearing["rating"]["modified_life_h"] is None
+    assert bearing["verdict"]["met"]
+    assert bearing["shoulders"] == []
+    assert bearing["bearing_capacitance_nF"] is None
+    assert bearing["reference_life_h_band"] == []
+    limits = {margin["name"]: margin["limit"] for margin in bearing["verdict"]["margins"]}
+    assert (limits["p"], limits["tilt"]) == (4.0, 1.2)
+    main(["show", "case.h5"])
+    shown = capsys.readouterr().out
+    assert "ISO 281" in shown
+    assert "shoulders" not in shown
+    assert "capacitance" not in shown

@@ -122,6 +122,17 @@ def test_show_cage_and_material(capsys: pytest.CaptureFixture[str]) -> None:
     assert (shown["kind"], shown["values"]["youngs_modulus"]["value"]) == ("material", 210)
 
 
+@pytest.mark.parametrize("words", [["NU", "208"], ["NU208"], ["skf", "nu", "208"], ["32216"]])
+def test_a_search_finds_rollers(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    row = data(capsys, "db", "search", *words)["rows"][0]
+    tapered = words == ["32216"]
+    assert (row["designation"], row["kind"]) == (("32216", "tapered") if tapered else ("NU 208", "NU"))
+    assert (row["bore_mm"], row["outside_mm"]) == ((80.0, 140.0) if tapered else (40.0, 80.0))
+    assert row["C_kN"] > 50.0
+    _, out, _ = run(capsys, "db", "search", *words)
+    assert f"{row['roller_count']} x {row['roller_diameter_mm']:g}" in out.replace(".000", "")
+
+
 def test_search(capsys: pytest.CaptureFixture[str]) -> None:
     rows = data(capsys, "db", "search", "--bore", "40", "--series", "62")["rows"]
     assert [row["maker"] for row in rows] == ["KOYO", "NSK", "SKF", "Syla2026"]

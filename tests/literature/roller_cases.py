@@ -1,7 +1,7 @@
 """Roller bearings of measured friction, and the sets of parameters that they are compared with.
 
-The sets were written down before the first comparison with the measured torques, whose values were known. Where a paper prints constants they
-are the paper's; everything else has the default of :class:`FrictionParameters`.
+The sets were written down before the first comparison with the measured torques, whose values were known.
+Where a paper prints constants they are the paper's; everything else has the default of :class:`FrictionParameters`.
 """
 
 from __future__ import annotations
