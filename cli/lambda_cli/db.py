@@ -72,10 +72,9 @@ def search(
         if lubricants:
             list_lubricants(found_some(catalogue, "lubricant", text, catalogue.lubricants(text, limit)), json)
         else:
-            rows: list[BearingRow | RollerRow] = [*catalogue.bearings(text, limit), *rollers_found(catalogue, text)][
-                :limit
-            ]
-            list_bearings(found_some(catalogue, "bearing", text, rows), json)
+            rows: list[BearingRow | RollerRow] = [*catalogue.bearings(text, limit)]
+            rows += rollers_found(catalogue, text)
+            list_bearings(found_some(catalogue, "bearing", text, rows[:limit]), json)
 
 
 @app.command()
