@@ -15,10 +15,10 @@ from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 
 if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
+    from lambda_db.presentation import AnyBearing
     from lambda_db.transfer import ImportReport
 
-    from lambda_core.api import BearingRow, Registry
-    from lambda_core.catalogue.protocol import RollerRow
+    from lambda_core.api import Registry
 
 app = typer.Typer(
     no_args_is_help=True, add_completion=False, help="Search and edit the catalogue of bearings, oils and materials."
@@ -72,7 +72,7 @@ def search(
         if lubricants:
             list_lubricants(found_some(catalogue, "lubricant", text, catalogue.lubricants(text, limit)), json)
         else:
-            rows: list[BearingRow | RollerRow] = [*catalogue.bearings(text, limit)]
+            rows: list[AnyBearing] = [*catalogue.bearings(text, limit)]
             rows += rollers_found(catalogue, text)
             list_bearings(found_some(catalogue, "bearing", text, rows[:limit]), json)
 

@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from lambda_db.catalogue import SqlCatalogue
+    from lambda_db.presentation import AnyBearing
     from rich.table import Table
 
     from lambda_core.api import BearingRow, CageRow, LubricantRow, MaterialRow, Registry
-    from lambda_core.catalogue.protocol import RollerRow
 
 
 def print_json(**data: object) -> None:
@@ -51,7 +51,7 @@ def _number(value: float | None, digits: int = 6) -> str:
     return "" if value is None else f"{value:.{digits}g}"
 
 
-def list_bearings(rows: Sequence[BearingRow | RollerRow], json: bool) -> None:
+def list_bearings(rows: Sequence[AnyBearing], json: bool) -> None:
     """Print one line per bearing; estimates are marked."""
     from lambda_db.presentation import bearing_summary
 

@@ -15,6 +15,8 @@ from lambda_core.domain.units import from_si, parse
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.units import PROPERTIES
 
+AnyBearing = BearingRow | RollerRow
+
 _CLASSES = ("C2", "CN", "C3", "C4", "C5")
 
 # Field of a row -> (quantity, unit) in which it is shown; the rest are plain numbers.
@@ -146,7 +148,7 @@ def rollers_found(catalogue: SqlCatalogue, text: str) -> list[RollerRow]:
     return found
 
 
-def bearing_summary(row: BearingRow | RollerRow) -> dict[str, Any]:
+def bearing_summary(row: AnyBearing) -> dict[str, Any]:
     """One line of a list of bearings."""
 
     def number(name: str) -> float | None:
