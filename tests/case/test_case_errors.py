@@ -92,7 +92,7 @@ def test_the_valid_case_is_valid(problems: Problems) -> None:
         ({"loads": {"radial": {"kind": "table"}}}, "loads.radial", "give either points or file"),
         ({"loads": {"radial": {"kind": "table", "file": "no.csv"}}}, "loads.radial", 'cannot read "no.csv"'),
         ({"name": "a/b"}, "name", "letters, digits"),
-        ({"markers": {"tip": {"body": "shaft"}}}, "markers.tip.body", 'write "inner_ring"'),
+        ({"markers": {"tip": {"body": "spindle"}}}, "markers.tip.body", "inner_ring"),
     ],
 )
 def test_mistake_in_the_file(problems: Problems, changes: dict[str, Any], where: str, said: str) -> None:
