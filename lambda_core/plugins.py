@@ -8,6 +8,8 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import Channel
 from lambda_core.domain.roles import OK, ROLE_API
 from lambda_core.domain.units import Quantity
+from lambda_core.elements.roller.line_film import dowson_toyoda_film, inlet_heat_rolling, moes_line_film
+from lambda_core.elements.roller.rolling import rolling_force
 from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY, gap_capacitance
 from lambda_core.formulas.hertz import hertz_shape
 from lambda_core.laws.context import Context, Material, Oil
@@ -86,13 +88,17 @@ __all__ = [
     "asinh_of",
     "asinh_quotient",
     "built_in",
+    "dowson_toyoda_film",
     "exp",
     "gap_capacitance",
     "hertz_shape",
     "hookimpl",
+    "inlet_heat_rolling",
     "law",
     "log",
     "log1p",
+    "moes_line_film",
     "parameter",
     "power",
+    "rolling_force",
 ]

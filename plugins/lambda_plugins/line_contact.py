@@ -9,9 +9,18 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from lambda_core.elements.roller.line_film import dowson_toyoda_film, inlet_heat_rolling, moes_line_film
-from lambda_core.elements.roller.rolling import rolling_force
-from lambda_core.plugins import OK, VACUUM_PERMITTIVITY, Context, FloatArray, NoParameters, law
+from lambda_core.plugins import (
+    OK,
+    VACUUM_PERMITTIVITY,
+    Context,
+    FloatArray,
+    NoParameters,
+    dowson_toyoda_film,
+    inlet_heat_rolling,
+    law,
+    moes_line_film,
+    rolling_force,
+)
 from lambda_plugins.damping import Onset, SqueezeFilm, prepare_cubic
 from lambda_plugins.elastic_hysteresis import LossFactor
 from lambda_plugins.film_thickness import FilmFloors, Floors
@@ -48,7 +57,7 @@ def iso_line(delta: float, R_x: float, R_y: float, E_eff: float, par: NoParamete
     out[1] = 0.5 * R_y
     out[2] = 0.0
     out[3] = 0.0
-    if delta > 0.0:
+    if not delta <= 0.0:  # NaN goes through
         load = _ONE_RACEWAY * E_eff / _STEEL * R_y ** (8.0 / 9.0) * delta ** (10.0 / 9.0)
         out[0] = load
         out[2], out[3] = hertz_line(load / R_y, R_x, E_eff)
@@ -73,7 +82,7 @@ def hertz_line_contact(delta: float, R_x: float, R_y: float, E_eff: float, par: 
     out[1] = 0.5 * R_y
     out[2] = 0.0
     out[3] = 0.0
-    if delta > 0.0:
+    if not delta <= 0.0:  # NaN goes through
         spread = math.log(2.0 * R_y) + 0.5 - 0.5 * math.log(8.0 * R_x / (math.pi * E_eff))
         wanted = 0.25 * math.pi * E_eff * delta
         line_load = wanted / 8.0
@@ -194,7 +203,7 @@ def biboulet_houpert_line(
     :func:`rolling_force` times the length, on each surface, in proportion to the speed near rest.
     """
     out[0] = 0.0
-    if load > 0.0:
+    if not load <= 0.0:  # NaN goes through
         speed = regular_speed(u_mean, par.speed_floor)
         heat = inlet_heat_rolling(speed, eta0, beta, k_oil, par.thermal_coefficient)
         out[0] = rolling_force(load / R_y, R_x, speed, eta0, E_eff) * R_y * heat * abs(u_mean) / speed
