@@ -118,7 +118,7 @@ def fields(cls: type) -> dict[str, str]:
     """Return the declared fields of a dataclass or pydantic model, each with the comment after or above it."""
     names = [f.name for f in dataclasses.fields(cls)] if dataclasses.is_dataclass(cls) else []
     if issubclass(cls, BaseModel):
-        names = [name for name in cls.model_fields if name in cls.__annotations__]
+        names = list(cls.model_fields)
     if not names:
         return {}
     comments = _comments(cls)
