@@ -103,7 +103,7 @@ def test_in_the_builder(site: Installation, run: Path, monkeypatch: pytest.Monke
 @pytest.mark.timeout(900)
 def test_in_the_report(site: Installation, run: Path) -> None:
     page = run.with_suffix(".html")
-    answer = site.program("report", str(run), "--out", str(page))
+    answer = site.program("report", str(run), "--full", "--out", str(page))
     assert answer.code == 0, answer.err
     text = page.read_text(encoding="utf-8").replace("<wbr>", "")
     for words in (

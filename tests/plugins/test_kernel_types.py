@@ -30,8 +30,8 @@ class Worn(Protocol):
 
 
 @law("boundary_friction", "reader", role_api=2, reference="own work", reads={"wear_depth": 1e-6})
-def reader(slip: FloatArray, p: FloatArray, T: FloatArray, par: Worn, tau: FloatArray) -> int:
-    tau[0] = par.wear_depth
+def reader(slip: FloatArray, p: FloatArray, u_mean: float, par: Worn, mu: FloatArray) -> int:
+    mu[0] = par.wear_depth
     return OK
 '''
 

@@ -39,8 +39,8 @@ def channel(run: RunData, options: ChannelOptions) -> ViewData:
     if len(lines) > _MOST_LINES:
         lines = [_range(time, values)]
     axis = Axis(chosen.name.replace("_", " "), "" if chosen.unit == "-" else chosen.unit)
-    panel = Panel(chosen.meaning, Axis("time", "ms"), axis, tuple(lines))
-    return ViewData("channel", chosen.name.replace("_", " "), source(run), (panel,))
+    panel = Panel("", Axis("time", "ms"), axis, tuple(lines))
+    return ViewData("channel", chosen.name.replace("_", " "), source(run), (panel,), notes=(chosen.meaning,))
 
 
 def _labels(channel_: Channel, shape: tuple[int, ...]) -> list[str]:
