@@ -31,7 +31,7 @@ def on_a_shaft(single: SolverContext, places: Sequence[float]) -> SolverContext:
     tables |= {"lands": _lands(old, count), "terms": _terms(old, count)}
     bodies, balls = tables["bodies"].size, count * int(old.system["balls"][0])
     system = old.system.copy()
-    system["balls"] = balls
+    system["balls"], system["tail"] = balls, L.NB * balls
     active = [old.active, *(old.active[old.active >= L.NS] + L.NS * _OWN * i for i in range(1, count))]
     inputs, now, rates = np.zeros(bodies, R.INPUTS), np.zeros(bodies, R.BODY_STATE), np.zeros(bodies, R.BODY_STATE)
     bundle = old._replace(
@@ -66,6 +66,7 @@ def _rows(old: L.Bundle, count: int) -> FloatArray:
     rows = np.tile(old.rows, count)
     for i, row in enumerate(rows):
         row["number"], row["first_ball"], row["first_raceway"] = i, i * row["balls"], i * row["raceways"]
+        row["first_state"] = L.NB * row["first_ball"]
         row["cage"] = _moved(int(row["cage"]), i)
     return rows
 

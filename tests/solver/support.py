@@ -82,11 +82,12 @@ class Machine:
     def constant(self, name: str) -> FloatArray:
         """Return a constant by its name in the records: of the row of balls, or of each raceway or body."""
         bundle = self.context.bundle
+        if name in bundle.bodies.dtype.names:
+            return np.array(bundle.bodies[name])
         for table in (bundle.system, bundle.rows):
             if name in table.dtype.names:
                 return np.array(table[name][0])
-        table = next(table for table in (bundle.raceways, bundle.bodies) if name in table.dtype.names)
-        return np.array(table[name])
+        return np.array(bundle.raceways[name])
 
     def vector(self, state: State) -> FloatArray:
         return np.concatenate([state.balls.ravel(), state.shared.ravel()[self.active], self.context.bundle.states])

@@ -19,7 +19,7 @@ NONE, TABLE = np.zeros(0, dtype=np.int64), np.zeros((0, 0), dtype=np.int64)
 
 def reach(positions, middles, ends, speeds, among):
     own = (positions, np.array(middles), np.array(ends), speeds, among)
-    return Reach(NONE, NONE, TABLE, TABLE, NONE, TABLE, TABLE, *own)
+    return Reach(NONE, NONE, NONE, TABLE, TABLE, NONE, TABLE, TABLE, *own)
 
 
 # Three bodies: rates of positions have entries at their own body alone, rates of speeds everywhere.

@@ -93,7 +93,7 @@ def test_every_module_of_the_core_counts(tmp_path: Path) -> None:
     shutil.copytree(Path(entry.__file__).parent, solver, ignore=shutil.ignore_patterns("__pyc*"))
     sources = [solver / path.name for path in entry.SOURCES]
     keys = {sources_key(*sources)}
-    modules = [path for path in solver.rglob("*.py") if "drivers" not in path.parts]
+    modules = [path for path in solver.rglob("*.py") if not {"drivers", "roller"} & set(path.parts)]
     for path in modules:
         text = path.read_text()
         path.write_text(text + "_ = 1\n")

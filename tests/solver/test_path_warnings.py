@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -13,14 +14,17 @@ from lambda_core.solver.drivers.ball_paths import follow_paths
 from lambda_core.solver.drivers.warmer_oil import StaticReport
 
 
-class Nine:
-    """A row of nine balls."""
-
-    self_aligning, balls, rows = False, 9, 1
+def nine() -> Any:
+    """Return what the iteration reads of a context with a row of nine balls."""
+    geometry = SimpleNamespace(kind=SimpleNamespace(on_sphere=False), rows=1)
+    tables = SimpleNamespace(
+        rows=np.array([(L.NB,)], dtype=[("size", int)]), system=np.array([(9 * L.NB,)], dtype=[("tail", int)])
+    )
+    return SimpleNamespace(model=SimpleNamespace(geometry=geometry), bundle=tables)
 
 
 def start() -> Any:
-    state = np.zeros(L.NB * Nine.balls)
+    state = np.zeros(L.NB * 9)
     balls = state.view(R.BALL)
     balls["radius"], balls["velocity"][:, 2] = 0.03, 10.0
     balls["azimuth"] = 2.0 * np.pi * np.arange(9) / 9
@@ -30,7 +34,7 @@ def start() -> Any:
 
 @pytest.mark.parametrize("swing", [True, False], ids=["never settles", "settles"])
 def test_an_iteration_that_does_not_settle_says_so(swing: bool, caplog: pytest.LogCaptureFixture) -> None:
-    given: Any = Nine()
+    given = nine()
     sign = [1.0]
 
     def solve(state: Any) -> StaticReport:
