@@ -313,7 +313,7 @@ class BuilderScreen(LiveDraft):
         at = self._mistake_at(problems, places)
         self._mistake = (at, places[at])
         row = self._row()
-        if row is not None and any(belongs(p, row.place.keys) for p in problems if p.where == places[at]):
+        if row is not None and places[at] == ".".join(map(str, row.place.keys)):
             self.notify("this is the only mistake", timeout=2)
             return
         self.go_to(tuple(places[at].split(".")), select=False)
