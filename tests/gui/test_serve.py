@@ -110,7 +110,10 @@ async def build_and_run(browser: Browser) -> None:
     await browser.until("maker  whose design")
     await browser.write("Syla2026")
     await browser.until("3 mistakes")
-    oil = (("name  catalogue name", "bode-mineral", "2 mistakes"), ("temperature  temperature", "40", "1 mistake "))
+    oil = (
+        ("oil or grease  catalogue name", "bode-mineral", "2 mistakes"),
+        ("temperature  temperature", "40", "1 mistake "),
+    )
     for about, text, left in oil:
         await browser.press("f8")
         await browser.until(about)
@@ -120,16 +123,16 @@ async def build_and_run(browser: Browser) -> None:
     await browser.until("speed  speed of the inner ring")
     await browser.write("2750 rpm")
     await browser.until("ready")
-    for place, about, text in (
-        ("loads.axial", "axial load on the inner ring", "1300 N"),
-        ("solver.duration", "simulated time", "5 ms"),
+    for place, label, about, text in (
+        ("loads.axial", "axial load", "axial load on the inner ring", "1300 N"),
+        ("solver.duration", "simulated time", "simulated time", "5 ms"),
     ):
         await browser.press("ctrl+p")
         await browser.until("Search for commands")
         await browser.write(place)
         await browser.until(about)
         await browser.press("enter")
-        await browser.until(f"{place.partition('.')[2]}  {about}")  # the help beside the form
+        await browser.until(f"{label}  {about}")  # the help next to the form
         await browser.write(text)
         await browser.until(text)
     await browser.until("5 ms", without="until converged")  # the tree knows
