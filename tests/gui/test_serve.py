@@ -135,7 +135,7 @@ async def build_and_run(browser: Browser) -> None:
         await browser.until(f"{label}  {about}")  # the help next to the form
         await browser.write(text)
         await browser.until(text)
-    await browser.until("5 ms", without="until converged")  # the tree knows
+    await browser.until("ready")
     await browser.press("ctrl+s")
     await browser.until("Save the case as")
     await browser.press("enter")
