@@ -55,8 +55,23 @@ def dowson_toyoda_film(
 ) -> float:
     """Return the central film of an elastic-piezoviscous line contact [m], 3.06 R U^0.69 G^0.56 W^-0.10.
 
-    Dowson and Toyoda 1979, 5th Leeds-Lyon Symposium, 60, with the mean speed in U. Parameters as for
-    :func:`moes_line_film`; a check of it in its commonest regime.
+    Dowson and Toyoda 1979, 5th Leeds-Lyon Symposium, 60, with the mean speed in U. It checks
+    :func:`moes_line_film` in its commonest regime.
+
+    Parameters
+    ----------
+    line_load : float
+        Load per length [N/m].
+    radius : float
+        Reduced radius in the rolling direction [m].
+    speed : float
+        Mean speed of the surfaces [m/s].
+    viscosity : float
+        At the inlet [Pa s].
+    pressure_viscosity : float
+        Pressure-viscosity coefficient [1/Pa].
+    e_eff : float
+        E' [Pa].
     """
     stiffness = e_eff * radius
     flow = viscosity * speed / stiffness
@@ -105,8 +120,20 @@ def inlet_heat_rolling(
 ) -> FloatArray:
     """Return the factor of inlet heating on the rolling resistance, 1/(1 + 0.29 L^0.78).
 
-    L = eta beta u^2/k: Aihara 1987, J. Tribol. 109, 471, measured with tapered roller bearings. Parameters as for
-    :func:`inlet_heat_film`; `factor` is the 0.29.
+    L = eta beta u^2/k: Aihara 1987, J. Tribol. 109, 471, measured with tapered roller bearings.
+
+    Parameters
+    ----------
+    speed : array or float
+        Mean speed of the surfaces [m/s].
+    viscosity : float
+        eta at the inlet [Pa s].
+    temperature_slope : float
+        beta = -d ln(eta)/dT [1/K].
+    conductivity : float
+        k of the oil [W/(m K)].
+    factor : float
+        The 0.29 of the formula [-].
     """
     heat = viscosity * temperature_slope * speed**2 / conductivity
     found: FloatArray = 1.0 / (1.0 + factor * heat**0.78)
