@@ -244,12 +244,21 @@ def test_a_machine_warms_up_to_its_steady_state() -> None:
 def test_a_machine_that_gets_too_hot_is_refused_in_words() -> None:
     from lambda_core.analysis.thermal.feedback import Runaway
 
-    hot = pair(thermal={"limit": "100 degC", "nodes": {"left.inner_ring": {"heat": "400 W"}}})
-    with pytest.raises(Runaway, match=r"pair: .*left\.inner ring at .* is beyond thermal.limit = 100 degC"):
+    hot = pair(thermal={"limit": "50 degC", "nodes": {"left.inner_ring": {"heat": "400 W"}}})
+    with pytest.raises(Runaway, match=r"pair: .*left\.inner ring at .* is beyond thermal.limit = 50 degC"):
         api.thermal(hot)
     course = api.warm_up(hot, 600.0)
     assert course.ended == "limit"
-    assert "passed thermal.limit = 100 degC" in course.reason
+    assert "passed thermal.limit = 50 degC" in course.reason
+
+
+def test_red_heat_is_beyond_the_limit() -> None:
+    """Radiation at 1400 degC once swung the temperatures of the network until it did not settle."""
+    from lambda_core.analysis.thermal.feedback import Runaway
+
+    glowing = pair(thermal={"limit": "80 degC", "nodes": {"left.inner_ring": {"heat": "2 kW"}}})
+    with pytest.raises(Runaway, match="is beyond thermal.limit"):
+        api.thermal(glowing)
 
 
 COMPUTED = {"operation": {"temperatures": "computed"}}

@@ -26,6 +26,7 @@ _PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
 _STAND_IN = {"shaft": "inner_ring", "housing": "outer_ring"}  # where the network has no such node
 INLET_STEP, LENGTH_STEP = 0.5, 0.5e-6  # of inlet temperatures [K], of clearances and growth [m], for slopes
 _NETWORK_ROUNDS = 50  # conductances to the air change as a fourth root of the temperature: some ten suffice
+_UNDAMPED = 15  # after them each round goes half way: in red heat, radiation swings the temperatures to and fro
 _NETWORK_TOLERANCE = 1e-9  # [K]
 _ITERATIONS = 60
 _LONGEST = 15.0  # change of a temperature in one iteration [K]
@@ -141,10 +142,12 @@ class Loop(ABC):
         SolverError
             When the conductances to the surroundings do not settle.
         """
-        for _ in range(_NETWORK_ROUNDS):
+        for completed in range(_NETWORK_ROUNDS):
             network = self.nodes.network(points, temperatures)
             found = network.steady()
             change = float(np.abs(found - temperatures).max())
+            if completed >= _UNDAMPED:
+                found = 0.5 * (found + temperatures)
             # A bearing without a way out but thin air may overshoot absolute zero on the way.
             temperatures = np.maximum(found, 0.5 * temperatures)
             if change < _NETWORK_TOLERANCE:
