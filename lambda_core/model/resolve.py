@@ -22,7 +22,7 @@ from lambda_core.domain.units import show
 from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.formulas.life import contamination_range
 from lambda_core.laws.context import Material
-from lambda_core.laws.jit.reach import reach
+from lambda_core.laws.jit.reach import content_key
 from lambda_core.laws.law import Law
 from lambda_core.model.bearing_model import (
     BearingModel,
@@ -318,7 +318,7 @@ def _plain(value: Any) -> Any:
     if isinstance(value, Law):
         laws = [function for function in (value.kernel, value.prepare) if function is not None]
         kept = [_plain(state) for state in value.states]  # none: as before there were any
-        return [value.role, value.name, value.role_api, *(reach(law, lenient=True).key for law in laws), *kept]
+        return [value.role, value.name, value.role_api, *(content_key(law) for law in laws), *kept]
     if isinstance(value, Observer | Event):
         return [value.name, value.key]
     if isinstance(value, BaseModel):
@@ -326,7 +326,7 @@ def _plain(value: Any) -> Any:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value) if f.name != "origins"}
     if callable(value):
-        return reach(value, lenient=True).key
+        return content_key(value)
     if isinstance(value, Mapping):
         return {str(key): _plain(item) for key, item in value.items()}
     if isinstance(value, tuple | list):

@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lambda_core.laws.jit.reach import UnreachableError, _instructions, reach
+from lambda_core.elements.roller.line_film import moes_line_film
+from lambda_core.laws.jit.reach import UnreachableError, _instructions, content_key, reach
 
 HELPERS = """
 import math
@@ -143,3 +144,15 @@ def test_names_are_read_as_the_disassembler_reads_them() -> None:
             if found.opname not in ("EXTENDED_ARG", "CACHE")
         ]
         assert list(_instructions(code)) == expected, code.co_qualname
+
+
+def test_the_key_of_a_typed_function_follows_what_it_calls() -> None:
+    typed: dict[str, Any] = {"__name__": "typed_in_a_notebook"}
+    exec("def helper(x):\n    return x\n\n\ndef law(x):\n    return helper(x)\n", typed)
+    before = content_key(typed["law"])
+    exec("def helper(x):\n    return 2.0 * x\n", typed)
+    assert content_key(typed["law"]) != before
+
+
+def test_the_key_of_a_module_s_function_is_that_of_all_it_reaches() -> None:
+    assert content_key(moes_line_film) == content_key(moes_line_film) == reach(moes_line_film, lenient=True).key

@@ -75,6 +75,22 @@ def reach(function: Callable[..., Any], *, lenient: bool = False) -> Reach:
     return Reach(walk.hash.hexdigest(), helpers, tuple(walk.codes))
 
 
+def content_key(function: Callable[..., Any]) -> str:
+    """Return the key of all that a function reaches, objects of unknown content by their name.
+
+    A function of a module with a file is followed once; one that was typed in (a notebook, a shell) each time, because
+    what it calls can be typed again.
+    """
+    module = sys.modules.get(getattr(_plain(function), "__module__", None) or "")
+    is_typed = module is None or module.__name__ == "__main__" or getattr(module, "__file__", None) is None
+    return reach(function, lenient=True).key if is_typed else _kept_key(function)
+
+
+@cache
+def _kept_key(function: Callable[..., Any]) -> str:
+    return reach(function, lenient=True).key
+
+
 def _plain(function: Any) -> Any:
     """Return the Python function behind a Numba dispatcher, or the object itself."""
     return getattr(function, "py_func", function)
