@@ -257,7 +257,7 @@ def test_red_heat_is_beyond_the_limit() -> None:
     from lambda_core.analysis.thermal.feedback import Runaway
 
     glowing = pair(thermal={"limit": "80 degC", "nodes": {"left.inner_ring": {"heat": "2 kW"}}})
-    with pytest.raises(Runaway, match="is beyond thermal.limit"):
+    with pytest.raises(Runaway, match=r"is beyond thermal\.limit"):
         api.thermal(glowing)
 
 
