@@ -17,7 +17,7 @@ from benchmarks.coupling import CASE, COMMON, PUSH, PUSHED_AT
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
-from lambda_core.run.stepping import Stepping
+from lambda_core.runs.stepping import Stepping
 
 END = 3.84e-3  # [s]
 STEPS = (160e-6, 80e-6, 40e-6, 20e-6, 8e-6, 4e-6)  # [s]

@@ -30,7 +30,7 @@ def resident() -> float:
 def follow(duration: float) -> tuple[list[float], list[float], float]:
     """Run the default case; return simulated times [s], memory [MiB] at them, and the size of the file [MiB]."""
     from lambda_core import api
-    from lambda_core.run.progress import Progress
+    from lambda_core.runs.progress import Progress
 
     times: list[float] = []
     held: list[float] = []

@@ -12,7 +12,7 @@ from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.equilibrium import solve
-from lambda_core.study.job import Task, work
+from lambda_core.studies.job import Task, work
 
 LOADS = (4, 8, 16, 24)  # kN
 SPEEDS = (500, 1500, 3000, 6000)  # 1/min

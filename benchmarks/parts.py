@@ -19,7 +19,7 @@ from benchmarks.timing import Effort, per_call
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.run.record_times import RECORDS_PER_REVOLUTION
+from lambda_core.runs.record_times import RECORDS_PER_REVOLUTION
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve

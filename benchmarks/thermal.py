@@ -16,7 +16,7 @@ from lambda_core.catalogue.protocol import BearingRow
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import LambdaError
 from lambda_core.solver.drivers.equilibrium import solve
-from lambda_core.study.job import kernels_of
+from lambda_core.studies.job import kernels_of
 
 SERIES = ("60", "62", "63", "64", "618", "619")
 OIL = "mineral-vg32"  # the standard's mineral oil, 12 mm2/s at 70 degC

@@ -1,9 +1,8 @@
 """Dynamics of rolling bearings: machines, contact mechanics, integrator, results.
 
-``import lambda_core as lb``: build a :class:`lb.Machine <lambda_core.machine.Machine>` and ask it: ``machine.run()``,
-``machine.study(...)``. Calls of :mod:`lambda_core.api` for cases and files are here, too, where no package has their
-name: ``lb.quasistatic``, ``lb.result``, ``lb.modes``. Plugins extend the program by :mod:`lambda_core.plugins`.
-Everything else is internal.
+``import lambda_core as lb``: build a :class:`lb.Machine <lambda_core.machine.Machine>` and ask it, ``machine.run()``,
+or ask about a case file: ``lb.run("box.toml")``. Calls that few scripts need are in :mod:`lambda_core.api`, names for
+plugins in :mod:`lambda_core.plugins`. Everything else is internal.
 """
 
 from __future__ import annotations
@@ -12,27 +11,78 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from lambda_core.api import (
+        CaseError,
+        LambdaError,
+        UsageError,
+        animate,
+        check,
+        choose,
+        cite,
+        compare,
+        cross_check,
+        duty,
+        electric,
+        estimate,
+        export_fmu,
+        fit,
+        iterate,
+        modes,
+        quasistatic,
+        report,
+        result,
+        resume,
+        run,
+        save,
+        stribeck,
+        study,
+        thermal,
+        view,
+    )
     from lambda_core.machine import Machine
 
 __version__ = "0.1.0"
-__all__ = ["Machine"]
+# No name of a package of this folder may be in the list: its import would replace the function.
+__all__ = [
+    "CaseError",
+    "LambdaError",
+    "Machine",
+    "UsageError",
+    "animate",
+    "check",
+    "choose",
+    "cite",
+    "compare",
+    "cross_check",
+    "duty",
+    "electric",
+    "estimate",
+    "export_fmu",
+    "fit",
+    "iterate",
+    "modes",
+    "quasistatic",
+    "report",
+    "result",
+    "resume",
+    "run",
+    "save",
+    "stribeck",
+    "study",
+    "thermal",
+    "view",
+]
 
 
 def __getattr__(name: str) -> Any:
     """Import what is asked for when it is first asked for: commands start faster without it."""
-    if name == "Machine":
-        from lambda_core.machine import Machine
-
-        return Machine
-    if not name.startswith("_"):
-        api = import_module("lambda_core.api")
-        if name == "api":
-            return api
-        if name in api.__all__:
-            return getattr(api, name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name == "api":
+        return import_module("lambda_core.api")
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module("lambda_core.machine" if name == "Machine" else "lambda_core.api"), name)
 
 
 def __dir__() -> list[str]:
     """Return the names that a notebook completes."""
-    return sorted({*globals(), *__all__, "api", *import_module("lambda_core.api").__all__})
+    return sorted({*globals(), *__all__, "api"})

@@ -23,18 +23,18 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.export.report.pictures import animate, draw, report, view, views
     from lambda_core.export.ross import ross_rotor
     from lambda_core.export.stiffness import write_stiffness
-    from lambda_core.fit.fit_case import fit
-    from lambda_core.fit.measured import compare_measured
+    from lambda_core.fitting.fit_case import fit
+    from lambda_core.fitting.measured import compare_measured
     from lambda_core.model.cases import builtin_cases, case, catalogue, init_case, save, schema
     from lambda_core.model.checking import check, describe
-    from lambda_core.run.answers import cite, compare, result, side_by_side, summary
-    from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
-    from lambda_core.study.choose import Choice, choose
-    from lambda_core.study.current_map import electric_map
-    from lambda_core.study.duty_cycle import duty
-    from lambda_core.study.in_python import study
-    from lambda_core.study.speed_curve import stribeck
-    from lambda_core.study.study_runs import study_check, study_resume, study_run, study_status, study_table
+    from lambda_core.runs.answers import cite, compare, result, side_by_side, summary
+    from lambda_core.runs.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
+    from lambda_core.studies.choose import Choice, choose
+    from lambda_core.studies.current_map import electric_map
+    from lambda_core.studies.duty_cycle import duty
+    from lambda_core.studies.in_python import study
+    from lambda_core.studies.speed_curve import stribeck
+    from lambda_core.studies.study_runs import study_check, study_resume, study_run, study_status, study_table
 if TYPE_CHECKING:  # what the faces build on, and the classes that calls take and return
     from lambda_core.analysis.electric.api import check_discharges_file, write_discharges
     from lambda_core.analysis.rotor.machine_answers import describe_machine
@@ -60,9 +60,9 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.elements.ball.geometry import Geometry
     from lambda_core.export.report.pictures import machine_pictures, view_all, view_stem
     from lambda_core.export.stiffness import stiffness_target
-    from lambda_core.fit.fitted_case import fitted_case
-    from lambda_core.fit.measured import add_measured, measured_series
-    from lambda_core.fit.report import FitReport
+    from lambda_core.fitting.fitted_case import fitted_case
+    from lambda_core.fitting.measured import add_measured, measured_series
+    from lambda_core.fitting.report import FitReport
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.cases import draft, templates
     from lambda_core.model.checking import problems, resolve
@@ -79,17 +79,17 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.results.run_status import Status, process_identity, this_process
     from lambda_core.results.side_by_side import SideBySide
     from lambda_core.results.summary import Summary
-    from lambda_core.run.estimate import Estimate, MachineEstimate
-    from lambda_core.run.plugin_trials import check_plugins, watch_problems
-    from lambda_core.run.progress import Progress
-    from lambda_core.study.duty_cycle import DutyCycle
-    from lambda_core.study.machine_duty import MachineDutyCycle
-    from lambda_core.study.run_queue import QueuedRun, RunKind, RunQueue
-    from lambda_core.study.scheduler import StudyProgress
-    from lambda_core.study.speed_curve import stribeck_picture
-    from lambda_core.study.studies import StudyStatus
-    from lambda_core.study.study_files import init_study, study_examples
-    from lambda_core.study.study_runs import study_schema
+    from lambda_core.runs.estimate import Estimate, MachineEstimate
+    from lambda_core.runs.plugin_trials import check_plugins, watch_problems
+    from lambda_core.runs.progress import Progress
+    from lambda_core.studies.duty_cycle import DutyCycle
+    from lambda_core.studies.folders import StudyStatus
+    from lambda_core.studies.machine_duty import MachineDutyCycle
+    from lambda_core.studies.run_queue import QueuedRun, RunKind, RunQueue
+    from lambda_core.studies.scheduler import StudyProgress
+    from lambda_core.studies.speed_curve import stribeck_picture
+    from lambda_core.studies.study_files import init_study, study_examples
+    from lambda_core.studies.study_runs import study_schema
 
 
 def _declared() -> list[dict[str, str]]:

@@ -169,8 +169,17 @@ class Machine:
         return changed
 
     @property
-    def tables(self) -> dict[str, Any]:
-        """Plain tables as they stand in the case file; a copy."""
+    def name(self) -> str:
+        """Short name; files are named after it."""
+        return str(self._tables["name"])
+
+    @property
+    def folder(self) -> Path | None:
+        """Folder that file names in the tables are relative to; None is the working directory."""
+        return self._folder
+
+    def written(self) -> dict[str, Any]:
+        """Return the plain tables as they stand in the case file; a copy."""
         return copy.deepcopy(self._tables)
 
     @property
@@ -190,7 +199,7 @@ class Machine:
         """Write the case file and return its path; default ``NAME.toml``."""
         from lambda_core import api
 
-        target = Path(path) if path is not None else Path(f"{self._tables['name']}.toml")
+        target = Path(path) if path is not None else Path(f"{self.name}.toml")
         api.save(self.case, target)
         return target
 

@@ -28,7 +28,7 @@ settings.load_profile("suite")
 LONGEST = (
     "tests/fmu/test_fmu.py",
     "tests/docs/test_examples.py",
-    "tests/study/test_workers.py",
+    "tests/studies/test_workers.py",
     "tests/gui/test_nothing_is_cut.py",
     "tests/gui/test_studies.py",
     "tests/gui/test_serve.py",
@@ -37,7 +37,7 @@ LONGEST = (
     "tests/attacks/test_short.py",
     "tests/plugins/",
     "tests/gui/",
-    "tests/run/",
+    "tests/runs/",
     "tests/trust/",
     "tests/discovery/",
     "tests/electric/",

@@ -6,8 +6,9 @@ import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from os import PathLike
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
@@ -37,7 +38,22 @@ _OF_A_MACHINE: StandIns = {
 }
 
 
-Source = str | Path | Mapping[str, Any] | Written  # a file, a built-in name, plain tables, a case
+class CaseWriter(Protocol):
+    """What writes a case: a case itself, or a machine built in Python."""
+
+    @property
+    def name(self) -> str:
+        """Short name, for messages."""
+
+    @property
+    def folder(self) -> Path | None:
+        """Folder that file names in the case are relative to; None is the working directory."""
+
+    def written(self) -> dict[str, Any]:
+        """Return what stands in the case's file: plain tables with unit strings."""
+
+
+Source = str | Path | Mapping[str, Any] | CaseWriter  # a file, a built-in name, plain tables, a case, a machine
 
 
 @dataclass(frozen=True)
@@ -86,10 +102,10 @@ def read_tables(source: Source, folder: Path | None = None) -> Tables:
     CaseError
         When the file is not TOML.
     """
-    if isinstance(source, Written):
-        return Tables(source.written(), source.name, source.folder)
     if isinstance(source, Mapping):
         return Tables(dict(source), str(source.get("name", "case")), folder)
+    if not isinstance(source, str | PathLike):
+        return Tables(source.written(), source.name, source.folder)
     path = Path(source)
     if path.is_file():
         return Tables(toml_tables(case_text(path), path.name), path.name, path.resolve().parent)
@@ -249,7 +265,8 @@ def is_machine(source: Any) -> bool:
     if isinstance(source, Mapping):
         return is_shaft(source)
     if not isinstance(source, str | Path):
-        return hasattr(source, "bearings")  # a case or a model; that of one bearing has `bearing`, or is one
+        written = source.written() if hasattr(source, "written") and not hasattr(source, "bearings") else {}
+        return hasattr(source, "bearings") or is_shaft(written)  # a case or a model, or a machine built in Python
     try:
         return is_shaft(read_tables(source).data)
     except LambdaError:

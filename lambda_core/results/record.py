@@ -12,6 +12,10 @@ class Record(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
+    def __eq__(self, other: object) -> bool:
+        """Compare what is declared: where a record comes from, which it may remember, does not count."""
+        return type(other) is type(self) and self.__dict__ == other.__dict__
+
     def __str__(self) -> str:
         """Return the lines for people where there are any, else the short form."""
         text = getattr(type(self), "text", None)

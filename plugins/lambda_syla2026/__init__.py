@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from lambda_core.study.scheduler import StudyProgress
+    from lambda_core.studies.scheduler import StudyProgress
     from lambda_syla2026.session import Reproduction
 
 

@@ -19,10 +19,10 @@ from types import TracebackType
 
 from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.results.reader import Result
-from lambda_core.study.job import Task, point_hash, resolve_point, work
-from lambda_core.study.memo import Memo
-from lambda_core.study.pool import Processes
-from lambda_core.study.scheduler import Counts, Director, Report
+from lambda_core.studies.job import Task, point_hash, resolve_point, work
+from lambda_core.studies.memo import Memo
+from lambda_core.studies.pool import Processes
+from lambda_core.studies.scheduler import Counts, Director, Report
 from lambda_syla2026.readings import DYNAMIC, STATIC, Numbers
 
 _DIGITS = 20  # of the hash in names of files

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.written_values import scale_of
 
 if TYPE_CHECKING:
-    from lambda_core.study.design import Plan
+    from lambda_core.studies.design import Plan
 
 FILE = "blind.toml"
 ANCHORED_FILE = "anchored.toml"
@@ -120,8 +120,8 @@ def samples(count: int, seed: int = 1) -> list[dict[str, str | None]]:
 
 
 def _plan(count: int, seed: int) -> Plan:
-    from lambda_core.study.definition import validate_study
-    from lambda_core.study.design import Plan
+    from lambda_core.studies.definition import validate_study
+    from lambda_core.studies.design import Plan
 
     parameters = [
         {"path": e.path, "values": list(e.alternatives)}

@@ -46,7 +46,7 @@ def friction(model: BearingModel) -> Numbers:
     """Friction torque of the quasi-static solution, averaged over the positions of the balls [N mm]; no cage."""
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.solver.records import CONTACT_CHANNELS
-    from lambda_core.study.job import kernels_of, with_temperatures
+    from lambda_core.studies.job import kernels_of, with_temperatures
 
     model = with_temperatures(model)
     kernels, total = kernels_of(model), dict.fromkeys((*MECHANISMS, "torque", "max_load_N"), 0.0)
@@ -63,9 +63,9 @@ def friction(model: BearingModel) -> Numbers:
 def skf(model: BearingModel) -> Numbers:
     """Friction torque of the complete SKF model on the same case [N mm]."""
     from lambda_core.discovery.manager import registry
-    from lambda_core.run.compare_methods import comparison_inputs
+    from lambda_core.runs.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
-    from lambda_core.study.job import kernels_of
+    from lambda_core.studies.job import kernels_of
 
     table = registry().method("skf").evaluate(comparison_inputs(solve(model, kernels_of(model))))
     return {row.name: row.value for row in table.rows if row.group == "friction"}
@@ -74,9 +74,9 @@ def skf(model: BearingModel) -> Numbers:
 def anchor(model: BearingModel) -> Numbers:
     """Friction torque without cage and drag, mean over the positions of the balls, and SKF's [N mm]."""
     from lambda_core.discovery.manager import registry
-    from lambda_core.run.compare_methods import comparison_inputs
+    from lambda_core.runs.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
-    from lambda_core.study.job import kernels_of
+    from lambda_core.studies.job import kernels_of
 
     kernels, total = kernels_of(model), dict.fromkeys(MECHANISMS, 0.0)
     for phase, weight in _COARSE_PHASES.items():
@@ -94,9 +94,9 @@ def anchor(model: BearingModel) -> Numbers:
 def axial_load(model: BearingModel) -> Numbers:
     """What :func:`anchor` finds, and the load-dependent part of Schaeffler's friction torque [N mm]."""
     from lambda_core.discovery.manager import registry
-    from lambda_core.run.compare_methods import comparison_inputs
+    from lambda_core.runs.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
-    from lambda_core.study.job import kernels_of
+    from lambda_core.studies.job import kernels_of
 
     inputs = comparison_inputs(solve(model, kernels_of(model)), stiffness=False)
     rows = registry().method("schaeffler").evaluate(inputs).rows
@@ -108,9 +108,9 @@ def rated(model: BearingModel) -> Numbers:
     """Return the loss of the equilibrium, SKF's, and the heat that ISO 15312 lets the bearing give up [W]."""
     from lambda_core.analysis.thermal import iso15312
     from lambda_core.discovery.manager import registry
-    from lambda_core.run.compare_methods import comparison_inputs
+    from lambda_core.runs.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
-    from lambda_core.study.job import kernels_of
+    from lambda_core.studies.job import kernels_of
 
     found, g = solve(model, kernels_of(model)), model.geometry
     losses = dict(zip(LOSSES, found.losses.tolist(), strict=True))
@@ -129,10 +129,10 @@ def rated(model: BearingModel) -> Numbers:
 def capacitance(model: BearingModel) -> Numbers:
     """Contacts of the quasi-static solution, means over the loaded balls, and the analytical capacitance."""
     from lambda_core.discovery.manager import registry
-    from lambda_core.run.compare_methods import comparison_inputs
+    from lambda_core.runs.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.solver.records import CONTACT_CHANNELS
-    from lambda_core.study.job import kernels_of
+    from lambda_core.studies.job import kernels_of
 
     found = solve(model, kernels_of(model))
     channels = {name: found.contacts[:, :, i] for i, name in enumerate(CONTACT_CHANNELS)}
@@ -183,7 +183,7 @@ def axial_resonance(model: BearingModel) -> Numbers:
     """
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.solver.drivers.stiffness import stiffness_matrix
-    from lambda_core.study.job import kernels_of
+    from lambda_core.studies.job import kernels_of
 
     found = solve(model, kernels_of(model))
     stiffness = stiffness_matrix(found)[0][0]

@@ -120,7 +120,7 @@ def _changes(entry: P.Entry, end: str) -> tuple[str, ...]:
 def _own_oil() -> tuple[str, ...]:
     """Return the changes that write the catalogue's oil into the case, so that one of its properties can change."""
     from lambda_core.domain.units import show
-    from lambda_core.study.job import resolve_point
+    from lambda_core.studies.job import resolve_point
     from lambda_syla2026.job_runner import case_text
 
     model = resolve_point(case_text(_CAGE_CASE), P.changes())

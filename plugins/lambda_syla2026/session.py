@@ -13,8 +13,8 @@ from pydantic import Field
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.results.record import Record
-from lambda_core.study.pool import usable_cores
-from lambda_core.study.scheduler import Report
+from lambda_core.studies.pool import usable_cores
+from lambda_core.studies.scheduler import Report
 from lambda_syla2026 import anchor_pages, charts, text
 from lambda_syla2026.anchors import Anchors, anchors
 from lambda_syla2026.fig5 import Fig5, fig5

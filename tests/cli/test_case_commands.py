@@ -76,7 +76,7 @@ def test_help_is_broken_into_lines_by_the_terminal_and_loses_no_word() -> None:
 
 def test_a_case_and_a_study_are_told_apart(call: Call, tmp_path: Path) -> None:
     root = Path(__file__).parents[2]
-    study = root / "lambda_core" / "study" / "examples" / "friction-map.toml"
+    study = root / "lambda_core" / "studies" / "examples" / "friction-map.toml"
     code, _, err = call("check", str(study))
     assert code == 3
     assert err.splitlines()[1:] == ["  is a study, not a case: lambda-bearing study run friction-map.toml"]

@@ -36,7 +36,7 @@ HEAVY = (
     "lambda_core.solver.drivers.shaft_equilibrium",
     "lambda_core.solver.entry",
     "lambda_core.export.report.page",
-    "lambda_core.study.studies",
+    "lambda_core.studies.folders",
     "lambda_db.catalogue",
 )
 CASES = {"numpy", "pydantic", "tomlkit", "lambda_core.case.case"}

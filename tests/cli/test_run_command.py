@@ -214,7 +214,7 @@ def test_resume_refuses_what_would_be_another_run(
 ) -> None:
     main(["run", CASE, *SHORT, "--out", "r.h5", "--quiet"])
     from lambda_core.domain.errors import UsageError
-    from lambda_core.run import launch
+    from lambda_core.runs import launch
 
     with pytest.raises(UsageError, match=r"resolves to other values: .*solver\.tolerance"):
         api.resume("r.h5", ["solver.tolerance=1e-4", "solver.duration=10 ms"])

@@ -172,7 +172,7 @@ def test_points_that_wait_for_another_process_are_no_interruption(
     call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from lambda_core import api
-    from lambda_core.study.studies import StudyStatus
+    from lambda_core.studies.folders import StudyStatus
 
     status = StudyStatus(
         name="pair", title="pair", folder="pair", mode="dynamic", design="grid", points=2, done=1, partial=0, failed=0,

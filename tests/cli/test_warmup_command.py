@@ -32,12 +32,12 @@ def test_what_is_compiled_is_announced(
 ) -> None:
     """In an empty cache every law is compiled; the solver is left out here, it would take too long."""
     monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(tmp_path))
-    monkeypatch.setattr("lambda_core.run.warmup.begin", lambda announce, units: None)
+    monkeypatch.setattr("lambda_core.runs.warmup.begin", lambda announce, units: None)
     solver = SimpleNamespace(find=lambda name: None)
-    monkeypatch.setattr("lambda_core.run.warmup.core", lambda announce: solver)
-    monkeypatch.setattr("lambda_core.run.warmup.missing", list)
+    monkeypatch.setattr("lambda_core.runs.warmup.core", lambda announce: solver)
+    monkeypatch.setattr("lambda_core.runs.warmup.missing", list)
     wanted = ("damping", "asperity_load")
-    monkeypatch.setattr("lambda_core.run.warmup.ROLES", {role: ROLES[role] for role in wanted})
+    monkeypatch.setattr("lambda_core.runs.warmup.ROLES", {role: ROLES[role] for role in wanted})
     assert main(["warmup"]) == 0
     out, err = capsys.readouterr()
     for role in wanted:
@@ -59,7 +59,7 @@ def test_a_law_that_cannot_be_compiled_is_named_and_the_others_are_compiled(
             raise PluginError("damping/cubic cannot be compiled: of a test")
         return compile_kernel(model, announce)  # type: ignore[arg-type]
 
-    monkeypatch.setattr("lambda_core.run.warmup.compile_kernel", compile_most)
-    monkeypatch.setattr("lambda_core.run.warmup.ROLES", {"damping": ROLES["damping"]})
+    monkeypatch.setattr("lambda_core.runs.warmup.compile_kernel", compile_most)
+    monkeypatch.setattr("lambda_core.runs.warmup.ROLES", {"damping": ROLES["damping"]})
     assert main(["warmup", "--quiet"]) == 3
     assert "not compiled: damping/cubic cannot be compiled: of a test" in capsys.readouterr().out

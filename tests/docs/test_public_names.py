@@ -25,8 +25,14 @@ FUNCTIONS: dict[str, Any] = {name: item for name, item in PUBLIC.items() if not 
     if not isinstance(vars(cls).get(key), property)
 }
 # Rooms whose records are still without words for some of their fields.
-GAPS = ("lambda_core.results", "lambda_core.run", "lambda_core.study", "lambda_core.export.report", "lambda_syla2026")
-COMPLETE = ("lambda_core.results.citation", "lambda_core.run.warmup")
+GAPS = (
+    "lambda_core.results",
+    "lambda_core.runs",
+    "lambda_core.studies",
+    "lambda_core.export.report",
+    "lambda_syla2026",
+)
+COMPLETE = ("lambda_core.results.citation", "lambda_core.runs.warmup")
 NOTHING = (None, "None", inspect.Signature.empty)
 
 

@@ -71,7 +71,7 @@ def test_a_longer_run_goes_on_with_its_circuit(run: Result, tmp_path: Path) -> N
 
 
 def _resume_with_another_seed(path: Path) -> None:
-    from lambda_core.run.launch import relaunch
+    from lambda_core.runs.launch import relaunch
 
     relaunch(path, api.check(CASE, [*CHANGES[:2], "electric.seed=4", "solver.duration=0.2 s"]))
 

@@ -17,7 +17,7 @@ from lambda_cli.main import main
 from lambda_core import api
 from lambda_core.analysis.electric.current_numbers import UNITS
 from lambda_core.domain.errors import UsageError
-from lambda_core.study.current_map import map_of
+from lambda_core.studies.current_map import map_of
 
 if TYPE_CHECKING:
     from conftest import Warm

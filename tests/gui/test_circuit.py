@@ -8,8 +8,8 @@ from driving import LARGE, SMALL, builder, checked, go_to, screen_text, wait_for
 from lambda_gui.app import BuilderApp
 from lambda_gui.run_screen import _state
 
-from lambda_core.run.progress import Progress
-from lambda_core.study.run_queue import QueuedRun
+from lambda_core.runs.progress import Progress
+from lambda_core.studies.run_queue import QueuedRun
 
 
 async def test_a_law_of_the_films_is_chosen_and_its_parameter_set(hand_written: Path) -> None:

@@ -15,7 +15,7 @@ from rich.table import Table
 from textual.widgets import Input
 
 from lambda_core.domain.unit_systems import US
-from lambda_core.study.duty_cycle import DutyCycle, PhaseResult, duty
+from lambda_core.studies.duty_cycle import DutyCycle, PhaseResult, duty
 
 
 def test_what_is_left_open_is_as_in_the_case() -> None:

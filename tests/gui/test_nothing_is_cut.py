@@ -27,7 +27,7 @@ from textual.widgets import DataTable, Input, OptionList, Static
 
 from lambda_core import api
 from lambda_core.results.reader import Result
-from lambda_core.run.progress import Progress
+from lambda_core.runs.progress import Progress
 
 MIDDLE = (120, 40)
 SIZES = pytest.mark.parametrize("size", [SMALL, MIDDLE], ids=["80x24", "120x40"])

@@ -20,8 +20,8 @@ from textual.widgets import OptionList
 from lambda_core import api
 from lambda_core.case.case import Case
 from lambda_core.domain.option_tree import option_paths
-from lambda_core.study.definition import read_study, validate_study
-from lambda_core.study.store import FILE
+from lambda_core.studies.definition import read_study, validate_study
+from lambda_core.studies.store import FILE
 
 if TYPE_CHECKING:
     from textual.pilot import Pilot

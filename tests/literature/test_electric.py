@@ -15,7 +15,7 @@ from lambda_core.analysis.electric.contacts import contacts_of_equilibria, equil
 from lambda_core.analysis.electric.simulation import simulate
 from lambda_core.case.case_io import apply_overrides, parse_case
 from lambda_core.case.electric import Electric
-from lambda_core.study.job import with_temperatures
+from lambda_core.studies.job import with_temperatures
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel

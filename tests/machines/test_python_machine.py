@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -22,7 +23,7 @@ def gearbox() -> lb.Machine:
 def test_a_machine_says_what_its_file_says(tmp_path: Path) -> None:
     machine = gearbox()
     file = machine.save(tmp_path / "gearbox.toml")
-    assert lb.Machine.from_case(file).tables == machine.tables
+    assert lb.Machine.from_case(file).written() == machine.written()
     of_file, built = api.quasistatic(file), machine.quasistatic()
     assert of_file.model_dump_json() == built.model_dump_json()
     assert built.bearing("left").radial_load_N == pytest.approx(424.0, rel=0.05)
@@ -32,10 +33,10 @@ def test_a_machine_says_what_its_file_says(tmp_path: Path) -> None:
 
 def test_a_changed_copy_leaves_the_machine_as_it_was() -> None:
     machine = gearbox()
-    before = machine.tables
+    before = machine.written()
     stronger = machine.with_(gears={"wheel": {"power": "30 kW"}})
-    assert machine.tables == before
-    assert stronger.tables["gears"]["wheel"] == before["gears"]["wheel"] | {"power": "30 kW"}
+    assert machine.written() == before
+    assert stronger.written()["gears"]["wheel"] == before["gears"]["wheel"] | {"power": "30 kW"}
     loads = [made.quasistatic().bearing("right").radial_load_N for made in (machine, stronger)]
     assert loads[1] == pytest.approx(2.0 * loads[0], rel=0.1)
 
@@ -75,7 +76,29 @@ def test_a_machine_shows_itself_in_one_line() -> None:
     assert repr(gearbox()) == ("Machine('gearbox', speed='3000 rpm', bearings=['left', 'right'], gears=['wheel'])")
 
 
-def test_the_package_offers_the_class_and_nothing_else() -> None:
-    assert "Machine" in dir(lb)
+def test_the_package_offers_what_users_ask_for() -> None:
+    """Each name has one meaning whatever was imported before; the list for type checkers is the list at run time."""
+    import lambda_core.fitting
+    import lambda_core.runs.simulation
+    import lambda_core.studies.folders  # noqa: F401  # with submodules, their packages are known
+
+    assert set(lb.__all__) <= set(dir(lb))
+    assert len(lb.__all__) <= 30
+    for name in set(lb.__all__) - {"Machine"}:
+        assert getattr(lb, name) is getattr(lb.api, name)
+        assert callable(getattr(lb, name))
+    listed = Path(lb.__file__).read_text(encoding="utf-8").split("if TYPE_CHECKING:")[1].split("__version__")[0]
+    assert set(re.findall(r"^ {8}(\w+),$", listed, re.MULTILINE)) | {"Machine"} == set(lb.__all__)
     with pytest.raises(AttributeError, match="Machin"):
         _ = lb.Machin  # type: ignore[attr-defined]
+
+
+def test_functions_take_a_machine() -> None:
+    """A machine stands for the case that it writes."""
+    machine = gearbox()
+    assert lb.quasistatic(machine) == machine.quasistatic()
+    assert lb.check(machine).name == "gearbox"
+    single = lb.Machine.of_bearing("SKF 6208", radial="3 kN", speed="3000 rpm", oil=("FVA3", "70 degC"))
+    assert lb.quasistatic(single).max_load_N == single.quasistatic().max_load_N
+    table = lb.study(single, {"loads.radial": ["2 kN", "3 kN"]}, asks=["max_load_N"], executor="here")
+    assert table.rows()[1]["max_load_N"] == pytest.approx(single.quasistatic().max_load_N, rel=1e-9)

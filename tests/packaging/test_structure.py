@@ -55,7 +55,7 @@ def test_processes_are_started_in_few_places() -> None:
     """The batch engine, the compile step, and the check of plugins apart."""
     places = {place.split(":")[0] for place in found(r"ProcessPoolExecutor|subprocess\.Popen", OURS)}
     assert places == {
-        "lambda_core/study/pool.py",
+        "lambda_core/studies/pool.py",
         "lambda_core/discovery/apart.py",
         "lambda_core/solver/entry.py",
     }
@@ -66,3 +66,13 @@ def test_what_numba_does_not_promise_stands_in_one_room() -> None:
     places = found(r"numba\.(core|experimental|extending|misc|typed|np)\b|numba import cloudpickle", outside)
     # Functions of a notebook are packed as Numba's copy of cloudpickle packs them; cases, below the laws, carry them.
     assert [place.split(":")[0] for place in places] == ["lambda_core/domain/handed_laws.py"]
+
+
+def test_packages_have_other_names_than_functions() -> None:
+    """The import of a package sets its name in the package above: ``lb.run`` would be a module from then on."""
+    import lambda_core as lb
+
+    packages = {path.stem for path in (ROOT / "lambda_core").iterdir() if path.is_dir() or path.suffix == ".py"}
+    assert packages.isdisjoint(lb.__all__)
+    old = found(r"lambda_core[.](run|study|fit)[.]", [*OURS, *sorted((ROOT / "tests").rglob("*.py"))])
+    assert old == [], "the packages are runs, studies, fitting"

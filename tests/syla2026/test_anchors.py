@@ -13,7 +13,7 @@ from lambda_syla2026.job_runner import ANCHOR, Job, JobResult, case_text
 from lambda_syla2026.readings import MECHANISMS, anchor
 from lambda_syla2026.readings import axial_load as READ
 
-from lambda_core.study.job import resolve_point
+from lambda_core.studies.job import resolve_point
 
 HEAT = {"contacts": 90.0, "drag": 60.0, "skf drag": 20.0, "heat": 100.0}
 PARTS = {"rolling": 30.0, "hysteresis": 10.0, "sliding": 20.0, "spin": 5.0, "skf rolling": 50.0, "skf sliding": 40.0}

@@ -21,8 +21,8 @@ from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.law_context import max_speed
-from lambda_core.study.job import resolve_point
-from lambda_core.study.pool import HERE, pool
+from lambda_core.studies.job import resolve_point
+from lambda_core.studies.pool import HERE, pool
 
 FRICTION = (
     "total", "skf", "skf rolling", "skf sliding", "skf drag", "schaeffler load", "contacts", "heat", "max_load_N", "ci",

@@ -9,8 +9,8 @@ import pytest
 from lambda_syla2026 import job_runner
 from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 
-from lambda_core.study.pool import HERE, pool
-from lambda_core.study.scheduler import StudyProgress
+from lambda_core.studies.pool import HERE, pool
+from lambda_core.studies.scheduler import StudyProgress
 
 LOADS = (2.0, 3.0, 4.0, 5.0)
 JOBS = [Job("6220-excited", (f"loads.radial={load:g} kN",), "axial resonance") for load in LOADS]

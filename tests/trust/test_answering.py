@@ -22,7 +22,7 @@ def test_c2_4_ctrl_c_is_answered_within_a_second(state: str, tmp_path: Path) -> 
     assert found.wall < 1.0
 
 
-@pytest.mark.parametrize("begin", ["import lambda_cli.main", "from lambda_core.study.pool import _begin; _begin()"])
+@pytest.mark.parametrize("begin", ["import lambda_cli.main", "from lambda_core.studies.pool import _begin; _begin()"])
 def test_c2_4_an_end_does_not_look_for_cycles_in_all_that_was_compiled(begin: str) -> None:
     """Command line and workers of studies: half a second each, after the last word."""
     code = f"import atexit, gc; atexit.register(lambda: print(gc.get_freeze_count() > 1000)); {begin}"

@@ -28,7 +28,7 @@ from lambda_core.laws.check import check_model
 from lambda_core.laws.jit.reach import UnreachableError, reach
 from lambda_core.laws.law import Law
 from lambda_core.plugins import Axis, NoParameters, Options, Panel, Parameters, ViewData, hookimpl, parameter
-from lambda_core.study import job
+from lambda_core.studies import job
 from lambda_core.views.method import Method, MethodRow, MethodTable, NotApplicable, evaluate_methods
 from lambda_core.views.view import View
 

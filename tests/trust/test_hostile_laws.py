@@ -23,8 +23,8 @@ from lambda_core.laws.jit.reach import UnreachableError, reach
 from lambda_core.laws.kernels import CHECKED_VARIABLE, compile_kernel
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine
-from lambda_core.run.law_blame import BlamingBearingEngine, naming_laws
-from lambda_core.run.machine_law_blame import BlamingMachineEngine
+from lambda_core.runs.law_blame import BlamingBearingEngine, naming_laws
+from lambda_core.runs.machine_law_blame import BlamingMachineEngine
 from lambda_core.solver.drivers.engine import Advance
 from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_start
 

@@ -18,7 +18,7 @@ from lambda_core.domain import files, processes
 from lambda_core.domain.errors import PartialResultError, UsageError
 from lambda_core.results import writer
 from lambda_core.results.opening import BeingWrittenError
-from lambda_core.run.loop import NothingLeftError
+from lambda_core.runs.loop import NothingLeftError
 
 CASE, SHORT = "6208-axial-1300", ["solver.duration=1 ms", "output.interval=0.1 ms"]
 

@@ -15,7 +15,7 @@ from lambda_core.laws import check
 from lambda_core.laws.state import State, state_fault
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine
-from lambda_core.run.machine_law_blame import BlamingMachineEngine
+from lambda_core.runs.machine_law_blame import BlamingMachineEngine
 from lambda_core.solver.drivers.machine_motion import machine_start
 
 LAWS = """

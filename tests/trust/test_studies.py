@@ -15,8 +15,8 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
-from lambda_core.study.job import Outcome
-from lambda_core.study.store import Manifest
+from lambda_core.studies.job import Outcome
+from lambda_core.studies.store import Manifest
 
 STUDY = {
     "name": "two",

@@ -154,7 +154,7 @@ def study_chapter(
 
     Parameters
     ----------
-    status : lambda_core.study.studies.StudyStatus
+    status : lambda_core.studies.folders.StudyStatus
         Where it stands.
     definition : str
         The study file.

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
 from lambda_core.domain.files import check_folder, check_new, check_target
 from lambda_core.model.checking import check
-from lambda_core.run.answers import result
-from lambda_core.study.study_runs import study_status
+from lambda_core.runs.answers import result
+from lambda_core.studies.study_runs import study_status
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -319,7 +319,7 @@ def report(
     runs = [one for one, chapter in zip(sources, chapters, strict=True) if chapter.kind == "run"]
     compared: tuple[Table, ...] = ()
     if len(runs) > 1:
-        from lambda_core.run.answers import side_by_side
+        from lambda_core.runs.answers import side_by_side
 
         compared = comparison_tables(side_by_side(runs), cover.units)
     text = document(chapters, cover, compared)
@@ -339,7 +339,7 @@ def _chapter(source: str | PathLike[str], bearing: str | None, cover: Cover) -> 
         return run_chapter(registry(), subject, cover)
     from lambda_core.case.case_io import is_machine, toml_tables
     from lambda_core.export.report.chapters import machine_inputs
-    from lambda_core.study.studies import files
+    from lambda_core.studies.folders import files
 
     definition, case_toml = files(Path(source))
     model = check(toml_tables(case_toml, str(source)), is_static=True)
@@ -360,7 +360,7 @@ def _case_chapter(source: str | PathLike[str], bearing: str | None, cover: Cover
     from lambda_core.discovery.manager import registry
     from lambda_core.export.report.chapters import case_chapter
     from lambda_core.export.report.page import machine_drawings
-    from lambda_core.run.simulation import quasistatic
+    from lambda_core.runs.simulation import quasistatic
 
     refuse_bearing(bearing)
     if not is_machine(Path(source)):
@@ -395,7 +395,7 @@ def subject_of(
     source: str | PathLike[str] | Sequence[str | PathLike[str]], bearing: str | None = None
 ) -> tuple[Any, Subject]:
     """Return what a view looks at, and what kind of thing it is."""
-    from lambda_core.study.studies import is_study, table
+    from lambda_core.studies.folders import is_study, table
 
     if not isinstance(source, str | PathLike):
         if len(source) != 1:

@@ -20,7 +20,7 @@ from lambda_core.plugins import (
     View,
     ViewData,
 )
-from lambda_core.study.effects import Sensitivity, sensitivities
+from lambda_core.studies.effects import Sensitivity, sensitivities
 from lambda_plugins.views.friction import PER_RING, REST
 from lambda_plugins.views.study_curves import study_curves
 from lambda_plugins.views.study_table import (

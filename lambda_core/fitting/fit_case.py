@@ -1,0 +1,307 @@
+"""Fit parameters of a case to measured operating points."""
+
+from __future__ import annotations
+
+import datetime
+import math
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lambda_core.analysis.band.graded import varied
+from lambda_core.analysis.band.quantities import CONDITIONS, MEASURED
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.units import show
+from lambda_core.fitting.least_squares import Fit
+from lambda_core.fitting.least_squares import fit as fit_values
+from lambda_core.fitting.measurements import Measurements, read_measurements
+from lambda_core.fitting.next_point import next_point
+from lambda_core.fitting.predictions import discrepancy_sizes, predicted
+from lambda_core.fitting.problem import CaseProblem, Entry
+from lambda_core.fitting.report import (
+    FitReport,
+    FittedParameter,
+    FittedPoint,
+    ParameterCombination,
+    PatternTest,
+    PredictedPoint,
+    SuggestedPoint,
+    known,
+)
+from lambda_core.fitting.uncertainty import correlations
+
+if TYPE_CHECKING:
+    from lambda_core.case.case import Case
+
+Announce = Callable[[str], None]
+
+
+@one_blas_thread()
+def fit(
+    source: str | Path | Mapping[str, Any] | Case,
+    measured: str | Path | Measurements,
+    vary: Sequence[str],
+    overrides: Iterable[str] = (),
+    *,
+    predict: str | Path | Measurements | None = None,
+    suggest: bool = True,
+    announce: Announce | None = None,
+) -> FitReport:
+    """Fit parameters of a case to measured operating points.
+
+    Parameters
+    ----------
+    source, overrides
+        The case, as for :func:`check`. Columns of the measurements replace its speed, loads and temperatures.
+    measured : path-like or Measurements
+        CSV file: one operating point per line, columns with units such as ``speed [1/min]``, ``radial load [kN]``,
+        ``oil temperature [degC]``, ``friction torque [N mm]`` and errors such as ``friction torque error [%]``.
+    vary : sequence of str
+        Parameters: the path or its end ("loss_factor"), with a range where none is published
+        ("tau_eyring=3 MPa..10 MPa").
+    predict : path-like or Measurements, optional
+        Measured points that the fit does not see, to be compared with its predictions.
+    suggest : bool
+        Look for the operating point to measure next.
+    announce : callable, optional
+        Called with sentences about the progress.
+
+    Returns
+    -------
+    FitReport
+        ``text()`` for people, ``pictures()`` for :func:`draw`. After Ctrl+C it has the best values so far.
+
+    Raises
+    ------
+    UsageError, CaseError, SolverError
+        With a sentence about the parameters, a line of the file, or a point without an equilibrium.
+    """
+    from lambda_core.case.case_io import apply_overrides
+    from lambda_core.case.case_writer import standalone_toml
+    from lambda_core.model.cases import case_of
+    from lambda_core.model.checking import resolve
+
+    begin = time.perf_counter()
+    data = measured if isinstance(measured, Measurements) else read_measurements(measured)
+    case = apply_overrides(case_of(source), overrides)
+    model = resolve(case, is_static=True)
+    if not vary:
+        raise UsageError("nothing to fit: name a parameter, for example --vary loss_factor")
+    problem = CaseProblem(standalone_toml(case), data, [varied(model, text) for text in vary])
+    if announce is not None:
+        announce(f"fitting {len(problem.parameters)} parameters to {len(problem.entries)} measured values")
+    try:
+        found = fit_values(
+            problem.predict,
+            problem.parameters,
+            problem.data,
+            jacobian=problem.jacobian,
+            input_slopes=problem.input_slopes if data.condition_errors else None,
+            is_costly=True,
+        )
+    except ValueError as error:
+        raise UsageError(f"{data.name}: {error}") from None
+    suggestion = _suggestion(problem, found) if suggest and not found.is_interrupted else None
+    sizes = {} if found.is_interrupted else discrepancy_sizes(problem, found)
+    report = _report(model.name, model.title, data, problem, found, suggestion, sizes)
+    unseen = [] if predict is None or found.is_interrupted else _unseen(problem, found, sizes, predict)
+    return report.model_copy(update={"predictions": unseen, "seconds": time.perf_counter() - begin})
+
+
+def _unseen(
+    problem: CaseProblem, found: Fit, sizes: dict[str, float], source: str | Path | Measurements
+) -> list[PredictedPoint]:
+    """Return measured points that the fit has not seen with their predictions."""
+    data = source if isinstance(source, Measurements) else read_measurements(source)
+    asked = problem.elsewhere(data)
+    values, _, new = predicted(problem, found, sizes, asked)
+    return [
+        PredictedPoint(
+            **_where(data, entry),
+            measured=float(asked.data.values[i]),
+            predicted=float(values[i]),
+            band=[float(low), float(high)],
+            is_inside=bool(low <= asked.data.values[i] <= high),
+        )
+        for i, (entry, (low, high)) in enumerate(zip(asked.entries, new.band(), strict=True))
+    ]
+
+
+def _where(data: Measurements, entry: Entry) -> dict[str, Any]:
+    """Return line, label, conditions and quantity of a measured value."""
+    return {
+        "line": data.lines[entry.row],
+        "label": data.labels[entry.row],
+        "conditions": {name: float(column[entry.row]) for name, column in data.conditions.items()},
+        "quantity": entry.quantity,
+        "unit": MEASURED[entry.quantity].unit,
+    }
+
+
+def _suggestion(problem: CaseProblem, found: Fit) -> SuggestedPoint | None:
+    """Return the operating point that would tell most; None where no candidate has a solution."""
+    points = problem.candidates()
+    table = problem.candidate_slopes(found.values, points)
+    solved = np.flatnonzero(np.isfinite(table).all(axis=1))
+    if not solved.size or not points[0]:
+        return None
+    relative = float(np.median(found.errors * found.scale / np.abs(found.predicted)))
+    slopes = table[solved, 1:] / (relative * np.abs(table[solved, :1]))
+    jacobian = found.jacobian / (found.errors * found.scale)[:, None]
+    best = next_point(jacobian, slopes, found.parameters)
+    conditions = points[int(solved[best.index])]
+    return SuggestedPoint(
+        conditions={name: show(value, CONDITIONS[name].quantity, 4) for name, value in conditions.items()},
+        combination=best.worst.weights,
+        spread_before=best.before,
+        spread_after=best.after,
+    )
+
+
+def _report(
+    case: str,
+    title: str,
+    data: Measurements,
+    problem: CaseProblem,
+    found: Fit,
+    suggestion: SuggestedPoint | None,
+    sizes: dict[str, float],
+) -> FitReport:
+    free = [problem.varied[index].short for index in found.free]
+    share = found.predicted / found.data.values - 1.0
+    left_out = found.left_out / found.data.values
+    is_known, degrees = found.data.is_error_known, found.degrees
+    chi_square = float(np.sum(found.standardised**2)) / degrees if is_known and degrees > 0 else None
+    return FitReport(
+        case=case,
+        title=title,
+        file=data.name,
+        sha256=data.sha256,
+        date=datetime.date.today().isoformat(),
+        sentence=_sentence(found, free),
+        warnings=_warnings(problem, found),
+        parameters=_parameters(problem, found),
+        tests=[
+            PatternTest(
+                name=test.name, p_value=test.p_value, adjusted_p_value=test.adjusted, is_significant=test.is_significant
+            )
+            for test in found.tests
+        ],
+        correlation=found.correlations.tolist() if free else [],
+        posterior_correlation=correlations(found.posterior).tolist(),
+        combinations=[
+            ParameterCombination(weights=d.weights, spread=known(d.spread), is_determined=d.is_determined)
+            for d in found.directions
+        ],
+        points=_points(data, problem, found, sizes),
+        predictions=[],
+        discrepancy_pct={name: 100.0 * size for name, size in sizes.items()},
+        next_point=suggestion,
+        scatter_pct=None if is_known else 100.0 * found.scale,
+        chi_square_per_degree=chi_square,
+        rms_error_pct=100.0 * _rms(share),
+        left_out_rms_error_pct=100.0 * _rms(left_out),
+        degrees_of_freedom=degrees,
+        evaluations=problem.solved,
+        seconds=0.0,
+        is_interrupted=found.is_interrupted,
+    )
+
+
+def _rms(values: FloatArray) -> float:
+    return math.sqrt(float(np.mean(values**2)))
+
+
+def _parameters(problem: CaseProblem, found: Fit) -> list[FittedParameter]:
+    quantile, rows = found.quantile(), []
+    posterior = np.sqrt(np.diag(found.posterior)).tolist()
+    for index, graded in enumerate(problem.varied):
+        value, error = float(found.values[index]), float(found.standard_errors[index])
+        is_held = index in found.held
+        rows.append(
+            FittedParameter(
+                path=graded.path,
+                name=graded.short,
+                unit=graded.scale.unit,
+                value=value,
+                standard_error=known(error),
+                posterior_error=posterior[index],
+                interval_95=[] if is_held else [value - quantile * error, value + quantile * error],
+                start=found.parameters[index].start,
+                low=graded.low,
+                high=graded.high,
+                range_source=graded.source,
+                state="held" if is_held else "at limit" if index in found.at_limit else "fitted",
+            )
+        )
+    return rows
+
+
+def _points(data: Measurements, problem: CaseProblem, found: Fit, sizes: dict[str, float]) -> list[FittedPoint]:
+    quantile = found.quantile()
+    own = quantile * found.prediction_deviation(found.jacobian)
+    new = quantile * found.prediction_deviation(found.jacobian, found.errors)
+    ends = np.column_stack([found.predicted - new, found.predicted + new])
+    if sizes:
+        ends = predicted(problem, found, sizes)[2].band()
+    standardised, left_out, outliers = found.standardised, found.left_out, found.outliers
+    return [
+        FittedPoint(
+            **_where(data, entry),
+            measured=float(found.data.values[i]),
+            error=float(found.errors[i] * found.scale),
+            predicted=float(found.predicted[i]),
+            band=[float(found.predicted[i] - own[i]), float(found.predicted[i] + own[i])],
+            new_measurement_band=ends[i].tolist(),
+            standardised_residual=float(standardised[i]),
+            left_out_error=float(left_out[i]),
+            is_outlier=i in outliers,
+        )
+        for i, entry in enumerate(problem.entries)
+    ]
+
+
+def _sentence(found: Fit, free: Sequence[str]) -> str:
+    """Say in one sentence what the data determine."""
+    held = [found.parameters[index].name for index in found.held]
+    count = found.data.values.size
+    if not free:
+        return f"The {count} measured values determine none of the parameters {_list(held)}."
+    text = f"The {count} measured values determine {_list(free)}"
+    if not held:
+        return f"{text}."
+    weak = next((d for d in reversed(found.directions) if not d.is_determined), None)
+    partners = [name for name in (weak.weights if weak else {}) if name not in held]
+    why = f"cannot be separated from {_list(partners)}" if partners else "has too small an effect"
+    more = "each " if len(held) > 1 else ""
+    return f"{text}, not {_list(held)}, which {more}{why} and keeps its start value."
+
+
+def _list(names: Sequence[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def _warnings(problem: CaseProblem, found: Fit) -> list[str]:
+    warnings = []
+    if found.is_interrupted:
+        warnings.append("The fit was interrupted: these are the best values so far, and their errors are rough.")
+    patterns = [test for test in found.tests if test.is_significant]
+    if patterns:
+        first = patterns[0]
+        what = "are larger than the errors given" if first.name == "scatter" else f"show a {first.name}"
+        warnings.append(
+            f"The residuals {what} (p = {first.adjusted:.2g}): a law or a condition is wrong or missing, and fitted "
+            "values only compensate for it."
+        )
+    for index in found.at_limit:
+        graded = problem.varied[index]
+        warnings.append(
+            f"{graded.short} ends at a limit of its range ({graded.low:.4g}..{graded.high:.4g}): a value beyond would "
+            "fit better, so another term may be wrong."
+        )
+    return warnings

@@ -1,0 +1,108 @@
+"""Write the case with its fitted values, and where they come from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.written_values import DIGITS
+from lambda_core.fitting.report_text import compact
+
+if TYPE_CHECKING:
+    from lambda_core.case.case import Case
+    from lambda_core.fitting.report import FitReport
+
+
+def fitted_case(
+    source: str | Path | Mapping[str, Any] | Case,
+    report: FitReport,
+    path: str | Path,
+    overrides: Iterable[str] = (),
+    *,
+    overwrite: bool = False,
+) -> Path:
+    """Write a case file with the fitted values, their errors and correlations, and the file they were fitted to.
+
+    Parameters
+    ----------
+    source, overrides
+        The case that was fitted; the comments of a file stay.
+    report : FitReport
+        From :func:`fit`.
+    path : path-like
+        The new file. The measured rows are not stored in it.
+    overwrite : bool
+        Replace a file that stands there.
+
+    Returns
+    -------
+    pathlib.Path
+        The file.
+
+    Raises
+    ------
+    UsageError
+        When the file exists or cannot be written.
+    """
+    from lambda_core.case.builtin import builtin_text, is_builtin
+    from lambda_core.case.case_io import apply_overrides, case_text
+    from lambda_core.case.case_writer import save_case
+    from lambda_core.domain.files import check_new
+    from lambda_core.model.cases import case_of
+
+    target = check_new(Path(path), overwrite)
+    original = None
+    if isinstance(source, str | Path):
+        is_file = Path(source).is_file()
+        original = (
+            case_text(Path(source)) if is_file else builtin_text(str(source)) if is_builtin(str(source)) else None
+        )
+    case = with_fit(apply_overrides(case_of(source), overrides), report)
+    save_case(case, target, original)
+    return target
+
+
+def with_fit(case: Case, report: FitReport) -> Case:
+    """Return the case with the fitted values, an assumption for each, and the section `fit`.
+
+    A parameter that the data do not determine keeps its value; the section has its range as a standard deviation, and
+    how the fitted values go with it.
+    """
+    changes: dict[str, Any] = {}
+    rows: list[dict[str, Any]] = []
+    sentences = []
+    for parameter in report.parameters:
+        number = float(f"{parameter.value:.{DIGITS}g}")
+        rows.append(
+            {
+                "path": parameter.path,
+                "value": number,
+                "standard_error": float(f"{parameter.posterior_error:.4g}"),
+                "unit": parameter.unit,
+            }
+        )
+        if parameter.standard_error is None:
+            rows[-1]["range"] = [parameter.low, parameter.high]
+            continue
+        _set(changes, parameter.path, f"{number:.{DIGITS}g} {parameter.unit}" if parameter.unit else number)
+        shown = f"{compact(parameter.value, parameter.standard_error)} {parameter.unit}".rstrip()
+        sentences.append(f"{parameter.path} {shown}: fitted to {len(report.points)} values of {report.file}")
+    changes["assumptions"] = [*case.assumptions, *sentences]
+    changes["fit"] = {
+        "file": report.file,
+        "sha256": report.sha256,
+        "date": report.date,
+        "count": len(report.points),
+        "parameters": rows,
+        "correlation": [[float(f"{value:.6g}") for value in row] for row in report.posterior_correlation],
+    }
+    return case.with_(**changes)
+
+
+def _set(tables: dict[str, Any], path: str, value: Any) -> None:
+    """Put a value at a dotted path."""
+    *tables_of, name = path.split(".")
+    for part in tables_of:
+        tables = tables.setdefault(part, {})
+    tables[name] = value

@@ -1,0 +1,442 @@
+"""Robust weighted least squares with errors of measured values and of operating conditions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.fitting import uncertainty as U
+from lambda_core.fitting.model_calls import Model, ModelCalls
+from lambda_core.fitting.parameters import Parameter, bounds, spreads, starts
+from lambda_core.fitting.residual_tests import ResidualTest, residual_tests
+
+_ROUNDS = 6  # of weights from the residuals of the round before
+_SETTLED = 0.02  # of a standard deviation, and of the scatter: change that ends the rounds
+_COSTLY_TOLERANCE = 1e-4  # relative change of the cost that ends a round of a costly model
+_NORMAL_MAD = 1.482602218505602  # standard deviation over median absolute deviation of a normal distribution
+_STEP = 1e-6  # of a parameter, for slopes where no Jacobian is given
+_OUTLIER = 3.5  # standardised residual (Iglewicz and Hoaglin 1993)
+_AT_LIMIT = 1e-3  # of the distance between the bounds
+_SMALLEST_SHARE = 1e-3  # of the median value, which proportional errors do not go below
+CONFIDENCE = 0.95
+
+
+@dataclass(frozen=True)
+class Data:
+    """Measured values with their errors.
+
+    Attributes
+    ----------
+    values : float64[:], shape (n,)
+        Measured values.
+    errors : float64[:], shape (n,)
+        Standard deviations; where `is_error_known` is False only their ratios count.
+    columns : mapping of str to float64[:]
+        Operating conditions, for tests of the residuals.
+    input_errors : float64[:, :], shape (n, k)
+        Standard deviations of k operating conditions; empty where they are exact.
+    is_error_known : bool
+        Whether the size of the errors is known; otherwise the scatter of the residuals gives it.
+    is_proportional : bool
+        Whether `errors` are shares of the predicted values. Shares of the measured ones would tie errors to noise.
+    """
+
+    values: FloatArray
+    errors: FloatArray
+    columns: Mapping[str, FloatArray] = field(default_factory=dict)
+    input_errors: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
+    is_error_known: bool = True
+    is_proportional: bool = False
+
+    def absolute(self, predicted: FloatArray) -> FloatArray:
+        """Return the errors in the unit of the values."""
+        if not self.is_proportional:
+            return self.errors
+        size = np.abs(predicted)
+        found: FloatArray = self.errors * np.maximum(size, _SMALLEST_SHARE * float(np.median(size)))
+        return found
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What a fit found.
+
+    Attributes
+    ----------
+    parameters : tuple of Parameter
+        All that were to be varied.
+    values : float64[:], shape (p,)
+        At the solution; a parameter that is held has its start value.
+    covariance : float64[:, :], shape (p, p)
+        Of the values; zero rows for held ones.
+    held : tuple of int
+        Parameters that the data do not determine.
+    at_limit : tuple of int
+        Parameters at one of their bounds.
+    predicted, errors : float64[:], shape (n,)
+        Predicted values; standard deviations of the measured ones with those of the operating conditions.
+    jacobian : float64[:, :], shape (n, p)
+        Derivatives of the predicted values by all parameters.
+    directions : list of Direction
+        Combinations of all parameters, best determined first.
+    scale : float
+        Scatter of the residuals over `errors`, 1 where the errors are known.
+    factor : float
+        On (J^T J)^-1 of the covariance, above 1 where residuals are larger than their errors.
+    tests : list of ResidualTest
+        Whether residuals show a pattern.
+    evaluations : int
+        Of the model.
+    is_interrupted : bool
+        Whether it was stopped before it ended: the values are the best so far.
+    """
+
+    parameters: tuple[Parameter, ...]
+    data: Data
+    values: FloatArray
+    covariance: FloatArray
+    held: tuple[int, ...]
+    at_limit: tuple[int, ...]
+    predicted: FloatArray
+    errors: FloatArray
+    jacobian: FloatArray
+    directions: list[U.Direction]
+    scale: float
+    factor: float
+    limit: float
+    tests: list[ResidualTest]
+    evaluations: int
+    is_interrupted: bool = False
+
+    @property
+    def free(self) -> list[int]:
+        """Parameters that were fitted."""
+        return [index for index in range(len(self.parameters)) if index not in self.held]
+
+    @property
+    def degrees(self) -> int:
+        """Degrees of freedom of the residuals."""
+        return self.data.values.size - len(self.free)
+
+    @property
+    def standard_errors(self) -> FloatArray:
+        """Standard deviations of the values; NaN for held ones."""
+        found = np.sqrt(np.diag(self.covariance))
+        found[list(self.held)] = math.nan
+        return found
+
+    @property
+    def correlations(self) -> FloatArray:
+        """Correlations of the fitted parameters, shape (f, f)."""
+        return U.correlations(self.covariance[np.ix_(self.free, self.free)])
+
+    @property
+    def standardised(self) -> FloatArray:
+        """Measured less predicted values over their errors."""
+        found: FloatArray = (self.data.values - self.predicted) / (self.errors * self.scale)
+        return found
+
+    @property
+    def leverages(self) -> FloatArray:
+        """How much each point pulls the fit towards itself."""
+        if not self.free:
+            return np.zeros(self.data.values.size)
+        weighted = self.jacobian[:, self.free] / self.errors[:, None]
+        return U.leverages(weighted, U.huber_weights(self.standardised, self.limit))
+
+    @property
+    def outliers(self) -> list[int]:
+        """Points whose residual is too large for their error."""
+        size = np.abs(self.standardised) / np.sqrt(1.0 - self.leverages * (math.isinf(self.limit)))
+        return [int(index) for index in np.flatnonzero(size > _OUTLIER)]
+
+    @property
+    def left_out(self) -> FloatArray:
+        """Error of the prediction of each point from all others: predicted less measured values."""
+        return U.left_out_residuals(self.predicted - self.data.values, self.leverages)
+
+    def quantile(self, confidence: float = CONFIDENCE) -> float:
+        """Return the two-sided quantile of Student's distribution for the degrees of freedom."""
+        from scipy.stats import t
+
+        return float(t.ppf(0.5 + 0.5 * confidence, max(self.degrees, 1)))
+
+    @property
+    def posterior(self) -> FloatArray:
+        """Covariance of all parameters: held ones have their spread before the fit, which widens the others."""
+        if not self.held:
+            return self.covariance
+        spread = spreads(self.parameters)
+        weighted = self.jacobian / (self.errors * self.scale)[:, None]
+        information = weighted.T @ weighted / self.factor
+        information[self.held, self.held] += 1.0 / spread[list(self.held)] ** 2
+        scaled = np.linalg.inv(information * np.outer(spread, spread))
+        found: FloatArray = scaled * np.outer(spread, spread)
+        return found
+
+    def prediction_deviation(self, gradients: FloatArray, errors: FloatArray | float = 0.0) -> FloatArray:
+        """Return the standard deviation of predicted values, with those of new measurements where given."""
+        variance = U.prediction_variance(gradients, self.posterior)
+        found: FloatArray = np.sqrt(variance + (np.asarray(errors) * self.scale) ** 2)
+        return found
+
+    def contains(self, truth: FloatArray, confidence: float = CONFIDENCE) -> bool:
+        """Tell whether values of the fitted parameters lie in their joint confidence region."""
+        from scipy.stats import f
+
+        free = self.free
+        away = (np.asarray(truth) - self.values)[free]
+        distance = float(away @ np.linalg.solve(self.covariance[np.ix_(free, free)], away))
+        return distance <= len(free) * float(f.ppf(confidence, len(free), max(self.degrees, 1)))
+
+
+def fit(
+    model: Model,
+    parameters: Sequence[Parameter],
+    data: Data,
+    *,
+    jacobian: Model | None = None,
+    input_slopes: Model | None = None,
+    limit: float = U.HUBER,
+    is_costly: bool = False,
+) -> Fit:
+    """Fit parameters to measured values.
+
+    Parameters
+    ----------
+    model : callable
+        Returns the predicted values for values of the parameters.
+    parameters : sequence of Parameter
+        What is varied; those that the data cannot determine are held and reported.
+    data : Data
+        What was measured.
+    jacobian : callable, optional
+        Derivatives by the parameters, shape (n, p); central differences without it.
+    input_slopes : callable, optional
+        Derivatives by the operating conditions that have errors, shape (n, k).
+    limit : float
+        Residual in units of its error from which it counts less (Huber's loss); infinite for plain least squares.
+    is_costly : bool
+        Update the Jacobian between steps where that is accurate enough; the last one is always computed.
+
+    Returns
+    -------
+    Fit
+        Also after an interruption (Ctrl+C): then with the best values so far.
+
+    Raises
+    ------
+    ValueError
+        When there are no more points than parameters.
+
+    References
+    ----------
+    Errors of the operating conditions by effective variances: Orear 1982, Am. J. Phys. 50, 912. Robust loss: Huber
+    1964, Ann. Math. Statist. 35, 73. Scatter by the median absolute deviation: Huber and Ronchetti 2009, section 5.1.
+    """
+    if data.values.size <= len(parameters):
+        raise ValueError(
+            f"{data.values.size} measured values cannot determine {len(parameters)} parameters: "
+            "vary fewer parameters or add operating points"
+        )
+    step = _STEP * np.maximum(np.abs(starts(parameters)), spreads(parameters) * 1e-3)
+    recorder = ModelCalls(model, jacobian, step)
+    search = _Search(recorder, tuple(parameters), data, input_slopes, limit, is_costly)
+    try:
+        search.run([])
+        held = search.inseparable()
+        if held:
+            search.run(held)
+    except KeyboardInterrupt:
+        search.stop()
+    return search.outcome()
+
+
+class _Search:
+    """Rounds of least squares with weights from the round before."""
+
+    def __init__(
+        self,
+        recorder: ModelCalls,
+        parameters: tuple[Parameter, ...],
+        data: Data,
+        input_slopes: Model | None,
+        limit: float,
+        is_costly: bool,
+    ) -> None:
+        self._costly = is_costly
+        self._recorder, self._parameters, self._data = recorder, parameters, data
+        self._input_slopes, self._limit = input_slopes, limit
+        self._point = starts(parameters)
+        self._errors, self._scale = data.errors, 1.0  # of the first round
+        self._held: list[int] = []
+        self._interrupted = False
+
+    def run(self, held: list[int]) -> None:
+        """Minimise over the parameters that are not held, until weights and values settle."""
+        self._held = held
+        self._point = np.where(np.isin(np.arange(self._point.size), held), starts(self._parameters), self._point)
+        if len(held) == len(self._parameters):
+            self._errors, self._scale = self._effective(), self._scatter()
+            return
+        for number in range(_ROUNDS):
+            before, scale = self._point, self._scale
+            self._errors = self._effective()
+            self._scale = self._scatter()
+            self._point = self._minimised()
+            if not self._needs_rounds():
+                break
+            moved = np.abs(self._point - before) / np.maximum(self._deviations(), 1e-300)
+            if number and float(moved.max()) < _SETTLED and abs(self._scale / scale - 1.0) < _SETTLED:
+                break
+
+    def _needs_rounds(self) -> bool:
+        """Tell whether errors, scatter or an updated Jacobian depend on the solution."""
+        data = self._data
+        return not data.is_error_known or bool(data.input_errors.size) or data.is_proportional or self._costly
+
+    def inseparable(self) -> list[int]:
+        """Return the parameters that the data do not determine."""
+        spread = spreads(self._parameters)
+        kept = U.separable(self._weighted(range(len(self._parameters))), spread, U.NORMAL_FACTOR)
+        return [index for index in range(len(self._parameters)) if index not in kept]
+
+    def stop(self) -> None:
+        """Take the best point so far."""
+        self._interrupted = True
+        cost, point = self._recorder.best
+        if math.isfinite(cost):
+            self._point = point
+
+    def outcome(self) -> Fit:
+        """Put together what was found."""
+        data, parameters, count = self._data, self._parameters, len(self._parameters)
+        free = [index for index in range(count) if index not in self._held]
+        matrix, factor = np.zeros((count, count)), self._factor()
+        if free:
+            matrix[np.ix_(free, free)] = U.covariance(self._weighted(free), factor)
+        slopes = self._slopes()
+        weighted = slopes / (self._errors * self._scale)[:, None]
+        names = [parameter.name for parameter in parameters]
+        low, high = bounds(parameters)
+        margin = _AT_LIMIT * np.where(np.isfinite(high - low), high - low, 0.0)
+        at_limit = (self._point - low < margin) | (high - self._point < margin)
+        found = Fit(
+            parameters, data, self._point, matrix, tuple(self._held),
+            tuple(index for index in free if at_limit[index]), self._predicted(), self._errors, slopes,
+            U.directions(weighted, names, spreads(parameters), U.NORMAL_FACTOR), self._scale, factor, self._limit, [],
+            self._recorder.evaluations, self._interrupted,
+        )  # fmt: skip
+        if self._interrupted or found.degrees < 1:
+            return found
+        clipped = np.clip(found.standardised, -self._limit, self._limit)
+        tests = residual_tests(clipped, weighted[:, free], data.columns, is_error_known=data.is_error_known)
+        return replace(found, tests=tests)
+
+    def _predicted(self) -> FloatArray:
+        return self._recorder.values(self._point)
+
+    def _slopes(self) -> FloatArray:
+        if self._interrupted:
+            return self._recorder.last_slopes(self._point, self._data.values.size)
+        return self._recorder.slopes(self._point)
+
+    def _weighted(self, columns: Sequence[int] | range) -> FloatArray:
+        """Return derivatives over errors, with a row for every prior."""
+        rows = [self._slopes() / (self._errors * self._scale)[:, None]]
+        for index, parameter in enumerate(self._parameters):
+            if parameter.is_prior:
+                rows.append(np.eye(len(self._parameters))[index : index + 1] / parameter.spread)
+        found: FloatArray = np.vstack(rows)[:, list(columns)]
+        return found
+
+    def _standardised(self) -> FloatArray:
+        found: FloatArray = (self._data.values - self._predicted()) / self._errors
+        return found
+
+    def _effective(self) -> FloatArray:
+        """Return errors of measured values with those of the operating conditions."""
+        data = self._data
+        if self._input_slopes is None or not data.input_errors.size:
+            return data.absolute(self._predicted())
+        moved = np.asarray(self._input_slopes(self._point)) * data.input_errors
+        found: FloatArray = np.sqrt(data.absolute(self._predicted()) ** 2 + np.sum(moved**2, axis=1))
+        return found
+
+    def _scatter(self) -> float:
+        """Return the scatter of the residuals over their errors, 1 where the errors are known."""
+        if self._data.is_error_known:
+            return 1.0
+        residuals, free = self._standardised(), len(self._parameters) - len(self._held)
+        ratio = residuals.size / (residuals.size - free)
+        if math.isinf(self._limit):
+            return math.sqrt(float(np.mean(residuals**2)) * ratio)
+        return max(_NORMAL_MAD * float(np.median(np.abs(residuals))) * math.sqrt(ratio), 1e-12)
+
+    def _factor(self) -> float:
+        """Return the factor on (J^T J)^-1; residuals larger than their known errors widen it (Birge 1932)."""
+        residuals, free = self._standardised() / self._scale, len(self._parameters) - len(self._held)
+        if math.isinf(self._limit):
+            own = float(np.sum(residuals**2)) / (residuals.size - free)
+            return max(1.0, own) if self._data.is_error_known else own
+        own = U.robust_factor(residuals, free, self._limit)
+        # Where few points are left inside the limit, the robust formula overstates what the residuals show.
+        own = min(own, float(np.sum(residuals**2)) / (residuals.size - free))
+        return own if math.isfinite(own) and own > U.NORMAL_FACTOR else U.NORMAL_FACTOR
+
+    def _deviations(self) -> FloatArray:
+        free = [index for index in range(len(self._parameters)) if index not in self._held]
+        found = np.full(len(self._parameters), math.inf)
+        found[free] = np.sqrt(np.diag(U.covariance(self._weighted(free), self._factor())))
+        return found
+
+    def _minimised(self) -> FloatArray:
+        """Minimise with the present errors and scatter."""
+        from scipy.optimize import least_squares
+
+        free = [index for index in range(len(self._parameters)) if index not in self._held]
+        spread = spreads(self._parameters)
+        low, high = (side[free] for side in bounds(self._parameters))
+        errors = self._errors * self._scale
+
+        def whole(part: FloatArray) -> FloatArray:
+            point = self._point.copy()
+            point[free] = part
+            return point
+
+        def residuals(part: FloatArray) -> FloatArray:
+            point = whole(part)
+            own = (self._recorder.values(point) - self._data.values) / errors
+            priors = [(point[i] - p.start) / p.spread for i, p in enumerate(self._parameters) if p.is_prior]
+            found = np.concatenate([own, priors])
+            cost = float(np.sum(np.abs(found)))
+            if cost < self._recorder.best[0]:
+                self._recorder.best = (cost, point)
+            return found
+
+        def slopes(part: FloatArray) -> FloatArray:
+            point = whole(part)
+            own = self._recorder.near_slopes(point, spread) if self._costly else self._recorder.slopes(point)
+            rows = [own / errors[:, None]]
+            rows += [
+                np.eye(len(self._parameters))[i : i + 1] / p.spread
+                for i, p in enumerate(self._parameters)
+                if p.is_prior
+            ]
+            found: FloatArray = np.vstack(rows)[:, free]
+            return found
+
+        self._recorder.best = (math.inf, self._point)
+        self._recorder.slopes(self._point)  # each round begins with computed derivatives
+        inside = np.clip(self._point[free], low, high)
+        robust = math.isfinite(self._limit)
+        solved = least_squares(
+            residuals, inside, slopes, bounds=(low, high), x_scale=spread[free],
+            loss="huber" if robust else "linear", f_scale=self._limit if robust else 1.0,
+            xtol=1e-12, gtol=1e-14, ftol=_COSTLY_TOLERANCE if self._costly else 1e-8 if robust else 1e-14,
+        )  # fmt: skip
+        return whole(solved.x)

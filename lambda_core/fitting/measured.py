@@ -1,0 +1,285 @@
+"""The catalogue of measured series, and how far the program is from each of them without any fit."""
+
+from __future__ import annotations
+
+import math
+import shutil
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import ConfigDict, Field, ValidationError
+
+from lambda_core.analysis.band.model_band import band_of
+from lambda_core.analysis.band.quantities import MEASURED
+from lambda_core.analysis.thermal.temperatures import ready_model
+from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, unknown_name
+from lambda_core.domain.files import user_data_folder
+from lambda_core.fitting.measurements import Measurements, parse_measurements, read_measurements
+from lambda_core.fitting.operating_points import condition_change, point_values
+from lambda_core.fitting.scores import interval_score
+from lambda_core.results.record import INTERFACE, Record
+
+_FOLDER = "measured_data"
+
+
+class MeasuredSeries(Record):
+    """One measured series: where it comes from and what it is compared with."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str = ""
+    title: str
+    case: str = Field(default="", description="case that it is compared with; empty where the program has none")
+    bearing: str = Field(default="", description="what was measured, where there is no case")
+    source: str
+    licence: str
+    how_read: str
+    uncertainty: str
+
+
+@dataclass(frozen=True)
+class _Loaded:
+    series: MeasuredSeries
+    measurements: Measurements
+
+
+class ComparedPoint(Record):
+    """One measured value next to the prediction."""
+
+    line: int
+    quantity: str
+    unit: str
+    measured: float
+    predicted: float
+    band: list[float] = Field(description="90 % model band; empty where it was not asked for")
+
+
+class ComparedSeries(Record):
+    """One series next to the predictions."""
+
+    series: MeasuredSeries
+    points: list[ComparedPoint]
+    mean_error_pct: float | None = Field(description="mean of predicted over measured value less one")
+    mean_absolute_error_pct: float | None
+    inside: int | None = Field(description="measured values inside the band")
+    interval_score: float | None = Field(description="mean of the score over the measured value; small is good")
+    reason: str = Field(default="", description="why the series was not computed")
+
+
+class MeasuredComparison(Record):
+    """Every series next to the predictions; nothing is fitted."""
+
+    interface: int = INTERFACE
+    compared: list[ComparedSeries]
+
+    def text(self) -> str:
+        """Return one line per series, and one per point of those computed."""
+        lines: list[str] = []
+        for one in self.compared:
+            lines += [f"{one.series.name}: {one.series.title}", f"  {one.series.source}; {one.series.uncertainty}"]
+            if one.reason:
+                lines.append(f"  not computed: {one.reason}")
+                continue
+            lines += [f"  {_point(point)}" for point in one.points]
+            lines.append(f"  {_errors(one)}")
+        return "\n".join(lines)
+
+
+def _point(point: ComparedPoint) -> str:
+    error = 100.0 * (point.predicted / point.measured - 1.0)
+    band = f", band {point.band[0]:.4g}..{point.band[1]:.4g}" if point.band else ""
+    return (
+        f"line {point.line}: {point.quantity} measured {point.measured:.4g} {point.unit}, "
+        f"predicted {point.predicted:.4g} {point.unit} ({error:+.1f} %){band}"
+    )
+
+
+def _errors(one: ComparedSeries) -> str:
+    text = f"mean error {one.mean_error_pct:+.1f} %, mean absolute error {one.mean_absolute_error_pct:.1f} %"
+    if one.inside is None:
+        return text
+    return f"{text}; {one.inside} of {len(one.points)} inside the 90 % band, interval score {one.interval_score:.2f}"
+
+
+def measured_series() -> list[MeasuredSeries]:
+    """Return the measured series of the program.
+
+    Returns
+    -------
+    list of MeasuredSeries
+        Those of the program, then those that were added, each with its source, licence, reading and uncertainty.
+    """
+    found = []
+    for folder in (files(__package__).joinpath(_FOLDER), _own_folder()):
+        entries = folder.iterdir() if folder.is_dir() else ()
+        names = sorted(entry.name for entry in entries if entry.name.endswith(".toml"))
+        found += [_read(folder.joinpath(name).read_text(encoding="utf-8"), name) for name in names]
+    return found
+
+
+def _own_folder() -> Path:
+    return user_data_folder() / "measured"
+
+
+def add_measured(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries:
+    """Add a measured series of one's own to the catalogue of series.
+
+    Parameters
+    ----------
+    path : path-like
+        TOML file with the entries `title`, `case`, `source`, `licence`, `how_read` and `uncertainty`; the points are in
+        the CSV file of the same name next to it. Both are copied into the user's data folder.
+    overwrite : bool
+        Replace a series of that name that was added before.
+
+    Returns
+    -------
+    MeasuredSeries
+
+    Raises
+    ------
+    UsageError, CaseError
+        When a file is missing or has mistakes, or the name is taken.
+    """
+    source = Path(path)
+    if source.suffix != ".toml" or not source.is_file():
+        raise UsageError(f"{source} is no TOML file: write title, source, licence, how_read and uncertainty into one")
+    series, name = _load(str(source)).series, source.stem
+    target = _own_folder() / source.name
+    known = {one.name for one in measured_series()}
+    if name in known and not (overwrite and target.is_file()):
+        why = "--force replaces it" if target.is_file() else "it comes with the program: rename your files"
+        raise UsageError(f'there is a measured series "{name}" already; {why}')
+    target.parent.mkdir(parents=True, exist_ok=True)
+    for ending in (".csv", ".toml"):  # a description without points is never seen
+        shutil.copyfile(source.with_suffix(ending), target.with_suffix(ending))
+    return series
+
+
+@one_blas_thread()
+def compare_measured(
+    names: Sequence[str] = (), *, band: bool = True, announce: Callable[[str], None] | None = None
+) -> MeasuredComparison:
+    """Compare measured series with quasi-static solutions; nothing is fitted.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Names of :func:`measured_series`, or files of one's own: a TOML file with the same entries next to a CSV file of
+        the same name. All of the program when empty.
+    band : bool
+        Compute the 90 % model band at every point.
+    announce : callable, optional
+        Called with a sentence for every series.
+
+    Returns
+    -------
+    MeasuredComparison
+        ``text()`` has a line per point. A series that cannot be computed has the reason.
+
+    Raises
+    ------
+    UsageError, CaseError
+        When there is no such series, or its files have mistakes.
+    """
+    loaded = [_load(name) for name in (names or [series.name for series in measured_series()])]
+    found = []
+    for one in loaded:
+        if announce is not None and one.series.case:
+            announce(f"computing {one.series.name}")
+        found.append(_compared(one, band))
+    return MeasuredComparison(compared=found)
+
+
+def _read(text: str, name: str) -> MeasuredSeries:
+    """Read the description of a series."""
+    from lambda_core.case.case_io import toml_tables
+
+    tables: dict[str, Any] = toml_tables(text, name)
+    try:
+        return MeasuredSeries(**{**tables, "name": name.removesuffix(".toml")})
+    except ValidationError as error:
+        raise CaseError(name, [Problem(".".join(map(str, e["loc"])), e["msg"]) for e in error.errors()]) from None
+
+
+def _load(name: str) -> _Loaded:
+    """Return a series with its points."""
+    path = Path(name)
+    if path.suffix == ".toml" and path.is_file():
+        return _Loaded(_read(path.read_text(encoding="utf-8"), path.name), read_measurements(path.with_suffix(".csv")))
+    known = {series.name: series for series in measured_series()}
+    if name not in known:
+        raise UsageError(unknown_name("measured series", name, known))
+    own = _own_folder() / f"{name}.csv"
+    if own.is_file():
+        return _Loaded(known[name], read_measurements(own))
+    text = files(__package__).joinpath(_FOLDER, f"{name}.csv").read_text(encoding="utf-8")
+    return _Loaded(known[name], parse_measurements(text, f"{name}.csv"))
+
+
+def _compared(one: _Loaded, band: bool) -> ComparedSeries:
+    series = one.series
+    if not series.case:
+        return _not_computed(series, f"{series.bearing} cannot be simulated yet")
+    try:
+        points = _points(one, band)
+    except LambdaError as error:
+        return _not_computed(series, " ".join(str(error).split()))
+    measured, predicted = (np.array([getattr(p, name) for p in points]) for name in ("measured", "predicted"))
+    errors = 100.0 * (predicted / measured - 1.0)
+    inside, score = None, None
+    if band:
+        low, high = (np.array([point.band[end] for point in points]) for end in (0, 1))
+        inside = int(np.sum((low <= measured) & (measured <= high)))
+        score = float(np.mean(interval_score(low, high, measured) / np.abs(measured)))
+    return ComparedSeries(
+        series=series,
+        points=points,
+        mean_error_pct=float(errors.mean()),
+        mean_absolute_error_pct=float(np.abs(errors).mean()),
+        inside=inside,
+        interval_score=score,
+    )
+
+
+def _not_computed(series: MeasuredSeries, reason: str) -> ComparedSeries:
+    return ComparedSeries(
+        series=series,
+        points=[],
+        mean_error_pct=None,
+        mean_absolute_error_pct=None,
+        inside=None,
+        interval_score=None,
+        reason=reason,
+    )
+
+
+def _points(one: _Loaded, band: bool) -> list[ComparedPoint]:
+    from lambda_core.case.case_writer import standalone_toml
+    from lambda_core.model.cases import case_of
+
+    data, case = one.measurements, case_of(one.series.case)
+    text, found = standalone_toml(case), []
+    for row, line in enumerate(data.lines):
+        changes = [condition_change(name, float(column[row])) for name, column in data.conditions.items()]
+        names = [name for name, values in data.measured.items() if math.isfinite(values[row])]
+        bands = band_of(ready_model(case, changes, is_static=True), names) if band else None
+        predicted = point_values(text, changes, names).mean(axis=0)
+        for name, value in zip(names, predicted.tolist(), strict=True):
+            ends = bands.band(name) if bands is not None else None
+            found.append(
+                ComparedPoint(
+                    line=line,
+                    quantity=name,
+                    unit=MEASURED[name].unit,
+                    measured=float(data.measured[name][row]),
+                    predicted=value,
+                    band=[ends.low, ends.high] if ends is not None else [],
+                )
+            )
+    return found

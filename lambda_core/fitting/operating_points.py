@@ -1,0 +1,58 @@
+"""Quasi-static predictions of measured quantities at operating points of one bearing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lambda_core.analysis.band.quantities import CONDITIONS
+from lambda_core.analysis.band.readings import READ, read_values
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import CaseError, LambdaError, SolverError, UsageError
+from lambda_core.domain.units import UNITS, from_si
+from lambda_core.domain.written_values import DIGITS
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.studies.job import kernels_of, resolve_point, with_temperatures
+
+
+def condition_change(name: str, value: float) -> str:
+    """Return the change of the case that sets an operating condition, from SI."""
+    condition = CONDITIONS[name]
+    unit = next(iter(UNITS[condition.quantity]))
+    return f"{condition.path}={from_si(value, condition.quantity, unit):.{DIGITS}g} {unit}"
+
+
+def point_values(case_toml: str, changes: Sequence[str], names: Sequence[str], *, one: bool = False) -> FloatArray:
+    """Return measured quantities as a case predicts them at several positions of the balls.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Keys of `quantities.MEASURED`; the numbers have the units of that table.
+    one : bool
+        Solve the first position only: enough for slopes.
+
+    Returns
+    -------
+    float64[:, :], shape (positions, len(names))
+        Their mean is the prediction; one row where the position of the balls does not matter.
+
+    Raises
+    ------
+    CaseError, SolverError
+        When the case is not valid with these changes, or has no equilibrium.
+    """
+    model = with_temperatures(resolve_point(case_toml, tuple(changes)))
+    return model_values(model, names, one=one)
+
+
+def model_values(model: BearingModel, names: Sequence[str], *, one: bool = False) -> FloatArray:
+    """Return measured quantities as a resolved model predicts them; see :func:`point_values`."""
+    return read_values(model, kernels_of(model), [READ[name] for name in names], one=one)
+
+
+def at_line(error: LambdaError, file: str, line: int) -> LambdaError:
+    """Return an error of one operating point with the line of the file it belongs to."""
+    message = f"{file} line {line}: {error}"
+    if isinstance(error, CaseError):
+        return CaseError(f"{file} line {line}: {error.source}", error.problems)
+    return SolverError(message) if isinstance(error, SolverError) else UsageError(message)

@@ -1,0 +1,65 @@
+"""Bands of predicted values with the errors of fitted parameters, laws and new measurements."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lambda_core.analysis.band.model_band import Effects
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import LambdaError
+from lambda_core.fitting.discrepancy import Place, Prediction, coordinates, predict, sizes_known_before
+from lambda_core.fitting.least_squares import Fit
+from lambda_core.fitting.problem import CaseProblem
+
+
+def discrepancy_sizes(problem: CaseProblem, found: Fit) -> dict[str, float]:
+    """Return how large the relative error of the laws may be, by quantity: the model band of all that is not fitted.
+
+    0 where nothing that has a range changes the quantity.
+    """
+    kinds = [entry.quantity for entry in problem.entries]
+    fitted = [graded.path for graded in problem.varied]
+
+    def effects_at(row: int) -> dict[str, float]:
+        effects = Effects(problem.model_at(row, found.values), tuple(dict.fromkeys(kinds)), without=fitted)
+        variances = sum((effect.variance for effect in effects.all()), np.zeros(len(effects.names)))
+        return dict.fromkeys(kinds, 0.0) | dict(zip(effects.names, np.sqrt(variances).tolist(), strict=True))
+
+    try:
+        return sizes_known_before(effects_at, found.predicted, kinds)
+    except LambdaError:  # no solution there with fitted values
+        return dict.fromkeys(kinds, 0.0)
+
+
+def predicted(
+    problem: CaseProblem, found: Fit, sizes: dict[str, float], asked: CaseProblem | None = None
+) -> tuple[FloatArray, Prediction, Prediction]:
+    """Predict points, by default those that were fitted.
+
+    Returns
+    -------
+    tuple of (float64[:], Prediction, Prediction)
+        Values by the fitted parameters alone; with all errors but those of a new measurement; with these.
+    """
+    everywhere = coordinates([*problem.conditions_of_entries(), *(asked or problem).conditions_of_entries()])
+    count, errors = len(problem.entries), found.errors * found.scale
+    # An outlier counts as little here as in the fit.
+    weights = np.minimum(1.0, found.limit / np.maximum(np.abs(found.standardised), 1e-300))
+    at = _place(problem, found.predicted, found.jacobian, everywhere[:count], sizes)
+    if asked is None:
+        new, there = errors, _place(problem, found.predicted, found.jacobian, everywhere[count:], sizes)
+    else:
+        values, slopes = asked.predict(found.values), asked.jacobian(found.values)
+        there = _place(asked, values, slopes, everywhere[count:], sizes)
+        own = asked.data.absolute(values) * (1.0 if asked.data.is_error_known else found.scale)
+        new = np.sqrt(own**2 + asked.input_deviations(found.values) ** 2)
+    plain = (found.parameters, found.values, found.data.values, errors / np.sqrt(weights), at, there)
+    return there.predicted, predict(*plain), predict(*plain, new)
+
+
+def _place(
+    problem: CaseProblem, values: FloatArray, slopes: FloatArray, where: FloatArray, sizes: dict[str, float]
+) -> Place:
+    kinds = tuple(entry.quantity for entry in problem.entries)
+    own = np.array([sizes.get(kind, 0.0) for kind in kinds])
+    return Place(values, slopes, where, kinds, own)

@@ -1,0 +1,224 @@
+"""The fit problem of a case: measured operating points against quasi-static solutions."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lambda_core.analysis.band.graded import Graded
+from lambda_core.analysis.band.quantities import CONDITIONS
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import LambdaError, UsageError
+from lambda_core.fitting.least_squares import Data
+from lambda_core.fitting.measurements import Measurements
+from lambda_core.fitting.operating_points import at_line, condition_change, point_values
+from lambda_core.fitting.parameters import Parameter
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.studies.job import resolve_point, with_temperatures
+
+_STEP = 0.05  # of a parameter's spread before the fit, for slopes: above the scatter of the equilibrium's iteration
+_MOST_CONDITIONS = 3  # that candidates of the next point combine
+_LESS, _MORE = 0.5, 1.5  # of the smallest and largest value measured, where a candidate may lie
+_WARMER = 10.0  # beyond the temperatures measured [K]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One measured value: row of the measurements and name of the quantity."""
+
+    row: int
+    quantity: str
+
+
+class CaseProblem:
+    """Predicted values of measured operating points over the parameters of a fit.
+
+    Parameters
+    ----------
+    case_toml : str
+        The case that the conditions and parameters change.
+    measurements : Measurements
+        What was measured.
+    varied : sequence of Graded
+        Parameters of the fit.
+    """
+
+    def __init__(self, case_toml: str, measurements: Measurements, varied: Sequence[Graded]) -> None:
+        self._case, self._measurements, self.varied = case_toml, measurements, tuple(varied)
+        _refuse_twice(self.varied, measurements)
+        self.parameters = [_parameter(graded) for graded in self.varied]
+        self.entries = [
+            Entry(row, name)
+            for row in range(len(measurements))
+            for name, values in measurements.measured.items()
+            if math.isfinite(values[row])
+        ]
+        self._asked = [
+            tuple(name for name, values in measurements.measured.items() if math.isfinite(values[row]))
+            for row in range(len(measurements))
+        ]
+        self._conditions = [
+            {name: float(values[row]) for name, values in measurements.conditions.items()}
+            for row in range(len(measurements))
+        ]
+        self._known: dict[tuple[str, ...], FloatArray] = {}
+
+    @property
+    def solved(self) -> int:
+        """Operating points solved so far."""
+        return len(self._known)
+
+    @property
+    def data(self) -> Data:
+        """Measured values with their errors, stacked row by row."""
+        m = self._measurements
+        values = np.array([m.measured[e.quantity][e.row] for e in self.entries])
+        known = [e.quantity in m.errors or e.quantity in m.shares for e in self.entries]
+        if any(known) and not all(known):
+            missing = sorted({e.quantity for e, is_known in zip(self.entries, known, strict=True) if not is_known})
+            raise UsageError(f'{m.name}: give errors for all quantities or none; "{missing[0]} error [%]" is missing')
+        errors, is_known = np.ones_like(values), all(known)
+        for index, entry in enumerate(self.entries):
+            if entry.quantity in m.errors:
+                errors[index] = m.errors[entry.quantity][entry.row]
+            elif entry.quantity in m.shares:
+                errors[index] = m.shares[entry.quantity][entry.row] * abs(values[index])
+        columns = {name: column[[e.row for e in self.entries]] for name, column in m.conditions.items()}
+        inputs = [column[[e.row for e in self.entries]] for column in m.condition_errors.values()]
+        stacked = np.column_stack(inputs) if inputs else np.zeros((0, 0))
+        return Data(values, errors, columns, stacked, is_known, not is_known)
+
+    def predict(self, values: FloatArray) -> FloatArray:
+        """Return the predicted values, shape (n,)."""
+        return self._stacked(values, self._conditions)
+
+    def jacobian(self, values: FloatArray) -> FloatArray:
+        """Return their derivatives by the parameters, shape (n, p).
+
+        Differences towards the inside of the bounds, at one position of the balls.
+        """
+        base, columns = self._stacked(values, self._conditions, one=True), []
+        for index, parameter in enumerate(self.parameters):
+            step = _STEP * parameter.spread
+            step = -step if values[index] + step > parameter.high else step
+            moved = values.copy()
+            moved[index] += step
+            columns.append((self._stacked(moved, self._conditions, one=True) - base) / step)
+        return np.column_stack(columns)
+
+    def input_slopes(self, values: FloatArray) -> FloatArray:
+        """Return their derivatives by the conditions that have errors, shape (n, k)."""
+        base, columns = self._stacked(values, self._conditions, one=True), []
+        for name, errors in self._measurements.condition_errors.items():
+            moved = [
+                {**conditions, name: conditions[name] + float(errors[row])}
+                for row, conditions in enumerate(self._conditions)
+            ]
+            steps = np.array([errors[e.row] for e in self.entries])
+            columns.append((self._stacked(values, moved, one=True) - base) / steps)
+        return np.column_stack(columns)
+
+    def input_deviations(self, values: FloatArray) -> FloatArray:
+        """Return the standard deviations of the predicted values by the errors of the conditions, shape (n,)."""
+        data = self.data
+        if not data.input_errors.size:
+            return np.zeros(len(self.entries))
+        moved = self.input_slopes(values) * data.input_errors
+        found: FloatArray = np.sqrt(np.sum(moved**2, axis=1))
+        return found
+
+    def conditions_of_entries(self) -> list[dict[str, float]]:
+        """Return the operating conditions of each measured value, SI."""
+        return [self._conditions[entry.row] for entry in self.entries]
+
+    def model_at(self, row: int, values: FloatArray) -> BearingModel:
+        """Return the model of the case at the operating point of one measured value."""
+        changes = self._changes(values, self._conditions[self.entries[row].row])
+        return with_temperatures(resolve_point(self._case, changes))
+
+    def elsewhere(self, measurements: Measurements) -> CaseProblem:
+        """Return the same problem for other measurements."""
+        return CaseProblem(self._case, measurements, self.varied)
+
+    def candidates(self) -> list[dict[str, float]]:
+        """Return operating points that could be measured next: corners of and beyond what was measured."""
+        levels = {}
+        for name, column in list(self._measurements.conditions.items())[:_MOST_CONDITIONS]:
+            low, high = float(column.min()), float(column.max())
+            if CONDITIONS[name].quantity == "temperature":
+                levels[name] = (low - _WARMER, high + _WARMER)
+            elif low > 0.0:
+                levels[name] = (_LESS * low, _MORE * high)
+        middle = {name: float(np.median(column)) for name, column in self._measurements.conditions.items()}
+        return [{**middle, **dict(zip(levels, corner, strict=True))} for corner in itertools.product(*levels.values())]
+
+    def candidate_slopes(self, values: FloatArray, points: Sequence[dict[str, float]]) -> FloatArray:
+        """Return the first quantity and its derivatives at candidates, shape (m, 1 + p); NaN without a solution."""
+        quantity, found = self.entries[0].quantity, np.full((len(points), 1 + len(self.parameters)), math.nan)
+        for row, conditions in enumerate(points):
+            try:
+                base = float(self._value(values, conditions, (quantity,), one=True)[0])
+                found[row, 0] = base
+                for index, parameter in enumerate(self.parameters):
+                    step = _STEP * parameter.spread
+                    moved = values.copy()
+                    moved[index] += -step if values[index] + step > parameter.high else step
+                    new = float(self._value(moved, conditions, (quantity,), one=True)[0])
+                    found[row, 1 + index] = (new - base) / (moved[index] - values[index])
+            except LambdaError:
+                found[row] = math.nan
+        return found
+
+    def _stacked(self, values: FloatArray, conditions: Sequence[dict[str, float]], *, one: bool = False) -> FloatArray:
+        answers = []
+        for row, at in enumerate(conditions):
+            try:
+                found = self._value(values, at, self._asked[row], one=one)
+            except LambdaError as error:
+                raise at_line(error, self._measurements.name, self._measurements.lines[row]) from None
+            answers.append(dict(zip(self._asked[row], found.tolist(), strict=True)))
+        return np.array([answers[entry.row][entry.quantity] for entry in self.entries])
+
+    def _changes(self, values: FloatArray, conditions: dict[str, float]) -> tuple[str, ...]:
+        """Return what the case is changed by at one operating point."""
+        own = [condition_change(name, value) for name, value in conditions.items()]
+        pairs = zip(self.varied, values.tolist(), strict=True)
+        return (*own, *(change for graded, value in pairs for change in graded.changes(value)))
+
+    def _value(
+        self, values: FloatArray, conditions: dict[str, float], names: tuple[str, ...], *, one: bool
+    ) -> FloatArray:
+        """Return the quantities at one operating point; equal ones are computed once."""
+        changes = self._changes(values, conditions)
+        key = (*changes, *names)
+        for kind in ("all", "one") if one else ("all",):
+            if (kind, *key) in self._known:
+                found = self._known[kind, *key]
+                break
+        else:
+            found = point_values(self._case, changes, names, one=one)
+            self._known["one" if one else "all", *key] = found
+        mean: FloatArray = found[: 1 if one else None].mean(axis=0)
+        return mean
+
+
+def _refuse_twice(varied: Sequence[Graded], measurements: Measurements) -> None:
+    """Refuse a parameter that is named twice, or that a column sets."""
+    columns = {CONDITIONS[name].path: name for name in measurements.conditions}
+    for index, graded in enumerate(varied):
+        if graded.path in columns:
+            raise UsageError(
+                f'--vary {graded.path}: the column "{columns[graded.path]}" of {measurements.name} sets it; '
+                "leave one of the two out"
+            )
+        if any(graded.path == other.path for other in varied[:index]):
+            raise UsageError(f"--vary {graded.path} is given twice: leave one out")
+
+
+def _parameter(graded: Graded) -> Parameter:
+    value = graded.value if math.isfinite(graded.value) else 0.5 * (graded.low + graded.high)
+    return Parameter(graded.short, min(max(value, graded.low), graded.high), graded.low, graded.high)

@@ -1,0 +1,141 @@
+"""A fit in lines for people."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from lambda_core.domain.number_text import plus_minus
+from lambda_core.domain.unit_systems import UnitSystem
+from lambda_core.domain.wrapping import wrapped
+
+if TYPE_CHECKING:
+    from lambda_core.fitting.report import FitReport, FittedParameter
+
+_CORRELATED = 0.8  # from which two parameters are named
+_MOST_POINTS = 30
+
+
+def report_text(report: FitReport, width: int | None, units: UnitSystem) -> str:
+    """Return the sentence, the table of parameters, and what to know about them."""
+    lines = [report.title, report.sentence, *report.warnings, ""]
+    lines += _table([_HEAD, *(_row(parameter) for parameter in report.parameters)])
+    lines += _correlations(report)
+    lines.append(_quality(report))
+    lines += [f"pattern of residuals: {t.name}, p = {t.adjusted_p_value:.2g}" for t in report.tests if t.is_significant]
+    lines += _outliers(report)
+    lines += ["", *_points(report, units)]
+    lines += _predictions(report, units)
+    lines += _next(report, units)
+    return "\n".join(wrapped(lines, width))
+
+
+_HEAD = ("parameter", "value", "95 % interval", "range", "")
+
+
+def _row(parameter: FittedParameter) -> tuple[str, ...]:
+    unit = f" {parameter.unit}" if parameter.unit else ""
+    span = f"{parameter.low:.4g}..{parameter.high:.4g}"
+    if parameter.standard_error is None:
+        return (parameter.name, f"{parameter.value:.4g}{unit}", "-", span, "held: not determined by the data")
+    low, high = parameter.interval_95
+    state = "at the end of its range" if parameter.state == "at limit" else ""
+    value = f"{compact(parameter.value, parameter.standard_error)}{unit}"
+    return (parameter.name, value, f"{low:.4g}..{high:.4g}", span, state)
+
+
+def compact(value: float, error: float) -> str:
+    """Write a value with its standard error to two digits of the latter, small ones with a power of ten."""
+    if not error > 0.0 or not math.isfinite(error):
+        return f"{value:.4g}"
+    power = math.floor(math.log10(max(abs(value), error)))
+    if -4 < power < 6:
+        digits = max(0, 1 - math.floor(math.log10(error)))
+        return f"{value:.{digits}f} ± {error:.{digits}f}"
+    return f"({plus_minus(value / 10.0**power, error / 10.0**power)})e{power}"
+
+
+def _correlations(report: FitReport) -> list[str]:
+    names = [parameter.name for parameter in report.parameters if parameter.state != "held"]
+    found = []
+    for i, row in enumerate(report.correlation):
+        found += [
+            f"correlation of {names[j]} and {names[i]}: {row[j]:+.2f}" for j in range(i) if abs(row[j]) >= _CORRELATED
+        ]
+    weak = [c for c in report.combinations if not c.is_determined]
+    for combination in weak:
+        terms = " ".join(f"{weight:+.2f} {name}" for name, weight in combination.weights.items())
+        found.append(f"not determined by the data: {terms} (in units of their ranges)")
+    return found
+
+
+def _quality(report: FitReport) -> str:
+    if report.scatter_pct is not None:
+        scatter = f"scatter {report.scatter_pct:.2g} % (from the residuals)"
+    else:
+        ratio = report.chi_square_per_degree
+        scatter = f"chi-square per degree of freedom {ratio:.2g}" if ratio is not None else "no degree of freedom left"
+    return (
+        f"error of the fit {report.rms_error_pct:.2g} %, of each point predicted from all others "
+        f"{report.left_out_rms_error_pct:.2g} %; {scatter}"
+    )
+
+
+def _outliers(report: FitReport) -> list[str]:
+    lines = [f"line {p.line} ({p.standardised_residual:+.1f} errors)" for p in report.points if p.is_outlier]
+    return [f"outliers, which count little: {', '.join(lines)}"] if lines else []
+
+
+def _points(report: FitReport, units: UnitSystem) -> list[str]:
+    shown = report.points[:_MOST_POINTS]
+    head = ("line", "quantity", "measured", "predicted", "95 % band", "residual/error")
+    rows = [
+        (
+            str(p.line),
+            f"{p.quantity} [{units.unit(p.unit)}]",
+            f"{units.value(p.measured, p.unit):.4g}",
+            f"{units.value(p.predicted, p.unit):.4g}",
+            "..".join(f"{units.value(end, p.unit):.4g}" for end in p.band),
+            f"{p.standardised_residual:+.1f}",
+        )
+        for p in shown
+    ]
+    rest = len(report.points) - len(shown)
+    return [*_table([head, *rows]), *([f"and {rest} more points (--json has all)"] if rest else []), ""]
+
+
+def _predictions(report: FitReport, units: UnitSystem) -> list[str]:
+    """Return the points that the fit has not seen."""
+    if not report.predictions:
+        return []
+    head = ("line", "quantity", "measured", "predicted", "95 % band with errors of laws", "")
+    rows = [
+        (
+            str(p.line),
+            f"{p.quantity} [{units.unit(p.unit)}]",
+            f"{units.value(p.measured, p.unit):.4g}",
+            f"{units.value(p.predicted, p.unit):.4g}",
+            "..".join(f"{units.value(end, p.unit):.4g}" for end in p.band),
+            "inside" if p.is_inside else "OUTSIDE",
+        )
+        for p in report.predictions
+    ]
+    inside = sum(p.is_inside for p in report.predictions)
+    title = f"points that the fit has not seen: {inside} of {len(rows)} inside the band"
+    return [title, *_table([head, *rows]), ""]
+
+
+def _next(report: FitReport, units: UnitSystem) -> list[str]:
+    point = report.next_point
+    if point is None:
+        return []
+    where = ", ".join(f"{name} {units.sentence(value)}" for name, value in point.conditions.items())
+    names = " and ".join(point.combination)
+    gain = f"from {point.spread_before:.2f} to {point.spread_after:.2f} of what was known before"
+    return [f"next point to measure: {where}; it narrows {names} {gain}"]
+
+
+def _table(rows: Sequence[Sequence[str]]) -> list[str]:
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]

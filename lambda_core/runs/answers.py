@@ -1,0 +1,213 @@
+"""Results: opening, summarising and citing them, and comparing them with methods of the literature."""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.analysis.thermal.temperatures import ready_model
+from lambda_core.domain.errors import UsageError, unknown_name
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping, Sequence
+
+    from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.results.citation import Citation
+    from lambda_core.results.reader import Result
+    from lambda_core.results.side_by_side import SideBySide
+    from lambda_core.results.summary import Summary
+    from lambda_core.runs.comparison import Comparison
+    from lambda_core.views.method import Method
+
+
+def result(path: str | PathLike[str], bearing: str | None = None) -> Result:
+    """Open a result file: finished, still growing, or left behind by a killed process.
+
+    Parameters
+    ----------
+    path : path-like
+        The file, or a result.
+    bearing : str, optional
+        Look at this bearing of a machine; default: at the only one, or at the machine.
+
+    Returns
+    -------
+    Result
+        Reads from the file what it is asked for.
+
+    Raises
+    ------
+    UsageError
+        When the file does not exist, is not a result, or is damaged.
+    """
+    from lambda_core.results.reader import Result
+
+    if isinstance(path, Result):
+        return path if bearing is None else path.of_bearing(bearing)
+    return Result(path, bearing)
+
+
+def side_by_side(paths: Sequence[str | PathLike[str]]) -> SideBySide:
+    """Compare several results: the options in which their cases differ, and the numbers that follow.
+
+    Parameters
+    ----------
+    paths : sequence of path-like
+        Two or more results or their files.
+
+    Returns
+    -------
+    SideBySide
+        Differing options as written, key numbers with units.
+
+    Raises
+    ------
+    UsageError
+        For fewer than two, or a file that is no result or holds no samples yet.
+    """
+    from lambda_core.results.side_by_side import side_by_side as put
+
+    return put([result(path) for path in paths])
+
+
+def summary(path: str | PathLike[str]) -> Summary:
+    """Return the averages and the end state of a result (the machine interface).
+
+    Parameters
+    ----------
+    path : path-like
+        Result file, or a result.
+
+    Returns
+    -------
+    Summary
+        Numbers in the units of their names.
+
+    Raises
+    ------
+    UsageError
+        When the file is no result or holds no samples yet.
+    """
+    return result(path).summary()
+
+
+def cite(path: str | PathLike[str]) -> Citation:
+    """Return the references of exactly the laws and data that a result used, and of the program.
+
+    Parameters
+    ----------
+    path : path-like
+        Result file, or a result.
+
+    Returns
+    -------
+    Citation
+        Read from the file: it does not need the plugins that were used.
+
+    Raises
+    ------
+    UsageError
+        When the file does not exist, is not a result, or is damaged.
+    """
+    from lambda_core.results.citation import citation
+
+    return citation(result(path))
+
+
+def compare(
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    overrides: Iterable[str] = (),
+    *,
+    methods: Sequence[str] = (),
+    result: str | PathLike[str] | None = None,
+    contamination: float | None = None,
+    bearing: str | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Comparison:
+    """Apply every comparison method to one case, at its start.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    methods : sequence of str
+        Names of methods; every installed one when empty.
+    result : path-like, optional
+        Result of the same case, or its file: its simulation becomes the first column.
+    contamination : float, optional
+        e_C of ISO 281, for modified lives.
+    bearing : str, optional
+        Which one of a machine: under the load that it carries there.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Comparison
+        One column per method, rows with units; methods that do not apply with the reason.
+
+    Raises
+    ------
+    UsageError
+        For an unknown method, or a result of another case.
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.case.case_io import is_machine, refuse_bearing
+    from lambda_core.discovery.manager import registry
+    from lambda_core.model.roller_case import roller_model
+    from lambda_core.results.reader import Result
+    from lambda_core.runs.compare_methods import compare as ask
+    from lambda_core.runs.compare_rollers import compare_rollers
+    from lambda_core.runs.comparison import comparison_of
+
+    known = registry().methods
+    unknown = next((name for name in methods if name not in known), None)
+    if unknown is not None:
+        raise UsageError(unknown_name("comparison method", unknown, known))
+    every = list(known.values())
+    chosen = [known[name] for name in methods] or [one for one in every if one.is_about(rollers=False)]
+    if is_machine(source):
+        if result is not None:
+            raise UsageError("a result is compared with a case of one bearing; leave it out for one of a machine")
+        return _compare_in_machine(source, overrides, bearing, chosen, contamination, announce)
+    refuse_bearing(bearing)
+    rollers = roller_model(source, overrides) if not hasattr(source, "laws") else None  # type: ignore[arg-type]
+    if rollers is not None:
+        if result is not None:
+            raise UsageError("results of roller bearings in motion do not exist: leave the result out")
+        of_rollers = chosen if methods else [one for one in every if one.is_about(rollers=True)]
+        return compare_rollers(rollers, of_rollers, contamination)
+    model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
+    simulated = result if result is None or isinstance(result, Result) else Result(result)
+    return comparison_of(model, ask(model, chosen, contamination=contamination, announce=announce), simulated)
+
+
+def _compare_in_machine(
+    source: Any, overrides: Iterable[str], bearing: str | None, methods: Sequence[Method], contamination: float | None,
+    announce: Callable[[str], None] | None,
+) -> Comparison:  # fmt: skip
+    """Compare methods on one bearing of a machine, at its pose there."""
+    import dataclasses
+
+    from lambda_core.analysis.rotor.bearing_alone import alone_under_load, bearing_number
+    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+    from lambda_core.runs.compare_methods import comparison_inputs
+    from lambda_core.runs.comparison import comparison_of
+    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+    from lambda_core.views.method import evaluate_methods
+
+    machine = ready_machine_of(source, overrides, announce)
+    number = bearing_number(machine, bearing)
+    state = solve_shaft(machine, announce)
+    given = machine.bearings[number].model.contamination if contamination is None else contamination
+    inputs = comparison_inputs(state.rings[number].equilibrium(), contamination=given)
+    alone = alone_under_load(machine, state, number)
+    return comparison_of(
+        dataclasses.replace(alone, name=f"{machine.name}, {machine.bearings[number].name}"),
+        evaluate_methods(methods, inputs),
+    )

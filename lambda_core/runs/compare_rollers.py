@@ -1,0 +1,49 @@
+"""Every comparison method on one roller bearing, side by side."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from lambda_core.results.roller_quasistatic import headline_of, solve_rollers
+from lambda_core.runs.comparison import Comparison, compared
+from lambda_core.views.method import Method, RollerMethodInputs, evaluate_methods
+
+if TYPE_CHECKING:
+    from lambda_core.model.roller_case import RollerModel
+
+
+def compare_rollers(model: RollerModel, methods: Iterable[Method], contamination: float | None = None) -> Comparison:
+    """Ask every method about a roller bearing; errors as :func:`lambda_core.results.roller_quasistatic.solve_rollers`.
+
+    Parameters
+    ----------
+    contamination : float, optional
+        e_C of ISO 281, for modified lives.
+    """
+    solved = solve_rollers(model)
+    loads = solved.state.loads
+    radial, axial = math.hypot(loads[1], loads[2]), abs(float(loads[0]))
+    inputs = RollerMethodInputs(
+        title=model.title,
+        bearing=model.bearing,
+        oil=model.oil,
+        base_type=model.base_type,
+        radial_load=radial,
+        axial_load=axial,
+        inner_speed=model.speeds[0],
+        outer_speed=model.speeds[1],
+        lubrication=model.lubrication,
+        oil_height=model.friction.oil_height,
+        state=solved.state,
+        friction=solved.friction,
+        contamination=contamination,
+    )
+    return Comparison(
+        case=model.name,
+        title=model.title,
+        headline=headline_of(model, radial, axial),
+        methods=[compared(answer) for answer in evaluate_methods(methods, inputs)],
+        assumptions=list(model.assumptions),
+    )

@@ -1,0 +1,97 @@
+"""Life, safety and catalogue friction of a quasi-static solution: the numbers an engineer asks for first."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lambda_core.formulas.life import contamination_range
+from lambda_core.model.laws.method_inputs import bearing_load
+from lambda_core.results.rating import Rating
+from lambda_core.results.verdict import limits_of
+from lambda_core.runs.compare_methods import comparison_inputs, equilibrium_state
+from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.views.method import Method, evaluate_methods
+
+if TYPE_CHECKING:
+    from lambda_core.elements.roller.roller_bearing import RollerBearing
+    from lambda_core.model.bearing_model import BearingModel
+
+# Field of the rating -> method that answers it, group and name of the row.
+_ROWS: dict[str, tuple[str, str, str]] = {
+    "basic_life_h": ("iso-281", "life", "basic rating life, hours"),
+    "reference_life_h": ("iso-ts-16281", "life", "reference rating life, hours"),
+    "modified_life_h": ("iso-281", "life", "modified rating life, hours"),
+    "modified_reference_life_h": ("iso-ts-16281", "life", "reference modified rating life, hours"),
+    "life_factor": ("iso-281", "life", "life modification factor"),
+    "equivalent_load_N": ("iso-281", "life", "equivalent load"),
+    "static_safety": ("iso-281", "rating", "static safety"),
+    "viscosity_ratio": ("iso-281", "life", "viscosity ratio"),
+    "skf_torque_Nmm": ("skf", "friction", "total"),
+    "schaeffler_torque_Nmm": ("schaeffler", "friction", "total"),
+}
+
+
+def rating_of(found: Equilibrium, methods: Mapping[str, Method]) -> Rating:
+    """Ask the installed methods of life and catalogue friction about an equilibrium.
+
+    Parameters
+    ----------
+    methods : mapping
+        Installed comparison methods by name; numbers of one that is not there are None.
+    """
+    if found.context.model.rollers is not None:
+        return _of_rollers(found, found.context.model.rollers)
+    asked = [methods[name] for name in dict.fromkeys(row[0] for row in _ROWS.values()) if name in methods]
+    model = found.context.model
+    lower, _ = contamination_range("normal cleanliness", model.geometry.pitch_diameter)
+    contamination = lower if model.contamination is None else model.contamination
+    answers = evaluate_methods(asked, comparison_inputs(found, contamination=contamination, stiffness=False))
+    rows = {
+        (answer.method.name, str(row.group), row.name): row.value
+        for answer in answers
+        if answer.table is not None
+        for row in answer.table.rows
+        if math.isfinite(row.value)
+    }
+    notes = [f"{answer.method.title}: {answer.reason}" for answer in answers if answer.reason]
+    return Rating(
+        **{name: rows.get(key) for name, key in _ROWS.items()},
+        contamination=contamination,
+        contamination_given=model.contamination is not None,
+        limits=limits_of(model),
+        notes=notes,
+    )
+
+
+def _of_rollers(found: Equilibrium, rollers: RollerBearing) -> Rating:
+    """Rate rollers as their quasi-static answer does, tilted as in the equilibrium; a_ISO of rollers is left out."""
+    from lambda_core.elements.roller.roller_equilibrium import balance
+    from lambda_core.elements.roller.roller_motion import rolling_motion
+    from lambda_core.results.roller_quasistatic import roller_lives
+
+    model, oil = found.context.model, found.context.oil
+    radial, axial = bearing_load(model, equilibrium_state(found))
+    _, y, z, *tilts = found.displacement
+    way = math.atan2(z, y)
+    loads = np.array([0.0, radial * math.cos(way), radial * math.sin(way), 0.0, 0.0])
+    motion = rolling_motion(rollers, found.relative_speed)
+    try:
+        state = balance(
+            rollers,
+            loads,
+            held=(True, False, False, True, True),
+            displacement=np.array([0.0, 0.0, 0.0, *tilts]),
+            inertial=motion.inertial(rollers),
+        )
+    except (ValueError, ArithmeticError) as error:
+        return _rating({}, model, f"rating lives: {error}")
+    lives = roller_lives(rollers, state, (radial, axial), found.relative_speed, oil.viscosity / oil.density)
+    return _rating(lives, model, "a_ISO of rollers is left out")
+
+
+def _rating(lives: Mapping[str, float | None], model: BearingModel, note: str) -> Rating:
+    return Rating.model_validate({**dict.fromkeys(_ROWS), **lives, "limits": limits_of(model), "notes": [note]})

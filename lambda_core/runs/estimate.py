@@ -1,0 +1,190 @@
+"""Estimate equilibrium, rating life and processor time of a case before it is run."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from pydantic import Field
+
+from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium, equilibrium_of
+from lambda_core.analysis.rotor.machine_modes import MachineModes, modes_of
+from lambda_core.model.bearing_model import BearingModel, Solver
+from lambda_core.model.laws.time_functions import initial
+from lambda_core.model.machine_model import MachineModel
+from lambda_core.results.convergence import AVERAGED_AT_LEAST, DISCARDED_AT_LEAST
+from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
+from lambda_core.results.rating import Rating
+from lambda_core.results.record import Record
+from lambda_core.runs.engineering import rating_of
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_start
+from lambda_core.views.method import Method
+
+# Share of a cage turn that is simulated to see how fast it goes; the first steps are no slower than later ones.
+_TRIAL = 0.05
+_TRIAL_WALL = 2.0  # [s] longest trial; slow bearings do not get as far
+
+
+SIMULATED = "simulated time of the run: what the case says, else the shortest in which it can converge"
+PROCESSOR = "processor time of the run on this machine, from a trial; null where there is none"
+
+
+class Estimate(Record):
+    """Numbers for a case that is being set up; null where there is none."""
+
+    equilibrium: QuasiStatic
+    rating_life_h: float | None = Field(description="basic rating life L_10h (ISO 281)")
+    viscosity_ratio: float | None = Field(description="kappa = nu/nu_1 (ISO 281)")
+    rating: Rating = Field(description="life, safety and catalogue friction")
+    simulated_s: float | None = Field(description=SIMULATED)
+    processor_s: float | None = Field(description=PROCESSOR)
+    basis: str = Field(description="what both times follow from")
+
+    def text(self) -> str:
+        """Return the lines for people."""
+        return _text(self.equilibrium.case, self)
+
+    def __repr__(self) -> str:
+        """Return case and processor time."""
+        return f"<Estimate {self.equilibrium.case}, {_time(self.processor_s)} of processor time>"
+
+
+class MachineEstimate(Record):
+    """Numbers for a machine that is being set up."""
+
+    equilibrium: MachineEquilibrium
+    modes: MachineModes
+    simulated_s: float | None = Field(description=SIMULATED)
+    processor_s: float | None = Field(description=PROCESSOR)
+    basis: str = Field(description="what both times follow from")
+
+    def text(self) -> str:
+        """Return the lines for people."""
+        return _text(self.equilibrium.case, self)
+
+    def __repr__(self) -> str:
+        """Return case and processor time."""
+        return f"<MachineEstimate {self.equilibrium.case}, {_time(self.processor_s)} of processor time>"
+
+
+def _text(case: str, found: Estimate | MachineEstimate) -> str:
+    """Return what a run takes, and what that follows from."""
+    if found.processor_s is None:
+        return f"{case}: nothing is known of the time that a run takes\nbasis  {found.basis}"
+    simulated = f"{found.simulated_s:.3g} s"
+    return f"{case}: a run of {simulated} takes {_time(found.processor_s)} of processor time\nbasis  {found.basis}"
+
+
+def _time(seconds: float | None) -> str:
+    return "unknown" if seconds is None else f"{seconds:.2g} s" if seconds < 100.0 else f"{seconds / 60.0:.3g} min"
+
+
+def machine_estimate(model: MachineModel, announce: Callable[[str], None] | None = None) -> MachineEstimate:
+    """Solve the equilibrium of a machine once and say what follows from it.
+
+    Raises
+    ------
+    SolverError
+        When there is no equilibrium.
+    """
+    start = machine_start(model, announce)
+    bearings = [bearing.model for bearing in model.bearings]
+    turn = max(_cage_turn(one, found) for one, found in zip(bearings, start.equilibria, strict=True))
+    simulated = max(
+        (_simulated_time(one, found) for one, found in zip(bearings, start.equilibria, strict=True)),
+        key=lambda time: math.inf if time is None else time,
+    )
+    trial = None if simulated is None else _trial(MachineEngine(start, announce), turn, simulated)
+    return MachineEstimate(
+        equilibrium=equilibrium_of(model, start.state, start.equilibria), modes=modes_of(model, start.state),
+        simulated_s=simulated, processor_s=None if trial is None else trial.seconds,
+        basis=_basis(model.solver, simulated, turn, trial),
+    )  # fmt: skip
+
+
+def estimate(
+    model: BearingModel, methods: Mapping[str, Method], announce: Callable[[str], None] | None = None
+) -> Estimate:
+    """Solve the equilibrium of a model and say what follows from it.
+
+    Parameters
+    ----------
+    methods : mapping
+        Installed comparison methods by name; the life comes from the one of ISO 281.
+
+    Raises
+    ------
+    SolverError
+        When there is no equilibrium.
+    """
+    found = solve(model, announce=announce)
+    rating = rating_of(found, methods)
+    simulated, turn = _simulated_time(model, found), _cage_turn(model, found)
+    trial = None if simulated is None else _trial(BearingEngine(model, announce, found), turn, simulated)
+    return Estimate(
+        equilibrium=quasistatic_of(found, rating),
+        rating_life_h=rating.basic_life_h,
+        viscosity_ratio=rating.viscosity_ratio,
+        rating=rating,
+        simulated_s=simulated,
+        processor_s=None if trial is None else trial.seconds,
+        basis=_basis(model.solver, simulated, turn, trial),
+    )
+
+
+def _cage_turn(model: BearingModel, found: Equilibrium) -> float:
+    """Return the duration of one cage turn against the outer ring [s]; inf at rest."""
+    speed = abs(found.orbit - initial(model.outer_ring.dofs["spin"].motion))
+    return 2.0 * math.pi / speed if speed > 0.0 else math.inf
+
+
+def _simulated_time(model: BearingModel, found: Equilibrium) -> float | None:
+    solver = model.solver
+    if solver.duration > 0.0:
+        return solver.duration
+    needed = min(_turns(solver) * _cage_turn(model, found), solver.max_duration)
+    return needed if math.isfinite(needed) else None
+
+
+def _turns(solver: Solver) -> int:
+    """Return how many cage turns a run needs at least to converge."""
+    discard = max(DISCARDED_AT_LEAST, math.ceil(solver.discard_revolutions))
+    return discard + max(AVERAGED_AT_LEAST, math.ceil(solver.average_revolutions))
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """The first moments of a run: what of it was simulated [s], in what processor time, and that of the run [s]."""
+
+    simulated: float
+    spent: float
+    seconds: float
+
+
+def _trial(engine: BearingEngine | MachineEngine, turn: float, simulated: float) -> _Trial | None:
+    """Integrate the first moments of a run, None where these cannot be computed."""
+    wall, begin = time.perf_counter(), time.process_time()
+    advance = engine.advance(min(_TRIAL * turn, simulated), lambda: time.perf_counter() - wall > _TRIAL_WALL)
+    spent = time.process_time() - begin
+    if not advance.ok or not engine.time > 0.0:
+        return None
+    return _Trial(engine.time, spent, spent * simulated / engine.time)
+
+
+def _basis(solver: Solver, simulated: float | None, turn: float, trial: _Trial | None) -> str:
+    """Say what an estimate follows from."""
+    if simulated is None:
+        return "nothing turns and the case has no solver.duration: a run has no end of its own"
+    if trial is None:
+        return "the first moments of a run could not be computed"
+    if solver.duration > 0.0:
+        end = "solver.duration of the case"
+    elif simulated < _turns(solver) * turn:
+        end = "solver.max_duration"
+    else:
+        end = f"{_turns(solver)} turns of the slowest cage, the fewest after which a run can have converged"
+    return f"{end}; a trial of {1e3 * trial.simulated:.3g} ms took {1e3 * trial.spent:.3g} ms on this machine"

@@ -1,0 +1,261 @@
+"""From a resolved model to a running simulation: where the result goes, and what must be the same to go on."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.files import check_folder, check_new, check_target
+from lambda_core.domain.units import show
+from lambda_core.laws.kernels import sources_key
+from lambda_core.laws.pack import NATIVE, code, other_code
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.checks.describe import headline
+from lambda_core.model.machine_model import MachineModel
+from lambda_core.model.settings.resolve_solver import MOST_TIME
+from lambda_core.results.opening import ResultError
+from lambda_core.results.provenance import (
+    BearingOrigin,
+    MachineOrigin,
+    Provenance,
+    differences,
+    machine_data,
+    model_data,
+)
+from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
+from lambda_core.results.reader import Result
+from lambda_core.runs.engineering import rating_of
+from lambda_core.runs.law_blame import BlamingBearingEngine, naming_laws
+from lambda_core.runs.loop import resume, run
+from lambda_core.runs.progress import Report
+from lambda_core.runs.run_engine import OneBearing, RunEngine, SeveralBearings
+from lambda_core.runs.session import Attachments
+from lambda_core.solver.code_files import physics_sources
+from lambda_core.solver.drivers.equilibrium import solve
+
+if TYPE_CHECKING:
+    from lambda_core.analysis.electric.live import Live
+Announce = Callable[[str], None]
+Runnable = BearingModel | MachineModel
+
+
+def launch(
+    model: Runnable,
+    out: Path | None = None,
+    *,
+    force: bool = False,
+    band: bool = False,
+    report: Report | None = None,
+    announce: Announce | None = None,
+) -> Result:
+    """Run a model from its quasi-static equilibrium into a result file.
+
+    Parameters
+    ----------
+    out : pathlib.Path, optional
+        The result file; by default the case's name in the working directory, with a number
+        where that is taken.
+    force : bool
+        Overwrite `out`.
+    band : bool
+        Write the model band of each bearing.
+    report, announce : callable, optional
+        Called with the progress of the run; with a sentence before what takes a while.
+    """
+    path = destination(model, out, force)
+    _check_end(model)
+    engine, provenance, attached = prepared(model, announce)
+    if band:
+        provenance = _with_bands(model, provenance, announce)
+    return run(engine, provenance, path, force=force, report=report, attached=attached)
+
+
+def relaunch(path: Path, model: Runnable, *, report: Report | None = None, announce: Announce | None = None) -> Result:
+    """Go on with the run in `path`, whose case resolves to `model` today.
+
+    Raises
+    ------
+    ResultError
+        When the catalogue, the models or the code have changed, so that it would not be the same run.
+    """
+    result = Result(path)
+    _check_end(model)
+    _check_same(result, model)
+    keys = {name: own.kernel_keys for name, own in result.bearings.items()}
+    for known in keys.values():
+        if why := other_code(known.get("code", NATIVE)):
+            raise ResultError(f"{path} cannot go on: {why}")
+    engine, provenance, attached = prepared(model, announce)
+    for name, origin in provenance.bearings.items():
+        other = sorted(part for part, key in origin.kernel_keys.items() if keys[name].get(part) != key)
+        if other:
+            raise ResultError(f"{path} cannot go on: the code has changed since: {_some(other)}")
+    return resume(engine, provenance, path, report=report, attached=attached)
+
+
+def _check_same(result: Result, model: Runnable) -> None:
+    """Refuse a case that resolves to other values than those of the run."""
+    models = {one.name: one.model for one in model.bearings} if isinstance(model, MachineModel) else {}
+    if isinstance(model, BearingModel):
+        models = dict.fromkeys(result.bearing_names[:1], model)
+    if tuple(models) != result.bearing_names:
+        raise ResultError(f"{result.path} is damaged: its case has other bearings than the result")
+    for name, own in result.bearings.items():
+        changed = differences(own.model, model_data(models[name]))
+        if changed:
+            moved = _moved(models[name], own.model)
+            of = f"{name}: " if result.is_machine else ""
+            why = (
+                f"its laws have changed: {_some(moved)}"
+                if moved
+                else f"the case now resolves to other values: {of}{_some(changed)}"
+            )
+            raise ResultError(f"{result.path} cannot go on: {why}")
+    changed = differences(result.machine, machine_data(model)) if isinstance(model, MachineModel) else []
+    if changed:
+        raise ResultError(f"{result.path} cannot go on: the case now resolves to other values: {_some(changed)}")
+
+
+def _check_end(model: Runnable) -> None:
+    """Refuse a run of a machine that has no end, or none that is reached."""
+    if not isinstance(model, MachineModel):
+        return
+    asked = model.solver.duration
+    end = asked or max(bearing.model.solver.max_duration for bearing in model.bearings)
+    if not end:
+        raise UsageError("where nothing turns a run needs a duration: --duration, or solver.duration in the file")
+    if end > MOST_TIME:
+        slow = "" if asked else ", 30 turns of a cage; give --duration"
+        raise UsageError(f"a duration of {show(end, 'time', 3)}{slow}: at most {show(MOST_TIME, 'time')} are simulated")
+
+
+def destination(model: Runnable, out: Path | None, force: bool) -> Path:
+    """Return where the result goes; UsageError where that cannot be."""
+    if out is None:
+        path, number = Path(f"{model.name}.h5"), 1
+        while path.exists():
+            number += 1
+            path = Path(f"{model.name}-{number}.h5")
+    else:
+        path = out
+        if path.is_dir():
+            raise UsageError(f"{path} is a folder: name a file in it, for example {path / model.name}.h5")
+        check_new(check_target(path), force)
+    check_folder(path.absolute().parent, path)
+    return path
+
+
+def prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Provenance, Attachments]:
+    """Return the engine at t = 0, its origin, and what is computed from its samples."""
+    found = _machine(model, announce) if isinstance(model, MachineModel) else _one(model, announce)
+    engine, provenance, live = found
+    attached = Attachments.of(provenance, live)
+    shared = {"core": sources_key(*physics_sources()), "code": code(), **(live.keys() if live is not None else {})}
+    origins = {
+        name: dataclasses.replace(origin, kernel_keys={**origin.kernel_keys, **attached.watches[name].keys(), **shared})
+        for name, origin in provenance.bearings.items()
+    }
+    return engine, dataclasses.replace(provenance, bearings=origins), attached
+
+
+def _with_bands(model: Runnable, provenance: Provenance, announce: Announce | None) -> Provenance:
+    """Return where a run comes from with the model band of each bearing."""
+    from lambda_core.analysis.band.model_band import band_of, bands_of_machine
+
+    if announce is not None:
+        announce("computing the model band from the ranges of parameters and laws")
+    if isinstance(model, BearingModel):
+        bands = dict.fromkeys(provenance.bearings, band_of(model))
+    else:
+        from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+
+        bands = bands_of_machine(model, solve_shaft(model)).bearings
+    origins = {name: dataclasses.replace(origin, band=bands[name]) for name, origin in provenance.bearings.items()}
+    return dataclasses.replace(provenance, bearings=origins)
+
+
+def _live(model: Runnable, announce: Announce | None) -> Live | None:
+    """Return the electric circuit of the run, where the case has one."""
+    if model.electric is None:
+        return None
+    from lambda_core.analysis.electric.live import Live
+
+    return Live(model, announce)
+
+
+def _one(model: BearingModel, announce: Announce | None) -> tuple[RunEngine, Provenance, Live | None]:
+    """Prepare the run of one bearing alone."""
+    live = _live(model, announce)
+    with naming_laws(model):
+        start = solve(model, announce=announce)
+    if announce is not None:
+        announce(_start_line(quasistatic_of(start), "balls" if model.rollers is None else "rollers"))
+    engine = BlamingBearingEngine(model, announce, start)
+    rating = rating_of(start, registry().methods)
+    return OneBearing(engine), Provenance.alone(model, engine.kernel_keys, rating), live
+
+
+def _machine(model: MachineModel, announce: Announce | None) -> tuple[RunEngine, Provenance, Live | None]:
+    """Prepare the run of a machine."""
+    from lambda_core.analysis.rotor.bearing_alone import alone_under_load
+    from lambda_core.runs.machine_law_blame import BlamingMachineEngine
+    from lambda_core.solver.drivers.machine_motion import machine_start
+
+    live = _live(model, announce)
+    with naming_laws(*(one.model for one in model.bearings)):
+        engine = BlamingMachineEngine(machine_start(model, announce), announce)
+    start = engine.start
+    if announce is not None:
+        announce(
+            f"equilibrium of {len(engine.bearings)} bearings and {start.shaft.positions.size} lumps of the shaft: "
+            f"{engine.states} states"
+        )
+    bearings, methods = {}, registry().methods
+    for i, one in enumerate(model.bearings):
+        rating = rating_of(start.equilibria[i], methods)
+        keys = engine.bearings[i].context.kernels.keys()
+        lines = headline(alone_under_load(model, start.state, i))
+        bearings[one.name] = BearingOrigin(one.model, keys, rating, "\n".join(lines))
+    names = " + ".join(one.model.title.split(" (")[0] for one in model.bearings)
+    title = f"{model.name}: {names}"
+    origin = MachineOrigin(
+        headline=f"{title}\n{30.0 / math.pi * model.speed:.5g} 1/min   {model.body.total_mass:.4g} kg on the shaft",
+        model=machine_data(model),
+        numbers={"drive_torque": start.drive_torque},
+        labels={"lump": start.shaft.positions, **{_DIMS[what]: names for what, names in model.names.items()}},
+        assumptions=model.assumptions,
+        warnings=model.warnings,
+    )
+    return SeveralBearings(engine), Provenance(model.name, title, model.case_toml, bearings, origin), live
+
+
+_DIMS = {"bearings": "bearing", "bodies": "body", "markers": "marker"}  # lists of names, and their dimensions
+
+
+def _start_line(start: QuasiStatic, elements: str = "balls") -> str:
+    return (
+        f"equilibrium: {start.loaded_balls} {elements} loaded, "
+        f"Q_max {start.max_load_N / 1e3:.2f} kN ({start.max_load_ring} ring), p_max {start.max_pressure_GPa:.2f} GPa"
+    )
+
+
+def _moved(model: BearingModel, before: Mapping[str, Any]) -> list[str]:
+    """Return a sentence for each law that comes from another package, version or text of a file than before."""
+    found: dict[str, None] = {}
+    for element, roles in model.laws.items():
+        for role, law in roles.items():
+            then = before["laws"].get(element, {}).get(role, {}).get("model", {}).get("distribution", "")
+            now = law.model.distribution
+            if then != now:
+                found[f"{role}/{law.model.name} is of {now} now, it was of {then}"] = None
+    return list(found)
+
+
+def _some(names: list[str]) -> str:
+    shown = ", ".join(names[:5])
+    return shown if len(names) <= 5 else f"{shown} and {len(names) - 5} more"

@@ -1,0 +1,11 @@
+"""Blame a plugin law that broke the run of a machine; apart, so that one bearing loads no code of machines."""
+
+from __future__ import annotations
+
+from lambda_core.runs.law_blame import BlamingEngine
+from lambda_core.solver.drivers.machine_motion import MachineEngine
+from lambda_core.solver.drivers.readings import MachineSamples, Sums
+
+
+class BlamingMachineEngine(BlamingEngine[MachineSamples, list[Sums]], MachineEngine):
+    """The dynamics of a machine; when they fail, the laws of others are looked at first."""

@@ -1,0 +1,120 @@
+"""Adapt the dynamics of one bearing and of a machine to the run loop."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.model.laws.state_channels import result_channels
+from lambda_core.results.samples import ALONE, TIME, RunChannels, Samples
+from lambda_core.runs.machine_channels import MACHINE_CHANNELS
+
+if TYPE_CHECKING:
+    from lambda_core.domain.channels import Channel
+    from lambda_core.solver.drivers.dynamics import BearingEngine
+    from lambda_core.solver.drivers.engine import Advance
+    from lambda_core.solver.drivers.machine_motion import MachineEngine
+
+
+class RunEngine(Protocol):
+    """The dynamics of a machine of one or more bearings, as the run loop asks for them.
+
+    The step sequence does not depend on when `advance` is called or what is sampled, so a
+    run continued from `state` is the run that was never interrupted, bit for bit.
+    """
+
+    @property
+    def channels(self) -> RunChannels:
+        """Return what every sample carries."""
+
+    @property
+    def time(self) -> float:
+        """Return the start of the next step [s]."""
+
+    @property
+    def sample_interval(self) -> float:
+        """Return the time between samples [s]."""
+
+    def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
+        """Integrate until `time` >= `until` [s] or `pause` says so; samples gather meanwhile."""
+
+    def samples(self) -> Samples:
+        """Return and clear the buffered samples."""
+
+    def integrals(self) -> dict[str, dict[str, float]]:
+        """Return the running integrals of every bearing by its name (see :class:`BearingReadings`)."""
+
+    def statistics(self) -> dict[str, float]:
+        """Return counters of the integrator since the start, those of a restored state among them."""
+
+    def modes(self) -> list[tuple[float, float]]:
+        """Return frequency [Hz] and damping ratio of the modes at `time`."""
+
+    def state(self) -> dict[str, NDArray[np.float64]]:
+        """Return everything that a continuation needs."""
+
+    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
+        """Continue from what `state` returned."""
+
+
+class OneBearing:
+    """The dynamics of one bearing alone, for the run loop."""
+
+    def __init__(self, engine: BearingEngine) -> None:
+        self._engine = engine
+        self.channels = RunChannels((), {ALONE: without_time(engine.channels)})
+        self.advance, self.statistics, self.modes = engine.advance, engine.statistics, engine.modes
+        self.state, self.restore = engine.state, engine.restore
+
+    @property
+    def time(self) -> float:
+        """Start of the next step [s]."""
+        return self._engine.time
+
+    @property
+    def sample_interval(self) -> float:
+        """Time between samples [s]."""
+        return self._engine.sample_interval
+
+    def samples(self) -> Samples:
+        """Return and clear the buffered samples."""
+        found = self._engine.samples()
+        return Samples(found[TIME], {}, {ALONE: found})
+
+    def integrals(self) -> dict[str, dict[str, float]]:
+        """Return the running integrals."""
+        return {ALONE: self._engine.integrals()}
+
+
+class SeveralBearings:
+    """The dynamics of a machine, for the run loop."""
+
+    def __init__(self, engine: MachineEngine) -> None:
+        self._engine = engine
+        self._names = [one.name for one in engine.bearings]
+        each = {one.name: without_time(result_channels(one.context.model)) for one in engine.bearings}
+        self.channels = RunChannels(MACHINE_CHANNELS, each)
+        self.advance, self.statistics, self.modes = engine.advance, engine.statistics, engine.modes
+        self.state, self.restore, self.sample_interval = engine.state, engine.restore, engine.sample_interval
+
+    @property
+    def time(self) -> float:
+        """Start of the next step [s]."""
+        return self._engine.time
+
+    def samples(self) -> Samples:
+        """Return and clear the buffered samples."""
+        found = self._engine.samples()
+        return Samples(found.machine[TIME], found.machine, dict(zip(self._names, found.bearings, strict=True)))
+
+    def integrals(self) -> dict[str, dict[str, float]]:
+        """Return the running integrals of every bearing by its name."""
+        return dict(zip(self._names, self._engine.integrals(), strict=True))
+
+
+def without_time(channels: tuple[Channel, ...]) -> tuple[Channel, ...]:
+    """Return channels except the time, which all of a run have in common."""
+    return tuple(channel for channel in channels if channel.name != TIME)

@@ -1,0 +1,368 @@
+"""One bearing: its equilibrium, its simulation into a result file, and what other methods say of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from lambda_core.analysis.thermal.temperatures import ready_model
+from lambda_core.case.case_io import is_machine, refuse_bearing
+from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.model.checking import check
+from lambda_core.runs.answers import result
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
+    from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.results.quasistatic import QuasiStatic
+    from lambda_core.results.reader import Result
+    from lambda_core.results.roller_quasistatic import RollerQuasiStatic
+    from lambda_core.runs.crosscheck import CrossCheck
+    from lambda_core.runs.estimate import Estimate, MachineEstimate
+    from lambda_core.runs.progress import Progress
+    from lambda_core.runs.stepping import Stepping
+    from lambda_core.runs.warmup import Warmup
+
+
+@one_blas_thread()
+def quasistatic(
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    overrides: Iterable[str] = (),
+    *,
+    band: bool = False,
+    announce: Callable[[str], None] | None = None,
+) -> QuasiStatic | RollerQuasiStatic | MachineEquilibrium:
+    """Solve the quasi-static equilibrium of a case at t = 0: loads, angles, films, friction; no time, no cage.
+
+    Of a machine it is that of its elastic shaft in its bearings, with housing, preload and gear forces.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    band : bool
+        Also compute the 90 % model band, see :func:`model_band`; it costs less than a second for each bearing.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    QuasiStatic, RollerQuasiStatic or MachineEquilibrium
+        Of one bearing with balls or rollers, or of a machine of several; numbers in the units of their names.
+
+    Raises
+    ------
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.runs.law_blame import naming_laws
+
+    if is_machine(source):
+        from lambda_core.analysis.rotor.machine_answers import machine_equilibrium
+        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+
+        machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
+        with naming_laws(*(bearing.model for bearing in machine.bearings)):
+            return machine_equilibrium(machine, band=band, announce=announce)
+    rollers = _roller_answer(source, overrides)
+    if rollers is not None:
+        return rollers
+    from lambda_core.discovery.manager import registry
+    from lambda_core.results.quasistatic import quasistatic_of
+    from lambda_core.runs.engineering import rating_of
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
+    with naming_laws(model):
+        found = solve(model, announce=announce)
+        answer = quasistatic_of(found, rating_of(found, registry().methods))
+        if not band:
+            return answer
+        from lambda_core.analysis.band.model_band import band_of
+
+        return answer.with_band(band_of(model))
+
+
+def _roller_answer(source: Any, overrides: Iterable[str]) -> RollerQuasiStatic | None:
+    """Return the answer of a roller bearing; None where the source is no case of one."""
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.roller_case import roller_model
+    from lambda_core.results.roller_quasistatic import roller_quasistatic
+
+    if isinstance(source, BearingModel):
+        return None
+    model = roller_model(source, overrides)
+    return None if model is None else roller_quasistatic(model)
+
+
+@one_blas_thread()
+def estimate(
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    overrides: Iterable[str] = (),
+    *,
+    announce: Callable[[str], None] | None = None,
+) -> Estimate | MachineEstimate:
+    """Estimate a case before it is run: equilibrium, rating life, processor time of a run.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Estimate or MachineEstimate
+        Of one bearing, or of a machine of several. Numbers that there are none of are None.
+
+    Raises
+    ------
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.runs.estimate import estimate as ask
+
+    if is_machine(source):
+        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+        from lambda_core.runs.estimate import machine_estimate
+
+        return machine_estimate(ready_machine_of(source, overrides, announce), announce)  # type: ignore[arg-type]
+    return ask(ready_model(source, overrides, announce), registry().methods, announce)  # type: ignore[arg-type]
+
+
+@one_blas_thread()
+def run(
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    overrides: Iterable[str] = (),
+    *,
+    out: str | Path | None = None,
+    force: bool = False,
+    band: bool = False,
+    progress: Callable[[Progress], None] | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Result:
+    """Simulate a case of one bearing or of a machine into a result file.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    out : path-like, optional
+        The result file; by default the case's name with ``.h5``, numbered where that is taken.
+    force : bool
+        Overwrite `out`.
+    band : bool
+        Also compute the 90 % model band, see :func:`model_band`; it costs less than a second for each bearing.
+    progress : callable, optional
+        Called some ten times a second.
+    announce : callable, optional
+        Called with a sentence before something is compiled, and with the equilibrium found.
+
+    Returns
+    -------
+    Result
+        Also of a run that ended early or is not converged: its summary says so and why.
+
+    Raises
+    ------
+    CaseError, SolverError, PartialResultError
+        With a sentence about the case, the solver (the file keeps what there is) or the disk.
+    """
+    from lambda_core.runs.launch import launch
+
+    path = None if out is None else Path(out)
+    return launch(_ready(source, overrides, announce), path, force=force, band=band, report=progress, announce=announce)
+
+
+def _ready(
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    overrides: Iterable[str],
+    announce: Callable[[str], None] | None,
+) -> BearingModel | MachineModel:
+    """Return the model of a bearing or a machine, with its temperatures."""
+    if is_machine(source):
+        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+
+        return ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
+    return ready_model(source, overrides, announce)  # type: ignore[arg-type]
+
+
+@one_blas_thread()
+def iterate(
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    overrides: Iterable[str] = (),
+    *,
+    interval: float | None = None,
+    exact: bool = False,
+    couple: Literal["force", "motion"] = "force",
+    announce: Callable[[str], None] | None = None,
+) -> Stepping:
+    """Simulate a case step by step, without a result file: ``for step in iterate(case)``.
+
+    For programs that look at every step, or that give the loads on the inner ring or the motion of both rings:
+    co-simulation. To a machine they give loads at its markers, loads and gears, and the speed of its shaft.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    interval : float, optional
+        Time between steps [s]; default: that of the samples of a run. No step of the integrator is longer.
+    exact : bool
+        Steps end at the multiples of `interval`, not with the first step of the integrator past them.
+    couple : "force" or "motion"
+        What comes from outside: loads on the inner ring, or the poses of both rings.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Stepping
+        An iterator of steps; ends at ``solver.duration``, or at ``solver.max_duration``.
+
+    Raises
+    ------
+    CaseError, SolverError, UsageError
+        With a sentence about the case, the solver or `interval`.
+    """
+    from lambda_core.runs.stepping import Stepping
+
+    return Stepping(_ready(source, overrides, announce), interval, announce, exact=exact, couple=couple)
+
+
+@one_blas_thread()
+def resume(
+    path: str | Path,
+    overrides: Iterable[str] = (),
+    *,
+    progress: Callable[[Progress], None] | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Result:
+    """Go on with an interrupted run, bit for bit as if it had not been.
+
+    A limit of wall time holds for one start: the run goes on without the one that it began with.
+
+    Parameters
+    ----------
+    path : path-like
+        Result file of a run that was interrupted, killed, or is to be longer.
+    overrides : iterable of str
+        ``solver.duration=...``, ``solver.max_duration=...`` or ``solver.max_wall=...``; anything else
+        would be another run.
+    progress, announce
+        As for :func:`run`.
+
+    Returns
+    -------
+    Result
+        As from :func:`run`.
+
+    Raises
+    ------
+    CaseError
+        When its laws or data are not here any more, with the packages and files that had them.
+    UsageError
+        When the file is no result, nothing is left to do, or the case or the code has changed.
+    """
+    from lambda_core.domain.errors import CaseError, Problem
+    from lambda_core.domain.installed import OWN, project_of
+    from lambda_core.runs.launch import relaunch
+
+    found = result(path)
+    try:
+        model = _stored_model(found, overrides)
+    except CaseError as error:
+        others = [name for name in found.plugins if project_of(name) != OWN]
+        if not others:
+            raise
+        raise CaseError(
+            error.source, [*error.problems, Problem("", f"its laws came from {', '.join(others)}")]
+        ) from None
+    return relaunch(found.path, model, report=progress, announce=announce)
+
+
+def _stored_model(found: Result, overrides: Iterable[str]) -> BearingModel | MachineModel:
+    """Return the model of the case in a result, without the limit of wall time that it began with."""
+    from lambda_core.case.case_io import toml_tables
+
+    tables = toml_tables(found.case_toml, str(found.path))
+    if "solver" in tables:
+        tables["solver"].pop("max_wall", None)
+    return check(tables, overrides)
+
+
+@one_blas_thread()
+def cross_check(
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    overrides: Iterable[str] = (),
+    *,
+    free_cage: bool = False,
+    bearing: str | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> CrossCheck:
+    """Integrate a case with the program's integrator and with SUNDIALS CVODE, and compare.
+
+    Needs the extra ``sundials``.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    free_cage : bool
+        Leave cages free and compare mean powers; otherwise they follow their kinematic paths, where single
+        trajectories can be compared.
+    bearing : str, optional
+        One of a machine: alone, under the constant load that it carries there at t = 0; default: the machine, all
+        bearings moving with its shaft.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    CrossCheck
+        Dissipated powers, how far the states are apart, and whether the two agree.
+
+    Raises
+    ------
+    UsageError
+        When scikit-sundae is not installed.
+    CaseError, SolverError
+        With a sentence about the case, or about which integrator could not go on.
+    """
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.runs.crosscheck import cross_check as ask
+
+    model = _ready(source, overrides, announce)
+    if isinstance(model, BearingModel):
+        refuse_bearing(bearing)
+    elif bearing is not None:
+        from lambda_core.analysis.rotor.bearing_alone import bearing_alone
+
+        model = bearing_alone(model, bearing, announce)
+    return ask(model, free_cage=free_cage, announce=announce)
+
+
+def warmup(*, announce: Callable[[str], None] | None = None) -> Warmup:
+    """Compile the solver and every installed law ahead of the first run.
+
+    Parameters
+    ----------
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Warmup
+        What was compiled now, what was there, and the laws that cannot be compiled.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.runs.warmup import warmup as compile_all
+
+    return compile_all(registry(), announce)

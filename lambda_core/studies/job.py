@@ -1,0 +1,348 @@
+"""One point of a study in a worker process: resolve, solve or run, and read the responses.
+
+A task is plain data; kernels, catalogue and base case are kept by the process for the next task.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import multiprocessing
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
+
+from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.domain.errors import LambdaError, UsageError
+from lambda_core.domain.plugin_errors import failures_so_far
+
+if TYPE_CHECKING:
+    from lambda_core.case.case import Case
+    from lambda_core.catalogue.protocol import Catalogue
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.results.reader import Result
+    from lambda_core.solver.drivers.compiled_laws import Kernels
+    from lambda_core.solver.drivers.equilibrium import Equilibrium
+    from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels
+
+_Model = TypeVar("_Model", "BearingModel", "MachineModel", "BearingModel | MachineModel")
+
+RUNS = "runs"
+State = Literal["done", "partial", "failed", "stopped", "pending"]
+log = logging.getLogger("lambda_core")
+# Of a worker process: the request went to the run that it had in hand; tasks that wait behind it are not begun.
+_asked_to_stop = False
+_HASH_DIGITS = 20  # of the hash in the name of a result file
+_PATIENCE = 10.0  # with another process that writes the result of a point [s]
+_LOOK_AFTER = 0.05  # [s]
+
+
+@dataclass(frozen=True)
+class Task:
+    """What one point needs; everything can be pickled."""
+
+    number: int
+    case_toml: str
+    changes: tuple[str, ...]
+    mode: Literal["quasi-static", "dynamic"]
+    responses: tuple[str, ...]
+    folder: str  # of the study, on a file system that all workers see (dynamic)
+    guests: bytes = b""  # plugin files and laws that the director has beside its packages
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a point.
+
+    `state` is ``done``; ``partial``: a run whose averages have not converged, or a point at which a method of a plugin
+    failed; ``failed``: with the reason; ``stopped``: somebody asked the run to stop, it goes on next time;
+    ``pending``: another process is at work on it, it is done next time.
+    """
+
+    number: int
+    state: State
+    reason: str
+    hash: str
+    values: Mapping[str, float | None]
+    file: str
+    seconds: float
+
+
+@one_blas_thread()
+def work(task: Task) -> Outcome:
+    """Do one task; never raises for what is wrong with the point."""
+    global _asked_to_stop
+    start = time.perf_counter()
+    hash_, state, reason, values, file = "", "failed", "", {}, ""
+    if _asked_to_stop:
+        return Outcome(task.number, "stopped", "the worker was asked to stop", "", {}, "", 0.0)
+    failed = len(failures_so_far())
+    try:
+        _be_ready(task.guests)
+        model = point_model(task.case_toml, task.changes)
+        hash_ = point_hash(model)
+        model = with_temperatures(model)
+        if task.mode == "quasi-static":
+            state, values = "done", static_values(model, task.responses)
+        else:
+            file = f"{RUNS}/{hash_[:_HASH_DIGITS]}.h5"
+            state, reason, values = _dynamic(model, Path(task.folder) / file, task.responses)
+    except LambdaError as error:
+        reason = str(error)
+    except Exception as error:  # a bug, or a law that breaks in a way nobody foresaw: the other points go on
+        reason = f"unexpected {type(error).__name__}: {' '.join(str(error).split())}"
+    if state == "done" and (told := failures_so_far()[failed:]):
+        state, reason = "partial", "; ".join(dict.fromkeys(told))  # of a plugin; what others answered is kept
+    _asked_to_stop = state == "stopped" and multiprocessing.parent_process() is not None
+    return Outcome(task.number, state, reason, hash_, values, file, time.perf_counter() - start)  # type: ignore[arg-type]
+
+
+@lru_cache(maxsize=1)
+def _be_ready(guests: bytes) -> None:
+    """Take the plugins of the director, once."""
+    from lambda_core.discovery.manager import as_guests_of
+
+    as_guests_of(guests)
+
+
+def lost(task: Task, reason: str) -> Outcome:
+    """Return the outcome of a task whose worker died."""
+    return Outcome(task.number, "failed", reason, "", {}, "", 0.0)
+
+
+def point_model(case_toml: str, changes: tuple[str, ...]) -> BearingModel | MachineModel:
+    """Return the model of one point, of one bearing or of a machine; CaseError with everything that is wrong."""
+    tables = _machine_tables(case_toml)
+    if tables is None:
+        return resolve_point(case_toml, changes)
+    from lambda_core.model.resolve_machine import resolve_machine
+
+    return resolve_machine(tables, changes, catalogue=_catalogue())
+
+
+def resolve_point(case_toml: str, changes: tuple[str, ...]) -> BearingModel:
+    """Return the model of one point of a case of one bearing; CaseError with everything that is wrong with it."""
+    from lambda_core.case.case_io import apply_overrides
+    from lambda_core.discovery.manager import registry
+    from lambda_core.model.resolve import resolve
+
+    return resolve(apply_overrides(_base(case_toml), changes), registry(), _catalogue())
+
+
+@lru_cache(maxsize=4)
+def _machine_tables(case_toml: str) -> dict[str, Any] | None:
+    """Return the tables of a machine's case, None for that of one bearing."""
+    from lambda_core.case.case_io import is_shaft, toml_tables
+
+    tables = toml_tables(case_toml, "the case of the study")
+    return tables if is_shaft(tables) else None
+
+
+def with_temperatures(model: _Model) -> _Model:
+    """Return the model of a bearing or a machine at its own temperatures, where the case wants them computed."""
+    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+    from lambda_core.analysis.thermal.operating import at_own_temperatures
+    from lambda_core.discovery.manager import registry
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.model.resolve import resolve
+
+    if isinstance(model, MachineModel):
+        return ready_machine_of(model)
+    return at_own_temperatures(model, lambda case: resolve(case, registry(), _catalogue()))
+
+
+def point_hash(model: BearingModel | MachineModel) -> str:
+    """Return the hash that a point is known by: of all that decides its numbers."""
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.model.resolve import case_hash
+
+    if not isinstance(model, MachineModel):
+        return case_hash(model)
+    parts = [model.case_toml, *(case_hash(bearing.model) for bearing in model.bearings)]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+@lru_cache(maxsize=4)
+def _base(case_toml: str) -> Case:
+    from lambda_core.case.case_io import parse_case
+
+    return parse_case(case_toml, "the case of the study")
+
+
+@lru_cache(maxsize=1)
+def _catalogue() -> Catalogue:
+    from lambda_core.discovery.manager import registry
+
+    return registry().catalogue()
+
+
+_kernels: dict[tuple[tuple[str, str, str], ...], Kernels] = {}
+
+
+def kernels_of(model: BearingModel) -> Kernels:
+    """Return the compiled laws of a model; equal choices of laws are compiled once in a process."""
+    from lambda_core.solver.drivers.compiled_laws import Kernels
+
+    key = tuple((e, r, law.model.label) for e, roles in model.laws.items() for r, law in roles.items())
+    if key not in _kernels:
+        _kernels[key] = Kernels(model)
+    return _kernels[key]
+
+
+def _equilibrium(model: BearingModel) -> Equilibrium:
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    return solve(model, kernels_of(model))
+
+
+@lru_cache(maxsize=1)
+def _shared_kernels() -> SharedKernels:
+    """Return the compiled laws of machines in this process."""
+    from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels
+
+    return SharedKernels()
+
+
+def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) -> dict[str, float | None]:
+    """Return the responses of a quasi-static point.
+
+    Raises
+    ------
+    SolverError
+        When there is no solution.
+    """
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.results.quasistatic import quasistatic_of
+    from lambda_core.studies.responses import StaticPoint, evaluate, responses_of
+
+    known = responses_of(model)
+    if isinstance(model, MachineModel):
+        from lambda_core.studies.machine_responses import machine_point
+
+        whole = machine_point(model, _shared_kernels())
+        rows = {name: value for name, (value, _, _) in machine_columns(model, whole.equilibria, names).items()}
+        return evaluate(names, whole, rows, known)
+    found = _equilibrium(model)
+    point = StaticPoint(found, quasistatic_of(found), kernels_of(model))
+    return evaluate(names, point, method_rows(found, names), known)
+
+
+def machine_columns(
+    model: MachineModel, equilibria: Sequence[Equilibrium], names: tuple[str, ...]
+) -> dict[str, tuple[float | None, str, str]]:
+    """Return value, unit and meaning of the rows of comparison methods of each bearing among `names`."""
+    columns: dict[str, tuple[float | None, str, str]] = {}
+    for bearing, found in zip(model.bearings, equilibria, strict=True):
+        own = f"{bearing.name}."
+        rows = tuple(name.removeprefix(own) for name in names if "/" in name and name.startswith(own))
+        for name, (value, unit, meaning) in method_columns(found, rows).items():
+            columns[own + name] = (value, unit, f"{bearing.name}: {meaning}")
+    return columns
+
+
+def method_rows(found: Equilibrium, names: tuple[str, ...]) -> dict[str, float | None]:
+    """Return the rows of comparison methods among `names`; None where a method does not apply.
+
+    Raises
+    ------
+    UsageError
+        For a row that does not exist.
+    """
+    return {name: value for name, (value, _, _) in method_columns(found, names).items()}
+
+
+def method_columns(found: Equilibrium, names: tuple[str, ...]) -> dict[str, tuple[float | None, str, str]]:
+    """Return value, unit and meaning of the rows of comparison methods among `names`."""
+    wanted = [name for name in names if "/" in name]
+    if not wanted:
+        return {}
+    from lambda_core.discovery.manager import registry
+    from lambda_core.runs.compare_methods import comparison_inputs
+    from lambda_core.views.method import evaluate_methods
+
+    inputs = comparison_inputs(found)
+    columns: dict[str, tuple[float | None, str, str]] = {}
+    for name in wanted:
+        label, _, row = name.partition("/")
+        group, _, item = row.partition("/")
+        method = registry().method(label)
+        (answer,) = evaluate_methods([method], inputs)
+        table = answer.table
+        if table is None:
+            why = "fails" if answer.failed else "does not apply"
+            columns[name] = (None, "", f"{label}: {item} ({why})")
+            continue
+        rows = {f"{r.group}/{r.name}": r for r in table.rows}
+        if row not in rows:
+            from lambda_core.domain.errors import unknown_name
+
+            raise UsageError(unknown_name(f"row of {label}", row, rows))
+        unit = rows[row].unit
+        columns[name] = (rows[row].value, "" if unit == "-" else unit, f"{label}: {group} {item}")
+    return columns
+
+
+def _dynamic(
+    model: BearingModel | MachineModel, path: Path, names: tuple[str, ...]
+) -> tuple[State, str, dict[str, float | None]]:
+    """Run a point, or go on with what there is of it, and read its responses."""
+    from lambda_core.results.opening import BeingWrittenError
+    from lambda_core.studies.responses import DynamicPoint, evaluate, method_rows_among, responses_of
+
+    try:
+        result = _run(model, path)
+    except BeingWrittenError as error:
+        return "pending", str(error), {}
+    status = result.status()
+    if status.state == "interrupted":
+        return "stopped", status.message, {}
+    summary = result.summary()
+    known = responses_of(model)
+    rows = method_rows_among(names, known)
+    methods = static_values(model, rows) if rows else {}
+    values = evaluate(names, DynamicPoint(result, summary), methods, known)
+    return ("done", "", values) if summary.converged else ("partial", "; ".join(summary.reasons), values)
+
+
+def _run(model: BearingModel | MachineModel, path: Path) -> Result:
+    from lambda_core.results.opening import BeingWrittenError, ResultError
+    from lambda_core.results.reader import Result
+    from lambda_core.runs.launch import launch, relaunch
+    from lambda_core.runs.loop import NothingLeftError
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if path.exists():
+        try:
+            before = _left_by_others(Result(path))
+            if before.status().state in ("finished", "stopped"):
+                return before
+            if before.status().state != "failed":
+                return relaunch(path, model)
+        except NothingLeftError:  # another process has brought it to its end since
+            return Result(path)
+        except BeingWrittenError:
+            raise
+        except ResultError:  # damaged, or of another program: begun anew
+            pass
+    return launch(model, path, force=True)
+
+
+def _left_by_others(result: Result) -> Result:
+    """Return a result that no process writes any more: a worker outlives its director for a moment."""
+    from lambda_core.results.opening import BeingWrittenError
+
+    end = time.monotonic() + _PATIENCE
+    is_told = False
+    while (status := result.status()).alive():
+        writing = BeingWrittenError(result.path, status.process["pid"])
+        if time.monotonic() >= end:
+            raise writing
+        if not is_told:
+            log.warning("%s: waiting up to %g s for it to end", writing, _PATIENCE)
+            is_told = True
+        time.sleep(_LOOK_AFTER)
+    return result

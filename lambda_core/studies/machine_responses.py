@@ -1,0 +1,189 @@
+"""Define the responses of a study of a machine: of the machine, and ``NAME.RESPONSE`` of each of its bearings.
+
+Every response of a study of one bearing exists for each bearing ("left.min_film_um"), as do the rows of comparison
+methods ("left.skf/friction/total"). Bearing currents are those of the machine's circuit with all its bearings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lambda_core.analysis.electric.current_numbers import UNITS, CurrentNumbers, machine_numbers, meaning
+from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
+from lambda_core.results.bearing_summary import BearingSummary
+from lambda_core.results.quantity import quantities
+from lambda_core.results.summary import Summary
+from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
+from lambda_core.studies.responses import RESPONSES, DynamicPoint, Number, Response, StaticPoint, of_fields
+
+if TYPE_CHECKING:
+    from lambda_core.analysis.rotor.machine_modes import MachineModes
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.solver.drivers.equilibrium import Equilibrium
+
+
+@dataclass
+class MachinePoint:
+    """A quasi-static point of a machine: what is asked of it is computed once."""
+
+    model: MachineModel
+    state: ShaftState
+    kernels: SharedKernels
+    _points: dict[str, StaticPoint] = field(default_factory=dict)
+
+    @cached_property
+    def equilibria(self) -> list[Equilibrium]:
+        """Of every bearing at its pose, with the friction of its balls."""
+        return [ring.equilibrium() for ring in self.state.rings]
+
+    @cached_property
+    def summary(self) -> MachineEquilibrium:
+        """The equilibrium in the words of the machine interface."""
+        from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
+
+        return equilibrium_of(self.model, self.state, self.equilibria)
+
+    @cached_property
+    def modes(self) -> MachineModes:
+        """Natural frequencies and critical speeds."""
+        from lambda_core.analysis.rotor.machine_modes import modes_of
+
+        return modes_of(self.model, self.state)
+
+    @cached_property
+    def circuit(self) -> Mapping[str, CurrentNumbers]:
+        """Bearing currents of each bearing on quasi-static films, all in one circuit."""
+        return machine_numbers(
+            self.model, self.state, [self.kernels.of(bearing.model) for bearing in self.model.bearings]
+        )
+
+    def bearing(self, name: str) -> StaticPoint:
+        """Return one bearing as a point of its own."""
+        from lambda_core.results.quasistatic import quasistatic_of
+
+        if name not in self._points:
+            number = [one.name for one in self.model.bearings].index(name)
+            found = self.equilibria[number]
+            kernels = self.kernels.of(self.model.bearings[number].model)
+            self._points[name] = StaticPoint(found, quasistatic_of(found), kernels)
+        return self._points[name]
+
+
+def machine_point(model: MachineModel, kernels: SharedKernels) -> MachinePoint:
+    """Solve a machine for a point of a study."""
+    return MachinePoint(model, solve_shaft(model, kernels=kernels), kernels)
+
+
+@lru_cache(maxsize=8)
+def machine_responses(bearings: tuple[str, ...]) -> Mapping[str, Response]:
+    """Return the responses of a machine with bearings of these names."""
+    found = [*_of_machine(), *(one for name in bearings for one in _of_bearing(name))]
+    return {response.name: response for response in found}
+
+
+def usual_responses(bearings: tuple[str, ...], mode: str) -> tuple[str, ...]:
+    """Return what a study of a machine asks where it names nothing."""
+    if mode == "quasi-static":
+        whole = ["system_life_h", "friction_torque_Nmm"]
+        each = [
+            "radial_load_N", "reference_rating_life_h", "friction_torque_Nmm", "max_pressure_GPa", "min_film_parameter",
+        ]  # fmt: skip
+    else:
+        whole = ["friction_torque_Nmm", "energy_residual", "converged"]
+        each = ["friction_torque_Nmm", "friction_torque_ci_Nmm", "max_pressure_GPa", "min_film_um"]
+    return (*whole, *(f"{name}.{one}" for name in bearings for one in each))
+
+
+def _of_machine() -> list[Response]:
+    still, moving = quantities(MachineEquilibrium), quantities(Summary)
+    found = []
+    for one in of_fields(Summary, moving):
+        read = _number(one.name)
+        static = _power if one.name == "power_loss_W" else read if one.name in still else None
+        found.append(replace(one, static=static, dynamic=read))
+    return [
+        *found,
+        Response("max_deflection_um", "um", "largest deflection of the shaft across its axis", _deflection),
+        Response("first_critical_speed_rpm", "rpm", "first critical speed", _critical),
+        Response("converged", "", "1 when converged", None, lambda point: float(point.summary.converged)),
+    ]
+
+
+def _number(name: str) -> Callable[[Any], Number]:
+    def read(point: Any) -> Number:
+        value = getattr(point.summary, name)
+        return None if value is None else float(value)
+
+    return read
+
+
+def _power(point: Any) -> Number:
+    return float(sum(found.losses.sum() for found in point.equilibria))
+
+
+def _deflection(point: Any) -> Number:
+    return float(np.hypot(*np.array(point.summary.deflection_um).T[1:]).max())
+
+
+def _critical(point: Any) -> Number:
+    found = point.modes.critical_speeds
+    return found[0].speed_rpm if found else None
+
+
+# Responses of one bearing that a machine has once.
+_OF_MACHINE = {"converged", *quantities(Summary)} - set(quantities(BearingSummary))
+
+
+def _of_bearing(name: str) -> list[Response]:
+    fields = (key for key in quantities(BearingEquilibrium) if key not in RESPONSES)
+    own = [
+        Response(f"{name}.{one.name}", one.unit, f"{name}: {one.meaning}", _field(name, one.name))
+        for one in of_fields(BearingEquilibrium, fields)
+    ]
+    currents = [
+        Response(f"{name}.{key}", unit, f"{name}: {meaning(key)}", _current(name, key), _current(name, key))
+        for key, unit in UNITS.items()
+    ]
+    return own + currents + [
+        Response(
+            f"{name}.{one.name}", one.unit, f"{name}: {one.meaning}",
+            None if one.static is None else _static(name, one.static),
+            None if one.dynamic is None else _dynamic(name, one.dynamic),
+        )
+        for one in RESPONSES.values()
+        if one.name not in UNITS and one.name not in _OF_MACHINE
+    ]  # fmt: skip
+
+
+def _field(name: str, path: str) -> Callable[[Any], Number]:
+    key, _, axis = path.partition(".")
+    axes = quantities(BearingEquilibrium)[key].axes
+
+    def read(point: Any) -> Number:
+        value: Any = getattr(point.summary.bearing(name), key)
+        if axis:
+            value = value[axes.index(axis)]
+        return None if value is None else float(value)
+
+    return read
+
+
+def _current(name: str, key: str) -> Callable[[Any], Number]:
+    def read(point: Any) -> Number:
+        value: Number = getattr(point.circuit[name], key)
+        return value
+
+    return read
+
+
+def _static(name: str, read: Callable[[StaticPoint], Number]) -> Callable[[Any], Number]:
+    return lambda point: read(point.bearing(name))
+
+
+def _dynamic(name: str, read: Callable[[DynamicPoint], Number]) -> Callable[[Any], Number]:
+    return lambda point: read(DynamicPoint(point.result.bearings[name], point.summary.bearings[name]))

@@ -1,0 +1,301 @@
+"""Define the responses of a study with unit and meaning.
+
+Names are those of the machine interface (:class:`~lambda_core.results.summary.Summary` and
+:class:`~lambda_core.results.quasistatic.QuasiStatic`), where it has them. ``friction_breakdown_Nmm`` stands for
+all its parts, and ``METHOD/GROUP/ROW`` for a row of a comparison method ("skf/friction/total"). Observers, events and
+states of contacts add their own (:mod:`~lambda_core.studies.watched_responses`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.analysis.electric.current_numbers import (
+    UNITS,
+    CurrentNumbers,
+    circuit_numbers,
+    meaning,
+    run_numbers,
+    static_numbers,
+)
+from lambda_core.domain.channels import LOSSES
+from lambda_core.domain.errors import CaseError, Problem, nearest, unknown_name
+from lambda_core.results.bearing_summary import BearingSummary
+from lambda_core.results.quantity import quantities
+from lambda_core.results.quasistatic import QuasiStatic
+from lambda_core.results.record import Record
+from lambda_core.results.summary import Summary
+from lambda_core.studies import measures
+
+if TYPE_CHECKING:
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.results.reader import Result
+    from lambda_core.solver.drivers.compiled_laws import Kernels
+    from lambda_core.solver.drivers.equilibrium import Equilibrium
+    from lambda_core.studies.machine_responses import MachinePoint
+
+Number = float | None
+BREAKDOWN = "friction_breakdown_Nmm"
+
+
+@dataclass
+class StaticPoint:
+    """A quasi-static point: the equilibrium, the same in the words of the machine interface, and its compiled laws."""
+
+    equilibrium: Equilibrium
+    summary: QuasiStatic
+    kernels: Kernels
+
+    @cached_property
+    def currents(self) -> CurrentNumbers:
+        """Bearing currents on quasi-static films."""
+        return static_numbers(self.equilibrium, self.kernels)
+
+
+@dataclass
+class DynamicPoint:
+    """A dynamic point: the result file and its summary."""
+
+    result: Result
+    summary: Summary
+
+    @cached_property
+    def currents(self) -> CurrentNumbers:
+        """Bearing currents on the films of the run."""
+        return run_numbers(self.result)
+
+    @cached_property
+    def circuit(self) -> Mapping[str, CurrentNumbers]:
+        """Bearing currents of each bearing of a machine on the films of its run."""
+        return circuit_numbers(self.result)
+
+
+@dataclass(frozen=True)
+class Response:
+    """One number of a point; a mode that does not have it has None."""
+
+    name: str
+    unit: str
+    meaning: str
+    static: Callable[[StaticPoint], Number] | None = None
+    dynamic: Callable[[DynamicPoint], Number] | None = None
+
+
+def _field(name: str, index: int | None = None) -> Callable[[Any], Number]:
+    def read(point: Any) -> Number:
+        value = getattr(point.summary, name)
+        if index is not None:
+            value = value[index] if value else None
+        return None if value is None else float(value)
+
+    return read
+
+
+def _part(name: str) -> Callable[[Any], Number]:
+    def read(point: Any) -> Number:
+        value: Number = getattr(point.summary, BREAKDOWN)[name]
+        return value
+
+    return read
+
+
+def _parts() -> list[Response]:
+    names = [*(name for name in LOSSES if name not in ("pocket", "land")), "cage"]
+    return [
+        Response(f"{BREAKDOWN}.{name}", "N mm", f"friction torque: {name.replace('_', ' ')}", _part(name), _part(name))
+        for name in names
+    ]
+
+
+def of_fields(kind: type[Record], names: Iterable[str]) -> Iterator[Response]:
+    """Yield the numbers of a record as responses without values; of a vector one for each axis."""
+    for name in names:
+        one = quantities(kind)[name]
+        if one.axes:
+            for axis in one.axes:
+                yield Response(f"{name}.{axis}", one.unit, f"{one.label} {axis}")
+        elif not one.is_list:
+            yield Response(name, one.unit, one.label)
+
+
+def _fields() -> list[Response]:
+    """Return the numbers of an equilibrium and of a run that have a value for each point."""
+    still, moving = quantities(QuasiStatic), quantities(BearingSummary)
+    of_run = [name for name, one in quantities(Summary).items() if one.group == "trust"]
+    found = [*of_fields(BearingSummary, moving), *of_fields(Summary, of_run)]
+    found += of_fields(QuasiStatic, (name for name in still if name not in moving))
+    return [_with_values(one, still, {*moving, *of_run}) for one in found]
+
+
+def _with_values(one: Response, still: Collection[str], moving: Collection[str]) -> Response:
+    """Return a response with where its values come from: the field of its name, or a measure of its own."""
+    name, _, axis = one.name.partition(".")
+    index = None if not axis else "xyz".index(axis) - (name == "inner_ring_tilt_mrad")
+    own = _field(name, index)
+    static, dynamic = _MEASURED.get(name, (own if name in still else None, own if name in moving else None))
+    return replace(one, static=static, dynamic=dynamic)
+
+
+# What a study computes otherwise than the summary of a point: quasi-static, dynamic.
+_MEASURED: Mapping[str, tuple[Any, Any]] = {
+    "power_loss_W": (measures.static_power, measures.dynamic_power),
+    "max_load_N": (_field("max_load_N"), measures.max_load),
+    "min_film_um": (measures.static_film, _field("min_film_um")),
+    "bearing_capacitance_nF": (measures.static_capacitance, measures.dynamic_capacitance),
+}
+
+
+def _current(name: str) -> Callable[[Any], Number]:
+    def read(point: Any) -> Number:
+        value: Number = getattr(point.currents, name)
+        return value
+
+    return read
+
+
+def _currents() -> list[Response]:
+    return [Response(name, unit, meaning(name), _current(name), _current(name)) for name, unit in UNITS.items()]
+
+
+def _catalogue() -> dict[str, Response]:
+    found = [
+        *_fields(),
+        *_parts(),
+        Response(
+            "min_film_parameter", "", "smallest Lambda under load", measures.static_lambda, measures.dynamic_lambda
+        ),
+        Response("converged", "", "1 when converged", None, lambda point: float(point.summary.converged)),
+        Response(
+            "cage_speed_deviation", "", "standard deviation of the cage speed over its mean", None,
+            measures.cage_speed_deviation,
+        ),
+        Response(
+            "ball_speed_deviation", "", "rms deviation of unloaded balls' speed from kinematic", None,
+            measures.ball_speed_deviation,
+        ),
+        Response("pocket_touch_share", "", "share of time a pocket touches its ball", None, measures.pocket_share),
+        *_currents(),
+    ]  # fmt: skip
+    return {response.name: response for response in found}
+
+
+RESPONSES: Mapping[str, Response] = _catalogue()
+USUAL: Mapping[str, tuple[str, ...]] = {
+    "quasi-static": (
+        "friction_torque_Nmm", BREAKDOWN, "max_load_N", "max_pressure_GPa", "min_film_um", "min_film_parameter",
+    ),
+    "dynamic": (
+        "friction_torque_Nmm", "friction_torque_ci_Nmm", BREAKDOWN, "cage_speed_over_epicyclic", "max_pressure_GPa",
+        "min_film_um", "energy_residual", "converged",
+    ),
+}  # fmt: skip
+
+
+def asks_currents(names: Sequence[str]) -> bool:
+    """Tell whether the electric circuit is among what is asked."""
+    return any(name.rpartition(".")[2] in UNITS for name in names)
+
+
+def bearing_names(model: BearingModel | MachineModel) -> tuple[str, ...]:
+    """Return the names of a machine's bearings; none for the model of one bearing."""
+    return tuple(bearing.name for bearing in getattr(model, "bearings", ()))
+
+
+def responses_of(model: BearingModel | MachineModel) -> Mapping[str, Response]:
+    """Return the responses of a bearing or a machine, those of its observers, events and states included."""
+    from lambda_core.studies.machine_responses import machine_responses
+    from lambda_core.studies.watched_responses import watched_responses
+
+    bearings = bearing_names(model)
+    return {**(machine_responses(bearings) if bearings else RESPONSES), **watched_responses(model)}
+
+
+def method_rows_among(names: Sequence[str], known: Mapping[str, Response]) -> tuple[str, ...]:
+    """Return the names that are rows of comparison methods, which alone are not among the known responses."""
+    return tuple(name for name in names if name not in known)
+
+
+def chosen(
+    names: Sequence[str], mode: str, source: str, known: Mapping[str, Response], bearings: tuple[str, ...] = ()
+) -> tuple[str, ...]:
+    """Return the names of the responses of a study, groups written out.
+
+    Parameters
+    ----------
+    known : mapping
+        What the case has, from :func:`responses_of`.
+    bearings : tuple of str
+        Names of the bearings of a machine; empty for a case of one.
+
+    Raises
+    ------
+    CaseError
+        For unknown names, and those that the mode does not have.
+    """
+    found: list[str] = []
+    wrong: list[Problem] = []
+    for name in names or _usual(bearings, mode):
+        if name.endswith(BREAKDOWN) and any(part.startswith(f"{name}.") for part in known):
+            found += [part for part in known if part.startswith(f"{name}.")]
+        elif "/" in name and name not in known:
+            if own := [one for one in known if one.startswith(f"{name.partition('/')[0]}/")]:
+                wrong.append(Problem("responses", unknown_name("response", name, own)))
+            elif bearings and not any(name.startswith(f"{bearing}.") for bearing in bearings):
+                words = f'"{name}": name the bearing that is meant, "{bearings[0]}.{name}"'
+                wrong.append(Problem("responses", words))
+            found.append(name)
+        elif name not in known:
+            close = nearest(name, known) or [one for one in known if one.endswith(f".{name}")] or sorted(known)
+            wrong.append(Problem("responses", f'"{name}" is not a known response; nearest: {", ".join(close)}'))
+        elif _of_mode(known[name], mode) is None:
+            other = "dynamic" if mode == "quasi-static" else "quasi-static"
+            wrong.append(Problem("responses", f'"{name}" exists in {other} studies only'))
+        else:
+            found.append(name)
+    if wrong:
+        raise CaseError(source, wrong)
+    return tuple(dict.fromkeys(found))
+
+
+def _usual(bearings: tuple[str, ...], mode: str) -> tuple[str, ...]:
+    """Return what is asked where nothing is named."""
+    if not bearings:
+        return USUAL[mode]
+    from lambda_core.studies.machine_responses import usual_responses
+
+    return usual_responses(bearings, mode)
+
+
+def _of_mode(response: Response, mode: str) -> Callable[[Any], Number] | None:
+    return response.static if mode == "quasi-static" else response.dynamic
+
+
+def evaluate(
+    names: Sequence[str], point: StaticPoint | MachinePoint | DynamicPoint, methods: Mapping[str, Number],
+    known: Mapping[str, Response],
+) -> dict[str, Number]:  # fmt: skip
+    """Return the responses of a point; a number that does not exist is None.
+
+    Parameters
+    ----------
+    methods : mapping
+        Values of the responses that are rows of comparison methods.
+    known : mapping
+        What the case has, from :func:`responses_of`.
+    """
+    mode = "dynamic" if isinstance(point, DynamicPoint) else "quasi-static"
+    found: dict[str, Number] = {}
+    for name in names:
+        if name not in known:
+            found[name] = methods.get(name)
+            continue
+        read = _of_mode(known[name], mode)
+        assert read is not None
+        value = read(point)
+        found[name] = value if value is not None and math.isfinite(value) else None
+    return found

@@ -1,0 +1,214 @@
+"""Compute the Stribeck curve of a bearing.
+
+It has the friction torque over speed with its parts, and SKF's catalogue model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.analysis.thermal.temperatures import ready_model
+from lambda_core.case.case_io import is_machine, refuse_bearing
+from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.domain.channels import LOSSES
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.formulas.loading import CARRYING
+from lambda_core.results.record import INTERFACE, Record
+from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
+
+if TYPE_CHECKING:
+    from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
+
+_RPM = np.pi / 30.0
+# Mechanisms of losses under the names that the picture shows.
+_PARTS = {
+    "sliding": "sliding of the film",
+    "spin": "sliding of the film",
+    "boundary": "sliding on asperities",
+    "rolling": "rolling of the film",
+    "hysteresis": "hysteresis",
+    "drag": "drag",
+}
+# Positions of the balls over half a pitch and their weights: the other half mirrors it under a radial load.
+_PHASES = {0.0: 0.25, 0.25: 0.5, 0.5: 0.25}
+_LOOKS = {"sliding of the film": 1, "sliding on asperities": 2, "rolling of the film": 3, "hysteresis": 4, "drag": 5}
+SLOWEST = 1.0  # [1/min]
+FASTEST_FACTOR = 5e5  # n d_m, the usual limit of the catalogues [mm/min]
+
+
+class SpeedCurve(Record):
+    """Friction torque over speed, quasi-static, without cage."""
+
+    interface: int = INTERFACE
+    case: str
+    title: str
+    speeds_rpm: list[float]
+    torque_Nmm: list[float]
+    parts_Nmm: dict[str, list[float]] = Field(description="what the torque is made of")
+    skf_Nmm: list[float | None] = Field(description="SKF's catalogue model with drag; null where it does not apply")
+    film_parameter: list[float] = Field(description="smallest Lambda under load")
+    note: str
+
+    def text(self, units: UnitSystem = SI) -> str:
+        """Return a table for people."""
+        unit, names = "N mm", list(self.parts_Nmm)
+        head = ("1/min", "torque", *names, "SKF", "Lambda")
+        rows = [
+            (f"{n:.4g}", *(units.number(v, unit) for v in (self.torque_Nmm[i], *(self.parts_Nmm[k][i] for k in names))),
+             units.number(self.skf_Nmm[i], unit), f"{self.film_parameter[i]:.2f}")
+            for i, n in enumerate(self.speeds_rpm)
+        ]  # fmt: skip
+        widths = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head))]
+        lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in (head, *rows)]
+        return "\n".join([self.title, f"friction torque over speed [{units.unit(unit)}]", *lines, self.note])
+
+
+@one_blas_thread()
+def stribeck(
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | MachineModel,
+    overrides: Iterable[str] = (),
+    *,
+    bearing: str | None = None,
+    speeds_rpm: Sequence[float] = (),
+    points: int = 16,
+    announce: Callable[[str], None] | None = None,
+) -> SpeedCurve:
+    """Return the Stribeck curve of a case: its friction torque over the speed of the inner ring.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`; the case's own speed counts for nothing.
+    bearing : str, optional
+        Which one of a machine: under the constant load that it carries there at t = 0.
+    speeds_rpm : sequence of float
+        Speeds [1/min]; from 1 1/min to n d_m = 500 000 mm/min, evenly by their logarithm, when empty.
+    points : int
+        Number of these speeds.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    SpeedCurve
+        Parts of the torque, and SKF's model; quasi-static, the mean over positions of the balls, without cage.
+
+    Raises
+    ------
+    UsageError
+        For speeds that are not above zero, or fewer than two of them.
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium at a speed.
+    """
+    from lambda_core.solver.drivers.compiled_laws import Kernels
+
+    given, changes = list(speeds_rpm), tuple(overrides)
+    if any(not speed > 0.0 for speed in given):
+        raise UsageError("speeds of a Stribeck curve are above zero: the axis is logarithmic")
+    if (len(given) or points) < 2:
+        raise UsageError("a Stribeck curve takes two speeds or more")
+    model_at = _models(source, changes, bearing, announce)
+    model = model_at(given[0] if given else SLOWEST)
+    if not given:
+        mean_diameter = 500.0 * (model.geometry.bore_diameter + model.geometry.outside_diameter)
+        given = np.geomspace(SLOWEST, FASTEST_FACTOR / mean_diameter, points).tolist()
+    kernels = Kernels(model)
+    found = [_point(model_at(speed), kernels) for speed in given]
+    names = dict.fromkeys(_PARTS.values())
+    return SpeedCurve(
+        case=model.name,
+        title=model.title,
+        speeds_rpm=given,
+        torque_Nmm=[sum(parts.values()) for parts, _, _ in found],
+        parts_Nmm={name: [parts[name] for parts, _, _ in found] for name in names},
+        skf_Nmm=[skf for _, skf, _ in found],
+        film_parameter=[film for _, _, film in found],
+        note="quasi-static, mean over the positions of the balls, without cage"
+        + (", load of the machine at t = 0" if is_machine(source) else ""),
+    )
+
+
+def _models(
+    source: Any, changes: tuple[str, ...], bearing: str | None, announce: Callable[[str], None] | None
+) -> Callable[[float], BearingModel]:
+    """Return what gives the model of the bearing at a speed [1/min]."""
+    if is_machine(source):
+        from lambda_core.analysis.rotor.bearing_alone import at_speed, bearing_alone
+        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+
+        alone = bearing_alone(ready_machine_of(source, changes, announce), bearing, announce)
+        return lambda speed: at_speed(alone, speed * _RPM)
+    refuse_bearing(bearing)
+    return lambda speed: ready_model(source, (*changes, f"operation.speed={speed!r} rpm"), announce)
+
+
+def _point(model: Any, kernels: Any) -> tuple[dict[str, float], float | None, float]:
+    """Return parts [N mm], SKF's torque [N mm] and the smallest Lambda at one speed."""
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    parts = dict.fromkeys(_PARTS.values(), 0.0)
+    film = np.inf
+    for phase, weight in _PHASES.items():
+        found = solve(model, kernels, phase=phase)
+        torque = 1e3 * found.losses / found.relative_speed
+        for name, value in zip(LOSSES, torque.tolist(), strict=True):
+            mechanism = name.split("_")[0]
+            if mechanism in _PARTS:
+                parts[_PARTS[mechanism]] += weight * value
+        film = min(film, _smallest_film(found))
+    return parts, _skf(found), film
+
+
+def _smallest_film(found: Any) -> float:
+    from lambda_core.solver.records import CONTACT_CHANNELS
+
+    load, film = (found.contacts[:, :, CONTACT_CHANNELS.index(name)] for name in ("load", "film_parameter"))
+    return float(film[load > CARRYING * load.max()].min())
+
+
+def _skf(found: Any) -> float | None:
+    """Return SKF's torque, None where the model is not installed or does not apply."""
+    from lambda_core.discovery.manager import registry
+    from lambda_core.runs.engineering import rating_of
+
+    return rating_of(
+        found, {name: method for name, method in registry().methods.items() if name == "skf"}
+    ).skf_torque_Nmm
+
+
+def stribeck_picture(found: SpeedCurve) -> ViewData:
+    """Return the curve for :func:`draw`: torque with its parts over a logarithmic speed, SKF's points, Lambda below.
+
+    Parameters
+    ----------
+    found : SpeedCurve
+        From :func:`stribeck`.
+
+    Returns
+    -------
+    ViewData
+        Two panels.
+    """
+    speed = np.array(found.speeds_rpm)
+    parts = tuple(
+        Series(name, speed, np.array(values), "line", group=_LOOKS[name]) for name, values in found.parts_Nmm.items()
+    )
+    skf = np.array([np.nan if value is None else value for value in found.skf_Nmm])
+    total = Series("total", speed, np.array(found.torque_Nmm), "line", "total")
+    catalogue = (Series("SKF", speed, skf, "points", "reference"),) if np.isfinite(skf).any() else ()
+    axis = Axis("speed", "1/min", log=True)
+    film = Series("smallest under load", speed, np.array(found.film_parameter), "line", "inner")
+    panels = (
+        Panel("friction torque", axis, Axis("friction torque", "N mm", low=0.0), (total, *parts, *catalogue)),
+        Panel("film parameter", axis, Axis("Lambda", log=True), (film,), (Mark("full film", 3.0),)),
+    )
+    return ViewData("stribeck", "Friction torque over speed", found.title, panels, 1, (found.note,))

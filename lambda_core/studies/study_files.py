@@ -1,0 +1,92 @@
+"""Study files to start from: they come with the program, wherever it is installed."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from functools import cache
+from importlib import resources
+from pathlib import Path
+
+from lambda_core.case.case_writer import save_text
+from lambda_core.domain.errors import CaseError, UsageError, nearest
+from lambda_core.domain.files import check_new
+from lambda_core.studies.definition import parse_study
+
+_USUAL = "friction-map"
+
+
+@cache
+def example_texts() -> dict[str, str]:
+    """Return the study files that come with the program, by name."""
+    found = (entry for entry in resources.files("lambda_core.studies").joinpath("examples").iterdir())
+    texts = {entry.name.removesuffix(".toml"): entry for entry in found if entry.name.endswith(".toml")}
+    return {name: texts[name].read_text(encoding="utf-8") for name in sorted(texts)}
+
+
+def study_examples() -> dict[str, str]:
+    """Return the names of the studies that come with the program, each with its title.
+
+    Returns
+    -------
+    dict of str to str
+        What :func:`init_study` can start from.
+    """
+    return {name: str(tomllib.loads(text)["title"]) for name, text in example_texts().items()}
+
+
+def init_study(
+    name: str,
+    start: str | None = None,
+    path: str | Path | None = None,
+    overwrite: bool = False,
+    *,
+    case: str | None = None,
+) -> Path:
+    """Write a commented study file called `name` that starts from one of those that come with the program.
+
+    Parameters
+    ----------
+    name : str
+        Letters, digits, dot, dash and underscore.
+    start : str, optional
+        Study to start from, see :func:`study_examples`; default: the one called `name`, else friction-map.
+    path : path-like, optional
+        Default: NAME.toml in the working directory.
+    overwrite : bool
+        Replace a file that stands there.
+    case : str, optional
+        Built-in case or case file to put in; the ranges stay those of the example and want a look.
+
+    Returns
+    -------
+    pathlib.Path
+        The file.
+
+    Raises
+    ------
+    UsageError
+        When the file exists, cannot be written, or there is no such study to start from.
+    CaseError
+        When `name` cannot be a study's name.
+    """
+    texts = example_texts()
+    chosen = start or (name if name in texts else _USUAL)
+    if chosen not in texts:
+        known = ", ".join(nearest(chosen, texts) or texts)
+        raise UsageError(f'there is no study "{chosen}" to start from; there are: {known}')
+    target = Path(path) if path is not None else Path(f"{name}.toml")
+    text = re.sub(rf"\b{re.escape(chosen)}\b", name, texts[chosen])
+    if case is not None:
+        text = re.sub(r"^case = .*$", lambda _: f"case = {_quoted(case)}", text, count=1, flags=re.M)
+    try:
+        parse_study(text, f'new study "{name}"')
+    except CaseError as error:
+        raise CaseError(f'new study "{name}"', error.problems) from None
+    save_text(text, check_new(target, overwrite))
+    return target
+
+
+def _quoted(text: str) -> str:
+    """Return a text as TOML."""
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'

@@ -1,0 +1,84 @@
+"""A friction law of closed form, and measurements made with it under several kinds of noise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.fitting.least_squares import Data, Fit, fit
+from lambda_core.fitting.parameters import Parameter
+
+TRUTH = np.array([0.04, 6.0, 1.2])
+PARAMETERS = (
+    Parameter("loss factor", 0.03, 0.005, 0.1),
+    Parameter("Eyring stress", 8.0, 2.0, 12.0),
+    Parameter("rolling", 1.0, 0.3, 3.0),
+)
+
+
+class Conditions(NamedTuple):
+    """Speeds [1/min], loads [kN] and oil temperatures [degC] of a test plan."""
+
+    speed: FloatArray
+    load: FloatArray
+    temperature: FloatArray
+
+
+def plan() -> Conditions:
+    """Return 24 operating points."""
+    speed, load = np.meshgrid([300.0, 600.0, 1200.0, 2400.0, 3600.0, 4800.0], [4.0, 8.0, 16.0, 24.0])
+    shape = speed.size
+    return Conditions(speed.ravel(), load.ravel(), 50.0 + 20.0 * np.arange(shape) / shape)
+
+
+def torque(parameters: FloatArray, at: Conditions) -> FloatArray:
+    """Return hysteresis, sliding and rolling torque [N mm]."""
+    loss, stress, rolling = parameters
+    viscosity = np.exp(-0.035 * (at.temperature - 60.0))
+    hysteresis = 180.0 * loss * at.load ** (4 / 3)
+    sliding = 2.0 * stress * at.load ** (2 / 3) * np.arcsinh(2.0 * at.speed**0.5 / stress)
+    found: FloatArray = hysteresis + sliding + 2.4 * rolling * (viscosity * at.speed) ** 0.66
+    return found
+
+
+Noise = Callable[[np.random.Generator, FloatArray, FloatArray], FloatArray]
+
+
+def normal(random: np.random.Generator, values: FloatArray, errors: FloatArray) -> FloatArray:
+    """Add normal errors."""
+    return values + errors * random.standard_normal(values.size)
+
+
+def heavy(random: np.random.Generator, values: FloatArray, errors: FloatArray) -> FloatArray:
+    """Add errors of Student's distribution with three degrees of freedom."""
+    return values + errors * random.standard_t(3, values.size)
+
+
+def spoiled(random: np.random.Generator, values: FloatArray, errors: FloatArray) -> FloatArray:
+    """Add normal errors, and to one point in twelve one ten times as large."""
+    size = np.where(random.permutation(values.size) < values.size // 12, 10.0, 1.0)
+    return values + size * errors * random.standard_normal(values.size)
+
+
+NOISES: dict[str, Noise] = {"normal": normal, "heavy": heavy, "spoiled": spoiled}
+
+
+def fitted(noise: Noise, seed: int, *, is_error_known: bool, temperature_error: float = 0.0) -> Fit:
+    """Fit one set of synthetic measurements."""
+    at, random = plan(), np.random.default_rng(seed)
+    actual = at._replace(temperature=at.temperature + temperature_error * random.standard_normal(at.speed.size))
+    errors = 0.01 * torque(TRUTH, at)
+    values = noise(random, torque(TRUTH, actual), errors)
+    inputs = np.full((values.size, 1), temperature_error) if temperature_error else np.zeros((0, 0))
+
+    def slopes(parameters: FloatArray) -> FloatArray:
+        warmer = at._replace(temperature=at.temperature + 0.5)
+        return ((torque(parameters, warmer) - torque(parameters, at)) / 0.5)[:, None]
+
+    known = errors if is_error_known else np.ones(values.size)
+    columns = {"speed": at.speed, "load": at.load, "temperature": at.temperature}
+    data = Data(values, known, columns, inputs, is_error_known, not is_error_known)
+    return fit(lambda p: torque(p, at), PARAMETERS, data, input_slopes=slopes if temperature_error else None)

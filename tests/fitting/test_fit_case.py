@@ -1,0 +1,138 @@
+"""The fit of a case: parameters are found again from values that the case itself predicts."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lambda_cli.main import main
+
+from lambda_core import api
+from lambda_core.domain.errors import CaseError, SolverError, UsageError
+from lambda_core.fitting.measurements import parse_measurements
+from lambda_core.fitting.operating_points import point_values
+
+CASE = "6319-cp10-1500"
+HEADER = "speed [1/min],radial load [kN],oil temperature [degC],friction torque [N mm],friction torque error [%]"
+POINTS = ((300, 8, 60), (3000, 8, 62), (300, 30, 65), (3000, 30, 60))
+TRUTH = ("parameters.elastic_hysteresis.loss_factor=0.04", "parameters.traction.tau_eyring=6 MPa")
+
+
+@pytest.fixture(scope="module")
+def rows() -> list[str]:
+    """Return lines of a file of measurements that the case predicts with other parameters, without noise."""
+    text = api.case(CASE)
+    from lambda_core.case.case_writer import case_toml
+
+    found = []
+    for speed, load, temperature in POINTS:
+        at = (f"operation.speed={speed} rpm", f"loads.radial={load} kN", f"lubricant.temperature={temperature} degC")
+        torque = point_values(case_toml(text), (*at, *TRUTH), ("friction torque",)).mean()
+        found.append(f"{speed},{load},{temperature},{torque:.6g},1")
+    return found
+
+
+@pytest.fixture(scope="module")
+def report(rows: list[str]) -> api.FitReport:
+    measured = parse_measurements("\n".join([HEADER, *rows]), "rig.csv")
+    return api.fit(CASE, measured, ["loss_factor", "tau_eyring"])
+
+
+def test_true_values_are_found(report: api.FitReport) -> None:
+    loss, stress = report.parameters
+    assert loss.value == pytest.approx(0.04, rel=1e-3)
+    assert stress.value == pytest.approx(6.0, rel=2e-3)
+    assert (loss.low, loss.high) == (0.02, 0.047)  # published with the law
+    assert stress.unit == "MPa"
+    assert report.correlation[0][1] < -0.8
+    assert report.rms_error_pct < 0.02
+    assert not report.warnings
+    assert "determine elastic_hysteresis.loss_factor and traction.tau_eyring" in report.sentence
+
+
+def test_the_next_point_is_a_new_one_and_helps(report: api.FitReport) -> None:
+    assert report.next_point is not None
+    assert set(report.next_point.conditions) == {"speed", "radial load", "oil temperature"}
+    assert report.next_point.spread_after < 0.9 * report.next_point.spread_before
+
+
+def test_text_and_pictures_show_every_point(report: api.FitReport) -> None:
+    text = report.text()
+    assert "0.0400 ± " in text
+    assert "next point to measure: speed" in text
+    values, residuals = report.pictures()
+    assert sum(series.y.size for series in values.panels[0].series if series.kind == "points") == len(POINTS)
+    assert len(residuals.panels) == 3
+
+
+def test_the_fitted_case_predicts_what_was_fitted(report: api.FitReport, tmp_path: Path) -> None:
+    path = api.fitted_case(CASE, report, tmp_path / "fitted.toml")
+    case = api.case(path)
+    assert case.fit is not None
+    assert case.fit.sha256 == report.sha256
+    assert case.fit.correlation == [[pytest.approx(v, abs=1e-5) for v in row] for row in report.posterior_correlation]
+    model = api.check(path)
+    assert any("0.0400" in sentence and "rig.csv" in sentence for sentence in model.assumptions)
+    assert model.laws["ball_inner"]["elastic_hysteresis"].parameters.loss_factor == pytest.approx(0.04, rel=1e-3)
+    assert "ISO VG 100 mineral oil" in path.read_text()  # comments stay
+    with pytest.raises(UsageError, match="exists"):
+        api.fitted_case(CASE, report, path)
+
+
+@pytest.mark.full
+def test_the_temperature_error_of_the_oil_widens_the_errors(rows: list[str], report: api.FitReport) -> None:
+    head = HEADER + ",oil temperature error [K]"
+    measured = parse_measurements("\n".join([head, *(f"{row},0.5" for row in rows)]), "rig.csv")
+    warm = api.fit(CASE, measured, ["loss_factor", "tau_eyring"], suggest=False)
+    before, after = (found.parameters[1].standard_error for found in (report, warm))
+    assert before is not None
+    assert after is not None
+    assert after > 1.1 * before
+    assert warm.points[1].error > 1.1 * report.points[1].error
+
+
+@pytest.mark.parametrize(
+    ("vary", "said"),
+    [
+        ("loss_facto", "nearest: parameters.elastic_hysteresis.loss_factor"),
+        ("speed_floor", "names several parameters: write parameters.film_thickness.speed_floor or"),
+        ("vogel_k", 'has no published range: give one, for example --vary parameters.rheology.vogel_k="0.031..0.124"'),
+        ("tau_eyring=3..10", 'has no unit: write 4 MPa..16 MPa'),
+        ("tau_eyring=10 MPa..3 MPa", "is not a range: write LOW..HIGH"),
+        ("tau_eyring=3 mm..10 mm", "no unit in common"),
+        ("lubricant.temperature", 'the column "oil temperature" of rig.csv sets it; leave one of the two out'),
+    ],
+)  # fmt: skip
+def test_wrong_parameters_are_refused(vary: str, said: str, rows: list[str]) -> None:
+    with pytest.raises(UsageError) as caught:
+        api.fit(CASE, parse_measurements("\n".join([HEADER, *rows]), "rig.csv"), [vary])
+    assert said in str(caught.value)
+
+
+def test_a_point_that_cannot_be_computed_is_named_by_its_line(rows: list[str]) -> None:
+    measured = parse_measurements("\n".join([HEADER, *rows, "0,8,60,100,1"]), "rig.csv")
+    with pytest.raises((CaseError, SolverError, UsageError), match=r"rig\.csv line 6"):
+        api.fit(CASE, measured, ["loss_factor"])
+
+
+def test_the_command_writes_json_and_the_case(
+    rows: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    data, out = tmp_path / "rig.csv", tmp_path / "fitted.toml"
+    data.write_text("\n".join([HEADER, *rows]))
+    assert main(["fit", CASE, str(data), "--vary", "loss_factor", "--json", "--out", str(out), "-q"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["parameters"][0]["state"] in ("fitted", "at limit")
+    assert np.isfinite(found["rms_error_pct"])
+    assert out.is_file()
+
+
+def test_a_mistake_in_the_file_ends_the_command_with_its_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    data = tmp_path / "rig.csv"
+    data.write_text("speed [1/min];friction torque [N mm]\n500;1,5\n")
+    assert main(["fit", CASE, str(data), "--vary", "loss_factor"]) == 3
+    assert "line 2, column 2" in capsys.readouterr().err

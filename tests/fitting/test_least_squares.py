@@ -1,0 +1,184 @@
+"""The fit against certified values, and against synthetic measurements whose truth is known."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import pytest
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.fitting.least_squares import Data, fit
+from lambda_core.fitting.next_point import next_point
+from lambda_core.fitting.parameters import Parameter
+
+from . import certified as C
+from . import synthetic as S
+
+ORDINARY = 40  # synthetic fits of each kind in the ordinary tests
+
+
+@pytest.mark.parametrize("start", [0, 1])
+@pytest.mark.parametrize(
+    ("model", "y", "starts", "values", "deviations", "scatter"),
+    [
+        (C.misra, C.MISRA_Y, C.MISRA_STARTS, C.MISRA_VALUES, C.MISRA_DEVIATIONS, C.MISRA_SCATTER),
+        (C.thurber, C.THURBER_Y, C.THURBER_STARTS, C.THURBER_VALUES, C.THURBER_DEVIATIONS, C.THURBER_SCATTER),
+    ],
+)
+def test_values_deviations_and_scatter_are_the_certified_ones(
+    start: int,
+    model: Callable[[FloatArray], FloatArray],
+    y: FloatArray,
+    starts: Sequence[Sequence[float]],
+    values: FloatArray,
+    deviations: FloatArray,
+    scatter: float,
+) -> None:
+    parameters = [Parameter(f"b{i}", value) for i, value in enumerate(starts[start])]
+    found = fit(model, parameters, Data(y, np.ones_like(y), is_error_known=False), limit=math.inf)
+    np.testing.assert_allclose(found.values, values, rtol=1e-6)
+    np.testing.assert_allclose(found.standard_errors, deviations, rtol=1e-5)
+    assert found.scale == pytest.approx(scatter, rel=1e-7)
+
+
+def test_the_curve_of_misra_is_told_to_be_the_wrong_law() -> None:
+    """The residuals of this famous set bend over pressure, which its own documentation says."""
+    parameters = [Parameter("b1", 250.0), Parameter("b2", 5e-4)]
+    data = Data(C.MISRA_Y, np.ones(14), {"x": C.MISRA_X}, is_error_known=False)
+    assert fit(C.misra, parameters, data, limit=math.inf).tests[0].is_significant
+
+
+def _coverage(noise: str, count: int, *, is_error_known: bool, temperature_error: float) -> tuple[float, float]:
+    """Return the shares of fits whose region holds the truth, and whose law is called wrong."""
+    fits = [
+        S.fitted(S.NOISES[noise], seed, is_error_known=is_error_known, temperature_error=temperature_error)
+        for seed in range(count)
+    ]
+    inside = np.mean([found.contains(S.TRUTH) for found in fits])
+    return float(inside), float(np.mean([any(test.is_significant for test in found.tests) for found in fits]))
+
+
+@pytest.mark.parametrize("noise", S.NOISES)
+def test_the_region_holds_the_truth_in_most_synthetic_fits(noise: str) -> None:
+    inside, alarms = _coverage(noise, ORDINARY, is_error_known=True, temperature_error=0.0)
+    assert inside >= 0.85  # 0.90 less what 40 samples can miss by chance
+    assert alarms <= 0.15
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("temperature_error", [0.0, 1.0])
+@pytest.mark.parametrize("noise", S.NOISES)
+def test_the_region_holds_the_truth_in_90_to_99_percent(noise: str, temperature_error: float) -> None:
+    inside, alarms = _coverage(noise, 200, is_error_known=True, temperature_error=temperature_error)
+    assert 0.90 <= inside <= 0.99
+    assert alarms <= 0.05
+
+
+def test_errors_of_the_temperature_widen_the_region() -> None:
+    exact = S.fitted(S.normal, 3, is_error_known=True)
+    warm = S.fitted(S.normal, 3, is_error_known=True, temperature_error=2.0)
+    assert warm.standard_errors[2] > 1.5 * exact.standard_errors[2]
+
+
+@pytest.mark.parametrize("noise", S.NOISES)
+def test_a_wrong_law_is_detected(noise: str) -> None:
+    at = S.plan()
+    errors = 0.01 * S.torque(S.TRUTH, at)
+    columns = {"speed": at.speed, "load": at.load}
+    detected = []
+    for seed in range(10):
+        values = S.NOISES[noise](np.random.default_rng(seed), S.torque(S.TRUTH, at) + 0.004 * at.speed**1.3, errors)
+        found = fit(lambda p: S.torque(p, at), S.PARAMETERS, Data(values, errors, columns))
+        detected.append(any(test.is_significant for test in found.tests))
+    assert np.mean(detected) >= 0.9
+
+
+def test_a_pair_that_cannot_be_separated_is_reported_and_not_fitted() -> None:
+    at = S.plan()
+    true = S.torque(S.TRUTH, at)
+    errors = 0.01 * true
+    values = S.normal(np.random.default_rng(1), true, errors)
+    parameters = [*S.PARAMETERS, Parameter("film factor", 1.0, 0.5, 2.0)]
+    found = fit(lambda p: S.torque(np.array([p[0], p[1], p[2] * p[3]]), at), parameters, Data(values, errors))
+    assert len(found.held) == 1
+    assert found.parameters[found.held[0]].name in ("rolling", "film factor")
+    assert set(found.directions[-1].weights) == {"rolling", "film factor"}
+    assert not found.directions[-1].is_determined
+    held = found.held[0]
+    assert found.values[held] == found.parameters[held].start
+    assert math.isnan(found.standard_errors[held])
+
+
+def test_leave_one_out_agrees_with_fits_without_each_point() -> None:
+    at = S.plan()
+    true = S.torque(S.TRUTH, at)
+    errors = 0.01 * true
+    values = S.normal(np.random.default_rng(2), true, errors)
+    complete = fit(lambda p: S.torque(p, at), S.PARAMETERS, Data(values, errors), limit=math.inf)
+    for index in (0, 5, 23):
+        kept = np.arange(values.size) != index
+        part = S.Conditions(*(column[kept] for column in at))
+        without = fit(
+            lambda p, part=part: S.torque(p, part), S.PARAMETERS, Data(values[kept], errors[kept]), limit=math.inf
+        )
+        missed = S.torque(without.values, at)[index] - values[index]
+        assert complete.left_out[index] == pytest.approx(missed, rel=0.1, abs=0.1)
+
+
+def test_an_outlier_is_named_and_hardly_moves_the_fit() -> None:
+    at = S.plan()
+    true = S.torque(S.TRUTH, at)
+    errors = 0.01 * true
+    values = S.normal(np.random.default_rng(4), true, errors)
+    clean = fit(lambda p: S.torque(p, at), S.PARAMETERS, Data(values, errors))
+    values[7] *= 1.5
+    spoiled = fit(lambda p: S.torque(p, at), S.PARAMETERS, Data(values, errors))
+    assert spoiled.outliers == [7]
+    assert np.all(np.abs(spoiled.values - clean.values) < 2.0 * clean.standard_errors)
+
+
+def test_bands_hold_new_measurements() -> None:
+    at = S.plan()
+    true = S.torque(S.TRUTH, at)
+    inside = []
+    for seed in range(20):
+        found = S.fitted(S.normal, seed, is_error_known=True)
+        fresh = S.normal(np.random.default_rng(1000 + seed), true, found.data.errors)
+        half = found.quantile(0.9) * found.prediction_deviation(found.jacobian, found.data.errors)
+        inside.append(np.abs(fresh - found.predicted) < half)
+    assert 0.85 <= np.mean(inside) <= 0.95
+
+
+def test_an_interruption_keeps_the_best_values_so_far() -> None:
+    at, calls = S.plan(), []
+    true = S.torque(S.TRUTH, at)
+
+    def model(values: FloatArray) -> FloatArray:
+        calls.append(values)
+        if len(calls) > 20:
+            raise KeyboardInterrupt
+        return S.torque(values, at)
+
+    found = fit(model, S.PARAMETERS, Data(true, 0.01 * true))
+    before = S.torque(np.array([p.start for p in S.PARAMETERS]), at)
+    assert found.is_interrupted
+    assert np.abs(found.predicted - true).sum() < 0.1 * np.abs(before - true).sum()
+
+
+def test_the_next_point_separates_what_the_data_do_not() -> None:
+    """Two powers of the speed that were measured at nearly one speed need another speed."""
+    speed = np.array([100.0, 100.5, 101.0])
+    powers = np.column_stack([speed**0.6, speed**0.7])
+    offered = np.array([100.0, 101.0, 1000.0])
+    parameters = [Parameter("a", 1.0, 0.5, 2.0), Parameter("b", 1.0, 0.5, 2.0)]
+    found = next_point(powers, np.column_stack([offered**0.6, offered**0.7]), parameters)
+    assert found.index == 2
+    assert found.after < 0.6 * found.before
+    assert set(found.worst.weights) == {"a", "b"}
+
+
+def test_too_few_points_are_refused() -> None:
+    with pytest.raises(ValueError, match="vary fewer parameters or add operating points"):
+        fit(C.misra, S.PARAMETERS, Data(np.ones(3), np.ones(3)))

@@ -1,0 +1,84 @@
+"""Files of measurements: columns, units, and a message for every mistake."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.fitting.measurements import parse_measurements, read_measurements
+
+_TORQUE = "friction torque [N m],friction torque error [%]"
+GOOD = f"""# run of 3 May
+label,speed [1/min],radial load [kN],oil temperature [°C],oil temperature error [K],{_TORQUE}
+a,500,16,62.5,2,0.925,2
+b,1500,16,62.5,2,1.306,2
+c,3000,24.6,62.5,2,,2
+"""
+
+
+def test_columns_are_read_in_their_units() -> None:
+    text = GOOD.replace("3000,24.6,62.5,2,,2", "3000,24.6,62.5,2,1.847,2")
+    found = parse_measurements(text, "rig.csv")
+    assert len(found) == 3
+    assert found.lines == (3, 4, 5)
+    assert found.labels == ("a", "b", "c")
+    np.testing.assert_allclose(found.conditions["speed"], np.array([500, 1500, 3000]) * np.pi / 30)
+    np.testing.assert_allclose(found.conditions["radial load"], [16e3, 16e3, 24.6e3])
+    np.testing.assert_allclose(found.conditions["oil temperature"], 335.65)
+    np.testing.assert_allclose(found.condition_errors["oil temperature"], 2.0)
+    np.testing.assert_allclose(found.measured["friction torque"], [925.0, 1306.0, 1847.0])
+    np.testing.assert_allclose(found.shares["friction torque"], 0.02)
+
+
+def test_semicolons_and_quotes_around_cells_are_read() -> None:
+    found = parse_measurements('"speed [rpm]";"power loss [kW]"\n"500";"0.1"\n', "rig.csv")
+    np.testing.assert_allclose(found.measured["power loss"], [100.0])
+
+
+def test_one_of_several_quantities_may_be_missing() -> None:
+    found = parse_measurements("speed [rpm],power loss [W],capacitance [pF]\n500,3,\n600,,900\n", "rig.csv")
+    np.testing.assert_allclose(found.measured["capacitance"], [np.nan, 0.9])
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "line 1"),
+        ("speed [rpm],power loss [W]\n", "no measured point follows"),
+        ("speed [rpm],radial load [N]\n1,2\n", "has no measured quantity"),
+        ("speed,power loss [W]\n1,2\n", 'line 1, column 1       "speed" has no unit: write "speed [rpm]"'),
+        ("sped [rpm],power loss [W]\n1,2\n", '"sped [rpm]" is not a known column; nearest: speed'),
+        ("speed [kN],power loss [W]\n1,2\n", "kN is not a unit of rotational_speed"),
+        ("speed [rpm],speed [rpm],power loss [W]\n1,1,2\n", 'column 2       "speed" appears twice'),
+        ("power loss [W],speed error [rpm]\n1,2\n", 'no column "speed" it belongs to'),
+        ("speed [rpm];power loss [W]\n1;2\n1,5;2\n", 'column 1       speed [rpm]: "1,5": write a decimal point'),
+        ("speed [rpm],power loss [W]\n1,2\n1,5,2\n", "has 3 cells, the header 2; write decimal points"),
+        ("speed [rpm],power loss [W]\n1\n", "line 2                 has 1 cells, the header 2"),
+        ("speed [rpm],power loss [W]\n,2\n", 'line 2, column 1       "speed [rpm]" is empty: write a number'),
+        ('speed [rpm],power loss [W]\n1,"2\n', "line 2                 has a single quote mark at character 3"),
+        ("speed [rpm],power loss [W]\n1,two\n", 'line 2, column 2       power loss [W]: "two" is not a number'),
+        ("speed [rpm],power loss [W]\n1,nan\n", '"nan" is not a finite number'),
+        ("oil temperature [K],power loss [W]\n-3,1\n", "below absolute zero"),
+        ("speed [rpm],power loss [W]\n1,\n", "line 2                 has no measured value"),
+        ("power loss [W],power loss error [%]\n1,0\n", "an error must be above zero"),
+    ],
+)  # fmt: skip
+def test_every_mistake_has_line_column_and_remedy(text: str, said: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        parse_measurements(text, "rig.csv")
+    assert said in str(caught.value)
+    assert str(caught.value).startswith("rig.csv: ")
+
+
+def test_all_mistakes_of_a_file_are_reported_at_once() -> None:
+    with pytest.raises(CaseError) as caught:
+        parse_measurements("speed [rpm],power loss [W]\nx,1\n2,y\n", "rig.csv")
+    assert len(caught.value.problems) == 2
+
+
+def test_a_missing_file_is_a_mistake_of_the_call(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="No such file"):
+        read_measurements(tmp_path / "none.csv")

@@ -1,0 +1,74 @@
+"""Results in a notebook: they complete, show themselves, and go wherever a path goes."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fake_engine import FakeEngine, MakeProvenance
+
+from lambda_core import api
+from lambda_core.domain.errors import UsageError
+from lambda_core.results.reader import Result
+from lambda_core.runs.loop import run
+
+
+@pytest.fixture
+def result(provenance: MakeProvenance, tmp_path: Path) -> Result:
+    return run(FakeEngine(), provenance(duration=0.05), tmp_path / "r.h5")
+
+
+def test_a_result_completes_and_shows_itself(result: Result) -> None:
+    assert {"friction_torque_Nmm", "power_loss_W", "contacts", "to_xarray", "summary"} <= set(dir(result))
+    assert repr(result).startswith(f"<Result {result.path}: ")
+    assert result.summary().state in repr(result)
+    shown = result._repr_html_()
+    assert shown.startswith("<pre>")
+    assert "friction torque" in shown
+
+
+def test_a_result_is_taken_where_a_path_is(result: Result) -> None:
+    assert api.view(result, "energy-balance").as_dict() == api.view(result.path, "energy-balance").as_dict()
+    assert api.view([result], "energy-balance").as_dict() == api.view([result.path], "energy-balance").as_dict()
+
+
+def test_a_result_stands_for_its_file(result: Result, tmp_path: Path) -> None:
+    assert api.summary(result) == api.summary(result.path)
+    assert api.cite(result) == api.cite(result.path)
+    assert api.view_stem([result]) == "r"
+    assert Path(result) == result.path
+    (tmp_path / "page.html").touch()
+    with pytest.raises(UsageError, match=r"page\.html exists"):
+        api.report(result, tmp_path / "page.html")
+
+
+def test_a_result_plots_a_view_that_a_notebook_shows(result: Result) -> None:
+    figure = result.plot("energy-balance")
+    assert figure._repr_png_().startswith(b"\x89PNG")
+    with pytest.raises(UsageError, match='"enrgy-balance" is not a known view; nearest: energy-balance'):
+        result.plot("enrgy-balance")
+    with pytest.raises(UsageError, match="bal"):
+        result.plot("contact-map", bal=1)
+
+
+def test_a_case_completes_to_what_it_has() -> None:
+    assert {"bearing", "loads", "with_"} <= set(dir(api.case("6319-cp10-1500")))
+    assert not [name for name in dir(api.case("6319-cp10-1500")) if name in ("copy", "parse_obj", "model_fields")]
+
+
+def test_progress_says_where_it_stands_in_a_line() -> None:
+    numbers: dict[str, Any] = dict.fromkeys(api.Progress.model_fields, None) | {
+        "time_s": 0.1, "percent": 41.6, "cage_revolutions": 2.04, "cage_revolutions_wanted": 5.0, "averaged": 1,
+        "friction_torque_Nmm": 160.2, "friction_torque_ci_Nmm": 1.5, "inner_loads_N": (), "wall_s": 1.0, "left_s": 2.2,
+    }  # fmt: skip
+    assert str(api.Progress(**numbers)) == (
+        "42 %   2.0 of 5 cage revolutions   friction torque 160.2 ± 1.5 N mm   2 s left"
+    )
+
+
+def test_without_xarray_it_says_which_extra(result: Result, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(UsageError, match=r'extra "data": pip install "lambda-bearing\[data\]"'):
+        result.to_xarray()
