@@ -28,6 +28,11 @@ class Contact(Record):
     capacitance_pF: float | None = Field(description="null where asperities short the contact")
 
 
+CONTACT_UNITS = {
+    "azimuth_deg": "deg", "load_N": "N", "contact_angle_deg": "deg", "film_um": "um", "capacitance_pF": "pF",
+}  # fmt: skip
+
+
 class Equilibrium(Record):
     """The quasi-static state that the run started from."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from typing import Any
 
 import numpy as np
 from pydantic import Field
@@ -15,12 +16,13 @@ from lambda_core.formulas.elastic.ring import shape
 from lambda_core.formulas.loading import CARRYING, Ring, largest_contact, loaded_balls
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.model.laws.time_functions import initial
+from lambda_core.results.answer import Answer, dataset, declared_numbers, drawn
 from lambda_core.results.averages import finite
-from lambda_core.results.bearing_summary import BearingSummary, Contact
+from lambda_core.results.bearing_summary import CONTACT_UNITS, BearingSummary, Contact
 from lambda_core.results.bearing_summary import Equilibrium as StartState
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
 from lambda_core.results.model_band import Banded
-from lambda_core.results.quantity import quantity, same_as
+from lambda_core.results.quantity import quantity, same_as, shown
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import capacitance_note, contact_list, merged_cage, span
@@ -46,7 +48,7 @@ class RingShape(Record):
     inwards_deg: float = Field(description="azimuth where that is")
 
 
-class QuasiStatic(Banded):
+class QuasiStatic(Answer, Banded):
     """Loads, displacement, kinematics and friction without time; the cage is left out.
 
     Numbers that a ring at rest does not have (friction torque, film) are null.
@@ -90,6 +92,38 @@ class QuasiStatic(Banded):
         from lambda_core.results.text import quasistatic_text
 
         return quasistatic_text(self, width, units)
+
+    def plot(self, name: str = "ball-loads", **options: Any) -> Any:
+        """Return a view of the equilibrium as a matplotlib figure; default: the load of every ball.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            ``savefig`` writes it.
+        """
+        return drawn(None, self, None, name, options)
+
+    def to_xarray(self) -> Any:
+        """Return contacts and numbers as an xarray.Dataset with units; UsageError when xarray is not installed.
+
+        Returns
+        -------
+        xarray.Dataset
+            Dimension contact, with ball, ring and azimuth; numbers of the bearing have dimension bearing.
+        """
+        data, labels = declared_numbers({self.case: self}, "bearing")
+        for name, unit in CONTACT_UNITS.items():
+            values = np.array([getattr(contact, name) for contact in self.contacts], dtype=float)
+            data[name] = ("contact", values, {"units": unit})
+        labels |= {
+            "ball": ("contact", [contact.ball for contact in self.contacts]),
+            "ring": ("contact", [contact.ring for contact in self.contacts]),
+        }
+        return dataset(data, labels, {"case": self.case, "title": self.title})
+
+    def __repr__(self) -> str:
+        """Return case, largest load and friction torque."""
+        return f"<QuasiStatic {self.case}, {shown(self, 'max_load_N')}, {shown(self, 'friction_torque_Nmm')}>"
 
 
 def quasistatic_of(found: Equilibrium, rating: Rating | None = None) -> QuasiStatic:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     from lambda_core.results.model_band import ModelBand
     from lambda_core.results.rating import Rating
     from lambda_core.results.summary import Summary
+
+    Rerun = Callable[["Result", Mapping[str, Any], str | Path | None], "Result"]
 
 _TIME = CHANNELS[0]
 _BLOCK = 4096  # rows read at a time where a whole channel need not be in memory
@@ -95,6 +97,7 @@ class Result:
             elif bearing not in self.bearing_names and (bearing or not self.is_machine):
                 raise UsageError(f"{self.path}: {unknown_name('bearing', bearing, self.bearing_names)}")
             self.bearing = bearing
+            self._rerun: Rerun | None = None
             group = file[self._place]
             if bearing and len(self.bearing_names) > 1:
                 self.title, self.headline = (printable(str(group.attrs[name])) for name in ("title", "headline"))
@@ -377,6 +380,20 @@ class Result:
             text = str(error)
         return f"<pre>{escape(self.headline)}\n{escape(text)}</pre>"
 
+    def with_(self, *, out: str | Path | None = None, **changes: Any) -> Result:
+        """Run the case with `changes`, section by section, into `out` or a file of a free name; return its result.
+
+        ``result.with_(operation={"speed": "2750 rpm"})``; errors as of :func:`lambda_core.api.run`.
+        """
+        if self._rerun is None:
+            raise UsageError(f"{self.path}: open it with lambda_core.api.result to run its changed case")
+        return self._rerun(self, changes, out)
+
+    def rerun_by(self, function: Rerun) -> Result:
+        """Remember what runs a changed case; returns this object."""
+        self._rerun = function
+        return self
+
     def plot(self, name: str, **options: Any) -> Any:
         """Return a view of the result as a matplotlib figure; a notebook shows it.
 
@@ -413,10 +430,7 @@ class Result:
         UsageError
             When xarray is not installed; it comes with the extra "data".
         """
-        try:
-            import xarray
-        except ImportError:
-            raise UsageError('xarray comes with the extra "data": pip install "lambda-bearing[data]"') from None
+        from lambda_core.results.answer import dataset
 
         with opened(self.path) as file:
             rows = self._status(file).rows.samples
@@ -429,7 +443,7 @@ class Result:
                 for channel in self.channels
             }
         coords = {"time": data.pop("time"), **{dim: list(labels) for dim, labels in self._labels.items()}}
-        return xarray.Dataset(data, coords, {"title": self.title, "case": self.case, "created": self.created})
+        return dataset(data, coords, {"title": self.title, "case": self.case, "created": self.created})
 
     def to_pandas(self, *names: str) -> Any:
         """Return channels (all without names) as a pandas.DataFrame over time.

@@ -24,6 +24,7 @@ from lambda_core.elements.roller.roller_motion import RollerMotion, rolling_moti
 from lambda_core.elements.roller.roller_ratings import lamina_ratings, roller_equivalent_load, roller_static_load
 from lambda_core.formulas.life import life_hours, reference_viscosity
 from lambda_core.formulas.loading import CARRYING
+from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
 from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
 from lambda_core.results.record import INTERFACE, Record
@@ -48,7 +49,7 @@ class RollerLoad(Record):
     max_line_load_N_mm: float = Field(description="largest load per length of a slice")
 
 
-class RollerQuasiStatic(Record):
+class RollerQuasiStatic(Answer):
     """Loads, films, friction torque, lives and safety of a roller bearing without time; the cage is left out."""
 
     interface: int = INTERFACE
@@ -89,6 +90,10 @@ class RollerQuasiStatic(Record):
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
         """Return the lines for people in some units, none longer than `width` where one is given."""
         return _text(self, width, units)
+
+    def __repr__(self) -> str:
+        """Return case, largest load and friction torque."""
+        return f"<RollerQuasiStatic {self.case}, {self.max_load_N:.5g} N, {number(self.friction_torque_Nmm, 1)} N mm>"
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from lambda_core.domain.errors import BearingNeededError, UsageError
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.elements.ball.kinds import kind_of
 from lambda_core.formulas.loading import CARRYING, Ring, carries, largest_contact, loaded_balls
+from lambda_core.results.answer import dataset, declared_numbers
 from lambda_core.results.averages import Interval, finite
 from lambda_core.results.bearing_summary import BearingSummary, Contact, Equilibrium
 from lambda_core.results.bent import bent_parts
@@ -38,7 +39,7 @@ from lambda_core.results.machine_numbers import (
     total,
 )
 from lambda_core.results.model_band import sum_of_bands
-from lambda_core.results.quantity import FLOATING, SMALL, quantity
+from lambda_core.results.quantity import FLOATING, SMALL, quantity, shown
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.rolling import ROLLING, rolling_of
 from lambda_core.results.run_status import Status
@@ -143,6 +144,24 @@ class Summary(Record):
         from lambda_core.results.text import summary_text
 
         return summary_text(self, width, units)
+
+    def to_xarray(self) -> Any:
+        """Return the averages of every bearing as an xarray.Dataset with units; UsageError without xarray.
+
+        Returns
+        -------
+        xarray.Dataset
+            Dimension bearing, and the axes of vectors; numbers of the machine have none.
+        """
+        data, labels = declared_numbers(self.bearings, "bearing")
+        total, _ = declared_numbers({"": self}, "bearing")
+        for name, (_, values, facts) in total.items():
+            data.setdefault(name, ((), values[0], facts))
+        return dataset(data, labels, {"case": self.case, "title": self.title, "state": self.state})
+
+    def __repr__(self) -> str:
+        """Return case, state and friction torque."""
+        return f"<Summary {self.case}, {self.state}, friction torque {shown(self, 'friction_torque_Nmm')}>"
 
 
 def field_names() -> dict[str, str]:

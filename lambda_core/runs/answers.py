@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.results.answer import answers
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -48,7 +49,9 @@ def result(path: str | PathLike[str], bearing: str | None = None) -> Result:
 
     if isinstance(path, Result):
         return path if bearing is None else path.of_bearing(bearing)
-    return Result(path, bearing)
+    from lambda_core.runs.rerun import rerun
+
+    return Result(path, bearing).rerun_by(rerun)
 
 
 def side_by_side(paths: Sequence[str | PathLike[str]]) -> SideBySide:
@@ -118,6 +121,7 @@ def cite(path: str | PathLike[str]) -> Citation:
     return citation(result(path))
 
 
+@answers
 def compare(
     source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),

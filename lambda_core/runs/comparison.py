@@ -13,6 +13,7 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.time_functions import initial
+from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
 from lambda_core.results.provenance import differences, model_data
 from lambda_core.results.record import INTERFACE, Record
@@ -52,7 +53,7 @@ class ComparedMethod(Record):
     failed: bool = Field(default=False, description="whether it failed of its own; the reason names its package")
 
 
-class Comparison(Record):
+class Comparison(Answer):
     """Every method on one case, at its start; with the simulation if a result was given."""
 
     interface: int = INTERFACE

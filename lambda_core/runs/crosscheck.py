@@ -20,6 +20,7 @@ from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.model.bearing_model import BearingModel, DofState, TimeFunction
+from lambda_core.results.answer import Answer
 from lambda_core.results.averages import estimate, finite
 from lambda_core.results.record import Record
 from lambda_core.runs.cvode import integrate
@@ -47,7 +48,7 @@ class Integration(Record):
     jacobians: int
 
 
-class CrossCheck(Record):
+class CrossCheck(Answer):
     """What two integrators make of one case."""
 
     case: str

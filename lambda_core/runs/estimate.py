@@ -14,10 +14,10 @@ from lambda_core.analysis.rotor.machine_modes import MachineModes, modes_of
 from lambda_core.model.bearing_model import BearingModel, Solver
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.machine_model import MachineModel
+from lambda_core.results.answer import Answer
 from lambda_core.results.convergence import AVERAGED_AT_LEAST, DISCARDED_AT_LEAST
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.rating import Rating
-from lambda_core.results.record import Record
 from lambda_core.runs.engineering import rating_of
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
@@ -33,7 +33,7 @@ SIMULATED = "simulated time of the run: what the case says, else the shortest in
 PROCESSOR = "processor time of the run on this machine, from a trial; null where there is none"
 
 
-class Estimate(Record):
+class Estimate(Answer):
     """Numbers for a case that is being set up; null where there is none."""
 
     equilibrium: QuasiStatic
@@ -53,7 +53,7 @@ class Estimate(Record):
         return f"<Estimate {self.equilibrium.case}, {_time(self.processor_s)} of processor time>"
 
 
-class MachineEstimate(Record):
+class MachineEstimate(Answer):
     """Numbers for a machine that is being set up."""
 
     equilibrium: MachineEquilibrium

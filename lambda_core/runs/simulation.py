@@ -9,7 +9,9 @@ from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.model.checking import check
+from lambda_core.results.answer import answers
 from lambda_core.runs.answers import result
+from lambda_core.runs.rerun import ready, rerun
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
     from lambda_core.runs.warmup import Warmup
 
 
+@answers
 @one_blas_thread()
 def quasistatic(
     source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
@@ -100,6 +103,7 @@ def _roller_answer(source: Any, overrides: Iterable[str]) -> RollerQuasiStatic |
     return None if model is None else roller_quasistatic(model)
 
 
+@answers
 @one_blas_thread()
 def estimate(
     source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
@@ -178,20 +182,8 @@ def run(
     from lambda_core.runs.launch import launch
 
     path = None if out is None else Path(out)
-    return launch(_ready(source, overrides, announce), path, force=force, band=band, report=progress, announce=announce)
-
-
-def _ready(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
-    overrides: Iterable[str],
-    announce: Callable[[str], None] | None,
-) -> BearingModel | MachineModel:
-    """Return the model of a bearing or a machine, with its temperatures."""
-    if is_machine(source):
-        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
-
-        return ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
-    return ready_model(source, overrides, announce)  # type: ignore[arg-type]
+    found = launch(ready(source, overrides, announce), path, force=force, band=band, report=progress, announce=announce)
+    return found.rerun_by(rerun)
 
 
 @one_blas_thread()
@@ -234,7 +226,7 @@ def iterate(
     """
     from lambda_core.runs.stepping import Stepping
 
-    return Stepping(_ready(source, overrides, announce), interval, announce, exact=exact, couple=couple)
+    return Stepping(ready(source, overrides, announce), interval, announce, exact=exact, couple=couple)
 
 
 @one_blas_thread()
@@ -285,7 +277,7 @@ def resume(
         raise CaseError(
             error.source, [*error.problems, Problem("", f"its laws came from {', '.join(others)}")]
         ) from None
-    return relaunch(found.path, model, report=progress, announce=announce)
+    return relaunch(found.path, model, report=progress, announce=announce).rerun_by(rerun)
 
 
 def _stored_model(found: Result, overrides: Iterable[str]) -> BearingModel | MachineModel:
@@ -298,6 +290,7 @@ def _stored_model(found: Result, overrides: Iterable[str]) -> BearingModel | Mac
     return check(tables, overrides)
 
 
+@answers
 @one_blas_thread()
 def cross_check(
     source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
@@ -339,7 +332,7 @@ def cross_check(
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.runs.crosscheck import cross_check as ask
 
-    model = _ready(source, overrides, announce)
+    model = ready(source, overrides, announce)
     if isinstance(model, BearingModel):
         refuse_bearing(bearing)
     elif bearing is not None:

@@ -19,7 +19,8 @@ from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.loading import CARRYING
-from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.answer import Answer, answers
+from lambda_core.results.record import INTERFACE
 from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ SLOWEST = 1.0  # [1/min]
 FASTEST_FACTOR = 5e5  # n d_m, the usual limit of the catalogues [mm/min]
 
 
-class SpeedCurve(Record):
+class SpeedCurve(Answer):
     """Friction torque over speed, quasi-static, without cage."""
 
     interface: int = INTERFACE
@@ -72,6 +73,7 @@ class SpeedCurve(Record):
         return "\n".join([self.title, f"friction torque over speed [{units.unit(unit)}]", *lines, self.note])
 
 
+@answers
 @one_blas_thread()
 def stribeck(
     source: str | Path | Mapping[str, Any] | Case | ShaftCase | MachineModel,

@@ -105,7 +105,10 @@ def notebook(folder: Path) -> None:
     stronger = still.with_(gears={"wheel": {"power": "30 kW"}})
     assert stronger.system_life_h < still.system_life_h
     assert stronger == machine.with_(gears={"wheel": {"power": "30 kW"}}).quasistatic()
+    other = found.with_(operation={"speed": "2900 rpm"}, out=folder / "slower.h5")
+    assert other.summary().speed_rpm == pytest.approx(2900.0)
     pytest.importorskip("xarray")
+    assert summary.to_xarray()["friction_torque_Nmm"].dims == ("bearing",)
     assert found.bearings["left"].to_xarray()["film_central"].units == "m"
     table = still.to_xarray()
     assert table["radial_load_N"].dims == ("bearing",)

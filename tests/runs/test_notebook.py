@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import sys
 from pathlib import Path
 from typing import Any
@@ -72,3 +73,31 @@ def test_without_xarray_it_says_which_extra(result: Result, monkeypatch: pytest.
     monkeypatch.setitem(sys.modules, "xarray", None)
     with pytest.raises(UsageError, match=r'extra "data": pip install "lambda-bearing\[data\]"'):
         result.to_xarray()
+
+
+def test_an_equilibrium_shows_and_draws_itself_and_answers_for_a_changed_case() -> None:
+    found = api.quasistatic("6208-axial-1300", ["loads.radial=1 kN"])
+    assert repr(found).startswith("<QuasiStatic 6208-axial-1300")
+    (panel,) = found.plot().axes
+    assert "load" in panel.get_ylabel()
+    stronger = found.with_(loads={"radial": "3 kN"})
+    assert stronger.max_load_N > found.max_load_N
+    assert stronger == api.quasistatic("6208-axial-1300", ["loads.radial=3 kN"])
+    assert stronger.with_(loads={"radial": "1 kN"}) == found
+    assert pickle.loads(pickle.dumps(found)).with_(loads={"radial": "3 kN"}) == stronger
+    with pytest.raises(UsageError, match="knows no case"):
+        type(found).model_validate(found.model_dump()).with_(loads={"radial": "3 kN"})
+    pytest.importorskip("xarray")
+    table = found.to_xarray()
+    assert table["load_N"].dims == ("contact",)
+    assert float(table["load_N"].max()) == found.max_load_N
+    assert table["inner_ring_displacement_um"].sel(xyz="z", bearing=found.case) == found.inner_ring_displacement_um[2]
+
+
+def test_other_answers_answer_for_a_changed_case() -> None:
+    """Temperatures in warmer air; friction over speed under more load."""
+    warm = api.thermal("6208-axial-1300")
+    warmer = warm.with_(thermal={"ambient": "40 degC"}).temperatures_degC
+    assert all(warmer[part] > value for part, value in warm.temperatures_degC.items())
+    curve = api.stribeck("6208-axial-1300", speeds_rpm=[500.0, 1000.0])
+    assert curve.with_(loads={"axial": "2 kN"}).torque_Nmm[0] > curve.torque_Nmm[0]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.model.checking import model_of
+from lambda_core.results.answer import answers
 from lambda_core.results.reader import Result
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     Source = str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel
 
 
+@answers
 @one_blas_thread()
 def electric(
     source: Source,

@@ -17,6 +17,7 @@ from lambda_core.analysis.electric.voltage_sources import period_of
 from lambda_core.case.electric import Electric, Inverter, MachineElectric, Sine, Step
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.model.settings.resolve_electric import assumed
+from lambda_core.results.answer import Answer
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.text import line
 
@@ -41,7 +42,7 @@ class Histogram(Record):
     counts: list[int]
 
 
-class Outcome(Record):
+class Outcome(Answer):
     """What the circuit of one bearing does; spans are smallest, middle (median) and largest."""
 
     interface: int = INTERFACE
@@ -331,7 +332,7 @@ def _worst(ring: str, shares: Sequence[float]) -> str:
     return f"{ring} {100 * most:.0f} % at {at:.0f}..{at + width:.0f} deg"
 
 
-class ShaftOutcome(Record):
+class ShaftOutcome(Answer):
     """All bearings of a shaft in one circuit."""
 
     interface: int = INTERFACE

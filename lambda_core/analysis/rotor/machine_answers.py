@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
+from lambda_core.results.answer import answers
 
 if TYPE_CHECKING:
     from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from lambda_core.model.machine_model import MachineModel
 
 
+@answers
 @one_blas_thread()
 def machine_equilibrium(
     source: Source | MachineModel,
@@ -39,6 +41,7 @@ def machine_equilibrium(
     return found.with_bands(bands_of_machine(model, state))
 
 
+@answers
 @one_blas_thread()
 def modes(
     source: Source | BearingModel | MachineModel,

@@ -20,12 +20,13 @@ from lambda_core.formulas.life import system_life
 from lambda_core.formulas.loading import Ring
 from lambda_core.model.checks.operating_limits import load_warnings, operating_warnings
 from lambda_core.model.machine_model import MachineModel, MountedBearing, Place
+from lambda_core.results.answer import Answer, dataset, declared_numbers, drawn
 from lambda_core.results.averages import finite
 from lambda_core.results.bearing_summary import BearingSummary, Contact
 from lambda_core.results.bearing_summary import Equilibrium as StartState
 from lambda_core.results.limits import warnings
 from lambda_core.results.model_band import Banded, MachineBand, sum_of_bands
-from lambda_core.results.quantity import FLOATING, quantities, quantity, same_as
+from lambda_core.results.quantity import FLOATING, quantity, same_as
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
@@ -124,7 +125,7 @@ class BodyMoved(Record):
     tilt_mrad: list[float] = Field(description="about x, y and z")
 
 
-class MachineEquilibrium(Record):
+class MachineEquilibrium(Answer):
     """Quasi-static equilibrium of a machine: loads, deflection, lives and friction of its bearings."""
 
     interface: int = INTERFACE
@@ -177,31 +178,6 @@ class MachineEquilibrium(Record):
         """Return plain data, ready for JSON."""
         return self.model_dump(mode="json")
 
-    def with_(self, **changes: Any) -> MachineEquilibrium:
-        """Solve the same machine with changes to its case, section by section.
-
-        Returns
-        -------
-        MachineEquilibrium
-            Of the changed machine.
-
-        Examples
-        --------
-        ``found.with_(gears={"wheel": {"power": "20 kW"}}).system_life_h``
-
-        Raises
-        ------
-        UsageError
-            For an equilibrium that was read from data and has no machine.
-        CaseError, SolverError
-            With a sentence about the case, or about why there is no equilibrium.
-        """
-        from lambda_core.analysis.rotor.machine_answers import machine_equilibrium
-        from lambda_core.case.case_io import read_case, toml_tables
-
-        case = read_case(toml_tables(self._solved().case_toml, self.case))
-        return machine_equilibrium(case.with_(**changes))
-
     def plot(self, name: str = "shaft", **options: Any) -> Any:
         """Return a view of the machine as a matplotlib figure.
 
@@ -222,12 +198,7 @@ class MachineEquilibrium(Record):
         UsageError
             For a view or an option that does not exist, or an equilibrium that has no machine.
         """
-        from lambda_core.discovery.manager import registry
-        from lambda_core.discovery.shown import data_of, view_of
-        from lambda_core.views.view import MachineData
-
-        view = view_of(registry(), name, "machine")
-        return registry().figure(view, data_of(view, MachineData(self._solved(), self, None), options))
+        return drawn(self._solved(), self, None, name, options)
 
     def to_xarray(self) -> Any:
         """Return the numbers of the bearings and the deflection of the shaft as an xarray.Dataset, with units.
@@ -242,22 +213,9 @@ class MachineEquilibrium(Record):
         UsageError
             When xarray is not installed; it comes with the extra "data".
         """
-        try:
-            import xarray
-        except ImportError:
-            raise UsageError('xarray comes with the extra "data": pip install "lambda-bearing[data]"') from None
-
-        data = {}
-        for name, one in quantities(BearingEquilibrium).items():
-            if one.is_list and not one.axes:
-                continue
-            values = np.array([getattr(bearing, name) for bearing in self.bearings], dtype=float)
-            dims = ("bearing", "".join(one.axes)) if one.axes else ("bearing",)
-            data[name] = (dims, values, {"units": one.unit, "long_name": one.label})
+        data, labels = declared_numbers({bearing.name: bearing for bearing in self.bearings}, "bearing")
         data["deflection_um"] = (("position", "xyz"), np.array(self.deflection_um), {"units": "um"})
-        names = [bearing.name for bearing in self.bearings]
-        labels = {"bearing": names, "position": self.positions_mm, "xyz": list("xyz"), "yz": list("yz")}
-        return xarray.Dataset(data, labels, {"case": self.case, "speed_rpm": self.speed_rpm})
+        return dataset(data, labels | {"position": self.positions_mm}, {"case": self.case, "speed_rpm": self.speed_rpm})
 
     def _solved(self) -> MachineModel:
         if self._model is None:

@@ -21,6 +21,7 @@ from lambda_core.analysis.rotor.vibration import (
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.model.machine_model import MachineModel
+from lambda_core.results.answer import Answer, dataset, drawn
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 
@@ -72,7 +73,7 @@ class CriticalSpeed(Record):
     bodies_share: float = Field(description="share of the kinetic energy in the other bodies")
 
 
-class MachineModes(Record):
+class MachineModes(Answer):
     """Natural frequencies and critical speeds of a machine, bearings as stiff as at its operating point."""
 
     interface: int = INTERFACE
@@ -94,6 +95,23 @@ class MachineModes(Record):
     def to_dict(self) -> dict[str, Any]:
         """Return plain data, ready for JSON."""
         return self.model_dump(mode="json")
+
+    def plot(self, name: str = "whirl", **options: Any) -> Any:
+        """Return natural frequencies over speed as a matplotlib figure; options as for views."""
+        return drawn(None, None, self, name, options)
+
+    def to_xarray(self) -> Any:
+        """Return natural frequencies over speed as an xarray.Dataset; UsageError when xarray is not installed.
+
+        Returns
+        -------
+        xarray.Dataset
+            Dimensions speed and mode, by rising frequency.
+        """
+        count = min((len(row.modes) for row in self.campbell), default=0)
+        values = np.array([[mode.frequency_Hz for mode in row.modes[:count]] for row in self.campbell])
+        data = {"frequency": (("speed", "mode"), values, {"units": "Hz", "long_name": "natural frequency"})}
+        return dataset(data, {"speed": [row.speed_rpm for row in self.campbell]}, {"case": self.case})
 
     def __repr__(self) -> str:
         """Return case, speed and the first critical speed."""

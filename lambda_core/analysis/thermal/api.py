@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.case.case_io import is_machine
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
+from lambda_core.results.answer import answers
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
 
 
+@answers
 @one_blas_thread()
 def thermal(
     source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
@@ -73,6 +75,7 @@ def thermal(
     return steady_temperatures(source, overrides, announce)  # type: ignore[arg-type]
 
 
+@answers
 @one_blas_thread()
 def warm_up(
     source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,

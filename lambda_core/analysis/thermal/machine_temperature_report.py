@@ -16,6 +16,7 @@ from lambda_core.analysis.thermal.transient import Course, rise_time
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.model.geometry.resolve_clearance import CLEARANCE_HOLDS
 from lambda_core.model.settings.machine_heat import heat_assumptions
+from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
 from lambda_core.results.record import INTERFACE, Record
 
@@ -52,7 +53,7 @@ class BearingCourse(Record):
     film_um: list[float | None]
 
 
-class MachineTemperatures(Record):
+class MachineTemperatures(Answer):
     """Temperatures at which every node of a machine passes on the heat that it gets."""
 
     interface: int = INTERFACE
@@ -81,7 +82,7 @@ class MachineTemperatures(Record):
         return steady_text(self, units)
 
 
-class MachineTemperaturesOverTime(Record):
+class MachineTemperaturesOverTime(Answer):
     """What the temperatures of a machine do from a start."""
 
     interface: int = INTERFACE

@@ -17,6 +17,7 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.model.checks.describe import headline
 from lambda_core.model.geometry.resolve_clearance import CLEARANCE_HOLDS
 from lambda_core.model.settings.resolve_thermal import network_assumptions
+from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import merged_cage
@@ -59,7 +60,7 @@ class State(Record):
     film_parameter: float | None = Field(description="smallest Lambda under load")
 
 
-class SteadyTemperatures(Record):
+class SteadyTemperatures(Answer):
     """Temperatures at which every node passes on the heat that it gets.
 
     Attributes
@@ -93,7 +94,7 @@ class SteadyTemperatures(Record):
         return units.sentence(steady_text(self))
 
 
-class TemperaturesOverTime(Record):
+class TemperaturesOverTime(Answer):
     """What the temperatures do from a start.
 
     Attributes

@@ -91,6 +91,28 @@ def _loop(name: str, boxes: list[list[tuple[float, float]]], role: str) -> Serie
     return Series(name, points[:, 0], points[:, 1], "line", role)
 
 
+def ball_loads(machine: MachineData, options: Options) -> ViewData:
+    """Return the load of every ball on both rings over its azimuth, a panel for each bearing."""
+    found = machine.equilibrium
+    if found is None or not hasattr(next(iter(getattr(found, "bearings", [found]))), "contacts"):
+        raise NotApplicable("an equilibrium of balls shows their loads")
+    each = {one.name: one for one in found.bearings} if hasattr(found, "bearings") else {"": found}
+    panels = tuple(_loads(name, one.contacts) for name, one in each.items())
+    source = _source(found) if hasattr(found, "bearings") else f"{found.case}   {found.title}"
+    return ViewData("ball-loads", "Load of every ball", source, panels, 1)
+
+
+def _loads(name: str, contacts: Any) -> Panel:
+    """Return the loads of the balls of one bearing, ring by ring."""
+    series = []
+    for ring in ("inner", "outer"):
+        own = sorted((contact.azimuth_deg, contact.load_N) for contact in contacts if contact.ring == ring)
+        azimuths, loads = np.array(own).T
+        series.append(Series(f"{ring} ring", azimuths, loads, "points", ring))
+    axes = Axis("azimuth", "deg", low=0.0, high=360.0), Axis("load", "N", low=0.0)
+    return Panel(f"load of every ball {name}".strip(), *axes, tuple(series))
+
+
 def campbell(machine: MachineData, options: Options) -> ViewData:
     """Return natural frequencies of bending over speed, with the line of one per revolution."""
     report = machine.modes
@@ -115,5 +137,6 @@ def campbell(machine: MachineData, options: Options) -> ViewData:
 
 VIEWS = (
     View("shaft", "Shaft in its bearings: deflection, bending moment", "machine", deflection, view_api=1),
+    View("ball-loads", "Load of every ball without time", "machine", ball_loads, offered=lambda _: False, view_api=1),
     View("whirl", "Natural frequencies of a machine over speed", "machine", campbell, view_api=1),
 )

@@ -1,0 +1,141 @@
+"""Let answers remember their question: the same one for a changed case, tables with units, a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import deepcopy
+from functools import partial, wraps
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
+
+import numpy as np
+from pydantic import PrivateAttr
+
+from lambda_core.domain.errors import UsageError
+from lambda_core.results.quantity import quantities
+from lambda_core.results.record import Record
+
+if TYPE_CHECKING:
+    from lambda_core.case.case_io import Tables
+
+P = ParamSpec("P")
+R = TypeVar("R")
+_RESULT = ".h5"
+
+
+class Answer(Record):
+    """Base of answers about a case: they answer the same question for a changed case."""
+
+    _again: Callable[[Mapping[str, Any]], Any] | None = PrivateAttr(default=None)
+
+    def with_(self, **changes: Any) -> Self:
+        """Answer the same question for the case with changes, section by section.
+
+        Returns
+        -------
+        same class
+            Of the changed case.
+
+        Raises
+        ------
+        UsageError
+            For an answer that was read from data, or is about a run.
+        CaseError, SolverError
+            As the question.
+
+        Examples
+        --------
+        ``found.with_(gears={"wheel": {"power": "20 kW"}}).system_life_h``
+        """
+        if self._again is None:
+            name = type(self).__name__
+            raise UsageError(f"this {name} knows no case: with_ is for answers of a question about a case, not a run")
+        found: Self = self._again(changes)
+        return found
+
+
+def answers(question: Callable[P, R]) -> Callable[P, R]:
+    """Let what a question answers remember question and case; the first argument is the case, then overrides."""
+
+    @wraps(question)
+    def asked(source: Any, overrides: Iterable[str] = (), *more: Any, **options: Any) -> Any:
+        changes = list(overrides)
+        found = question(source, changes, *more, **options)  # type: ignore[arg-type]
+        if isinstance(found, Answer):
+            case = _case_of(source, changes)
+            found._again = partial(_ask_again, asked, case, more, options) if case is not None else None
+        return found
+
+    return asked  # type: ignore[return-value]
+
+
+def _case_of(source: Any, overrides: Sequence[str]) -> Tables | None:
+    """Return what a case says, now; None where the question was about a run."""
+    from lambda_core.case.case_io import Tables, read_tables, toml_tables  # `show` starts without cases
+
+    toml = getattr(source, "case_toml", None)
+    if toml is not None:  # a resolved model
+        return Tables(toml_tables(toml, source.name), source.name, getattr(source, "folder", None))
+    if isinstance(source, str | PathLike) and Path(source).suffix == _RESULT:
+        return None
+    tables = read_tables(source)
+    return Tables(deepcopy(tables.data), tables.name, tables.folder).changed(overrides)
+
+
+def _ask_again(
+    question: Callable[..., Any], case: Tables, more: Sequence[Any], options: Mapping[str, Any],
+    changes: Mapping[str, Any],
+) -> Any:  # fmt: skip
+    """Ask about the changed case."""
+    from lambda_core.case.case import merged
+    from lambda_core.case.case_io import validate
+
+    return question(validate(case.root, merged(case.data, changes), case.name, case.folder), (), *more, **options)
+
+
+def drawn(model: Any, equilibrium: Any, modes: Any, name: str, options: Mapping[str, Any]) -> Any:
+    """Return a view of a machine or a bearing at its operating point as a matplotlib figure.
+
+    Raises
+    ------
+    UsageError
+        For a view or an option that does not exist.
+    NotApplicable
+        When there is nothing to show; the sentence says why.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.shown import data_of, view_of
+    from lambda_core.views.view import MachineData
+
+    view = view_of(registry(), name, "machine")
+    return registry().figure(view, data_of(view, MachineData(model, equilibrium, modes), options))
+
+
+def dataset(data: Mapping[str, Any], labels: Mapping[str, Any], facts: Mapping[str, Any]) -> Any:
+    """Return an xarray.Dataset; UsageError when xarray is not installed."""
+    try:
+        import xarray
+    except ImportError:
+        raise UsageError('xarray comes with the extra "data": pip install "lambda-bearing[data]"') from None
+    return xarray.Dataset(data, labels, facts)
+
+
+def declared_numbers(records: Mapping[str, Record], dim: str) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return variables and labels of the declared numbers of records of one class, along a dimension of their names.
+
+    Vectors have a dimension named after their axes; lists of a smallest and a largest value are left out.
+    """
+    data: dict[str, Any] = {}
+    labels: dict[str, Any] = {dim: list(records)}
+    for name, one in quantities(type(next(iter(records.values())))).items():
+        if one.is_list and not one.axes:
+            continue
+        values = [getattr(record, name) for record in records.values()]
+        axes = "".join(one.axes)
+        if axes:
+            labels[axes] = list(one.axes)
+            values = [value or [np.nan] * len(axes) for value in values]
+        data[name] = ((dim, axes) if axes else (dim,), np.array(values, dtype=float),
+                      {"units": one.unit, "long_name": one.label})  # fmt: skip
+    return data, labels

@@ -1,0 +1,42 @@
+"""Run a case again: make its model ready, with the temperatures that it wants, and change what a result has run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.blas_threads import one_blas_thread
+
+if TYPE_CHECKING:
+    from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.results.reader import Result
+
+
+def ready(
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    overrides: Iterable[str] = (),
+    announce: Callable[[str], None] | None = None,
+) -> BearingModel | MachineModel:
+    """Return the model of a bearing or a machine, with its temperatures."""
+    from lambda_core.analysis.thermal.temperatures import ready_model  # `show` starts without what runs need
+    from lambda_core.case.case_io import is_machine
+
+    if is_machine(source):
+        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+
+        return ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
+    return ready_model(source, overrides, announce)  # type: ignore[arg-type]
+
+
+@one_blas_thread()
+def rerun(found: Result, changes: Mapping[str, Any], out: str | Path | None) -> Result:
+    """Run the case of a result with changes, into `out` as of :func:`lambda_core.api.run`."""
+    from lambda_core.case.case_io import read_case, toml_tables
+    from lambda_core.runs.launch import launch
+
+    case = read_case(toml_tables(found.case_toml, str(found.path))).with_(**changes)
+    return launch(ready(case), None if out is None else Path(out)).rerun_by(rerun)
