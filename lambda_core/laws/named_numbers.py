@@ -7,6 +7,7 @@ its place. :mod:`lambda_core.laws.jit.binding` reads the names back, at no cost.
 
 from __future__ import annotations
 
+import math
 import types
 import typing
 from collections.abc import Iterator
@@ -139,7 +140,7 @@ def _words(layout: Layout, record: Any, path: str) -> Iterator[float]:
         else:
             if not isinstance(value, int | float | np.number):
                 raise RecordError(f"{name} = {value!r}, must be a number")
-            if not np.isfinite(value):
+            if not math.isfinite(value):
                 raise RecordError(f"{name} = {value}, must be finite")
             yield float(value)
 

@@ -8,6 +8,7 @@ import math
 import sys
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -123,16 +124,23 @@ def _record_type(law: Law) -> type:
     """Return the type of the record: what `prepare` is annotated with, or the parameters themselves."""
     if law.prepare is None:
         return law.parameters
-    said = getattr(law.prepare, "__annotations__", {}).get("return", inspect.Parameter.empty)
+    try:
+        return _annotated(law.prepare)
+    except RecordError as error:
+        raise PluginError(f"{law.label}: prepare {error}") from None
+
+
+@cache
+def _annotated(prepare: Callable[..., Any]) -> type:
+    """Return the type that `prepare` is annotated with; RecordError, the end of a sentence, where it is no record."""
+    said = getattr(prepare, "__annotations__", {}).get("return", inspect.Parameter.empty)
     if isinstance(said, str):
         try:
-            said = eval(said, getattr(law.prepare, "__globals__", {}))
+            said = eval(said, getattr(prepare, "__globals__", {}))
         except Exception:
-            raise PluginError(
-                f'{law.label}: prepare is annotated with "{said}", which its module does not have at the top level'
-            ) from None
+            raise RecordError(f'is annotated with "{said}", which its module does not have at the top level') from None
     if not is_record(said):
         what = "does not say what it returns" if said is inspect.Parameter.empty else "returns no record"
-        raise PluginError(f"{law.label}: prepare {what}: {_DECLARE}")
+        raise RecordError(f"{what}: {_DECLARE}")
     found: type = said
     return found

@@ -14,6 +14,7 @@ from lambda_core.plugins import Context
 from lambda_plugins.shapes import at_least, at_most
 
 _EVERYWHERE = 1e3  # [m] oil level of a bearing whose oil level is not known: every ball takes its even share
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
 
 
 class OilBath(NamedTuple):
@@ -52,10 +53,9 @@ def mean_immersion(bath: OilBath) -> float:
         return math.acos(min(max(1.0 - height / pitch_radius, -1.0), 1.0))
 
     whole, none = angle(level - ball_radius), angle(level + ball_radius)
-    nodes, weights = np.polynomial.legendre.leggauss(24)
-    partly = whole + 0.5 * (none - whole) * (nodes + 1.0)
+    partly = whole + 0.5 * (none - whole) * (_NODES + 1.0)
     shares = [immersion(each - 0.5 * math.pi, bath) for each in partly]
-    return (whole + 0.5 * (none - whole) * float(weights @ shares)) / math.pi
+    return (whole + 0.5 * (none - whole) * float(_WEIGHTS @ shares)) / math.pi
 
 
 def kinematic_speeds(context: Context, speed: float) -> tuple[float, float]:

@@ -11,6 +11,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.laws.context import Material
 
 _STRIPS = 24  # Gauss-Legendre points across the ellipse: the integrand falls off as a fourth root at its ends
+_PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(_STRIPS)
 
 
 def effusivity(material: Material) -> float:
@@ -68,9 +69,8 @@ def rolling_contact(a: float, b: float, speed: float, film: float, one: float, o
     """
     if speed <= 0.0 or a <= 0.0:
         return 0.0
-    x, weight = np.polynomial.legendre.leggauss(_STRIPS)
-    time = 2.0 * b / speed * np.sqrt(1.0 - x * x)
-    return float(speed * a * (weight * exchanged(time, film, one, other)).sum())
+    time = 2.0 * b / speed * np.sqrt(1.0 - _PLACES * _PLACES)
+    return float(speed * a * (_WEIGHTS * exchanged(time, film, one, other)).sum())
 
 
 def resting_contact(a: float, b: float, conductivity: float) -> float:

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 from lambda_core.domain.elements import INNER, OUTER, RACEWAYS
 from lambda_core.elements.ball.geometry import Geometry
@@ -44,6 +45,7 @@ def row_places(geometry: Geometry) -> tuple[float, ...]:
     return (0.0,) if geometry.rows == 1 else (-0.5 * geometry.row_distance, 0.5 * geometry.row_distance)
 
 
+@lru_cache(maxsize=64)  # asked a dozen times for one set of tables
 def raceways(geometry: Geometry) -> tuple[Raceway, ...]:
     """Return the raceways row by row, of each the inner ring's before the outer ring's."""
     return tuple(

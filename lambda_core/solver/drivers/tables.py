@@ -18,7 +18,7 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.elements.ball.raceways import raceways as raceways_of
 from lambda_core.elements.ball.raceways import raceways_of_a_ball, row_places
 from lambda_core.formulas.hertz import ball_raceway_radii
-from lambda_core.laws.context import Oil
+from lambda_core.laws.context import Context, Oil
 from lambda_core.laws.par import number_in
 from lambda_core.laws.state import names_behind
 from lambda_core.model.bearing_model import BearingModel
@@ -75,11 +75,15 @@ class _Parameters:
     def __init__(self) -> None:
         self._parts: list[FloatArray] = []
         self._size = 0
+        self._contexts: dict[tuple[str, str], Context] = {}  # by bearing and force element
 
     def add(self, bearing: AssembledBearing, element: str, role: str) -> tuple[int, int]:
         """Append the parameters of a law; returns where they begin and end."""
-        context = build_context(bearing.model, element, bearing.frame, oil_of(bearing.oils, element))
-        begin = self._size
+        place = (bearing.name, element)
+        if place not in self._contexts:
+            oil = oil_of(bearing.oils, element)
+            self._contexts[place] = build_context(bearing.model, element, bearing.frame, oil)
+        context, begin = self._contexts[place], self._size
         self._parts.append(prepare(bearing.model.laws[element][role], context))
         self._size += self._parts[-1].size
         return begin, self._size
