@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
     from lambda_core.discovery.registry import Registry
 
+STRAIGHT = "the shaft holds the inner ring straight: tilts are locked where the case leaves them open"
 _WHERE = "bearing.designation"
 _NEEDED = ("kind", "roller_count", "roller_diameter", "effective_length", "pitch_diameter")
 _QUANTITIES = {"roller_count": "", "contact_angle": "angle"}  # of what is no length
@@ -360,7 +361,7 @@ def _held(case: Case, ledger: Ledger) -> tuple[bool, bool, bool, bool, bool]:
             ledger.problem(f"bodies.inner_ring.{name}", "roller bearings take free or locked")
         found.append(mode == "locked" or (name.startswith("tilt") and not written))
     if not {"tilt_y", "tilt_z"} & ring.model_fields_set:
-        ledger.assume("the shaft holds the inner ring straight: tilts are locked where the case leaves them open")
+        ledger.assume(STRAIGHT)
     x, y, z, tilt_y, tilt_z = found
     return x, y, z, tilt_y, tilt_z
 

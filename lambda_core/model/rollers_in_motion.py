@@ -15,13 +15,14 @@ from lambda_core.case.case import Case
 from lambda_core.case.parts import InlineGeometry
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.catalogue.roller_designation import roller_designation
+from lambda_core.domain.elements import TILTS
 from lambda_core.domain.errors import CaseError, Problem
 from lambda_core.domain.roles import DEFAULT_LINE_MODELS
 from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_friction import SKF_CONSTANTS, skf_kind
 from lambda_core.model.bearing_model import BearingModel, ChosenLaw, ResolvedValue
 from lambda_core.model.ledger import Ledger
-from lambda_core.model.roller_case import roller_geometry, roller_title
+from lambda_core.model.roller_case import STRAIGHT, roller_geometry, roller_title
 
 if TYPE_CHECKING:
     from lambda_core.laws.law import Law
@@ -58,6 +59,8 @@ def rollers_of(case: Case, catalogue: Catalogue) -> tuple[RollerBearing, str, tu
     _refuse_parameters(case, ledger)
     ledger.check(case.name)
     assert rollers is not None  # else a problem says why
+    if not {*TILTS} & case.bodies.inner_ring.model_fields_set:
+        ledger.assume(STRAIGHT)
     ledger.assume("rollers are guided along the shaft by the pockets of their cage, ribs carry nothing")
     return rollers, roller_title(case, found, rollers), tuple(ledger.assumptions)
 
@@ -78,7 +81,7 @@ def _refuse_parameters(case: Case, ledger: Ledger) -> None:
 
 
 def as_balls(case: Case, rollers: RollerBearing) -> Case:
-    """Return the case of a bearing with as many balls of the same diameter, its inner ring held along the shaft."""
+    """Return the case of a bearing with as many balls of the same diameter, its inner ring held along the shaft, and straight."""
     sizes = {
         "bore_diameter": rollers.bore,
         "outside_diameter": rollers.outside,
@@ -91,8 +94,8 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
     changes = {"designation": None, "maker": None, "rollers": None, "geometry": geometry}
     bearing = case.bearing.model_copy(update={**changes, "clearance": f"{rollers.clearance!r} m"})
     inner = case.bodies.inner_ring
-    if "x" not in inner.model_fields_set:
-        inner = inner.model_copy(update={"x": type(inner.x)(mode="locked")})
+    silent = [dof for dof in ("x", *TILTS) if dof not in inner.model_fields_set]
+    inner = inner.model_copy(update={dof: type(getattr(inner, dof))(mode="locked") for dof in silent})
     models = case.models.model_copy(update=dict.fromkeys(DEFAULT_LINE_MODELS))
     bodies = case.bodies.model_copy(update={"inner_ring": inner})
     return case.model_copy(update={"bearing": bearing, "bodies": bodies, "models": models})

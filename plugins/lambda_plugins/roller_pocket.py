@@ -9,6 +9,8 @@ from lambda_core.plugins import OK, Context, FloatArray, Quantity, law, paramete
 from lambda_plugins.cage_contact import Guide, Pocket, push_back
 from lambda_plugins.shapes import at_least
 
+_LIMITS_AT = 1e-12  # [m] below this distance from the pocket's axis no direction of contact is defined
+
 
 class RollerPocket(Pocket):
     """Constants of a roller's pocket."""
@@ -27,36 +29,48 @@ class RollerGuide(NamedTuple):
 
     bars: Guide
     ends: Guide
-    film: float  # 3 sqrt(2) pi L R^1.5 of the film that a bar squeezes [m^2.5]; 0: there is none
-    edge: float  # what the gap grows by from the middle of the film to the end of the bar [m]
+    reduced: float  # radius R_x of roller and bar [m]; 0: no oil is squeezed
+    reach: float  # half of the width of the film [m]
+    length: float  # of the bar [m]
     touch: float  # film at first touch [m]
 
 
 def prepare_roller(parameters: RollerPocket, context: Context) -> RollerGuide:
-    """Return play and lever of bars and end faces, and the film of a roller at a flat bar of the pocket's width."""
+    """Return play and lever of bars and end faces, and the film of a roller at a round bar of the pocket's width.
+
+    A roller of radius R in a bar of radius R + c has the reduced radius R_x = R (R + c)/c.
+    """
     if not context.pocket_clearance >= 0.0:
         raise ValueError("the cage has no pocket clearance: give a cage with pockets")
     radius, play, width = 0.5 * context.ball_diameter, 0.5 * context.pocket_clearance, parameters.film_width
     ends = play if parameters.end_clearance is None else 0.5 * parameters.end_clearance
-    length = context.cage_width if context.cage_width > 0.0 else 0.0
-    film = 3.0 * math.sqrt(2.0) * math.pi * length * radius**1.5 if width > 0.0 else 0.0
-    edge = max((width * context.ball_diameter) ** 2 / (2.0 * radius), 1e-9)
+    wet = width > 0.0 and play > 0.0 and context.cage_width > 0.0
+    reduced = radius * (radius + play) / play if wet else 0.0
     return RollerGuide(
-        Guide(parameters, play, radius), Guide(parameters, ends, 0.0), film, edge, parameters.thinnest_film
+        Guide(parameters, play, radius),
+        Guide(parameters, ends, 0.0),
+        reduced,
+        width * context.ball_diameter,
+        context.cage_width if wet else 0.0,
+        parameters.thinnest_film,
     )
 
 
 def squeezed_line(guide: RollerGuide, gap: float, closing: float, eta0: float) -> float:
-    """Return the force of the film between a roller and a flat bar that close at a speed [N]; no film pulls.
+    """Return the force of the film between a roller and a bar that close at a speed [N]; no film pulls.
 
-    Reynolds' equation has p = 6 eta v R/gap^2 for gap = h + x^2/(2 R), F = 3 sqrt(2) pi eta v L (R/h)^1.5, less that of
-    the gap where the bar ends.
+    Reynolds' equation has p = 6 eta v R_x (1/g^2 - 1/g_w^2) with the gap g = h + x^2/(2 R_x), g_w where the film ends
+    at x = w: F = 6 eta v L R_x (k/h^2) [atan u + u/(1 + u^2) - 2 u/(1 + u^2)^2], k = sqrt(2 R_x h), u = w/k. Wide
+    against the gap it is 3 sqrt(2) pi eta v L (R_x/h)^1.5, narrow that of parallel plates, eta v L (2 w/h)^3.
     """
     if closing <= 0.0:
         return 0.0
     h = at_least(gap, 0.0) + guide.touch
-    thinning: float = h**-1.5 - (h + guide.edge) ** -1.5
-    return guide.film * eta0 * closing * thinning
+    k = math.sqrt(2.0 * guide.reduced * h)
+    u = guide.reach / k
+    share = 1.0 / (1.0 + u * u)
+    shape = math.atan(u) + u * share - 2.0 * u * share * share
+    return 6.0 * eta0 * closing * guide.length * guide.reduced * k / (h * h) * shape
 
 
 @law(
@@ -65,31 +79,33 @@ def squeezed_line(guide: RollerGuide, gap: float, closing: float, eta0: float) -
     RollerPocket,
     role_api=2,
     reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
-    validity="rigid bodies with a penalty contact; flat bars and end faces; all constants are assumptions",
+    validity="rigid bodies with a penalty contact; round bars, flat end faces; all constants are assumptions",
     prepare=prepare_roller,
     contact="line",
 )
 def roller_pocket(
     r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: RollerGuide, out: FloatArray
 ) -> int:
-    """Roller between the bars and end faces of its pocket; free along the radius.
+    """Roller between the bars and end faces of its pocket.
 
-    Along rolling a bar pushes once the roller's axis is off the pocket's by half of the clearance, at the lever of the
-    roller's radius; along the roller an end face does. Contact law and friction are those of balls in pockets. Before
-    a bar is touched oil is squeezed, F = 3 sqrt(2) pi eta v L (R/h)^1.5. Where both push, the force acts at the mean of
+    Bars are round about the roller, as those of cages that rollers guide: one pushes once the roller's axis is off the
+    pocket's by half of the clearance, across rolling or along the radius, at the lever of the roller's radius. That
+    holds the cage in the middle. Along the roller an end face pushes. Contact law and friction are those of balls in
+    pockets; :func:`squeezed_line` is the film before a bar is touched. Where both push, the force acts at the mean of
     both points, weighted by their normal forces.
     """
     out[:] = 0.0
-    side = 1.0 if r[2] >= 0.0 else -1.0
-    over = abs(r[2]) - par.bars.play
-    film = squeezed_line(par, -over, side * v_rel[2], eta0) if par.film > 0.0 else 0.0
+    away = math.sqrt(r[1] * r[1] + r[2] * r[2])
+    n1, n2 = (r[1] / away, r[2] / away) if away > _LIMITS_AT else (0.0, 1.0)
+    over = away - par.bars.play
+    film = squeezed_line(par, -over, n1 * v_rel[1] + n2 * v_rel[2], eta0) if par.reduced > 0.0 else 0.0
     if over > 0.0 or film > 0.0:
-        push_back(0.0, 0.0, side, over, r, v_rel, omega_rel, par.bars, film, out)
+        push_back(0.0, n1, n2, over, r, v_rel, omega_rel, par.bars, film, out)
     end = 1.0 if r[0] >= 0.0 else -1.0
     beyond = abs(r[0]) - par.ends.play
     if beyond > 0.0:
         f0, f1, f2, p0, p1, p2 = out[0], out[1], out[2], out[3], out[4], out[5]
-        bar = abs(f2)
+        bar = math.sqrt(f1 * f1 + f2 * f2)
         push_back(end, 0.0, 0.0, beyond, r, v_rel, omega_rel, par.ends, 0.0, out)
         face = abs(out[0])
         share = bar / (bar + face) if bar > 0.0 else 0.0
