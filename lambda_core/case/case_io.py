@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import logging
 import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from os import PathLike
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
@@ -23,6 +25,9 @@ from lambda_core.domain.files import read_text
 from lambda_core.domain.handed_laws import named
 from lambda_core.domain.option_tree import field_at
 
+log = logging.getLogger("lambda_core")
+# As ISO 5753-1 names the classes; normal clearance, CN, is not written.
+_CLEARANCE_CLASS = re.compile(r"(?<=[/ ])C[1-5](?=[LHMP]?\b)")
 _DEEPEST = 20  # levels of tables and lists
 _LOCATION = re.compile(r"\(at (?:line (\d+), column (\d+)|end of document)\)")
 _BARE_UNIT = re.compile(r"^(\s*[\w.\"-]+\s*=\s*)([+-]?[\d.,]+\s*[A-Za-z/][^#\"]*?)\s*(#.*)?$")
@@ -82,7 +87,11 @@ class Tables:
     def changed(self, overrides: Iterable[str]) -> Tables:
         """Return the tables with ``path=value`` texts applied in order, as ``--set`` does; UsageError without ``=``."""
         texts = list(overrides)
-        return replace(self, data=overridden(self.data, texts, self.root)) if texts else self
+        if not texts:
+            return self
+        data = overridden(self.data, texts, self.root)
+        _say_lost_classes(self.data, data)
+        return replace(self, data=data)
 
 
 def read_tables(source: Source, folder: Path | None = None) -> Tables:
@@ -348,6 +357,37 @@ def overridden(data: Mapping[str, Any], overrides: Iterable[str], root: type[Bas
             change = {part: change}
         tables = merged(tables, change)
     return tables
+
+
+def _say_lost_classes(old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
+    """Warn of a clearance class that went with the designation it stood in."""
+    before, after = _designations(old), _designations(new)
+    for path, designation in after.items():
+        lost = _CLEARANCE_CLASS.search(before.get(path, ""))
+        if lost and not _CLEARANCE_CLASS.search(designation):
+            _warn_once(
+                f'{path}.designation: "{designation}" replaces "{before[path]}" and names no clearance class: the '
+                f'bearing has normal clearance; write "{designation}/{lost[0]}" to keep {lost[0]}'
+            )
+
+
+@cache
+def _warn_once(sentence: str) -> None:
+    """Warn; a command that reads its case several times says so once."""
+    log.warning(sentence)
+
+
+def _designations(data: Mapping[str, Any]) -> dict[str, str]:
+    """Return the designations in plain tables by the path of their bearing."""
+    several = data.get("bearings")
+    tables = {f"bearings.{name}": table for name, table in (several if isinstance(several, Mapping) else {}).items()}
+    tables["bearing"] = data.get("bearing")
+    found = {
+        path: table.get("designation")
+        for path, table in tables.items()
+        if isinstance(table, Mapping) and "clearance" not in table
+    }
+    return {path: designation for path, designation in found.items() if isinstance(designation, str)}
 
 
 def _value(path: str, text: str, root: type[BaseModel]) -> Any:

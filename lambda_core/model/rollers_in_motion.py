@@ -81,7 +81,7 @@ def _refuse_parameters(case: Case, ledger: Ledger) -> None:
 
 
 def as_balls(case: Case, rollers: RollerBearing) -> Case:
-    """Return the case of a bearing with as many balls of the same diameter, its inner ring held along the shaft, and straight."""
+    """Return the case of a bearing with as many balls of the same diameter; its inner ring stays straight."""
     sizes = {
         "bore_diameter": rollers.bore,
         "outside_diameter": rollers.outside,

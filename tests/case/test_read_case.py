@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from lambda_core import api
+from lambda_core.case import case_io
 from lambda_core.case.case_io import load_case, read_case
 from lambda_core.model.machine_templates import geared_shaft
 
@@ -59,3 +60,26 @@ def test_one_schema_says_which_of_both_a_file_is() -> None:
     names = [schema[key]["$ref"].rpartition("/")[2] for key in ("then", "else")]
     assert names == ["Case", "ShaftCase"]
     assert set(names) < set(schema["$defs"])
+
+
+@pytest.mark.parametrize(
+    ("bearing", "change", "warned"),
+    [
+        ({"designation": "6208/C3"}, "6308", True),
+        ({"designation": "6208/C3"}, "6308/C4", False),
+        ({"designation": "6208"}, "6308", False),
+        ({"designation": "6208/C3", "clearance": "14 um"}, "6309", False),
+    ],
+)
+def test_a_clearance_class_that_goes_with_its_designation_is_named(
+    bearing: dict[str, str], change: str, warned: bool, caplog: pytest.LogCaptureFixture
+) -> None:
+    case_io._warn_once.cache_clear()
+    tables = {
+        "name": "one",
+        "bearing": bearing,
+        "lubricant": {"name": "FVA3", "temperature": "60 degC"},
+        "operation": {"speed": "1500 rpm"},
+    }
+    read_case(tables, [f"bearing.designation={change}"])
+    assert ('write "6308/C3" to keep C3' in caplog.text) == warned
