@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from functools import partial, wraps
+from inspect import signature
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
@@ -56,18 +57,21 @@ class Answer(Record):
 
 
 def answers(question: Callable[P, R]) -> Callable[P, R]:
-    """Let what a question answers remember question and case; the first argument is the case, then overrides."""
+    """Let what a question answers remember question and case: its first argument, changed by `overrides`."""
+    form = signature(question)
+    first = next(iter(form.parameters))
 
     @wraps(question)
-    def asked(source: Any, overrides: Iterable[str] = (), *more: Any, **options: Any) -> Any:
-        changes = list(overrides)
-        found = question(source, changes, *more, **options)  # type: ignore[arg-type]
-        if isinstance(found, Answer):
-            case = _case_of(source, changes)
-            found._again = partial(_ask_again, asked, case, more, options) if case is not None else None
+    def asked(*args: P.args, **options: P.kwargs) -> R:
+        given = form.bind(*args, **options)
+        changes = given.arguments["overrides"] = list(given.arguments.get("overrides", ()))
+        found = question(*given.args, **given.kwargs)
+        if isinstance(found, Answer) and (case := _case_of(given.arguments[first], changes)) is not None:
+            rest = {name: value for name, value in given.arguments.items() if name not in (first, "overrides")}
+            found._again = partial(_ask_again, asked, first, case, rest)
         return found
 
-    return asked  # type: ignore[return-value]
+    return asked
 
 
 def _case_of(source: Any, overrides: Sequence[str]) -> Tables | None:
@@ -84,14 +88,13 @@ def _case_of(source: Any, overrides: Sequence[str]) -> Tables | None:
 
 
 def _ask_again(
-    question: Callable[..., Any], case: Tables, more: Sequence[Any], options: Mapping[str, Any],
-    changes: Mapping[str, Any],
-) -> Any:  # fmt: skip
+    question: Callable[..., Any], first: str, case: Tables, rest: Mapping[str, Any], changes: Mapping[str, Any]
+) -> Any:
     """Ask about the changed case."""
     from lambda_core.case.case import merged
     from lambda_core.case.case_io import validate
 
-    return question(validate(case.root, merged(case.data, changes), case.name, case.folder), (), *more, **options)
+    return question(**{first: validate(case.root, merged(case.data, changes), case.name, case.folder), **rest})
 
 
 def drawn(model: Any, equilibrium: Any, modes: Any, name: str, options: Mapping[str, Any]) -> Any:

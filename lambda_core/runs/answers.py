@@ -161,11 +161,11 @@ def compare(
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
+    from lambda_core.analysis.rating.compare_methods import compare as ask
     from lambda_core.case.case_io import is_machine, refuse_bearing
     from lambda_core.discovery.manager import registry
     from lambda_core.model.roller_case import roller_model
     from lambda_core.results.reader import Result
-    from lambda_core.runs.compare_methods import compare as ask
     from lambda_core.runs.compare_rollers import compare_rollers
     from lambda_core.runs.comparison import comparison_of
 
@@ -198,9 +198,9 @@ def _compare_in_machine(
     """Compare methods on one bearing of a machine, at its pose there."""
     import dataclasses
 
+    from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.analysis.rotor.bearing_alone import alone_under_load, bearing_number
     from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
-    from lambda_core.runs.compare_methods import comparison_inputs
     from lambda_core.runs.comparison import comparison_of
     from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
     from lambda_core.views.method import evaluate_methods

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from pydantic import Field
 
+from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium, equilibrium_of
 from lambda_core.analysis.rotor.machine_modes import MachineModes, modes_of
 from lambda_core.model.bearing_model import BearingModel, Solver
@@ -18,7 +19,6 @@ from lambda_core.results.answer import Answer
 from lambda_core.results.convergence import AVERAGED_AT_LEAST, DISCARDED_AT_LEAST
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.rating import Rating
-from lambda_core.runs.engineering import rating_of
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_start

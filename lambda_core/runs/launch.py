@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.analysis.rating.engineering import mounted_rating, rating_of
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_folder, check_new, check_target
@@ -29,7 +30,6 @@ from lambda_core.results.provenance import (
 )
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.reader import Result
-from lambda_core.runs.engineering import rating_of
 from lambda_core.runs.law_blame import BlamingBearingEngine, naming_laws
 from lambda_core.runs.loop import resume, run
 from lambda_core.runs.progress import Report
@@ -215,9 +215,9 @@ def _machine(model: MachineModel, announce: Announce | None) -> tuple[RunEngine,
             f"equilibrium of {len(engine.bearings)} bearings and {start.shaft.positions.size} lumps of the shaft: "
             f"{engine.states} states"
         )
-    bearings, methods = {}, registry().methods
+    bearings = {}
     for i, one in enumerate(model.bearings):
-        rating = rating_of(start.equilibria[i], methods)
+        rating = mounted_rating(model, start.state, i, start.equilibria[i])
         keys = engine.bearings[i].context.kernels.keys()
         lines = headline(alone_under_load(model, start.state, i))
         bearings[one.name] = BearingOrigin(one.model, keys, rating, "\n".join(lines))

@@ -123,7 +123,7 @@ class _Trial:
 
     @cached_property
     def inputs(self) -> Any:
-        from lambda_core.runs.compare_methods import comparison_inputs
+        from lambda_core.analysis.rating.compare_methods import comparison_inputs
         from lambda_core.solver.drivers.equilibrium import solve
 
         return comparison_inputs(solve(self.model))

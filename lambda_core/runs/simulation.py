@@ -75,9 +75,9 @@ def quasistatic(
     rollers = _roller_answer(source, overrides)
     if rollers is not None:
         return rollers
+    from lambda_core.analysis.rating.engineering import rating_of
     from lambda_core.discovery.manager import registry
     from lambda_core.results.quasistatic import quasistatic_of
-    from lambda_core.runs.engineering import rating_of
     from lambda_core.solver.drivers.equilibrium import solve
 
     model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]

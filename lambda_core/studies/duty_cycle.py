@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic import Field, ValidationError, model_validator
 
+from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import apply_overrides, read_case, syntax_problem
@@ -34,7 +35,6 @@ from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.results.averages import finite
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.runs.engineering import rating_of
 from lambda_core.studies.load_spectrum import read_spectrum
 
 if TYPE_CHECKING:

@@ -260,8 +260,8 @@ def method_columns(found: Equilibrium, names: tuple[str, ...]) -> dict[str, tupl
     wanted = [name for name in names if "/" in name]
     if not wanted:
         return {}
+    from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry
-    from lambda_core.runs.compare_methods import comparison_inputs
     from lambda_core.views.method import evaluate_methods
 
     inputs = comparison_inputs(found)

@@ -179,8 +179,8 @@ def _smallest_film(found: Any) -> float:
 
 def _skf(found: Any) -> float | None:
     """Return SKF's torque, None where the model is not installed or does not apply."""
+    from lambda_core.analysis.rating.engineering import rating_of
     from lambda_core.discovery.manager import registry
-    from lambda_core.runs.engineering import rating_of
 
     return rating_of(
         found, {name: method for name, method in registry().methods.items() if name == "skf"}

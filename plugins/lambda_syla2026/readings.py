@@ -62,8 +62,8 @@ def friction(model: BearingModel) -> Numbers:
 
 def skf(model: BearingModel) -> Numbers:
     """Friction torque of the complete SKF model on the same case [N mm]."""
+    from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry
-    from lambda_core.runs.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.studies.job import kernels_of
 
@@ -73,8 +73,8 @@ def skf(model: BearingModel) -> Numbers:
 
 def anchor(model: BearingModel) -> Numbers:
     """Friction torque without cage and drag, mean over the positions of the balls, and SKF's [N mm]."""
+    from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry
-    from lambda_core.runs.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.studies.job import kernels_of
 
@@ -93,8 +93,8 @@ def anchor(model: BearingModel) -> Numbers:
 
 def axial_load(model: BearingModel) -> Numbers:
     """What :func:`anchor` finds, and the load-dependent part of Schaeffler's friction torque [N mm]."""
+    from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry
-    from lambda_core.runs.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.studies.job import kernels_of
 
@@ -106,9 +106,9 @@ def axial_load(model: BearingModel) -> Numbers:
 
 def rated(model: BearingModel) -> Numbers:
     """Return the loss of the equilibrium, SKF's, and the heat that ISO 15312 lets the bearing give up [W]."""
+    from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.analysis.thermal import iso15312
     from lambda_core.discovery.manager import registry
-    from lambda_core.runs.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.studies.job import kernels_of
 
@@ -128,8 +128,8 @@ def rated(model: BearingModel) -> Numbers:
 
 def capacitance(model: BearingModel) -> Numbers:
     """Contacts of the quasi-static solution, means over the loaded balls, and the analytical capacitance."""
+    from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry
-    from lambda_core.runs.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.solver.records import CONTACT_CHANNELS
     from lambda_core.studies.job import kernels_of

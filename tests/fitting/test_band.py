@@ -16,6 +16,7 @@ from lambda_cli.main import main
 from lambda_core import api
 from lambda_core.analysis.band.changed import with_value
 from lambda_core.analysis.band.graded import graded_parameters
+from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.case.case_io import validate_case
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.number_text import rounded
@@ -24,7 +25,6 @@ from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.scores import interval_score
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.results.model_band import FIELDS, ModelBand
-from lambda_core.runs.engineering import rating_of
 from lambda_core.solver.drivers.equilibrium import solve, solve_near
 
 # Table 4 of Syla et al. 2026, and the oil temperatures that its SKF row has (docs/validation.md).

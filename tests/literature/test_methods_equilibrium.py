@@ -11,10 +11,10 @@ import pytest
 from lambda_plugins.normal_contact import fitted, hamrock_brewe, known
 
 from lambda_core import api
+from lambda_core.analysis.rating.compare_methods import comparison_inputs, equilibrium_state
 from lambda_core.discovery.manager import registry
 from lambda_core.formulas.hertz import ball_raceway_radii, reduced_modulus
 from lambda_core.model.laws.method_inputs import carried_load
-from lambda_core.runs.compare_methods import comparison_inputs, equilibrium_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.views.method import evaluate_methods
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from pydantic import Field, PrivateAttr
 
-from lambda_core.analysis.rotor.bearing_life import bearing_life
+from lambda_core.analysis.rating.engineering import mounted_rating
 from lambda_core.analysis.rotor.machine_modes import AXES, six
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError, unknown_name
@@ -31,7 +31,7 @@ from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Summary
-from lambda_core.results.verdict import Found, Verdict, limits_of, verdict
+from lambda_core.results.verdict import Verdict, rated_verdict
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 from lambda_core.solver.drivers.structure import point_on, static_rows, stretch
@@ -92,7 +92,7 @@ class BearingEquilibrium(Banded):
         "smallest and largest of the loaded contacts, sizes", "deg", label="contact angles", column="contact angles",
         decimals=FLOATING, digits=3, group="contact",
     )  # fmt: skip
-    equivalent_load_N: float = same_as(Rating, "equivalent_load_N")
+    equivalent_load_N: float | None = same_as(Rating, "equivalent_load_N")
     basic_rating_life_h: float | None = same_as(
         Rating, "basic_life_h", "L_10h of ISO 281; null at rest or without load"
     )
@@ -299,13 +299,11 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
     bearing, reaction = model.bearings[index], state.reactions[index]
     alone = quasistatic_of(found)
     radial, axial = float(np.hypot(*reaction[1:3])), float(-reaction[0])
-    life = bearing_life(bearing, found, radial, abs(axial))
+    rating = mounted_rating(model, state, index, found)
     pose = state.pose(model, index)
-    counted = ("L_10rh", life.reference) if life.modified is None else ("L_nmrh", life.modified)
-    judged = Found(
-        alone.max_pressure_GPa, min(alone.film_parameter, default=None), 1e3 * float(np.hypot(*pose[3:])),
-        life.equivalent_load, finite(life.static_safety), life.viscosity_ratio, finite(counted[1]), counted[0],
-    )  # fmt: skip
+    tilt = 1e3 * float(np.hypot(*pose[3:]))
+    judged = rated_verdict(rating, alone.max_pressure_GPa, alone.film_parameter, tilt)
+    assert judged is not None  # a rating of rating_of has limits
     return BearingEquilibrium(
         name=bearing.name,
         title=bearing.model.title,
@@ -323,19 +321,19 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
         max_load_ring=alone.max_load_ring,
         max_pressure_GPa=alone.max_pressure_GPa,
         contact_angle_deg=_angles(alone),
-        equivalent_load_N=life.equivalent_load,
-        basic_rating_life_h=finite(life.basic),
-        reference_rating_life_h=finite(life.reference),
-        modified_basic_life_h=None if life.modified_basic is None else finite(life.modified_basic),
-        modified_rating_life_h=None if life.modified is None else finite(life.modified),
-        viscosity_ratio=life.viscosity_ratio,
-        static_safety=finite(life.static_safety),
+        equivalent_load_N=rating.equivalent_load_N,
+        basic_rating_life_h=rating.basic_life_h,
+        reference_rating_life_h=rating.reference_life_h,
+        modified_basic_life_h=rating.modified_life_h if rating.contamination_given else None,
+        modified_rating_life_h=rating.modified_reference_life_h if rating.contamination_given else None,
+        viscosity_ratio=rating.viscosity_ratio,
+        static_safety=rating.static_safety,
         friction_torque_Nmm=alone.friction_torque_Nmm if found.converged else None,
         power_loss_W=finite(float(found.losses.sum())) if found.converged else None,
         film_um=alone.film_um,
         stiffness=six(state.stiffness[index]),
         contacts=alone.contacts,
-        verdict=verdict(limits_of(bearing.model), judged),
+        verdict=judged,
         warnings=_warnings(bearing, found, alone, (radial, abs(axial)), float(np.hypot(*pose[3:]))),
     )
 

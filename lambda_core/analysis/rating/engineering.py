@@ -8,17 +8,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lambda_core.analysis.rating.compare_methods import comparison_inputs, equilibrium_state
 from lambda_core.formulas.life import contamination_range
 from lambda_core.model.laws.method_inputs import bearing_load
 from lambda_core.results.rating import Rating
 from lambda_core.results.verdict import limits_of
-from lambda_core.runs.compare_methods import comparison_inputs, equilibrium_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.views.method import Method, evaluate_methods
 
 if TYPE_CHECKING:
     from lambda_core.elements.roller.roller_bearing import RollerBearing
     from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 
 # Field of the rating -> method that answers it, group and name of the row.
 _ROWS: dict[str, tuple[str, str, str]] = {
@@ -35,13 +37,16 @@ _ROWS: dict[str, tuple[str, str, str]] = {
 }
 
 
-def rating_of(found: Equilibrium, methods: Mapping[str, Method]) -> Rating:
+def rating_of(found: Equilibrium, methods: Mapping[str, Method], loads: tuple[float, float] | None = None) -> Rating:
     """Ask the installed methods of life and catalogue friction about an equilibrium.
 
     Parameters
     ----------
     methods : mapping
         Installed comparison methods by name; numbers of one that is not there are None.
+    loads : (float, float), optional
+        Sizes of the radial and axial load [N]; default: those of the bearing's case. A bearing of a machine carries
+        what the equilibrium of its shaft says.
     """
     if found.context.model.rollers is not None:
         return _of_rollers(found, found.context.model.rollers)
@@ -49,7 +54,9 @@ def rating_of(found: Equilibrium, methods: Mapping[str, Method]) -> Rating:
     model = found.context.model
     lower, _ = contamination_range("normal cleanliness", model.geometry.pitch_diameter)
     contamination = lower if model.contamination is None else model.contamination
-    answers = evaluate_methods(asked, comparison_inputs(found, contamination=contamination, stiffness=False))
+    answers = evaluate_methods(
+        asked, comparison_inputs(found, contamination=contamination, stiffness=False, loads=loads)
+    )
     rows = {
         (answer.method.name, str(row.group), row.name): row.value
         for answer in answers
@@ -65,6 +72,20 @@ def rating_of(found: Equilibrium, methods: Mapping[str, Method]) -> Rating:
         limits=limits_of(model),
         notes=notes,
     )
+
+
+def mounted_rating(model: MachineModel, state: ShaftState, number: int, found: Equilibrium) -> Rating:
+    """Rate a bearing of a machine, under the loads that it has on the shaft.
+
+    Parameters
+    ----------
+    found : Equilibrium
+        Of this bearing, with the load of every ball.
+    """
+    from lambda_core.discovery.manager import registry
+
+    x, y, z = state.reactions[number][:3]
+    return rating_of(found, registry().methods, (float(np.hypot(y, z)), abs(float(x))))
 
 
 def _of_rollers(found: Equilibrium, rollers: RollerBearing) -> Rating:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lambda_core.domain.channels import LOSSES
@@ -56,11 +57,16 @@ def equilibrium_state(
 
 
 def comparison_inputs(
-    equilibrium: Equilibrium, *, contamination: float | None = None, stiffness: bool = True
+    equilibrium: Equilibrium,
+    *,
+    contamination: float | None = None,
+    stiffness: bool = True,
+    loads: tuple[float, float] | None = None,
 ) -> MethodInputs:
     """Collect what methods may look at of an equilibrium: loads, stiffness, oil, permittivity of the inner contact.
 
-    The `stiffness` takes more equilibria, and can be left out.
+    The `stiffness` takes more equilibria, and can be left out; `loads` are the sizes of radial and axial load [N], by
+    default those of the bearing's case.
     """
     from lambda_core.model.laws.law_context import build_context, prepare
     from lambda_core.solver.drivers.stiffness import stiffness_matrix
@@ -70,7 +76,7 @@ def comparison_inputs(
     laws = model.laws["ball_inner"]
     inner = build_context(model, "ball_inner", context.frame, oil)
     permittivity, rheology = laws["permittivity"], laws["rheology"]
-    return method_inputs(
+    found = method_inputs(
         model,
         oil,
         state=equilibrium_state(equilibrium, stiffness_matrix(equilibrium) if stiffness else None),
@@ -83,6 +89,7 @@ def comparison_inputs(
         ),
         contamination=contamination,
     )
+    return found if loads is None else replace(found, radial_load=loads[0], axial_load=loads[1])
 
 
 def compare(
