@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from rich.text import Text
 
 from lambda_core import api
-from lambda_core.domain.number_text import interval
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_gui.shown_units import fact_in_units
 
@@ -23,11 +22,7 @@ def _currents(summary: Summary) -> Sequence[tuple[str, str, str]]:
     found = summary.currents
     if found is None:
         return ()
-    return (
-        ("bearing voltage", interval(found.bearing_voltage_V, 1), "V"),
-        ("discharges", f"{found.discharges_per_s:.4g}", "1/s"),
-        ("in arcs", f"{found.arc_power_mW:.3g}", "mW"),
-    )
+    return [(one.column, one.number(value), one.unit) for one, value in api.shown_numbers(found, ("currents",))]
 
 
 def summary_view(summary: Summary, colours: Mapping[str, str], units: UnitSystem = SI) -> Text:

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.results.quantity import FLOATING, quantity
 from lambda_core.results.record import Record
 
 if TYPE_CHECKING:
@@ -18,13 +19,31 @@ class Currents(Record):
     """Voltages and discharges from where averages begin; spans are 10, 50 and 90 %."""
 
     seconds: float = Field(description="that are counted [s]")
-    bearing_voltage_V: list[float] = Field(description="smallest and largest, inner less outer ring")
-    bearing_capacitance_pF: list[float] = Field(description="smallest and largest")
-    discharges_per_s: float = Field(description="through both contacts of a ball: the rotor's charge flows")
-    partial_discharges_per_s: float = Field(description="through one film, the other stands: only the ball's charge")
-    breakdown_voltage_V: list[float] | None = Field(description="of the bearing at discharges")
-    peak_current_A: list[float] | None = Field(description="of discharges")
-    arc_power_mW: float = Field(description="heat of all arcs over the time")
+    bearing_voltage_V: list[float] = quantity(
+        "smallest and largest, inner less outer ring", "V", label="bearing voltage, smallest and largest",
+        column="bearing voltage", decimals=1, group="currents",
+    )  # fmt: skip
+    bearing_capacitance_pF: list[float] = quantity(
+        "smallest and largest", "pF", label="capacitance", decimals=1, digits=4, group="currents"
+    )
+    discharges_per_s: float = quantity(
+        "through both contacts of a ball: the rotor's charge flows", "1/s", label="discharges through the bearing",
+        column="discharges", decimals=FLOATING, digits=4, group="currents",
+    )  # fmt: skip
+    partial_discharges_per_s: float = quantity(
+        "through one film, the other stands: only the ball's charge", "1/s", label="discharges through one film",
+        decimals=FLOATING, digits=4, group="currents",
+    )  # fmt: skip
+    breakdown_voltage_V: list[float] | None = quantity(
+        "of the bearing at discharges", "V", label="voltage of discharges (10, 50, 90 %)", group="currents"
+    )
+    peak_current_A: list[float] | None = quantity(
+        "of discharges", "A", label="peak current (10, 50, 90 %)", group="currents"
+    )
+    arc_power_mW: float = quantity(
+        "heat of all arcs over the time", "mW", label="heat in arcs", column="in arcs", decimals=FLOATING, digits=3,
+        group="currents",
+    )  # fmt: skip
 
 
 def currents_of(result: Result, start: float) -> Currents | None:

@@ -19,7 +19,7 @@ ITERATION_WORK = "iteration_work"  # of the same: work of early ends of Newton's
 _FASTEST = math.pi  # w h from which on a step sees nothing of a swing's frequency
 
 
-class Swing(Record):
+class RingMode(Record):
     """A mode of the rings near the end of a run, and what the integration did to it."""
 
     frequency_Hz: float
@@ -33,7 +33,7 @@ class Followed(Record):
 
     resolve_Hz: float = Field(description="to which they were followed; 0 where averages were the answer")
     step_s: float = Field(description="length of a step, the cubic mean over time")
-    modes: list[Swing] = Field(
+    modes: list[RingMode] = Field(
         description="modes of the rings by frequency, those that are damped least; of a shaft all up to resolve_Hz"
     )
 
@@ -110,6 +110,8 @@ def followed(settings: Solver, status: Status, time: float) -> Followed | None:
     found = Followed(resolve_Hz=settings.resolve, step_s=(powers / time) ** (1.0 / 3.0), modes=[])
     for frequency, damping in status.modes:
         more, shift = found.at(frequency)
-        swing = Swing(frequency_Hz=frequency, damping_percent=100.0 * damping, added_percent=more, shift_percent=shift)
+        swing = RingMode(
+            frequency_Hz=frequency, damping_percent=100.0 * damping, added_percent=more, shift_percent=shift
+        )
         found.modes.append(swing)
     return found

@@ -75,13 +75,16 @@ def _band_lines(found: Summary, units: UnitSystem) -> list[str]:
     return [line("" if i else "model band", text) for i, text in enumerate([both, *sources])]
 
 
-_GROUPS = ("friction", "catalogue", "life", "cage", "film", "contact")  # of numbers that have a row
+_GROUPS = ("friction", "catalogue", "life", "cage", "film", "contact")  # of numbers, in the order of their rows
+_NO_ROW = ("place", "capacitance", "trust")  # groups that the text of a machine leaves to its bearings
 
 
 def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
     """Return a row for every number of the bearings: its name with unit, and a cell for each."""
     each = list(found.bearings.values())
-    rows = [row for group in _GROUPS for row in _of_group(each, group, units)]
+    groups = {one.group for source in (each[0], each[0].rating) if source for one in quantities(type(source)).values()}
+    others = sorted(groups - {*_GROUPS, *_NO_ROW})
+    rows = [row for group in (*_GROUPS, *others) for row in _of_group(each, group, units)]
     if any(one.currents for one in each):
         voltages = [max(map(abs, one.currents.bearing_voltage_V)) if one.currents else None for one in each]
         rates = [one.currents.discharges_per_s if one.currents else None for one in each]

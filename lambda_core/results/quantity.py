@@ -7,7 +7,7 @@ studies, the tables of reports and the builder read the declaration.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -109,7 +109,7 @@ def quantity(
     meaning: str,
     unit: str = "",
     *,
-    label: str,
+    label: str = "",
     column: str = "",
     decimals: int = 1,
     digits: int = 3,
@@ -117,9 +117,12 @@ def quantity(
     axes: str = "",
     default: Any = PydanticUndefined,
 ) -> Any:
-    """Declare a field of a record that is a number, or a list of numbers; see :class:`Quantity`."""
+    """Declare a field of a record that is a number, or a list of numbers; see :class:`Quantity`.
+
+    The label is the meaning where none is given.
+    """
     facts: dict[str, Any] = {
-        "label": label, "column": column, "unit": unit, "decimals": decimals, "digits": digits,
+        "label": label or meaning, "column": column, "unit": unit, "decimals": decimals, "digits": digits,
         "group": group, "axes": list(axes),
     }  # fmt: skip
     return Field(default, description=meaning, json_schema_extra={_MARK: facts})
@@ -156,15 +159,21 @@ def quantity_of(record: Record, name: str) -> Quantity:
 
 def shown_numbers(record: Record, groups: Sequence[str]) -> list[tuple[Quantity, Any]]:
     """Return the numbers of a record, and of its only bearing, that stand in narrow tables, group by group."""
-    each = {**quantities(type(record))}
+    each = _columns(record)
+    return [(one, getattr(owner, one.name)) for group in groups for one, owner in each if one.group == group]
+
+
+def remaining(record: Record, placed: Collection[str]) -> list[tuple[Quantity, Any]]:
+    """Return the numbers of a record, and of its only bearing, with a column whose names are not among `placed`."""
+    return [(one, getattr(owner, one.name)) for one, owner in _columns(record) if one.name not in placed]
+
+
+def _columns(record: Record) -> list[tuple[Quantity, Record]]:
+    """Return the numbers with a column, and whose they are: of the record, or of its only bearing."""
+    found = {name: (one, record) for name, one in quantities(type(record)).items()}
     if len(bearings := list(getattr(record, "bearings", {}).values())) == 1:
-        each = {**each, **quantities(type(bearings[0]))}
-    return [
-        (one, getattr(record, name))
-        for group in groups
-        for name, one in each.items()
-        if one.group == group and one.column
-    ]
+        found |= {name: (one, bearings[0]) for name, one in quantities(type(bearings[0])).items()}
+    return [(one, owner) for one, owner in found.values() if one.column]
 
 
 def shown(record: Record, name: str, units: UnitSystem = SI) -> str:

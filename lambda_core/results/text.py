@@ -10,7 +10,7 @@ from lambda_core.domain.number_text import NONE, hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.results.band_text import banded, ends, source_lines
-from lambda_core.results.quantity import quantities, shown
+from lambda_core.results.quantity import quantities, remaining, shown
 
 if TYPE_CHECKING:
     from lambda_core.results.bearing_summary import BearingSummary
@@ -25,6 +25,12 @@ if TYPE_CHECKING:
 
 _PER_RING = ("sliding", "spin", "rolling", "hysteresis", "boundary", "damping")
 _REST = ("cage", "drag", "support")
+# Numbers that texts and reports place by hand; every other declared number with a column follows them.
+PLACED = frozenset({
+    "bearing_capacitance_nF", "cage_speed_over_epicyclic", "cage_speed_ratio", "contact_capacitance_pF",
+    "energy_residual", "film_parameter", "film_um", "friction_torque_Nmm", "inner_ring_displacement_um",
+    "inner_ring_tilt_mrad", "loaded_balls", "max_load_N", "max_pressure_GPa", "min_film_um", "power_loss_W",
+})  # fmt: skip
 _WIDTH = 100  # of sentences where no width is given
 
 
@@ -64,6 +70,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *_capacitance(summary),
         *([line("", summary.capacitance_note)] if summary.capacitance_note else []),
         *_currents(summary.currents),
+        *other_lines(summary, units),
         *watched_lines(summary),
         *(line("failed" if index == 0 else "", fault) for index, fault in enumerate(summary.plugin_faults)),
         *([line("shoulders", *(_margin(edge, units) for edge in summary.shoulders))] if summary.shoulders else []),
@@ -76,6 +83,11 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *(line("not converged" if index == 0 else "", reason) for index, reason in enumerate(summary.reasons)),
     ]
     return "\n".join(wrapped(lines, width))
+
+
+def other_lines(found: Summary | QuasiStatic, units: UnitSystem) -> list[str]:
+    """Return a line for every declared number that has no place of its own."""
+    return [line(one.column, one.text(value, units)) for one, value in remaining(found, PLACED)]
 
 
 def _capacitance(summary: Summary) -> list[str]:
@@ -235,6 +247,7 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
         line("film", shown(found, "film_um", units), f"Lambda {shown(found, 'film_parameter')}"),
         line("shoulders", *(_margin(edge, units) for edge in found.shoulders)),
         *([line("capacitance", found.capacitance_note)] if found.capacitance_note else []),
+        *other_lines(found, units),
         *band_lines(found.model_band),
         *table,
         *warning_lines([units.sentence(warning) for warning in found.warnings], width),

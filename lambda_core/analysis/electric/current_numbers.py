@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pydantic import Field
 
+from lambda_core.results.quantity import quantities, quantity
 from lambda_core.results.record import Record
 
 if TYPE_CHECKING:
@@ -25,37 +25,57 @@ PHASES = 3  # equilibria per ball pitch: a map has many points
 class CurrentNumbers(Record):
     """Films, voltages and discharges; None where nothing discharges."""
 
-    film_um: float | None = Field(description="smallest central film of a loaded contact")
-    film_parameter: float | None = Field(description="Lambda of the smallest central film")
-    bearing_capacitance_pF: float | None = Field(description="capacitance of the balls, touching films by their area")
-    bearing_voltage_ratio: float | None = Field(description="bearing over common-mode voltage")
-    bearing_voltage_V: float | None = Field(description="largest bearing voltage, either sign")
-    metal_share: float | None = Field(description="share of contacts and time in which asperities touch")
-    discharges_per_s: float | None = Field(description="discharges through the bearing")
-    breakdown_voltage_V: float | None = Field(description="bearing voltage at discharges, median")
-    peak_current_A: float | None = Field(description="peak current of discharges, median")
-    current_density_A_per_mm2: float | None = Field(description="median peak current over the Hertzian area, J_b")
-    arc_power_mW: float | None = Field(description="power of arcs")
+    film_um: float | None = quantity(
+        "smallest central film of a loaded contact",
+        "um",
+        label="smallest central film of a loaded contact",
+        group="currents",
+    )
+    film_parameter: float | None = quantity(
+        "Lambda of the smallest central film", "", label="Lambda of the smallest central film", group="currents"
+    )
+    bearing_capacitance_pF: float | None = quantity(
+        "capacitance of the balls, touching films by their area",
+        "pF",
+        label="capacitance of the balls, touching films by their area",
+        group="currents",
+    )
+    bearing_voltage_ratio: float | None = quantity(
+        "bearing over common-mode voltage", "", label="bearing over common-mode voltage", group="currents"
+    )
+    bearing_voltage_V: float | None = quantity(
+        "largest bearing voltage, either sign", "V", label="largest bearing voltage, either sign", group="currents"
+    )
+    metal_share: float | None = quantity(
+        "share of contacts and time in which asperities touch",
+        "",
+        label="share of contacts and time in which asperities touch",
+        group="currents",
+    )
+    discharges_per_s: float | None = quantity(
+        "discharges through the bearing", "1/s", label="discharges through the bearing", group="currents"
+    )
+    breakdown_voltage_V: float | None = quantity(
+        "bearing voltage at discharges, median", "V", label="bearing voltage at discharges, median", group="currents"
+    )
+    peak_current_A: float | None = quantity(
+        "peak current of discharges, median", "A", label="peak current of discharges, median", group="currents"
+    )
+    current_density_A_per_mm2: float | None = quantity(
+        "median peak current over the Hertzian area, J_b",
+        "A/mm2",
+        label="median peak current over the Hertzian area, J_b",
+        group="currents",
+    )
+    arc_power_mW: float | None = quantity("power of arcs", "mW")
 
 
-UNITS: Mapping[str, str] = {
-    "film_um": "um",
-    "film_parameter": "",
-    "bearing_capacitance_pF": "pF",
-    "bearing_voltage_ratio": "",
-    "bearing_voltage_V": "V",
-    "metal_share": "",
-    "discharges_per_s": "1/s",
-    "breakdown_voltage_V": "V",
-    "peak_current_A": "A",
-    "current_density_A_per_mm2": "A/mm2",
-    "arc_power_mW": "mW",
-}
+UNITS: Mapping[str, str] = {name: one.unit for name, one in quantities(CurrentNumbers).items()}
 
 
 def meaning(name: str) -> str:
     """Return one line about a number."""
-    return CurrentNumbers.model_fields[name].description or ""
+    return quantities(CurrentNumbers)[name].meaning
 
 
 def code_folder() -> Path:

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import show
-from lambda_core.results.quantity import quantity_of
+from lambda_core.results.bearing_summary import BearingSummary
+from lambda_core.results.quantity import quantities, quantity_of, remaining
+from lambda_core.results.text import PLACED
 from lambda_core.views.table import StudyTable
 
 if TYPE_CHECKING:
@@ -78,7 +80,13 @@ def key_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]
         *rows,
         _figure(found, "max_pressure_GPa", units),
         ("tilt of the inner ring y, z", ", ".join(number(angle, 2) for angle in tilts), "mrad"),
+        *(_remaining(found, units) if not isinstance(found, BearingSummary) else ()),
     ]
+
+
+def _remaining(found: Any, units: UnitSystem) -> list[tuple[str, str, str]]:
+    """Return the declared numbers that no table here places by hand."""
+    return [(one.label, one.cell(value, units), units.unit(one.unit)) for one, value in remaining(found, PLACED)]
 
 
 def _band(found: Any, field: str, unit: str, name: str, units: UnitSystem) -> list[tuple[str, str, str]]:
@@ -227,6 +235,7 @@ def run_figures(summary: Any, units: UnitSystem = SI) -> Table:
         ("inner ring x, y, z (mean)", position, units.unit("um")),
         (*_figure(summary, "energy_residual", units)[:2], "of input"),
         (*_figure(summary, "iteration_residual", units)[:2], "of input"),
+        *_remaining(summary, units),
         *([("vibrations", summary.vibrations.sentence(), "")] if summary.vibrations else []),
     )
     return Table("averages of the run", ("", "value", "unit"), rows)
@@ -237,19 +246,8 @@ def currents(summary: Any) -> tuple[Table, ...]:
     found = summary.currents
     if found is None:
         return ()
-    rows = [
-        ("bearing voltage, smallest and largest", "..".join(rounded(v) for v in found.bearing_voltage_V), "V"),
-        ("capacitance", "..".join(rounded(v, 4) for v in found.bearing_capacitance_pF), "pF"),
-        ("discharges through the bearing", rounded(found.discharges_per_s), "1/s"),
-        ("discharges through one film", rounded(found.partial_discharges_per_s), "1/s"),
-    ]
-    for name, values, unit in (
-        ("voltage of discharges", found.breakdown_voltage_V, "V"),
-        ("peak current", found.peak_current_A, "A"),
-    ):
-        if values is not None:
-            rows.append((f"{name} (10, 50, 90 %)", ", ".join(rounded(v) for v in values), unit))
-    rows.append(("heat in arcs", rounded(found.arc_power_mW), "mW"))
+    numbers = [one for one in quantities(type(found)).values() if getattr(found, one.name) is not None]
+    rows = [(one.label, one.cell(getattr(found, one.name)), one.unit) for one in numbers]
     return (Table("bearing currents", ("", "value", "unit"), tuple(rows)),)
 
 
