@@ -24,14 +24,16 @@ from lambda_core.domain.units import (
 )
 
 
-class _Body(Section):
+class RingBody(Section):
+    """Mass and inertias of a body of a bearing."""
+
     mass: Mass | None = option(None, "mass; absent: from the geometry", gt=0.0)
     transverse_inertia: Inertia | None = option(None, "moment of inertia about a diameter; absent: estimated", gt=0.0)
     polar_inertia: Inertia | None = option(None, "moment of inertia about the axis; absent: estimated", gt=0.0)
     unbalance: Unbalance = option("0 g mm", "mass times eccentricity of the centre of mass", ge=0.0)
 
 
-class InnerRing(_Body):
+class InnerRing(RingBody):
     """The inner ring with its shaft."""
 
     shaft_mass: Mass = option("0 kg", "mass of the shaft that moves with the inner ring", ge=0.0)
@@ -45,7 +47,7 @@ class InnerRing(_Body):
     spin: InnerSpin = option("prescribed", "rotation: prescribed (operation.speed) or free (operation.torque)")
 
 
-class OuterRing(_Body):
+class OuterRing(RingBody):
     """The outer ring; fixed by default. Where it moves, its mass may include the housing's."""
 
     x: Translation = option("locked", "axial")
@@ -56,7 +58,13 @@ class OuterRing(_Body):
     spin: Spin = option("locked", "rotation about the axis")
 
 
-class CageShape(_Body):
+class TurningRing(RingBody):
+    """The outer ring of a bearing in a machine; its support holds it in the other directions."""
+
+    spin: Spin = option("locked", "rotation about the axis")
+
+
+class CageBody(RingBody):
     """The cage: its type from the catalogue, single values replaced here."""
 
     type: str = option("steel-ribbon", "catalogue name of the cage type", min_length=1)
@@ -65,11 +73,6 @@ class CageShape(_Body):
     land_clearance: SmallLength | None = option(None, "diametral clearance of cage and guiding ring", gt=0.0)
     width: Length | None = option(None, "axial width", gt=0.0)
     radial_thickness: Length | None = option(None, "radial thickness", gt=0.0)
-
-
-class CageBody(CageShape):
-    """The cage: its type from the catalogue, single values replaced here."""
-
     x: Translation = option("free", "axial")
     y: Translation = option("free", "horizontal")
     z: Translation = option("free", "vertical")

@@ -13,7 +13,7 @@ from lambda_core.case.electric import MachineElectric
 from lambda_core.case.fitted import FitOrigin
 from lambda_core.case.holding import SeatTilt, SeatTranslation
 from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters, Solver
-from lambda_core.case.motion import CageShape, Gravity, Marker
+from lambda_core.case.motion import CageBody, Gravity, Marker, RingBody, TurningRing
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, OwnLubricant, Surface
 from lambda_core.case.requirements import Life, Requirements
@@ -176,7 +176,9 @@ class ShaftBearing(Bearing, Placed):
     support: Support = option({}, "how the housing holds the outer ring")
     lubricant: OwnLubricant | None = option(None, "its own oil, or its temperature or amount")
     thermal: BearingThermal = option({}, "what differs from [thermal] in this bearing")
-    cage: CageShape = option({}, "cage, as bodies.cage in the case of one bearing")
+    inner_ring: RingBody = option({}, "mass of the inner ring, which turns with the shaft")
+    outer_ring: TurningRing = option({}, "mass and rotation of the outer ring")
+    cage: CageBody = option({}, "cage, as bodies.cage in the case of one bearing")
     elastic: Elastic = option({}, "parts of the bearing that bend, as elastic in the case of one bearing")
     forces: Forces = option({}, "models of its own by force element, as forces in the case of one bearing: a defect")
     materials: Materials = option({}, "what differs from [materials] in this bearing")
@@ -257,8 +259,9 @@ def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
     operation = tables.get("operation")
     speed = operation.get("speed") if isinstance(operation, Mapping) else None
     # the shaft decides how the inner ring tilts: nothing is to be assumed of a ring that stands alone
-    bodies = {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}}
-    bodies |= {"cage": given["cage"]} if "cage" in given else {}
+    bodies: dict[str, Any] = {name: given[name] for name in ("outer_ring", "cage") if name in given}
+    inner = given.get("inner_ring", {})
+    bodies["inner_ring"] = {"tilt_y": "locked", "tilt_z": "locked", **(inner if isinstance(inner, Mapping) else {})}
     found = {
         "name": name,
         "bearing": {key: value for key, value in given.items() if key in Bearing.model_fields},
@@ -300,7 +303,7 @@ def place_in_machine(tables: Mapping[str, Any], name: str, where: str) -> str:
     own, (first, *rest) = tables["bearings"][name], where.split(".")
     if first == "bearing":
         return ".".join(("bearings", name, *rest))
-    if where.startswith("bodies.cage"):
+    if first == "bodies" and rest and rest[0] in own:
         return ".".join(("bearings", name, *where.split(".")[1:]))
     table = own.get(first) if first in (*REPLACED, "lubricant", "thermal") else None
     is_replaced = isinstance(table, Mapping) and (not rest or rest[0] in table)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from lambda_core.case.case import Case
+from lambda_core.case.motion import RingBody
 from lambda_core.case.shaft import OWN, SHARED
 from lambda_core.domain.units import show
 
@@ -28,9 +29,8 @@ _LOADS = {  # on the inner ring, and as loads at a place
     "moment_y": "moment_y",
     "moment_z": "moment_z",
 }
-_CAGE_FREEDOMS = (*_FREEDOMS, "spin")
+_OF_A_RING = tuple(RingBody.model_fields)
 _NO_PLACE = {
-    "bodies.outer_ring.spin": "an outer ring that turns",
     "loads.outer_ring": "loads on the outer ring: load the body that carries it",
     "loads.cage": "loads on the cage",
     "thermal": "the network of temperatures",
@@ -81,8 +81,15 @@ def expand(case: Case, *, bore: float, width: float, takes: Literal["+x", "-x"] 
     bearing = {**written["bearing"], "at": middle, **{table: written[table] for table in OWN if table in written}}
     bearing |= {"takes": takes} if takes else {}
     bodies = written.get("bodies", {})
-    bearing |= _cage(bodies.get("cage", {}), differences)
-    bearing |= _support(bodies.get("outer_ring", {}), differences)
+    outer, inner = bodies.get("outer_ring", {}), bodies.get("inner_ring", {})
+    support = {dof: outer[dof] for dof in _FREEDOMS if dof in outer}
+    parts = {
+        "inner_ring": {key: inner[key] for key in _OF_A_RING if key in inner},
+        "outer_ring": {key: outer[key] for key in (*_OF_A_RING, "spin") if key in outer},
+        "cage": bodies.get("cage", {}),
+        "support": support,
+    }
+    bearing |= {name: part for name, part in parts.items() if part}
     tables: dict[str, Any] = {key: written[key] for key in ("name", "description", "assumptions") if key in written}
     tables |= {
         "operation": _operation(written["operation"], bodies.get("inner_ring", {}).get("spin"), differences),
@@ -95,12 +102,11 @@ def expand(case: Case, *, bore: float, width: float, takes: Literal["+x", "-x"] 
     }
     loads = _loads(written.get("loads", {}))
     tables |= {"loads": loads} if loads else {}
-    inner = bodies.get("inner_ring", {})
     support = {dof: inner[dof] for dof in _FREEDOMS if dof in inner}
     tables["shaft"] |= {"support": {"at": NAME, **support}} if support else {}
     connections = _connections(written.get("elements", {}), differences)
     tables |= {"connections": connections} if connections else {}
-    tables |= _disc(inner, middle, differences)
+    tables |= _disc(inner, middle)
     tables |= {"fit": written["fit"]} if "fit" in written else {}
     markers = _markers(written.get("markers", {}), width, case, differences)
     tables |= {"markers": markers} if markers else {}
@@ -122,24 +128,6 @@ def _operation(written: Mapping[str, Any], spin: Any, differences: list[str]) ->
         differences.append("bodies.inner_ring.spin.damping: a resistance to the rotation of the shaft")
     torque = {"torque": written.get("torque", "0 N m")} if mode == "free" else {}
     return {"speed": written["speed"], **torque}
-
-
-def _cage(written: Mapping[str, Any], differences: list[str]) -> dict[str, Any]:
-    """Return the cage's shape; it is free in a machine."""
-    for dof in _CAGE_FREEDOMS:
-        if written.get(dof, "free") != "free":
-            differences.append(f"bodies.cage.{dof}: the cage of a machine is free")
-    shape = {key: value for key, value in written.items() if key not in _CAGE_FREEDOMS}
-    return {"cage": shape} if shape else {}
-
-
-def _support(written: Mapping[str, Any], differences: list[str]) -> dict[str, Any]:
-    """Return the seat of the outer ring: what holds it in both cases alike."""
-    for key in ("mass", "transverse_inertia", "polar_inertia", "unbalance"):
-        if key in written:
-            differences.append(f"bodies.outer_ring.{key}: the outer ring of a machine is that of the geometry")
-    support = {dof: written[dof] for dof in _FREEDOMS if dof in written}
-    return {"support": support} if support else {}
 
 
 def _loads(written: Mapping[str, Any]) -> dict[str, Any]:
@@ -164,19 +152,12 @@ def _connections(written: Mapping[str, Any], differences: list[str]) -> dict[str
     return found
 
 
-def _disc(written: Mapping[str, Any], middle: str, differences: list[str]) -> dict[str, Any]:
-    """Return the shaft's mass and unbalance as a disc at the bearing."""
-    for key in ("mass", "transverse_inertia", "polar_inertia"):
-        if key in written:
-            differences.append(f"bodies.inner_ring.{key}: the inner ring of a machine is that of the geometry")
-    if not {"shaft_mass", "unbalance"} & set(written):
+def _disc(written: Mapping[str, Any], middle: str) -> dict[str, Any]:
+    """Return the shaft's mass as a disc at the bearing."""
+    if "shaft_mass" not in written:
         return {}
-    disc = {"at": middle, "mass": written.get("shaft_mass", "0.000001 kg")}
-    names = {
-        "shaft_polar_inertia": "polar_inertia",
-        "shaft_transverse_inertia": "transverse_inertia",
-        "unbalance": "unbalance",
-    }
+    disc = {"at": middle, "mass": written["shaft_mass"]}
+    names = {"shaft_polar_inertia": "polar_inertia", "shaft_transverse_inertia": "transverse_inertia"}
     return {"discs": {"shaft": disc | {new: written[old] for old, new in names.items() if old in written}}}
 
 

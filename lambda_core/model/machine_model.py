@@ -223,7 +223,9 @@ class MachineModel:
         """Everything that leads shaft, seats and bodies over time."""
         seats = [lead for mounted in self.bearings for lead in mounted.seating.lead]
         shaft = [lead for lead in self.hold.lead if lead is not None] if self.hold else []
-        return [self.speed_over_time, *seats, *(lead for body in self.bodies for lead in body.lead), *shaft]
+        parts = [body for mounted in self.bearings for body in (mounted.model.outer_ring, mounted.model.cage_body)]
+        own = [dof.motion for part in parts for dof in part.dofs.values() if dof.mode == "prescribed"]
+        return [self.speed_over_time, *seats, *(lead for body in self.bodies for lead in body.lead), *shaft, *own]
 
     @property
     def solver(self) -> Solver:

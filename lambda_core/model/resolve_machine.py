@@ -250,13 +250,16 @@ def _shaft(
         discs=tuple((name, disc.place) for name, disc in case.discs.items()),
         load_places=tuple(acting),
         wheels=tuple((name, gear.place, gear.pitch_diameter) for name, gear in case.gears.items()),
-        unbalances=tuple(
-            Unbalance(disc.place, disc.unbalance, disc.unbalance_angle)
-            for disc in case.discs.values()
-            if disc.unbalance
-        ),
+        unbalances=_unbalances(case, bearings),
     )
     return resolved if ledger.problems else with_settings(case, resolved, ledger)
+
+
+def _unbalances(case: ShaftCase, bearings: Iterable[MountedBearing]) -> tuple[Unbalance, ...]:
+    """Return what is unbalanced on the shaft: discs and inner rings."""
+    discs = [Unbalance(disc.place, disc.unbalance, disc.unbalance_angle) for disc in case.discs.values()]
+    rings = [Unbalance(one.position, one.model.inner_ring.unbalance, 0.0) for one in bearings]
+    return tuple(found for found in (*discs, *rings) if found.amount)
 
 
 def _with_laws(mounted: MountedBearing, laws: Mapping[str, Mapping[str, ChosenLaw]]) -> MountedBearing:

@@ -185,7 +185,7 @@ def test_a_bearing_has_the_cage_of_its_own_case(folder: Path, capsys: pytest.Cap
     assert left.cage_body.mass > 2.0 * right.cage_body.mass
     assert left.cage.type == "brass-machined"
     capsys.readouterr()
-    assert main(["check", case, "--set", f"{said}.type=paper", "--set", "bearings.left.cage.x=locked"]) == 3
+    assert main(["check", case, "--set", f"{said}.type=paper", "--set", "bearings.left.cage.x=stuck"]) == 3
     lines = capsys.readouterr().err.splitlines()
     assert any(line.split()[0] == f"{said}.type" and "paper" in line for line in lines[1:]), lines
     assert any(line.split()[0] == "bearings.left.cage.x" for line in lines[1:]), lines

@@ -98,7 +98,7 @@ def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Fro
     for i, bearing in enumerate(bearings):
         model = bearing.model
         members[numbers.outer_rings[i]] = Member(f"{bearing.name} outer ring", _outer_ring(machine, i, model))
-        members[numbers.cages[i]] = Member(f"{bearing.name} cage", _unloaded(model.cage_body))
+        members[numbers.cages[i]] = Member(f"{bearing.name} cage", _unloaded(machine.bearings[i].model.cage_body))
     loads = _loads_on_bodies(machine)
     for k, rigid in enumerate(machine.bodies):
         members[int(numbers.bodies[k])] = Member(rigid.name, _rigid(rigid, loads[k]))
@@ -168,7 +168,7 @@ def _turned(machine: MachineModel, others: DofState) -> dict[str, DofState]:
 
 def _outer_ring(machine: MachineModel, i: int, model: BearingModel) -> Body:
     """Return an outer ring in its seat: springs and elastic housings tie it, and it is free between them."""
-    seating, dofs = machine.bearings[i].seating, {SPIN: _LOCKED}
+    seating, dofs = machine.bearings[i].seating, {SPIN: machine.bearings[i].model.outer_ring.dofs[SPIN]}
     is_housed = machine.housing is not None and machine.bearings[i].carrier == GROUND
     for name, stiffness, lead in zip(POSE, seating.stiffness, seating.lead, strict=True):
         dofs[name] = _FREE if math.isfinite(stiffness) or is_housed else _led(lead)

@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import CAGE, DOFS, INNER, OUTER, SPIN
+from lambda_core.domain.elements import CAGE, DOFS, INNER, OUTER, POSE, SPIN
 from lambda_core.formulas.elastic.beam import NODE
-from lambda_core.model.bearing_model import DofState, TimeFunction
+from lambda_core.model.bearing_model import Body, DofState, TimeFunction
 from lambda_core.model.bodies.locations import carried
+from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
@@ -257,9 +258,23 @@ def _standing(machine: MachineModel, shaft: LumpedShaft, context: SolverContext)
         flat[L.NS * lump + RING_STATES] = RING_SIGNS * machine.hold.shift
     for outer, bearing in zip(numbers.outer_rings, machine.bearings, strict=True):
         flat[L.NS * outer + RING_STATES] = RING_SIGNS * bearing.seating.shift
+        flat.view(R.BODY_STATE)["spin"][outer] = _spin(bearing.model.outer_ring)
+    for cage, bearing in zip(numbers.cages, machine.bearings, strict=True):
+        flat[L.NS * cage + RING_STATES] = RING_SIGNS * _pose(bearing.model.cage_body)
+        flat.view(R.BODY_STATE)["spin"][cage] = _spin(bearing.model.cage_body)
     for number, rigid in zip(numbers.bodies, machine.bodies, strict=True):
         flat[L.NS * number + STATES] = SIGNS * rigid.shift
     return flat
+
+
+def _pose(body: Body) -> FloatArray:
+    """Return where a body is held at t = 0, in the order of POSE; 0 where it is free or locked."""
+    return np.array([initial(body.dofs[dof].motion) if body.dofs[dof].mode == "prescribed" else 0.0 for dof in POSE])
+
+
+def _spin(body: Body) -> float:
+    """Return the speed at which a body is made to turn [rad/s]."""
+    return initial(body.dofs[SPIN].motion) if body.dofs[SPIN].mode == "prescribed" else 0.0
 
 
 class MemberChannels:

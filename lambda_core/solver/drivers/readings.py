@@ -14,7 +14,7 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, SHORTED
-from lambda_core.domain.elements import CAGE, INNER
+from lambda_core.domain.elements import CAGE, INNER, OUTER
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
@@ -200,7 +200,10 @@ class MachineReadings:
         self._start, self._last_time = self._angles(y), time
 
     def _angles(self, y: FloatArray) -> FloatArray:
-        """Return the angles of all cages (means of the balls without cages), then those of all inner rings [rad]."""
+        """Return the angles of all cages (means of the balls without cages), then those of all inner rings [rad].
+
+        Against the outer rings.
+        """
         flat = np.zeros(self._context.bundle.shared.size)
         flat[self._context.bundle.active] = self._context.shared_part(y)
         angles, cages = flat.view(R.BODY_STATE)["angle"], []
@@ -208,7 +211,9 @@ class MachineReadings:
             balls = L.elements_in(one.context.bundle, y[one.span.begin : one.span.end])
             is_caged = one.context.model.depth.cage
             cages.append(float(angles[one.span.bodies[CAGE]] if is_caged else np.mean(balls["azimuth"])))
-        return np.array([*cages, *(float(angles[one.span.bodies[INNER]]) for one in self.bearings)])
+        inner, outer = (angles[[one.span.bodies[ring] for one in self.bearings]] for ring in (INNER, OUTER))
+        found: FloatArray = np.concatenate([cages - outer, inner - outer])
+        return found
 
     def sampled(self, times: FloatArray, states: FloatArray) -> MachineSamples:
         """Return what is read at samples, which follow those of the last call."""
@@ -282,7 +287,7 @@ class MachineReadings:
     def _add_up(self, i: int, channels: Channels) -> None:
         """Go on with the integrals of what only samples say, by the trapezium rule."""
         columns = [channels["loss"][:, LOSSES.index(name)] for name in (*_SHARED, _WAVES)]
-        speed = channels["body_spin"][:, INNER]
+        speed = channels["body_spin"][:, INNER] - channels["body_spin"][:, OUTER]
         rates = np.column_stack([*columns, channels["input_torque"] * speed, channels["body_position"][:, INNER]])
         if len(self._last) <= i:
             self._last.append(rates[0])
