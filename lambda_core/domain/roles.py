@@ -330,3 +330,5 @@ DEFAULT_LINE_MODELS: dict[str, str] = {
     "elastic_hysteresis": "johnson-line",
     "capacitance": "line-gap",
 }
+# Roles in which ends of rollers on ribs have other laws than points: they slide, and have no law of rolling.
+DEFAULT_RIB_MODELS: dict[str, str] = {"rolling_resistance": "none", "elastic_hysteresis": "none"}

@@ -46,8 +46,8 @@ class Context:
     Lengths that a force element does not have are NaN (a cage contact has no groove).
     """
 
-    # "ball_inner", "ball_outer", "ball_cage", "ball_ball", "cage_inner", "cage_outer", "fluid_drag"; of an electric
-    # circuit "film_inner", "film_outer"
+    # "ball_inner", "ball_outer", "ball_cage", "ball_ball", "cage_inner", "cage_outer", "fluid_drag"; of rollers also
+    # "rib_inner", "rib_outer"; of an electric circuit "film_inner", "film_outer"
     element: str
     ball_count: int  # Z
     ball_diameter: float  # [m]

@@ -172,7 +172,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         oil=state,
         friction=FrictionParameters(
             raceway_roughness=case.surface.roughness,
-            rib_roughness=rollers.rib_roughness,
+            rib_roughness=geometry.rib_roughness,
             replenishment=_REPLENISHMENT[lubrication],
             oil_height=height,
         ),
@@ -238,6 +238,7 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
             rib_height=number["rib_height"],
             contact_height=rollers.contact_height or 0.0,
             end_radius=rollers.end_radius or 0.0,
+            rib_roughness=rollers.rib_roughness,
             series=row.series if row else "",
             **_profile(rollers, row, number["roller_diameter"], ledger),
         )

@@ -1,8 +1,7 @@
-"""Rollers in the place of balls: from a case of a cylindrical roller or needle bearing to the model of its motion.
+"""Rollers in the place of balls: from a case of a roller bearing to the model of its motion.
 
 Rings, cage, loads and settings are those of a bearing with as many elements of the same size; the rollers bring lines
-for contacts, their own laws and inertias. Ends of rollers are guided by the pockets of the cage: ribs stand still in
-the quasi-static answer alone, so that bearings whose ribs carry are refused here.
+for contacts with raceways, points for those of their ends with ribs, their own laws and inertias.
 """
 
 from __future__ import annotations
@@ -15,12 +14,14 @@ from lambda_core.case.case import Case
 from lambda_core.case.parts import InlineGeometry
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.catalogue.roller_designation import roller_designation
-from lambda_core.domain.elements import TILTS
+from lambda_core.domain.elements import RIBS, TILTS
 from lambda_core.domain.errors import CaseError, Problem
-from lambda_core.domain.roles import DEFAULT_LINE_MODELS
+from lambda_core.domain.roles import DEFAULT_LINE_MODELS, DEFAULT_RIB_MODELS
 from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.roller_equilibrium import thrust_problem
 from lambda_core.elements.roller.roller_friction import SKF_CONSTANTS, skf_kind
 from lambda_core.model.bearing_model import BearingModel, ChosenLaw, ResolvedValue
+from lambda_core.model.laws.time_functions import initial, time_function
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.roller_case import STRAIGHT, roller_geometry, roller_title
 
@@ -28,8 +29,8 @@ if TYPE_CHECKING:
     from lambda_core.laws.law import Law
 
 _ELEMENTS = ("ball_inner", "ball_outer")
+_SIDES = {1: "+x", -1: "-x"}
 _POCKET, _NO_DRAG = "roller-pocket", "none"
-_CAGED = ("NU", "N", "NJ", "NUP", "needle")
 
 
 def rollers_of(case: Case, catalogue: Catalogue) -> tuple[RollerBearing, str, tuple[str, ...]] | None:
@@ -46,14 +47,13 @@ def rollers_of(case: Case, catalogue: Catalogue) -> tuple[RollerBearing, str, tu
     if found is None and bearing.rollers is None:
         return None
     rollers = roller_geometry(case, found, ledger)
-    if rollers is not None and rollers.kind not in _CAGED:
-        ledger.problem(
-            "bearing.designation",
-            f"{rollers.kind} rollers have no motion in time yet: quasistatic computes them; in motion: "
-            + ", ".join(_CAGED),
-        )
-    if case.loads.axial:
-        ledger.problem("loads.axial", "ribs carry thrust in quasistatic alone: leave it out in motion")
+    if rollers is not None:
+        _refuse_thrust(case, rollers, ledger)
+        if rollers.full_complement:
+            ledger.problem(
+                "bearing.designation",
+                f"{rollers.kind} rollers, a full complement, have no motion in time yet: quasistatic computes them",
+            )
     if not case.depth.cage:
         ledger.problem("depth.cage", "rollers in motion need their cage: full complements are computed by quasistatic")
     _refuse_parameters(case, ledger)
@@ -61,8 +61,19 @@ def rollers_of(case: Case, catalogue: Catalogue) -> tuple[RollerBearing, str, tu
     assert rollers is not None  # else a problem says why
     if not {*TILTS} & case.bodies.inner_ring.model_fields_set:
         ledger.assume(STRAIGHT)
-    ledger.assume("rollers are guided along the shaft by the pockets of their cage, ribs carry nothing")
+    if not rollers.ribs:
+        ledger.assume("rollers are guided along the shaft by the pockets of their cage: no height of a rib is known")
     return rollers, roller_title(case, found, rollers), tuple(ledger.assumptions)
+
+
+def _refuse_thrust(case: Case, rollers: RollerBearing, ledger: Ledger) -> None:
+    """Refuse thrust that no rib takes, and tapered rollers that nothing presses together."""
+    thrust, along = initial(time_function(case.loads.axial)), case.bodies.inner_ring.x
+    if getattr(along, "mode", along) != "free":
+        return
+    problem = thrust_problem(rollers, thrust)
+    if problem:
+        ledger.problem("loads.axial", problem)
 
 
 def _refuse_parameters(case: Case, ledger: Ledger) -> None:
@@ -81,7 +92,10 @@ def _refuse_parameters(case: Case, ledger: Ledger) -> None:
 
 
 def as_balls(case: Case, rollers: RollerBearing) -> Case:
-    """Return the case of a bearing with as many balls of the same diameter; its inner ring stays straight."""
+    """Return the case of a bearing with as many balls of the same diameter.
+
+    The shaft holds the inner ring straight, and along its axis where nothing presses rollers on ribs.
+    """
     sizes = {
         "bore_diameter": rollers.bore,
         "outside_diameter": rollers.outside,
@@ -94,7 +108,8 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
     changes = {"designation": None, "maker": None, "rollers": None, "geometry": geometry}
     bearing = case.bearing.model_copy(update={**changes, "clearance": f"{rollers.clearance!r} m"})
     inner = case.bodies.inner_ring
-    silent = [dof for dof in ("x", *TILTS) if dof not in inner.model_fields_set]
+    pressed = rollers.kind == "tapered" or bool(case.loads.axial)
+    silent = [dof for dof in (*(() if pressed else ("x",)), *TILTS) if dof not in inner.model_fields_set]
     inner = inner.model_copy(update={dof: type(getattr(inner, dof))(mode="locked") for dof in silent})
     models = case.models.model_copy(update=dict.fromkeys(DEFAULT_LINE_MODELS))
     bodies = case.bodies.model_copy(update={"inner_ring": inner})
@@ -137,6 +152,12 @@ def with_rollers(
 
     lines = {role: chosen(role, getattr(case.models, role) or name) for role, name in DEFAULT_LINE_MODELS.items()}
     laws = dict(model.laws)
+    for ring in sorted({_ELEMENTS.index(f"ball_{rib.ring}") for rib in rollers.ribs}):
+        points = laws[_ELEMENTS[ring]]
+        supply = _with_constant(points["supply"], SKF_CONSTANTS[skf_kind(rollers)][1])
+        laws[tuple(RIBS)[ring]] = {**points, "supply": supply} | {
+            r: chosen(r, n) for r, n in DEFAULT_RIB_MODELS.items()
+        }
     for element in _ELEMENTS:
         supply = _with_constant(laws[element]["supply"], SKF_CONSTANTS[skf_kind(rollers)][1])
         laws[element] = {**laws[element], **lines, "supply": supply}
@@ -149,6 +170,7 @@ def with_rollers(
     return replace(
         model,
         laws=laws,
+        geometry=replace(model.geometry, ribs=" ".join(f"{rib.ring}{_SIDES[rib.end]}" for rib in rollers.ribs)),
         title=title,
         rollers=rollers,
         assumptions=(*model.assumptions, *assumptions),

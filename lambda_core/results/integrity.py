@@ -26,7 +26,7 @@ _OBJECT = struct.Struct("<HHIQ")  # index, references, reserved, size
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 _SUPERBLOCK = 48  # [byte], as much of it as is read
 _END, _END_OF_OLD = 28, 40  # place of the address of the file's end, versions 2 and 3; 0 and 1
-_WORDS = ("series", "arrangement")  # what a geometry says in words
+_WORDS = ("series", "arrangement", "ribs")  # what a geometry says in words
 _LOOKED_AT = 64 << 20  # [byte] from the beginning: a run writes its texts before its samples
 
 

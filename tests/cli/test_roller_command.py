@@ -82,8 +82,9 @@ def test_what_cannot_be(
 @pytest.mark.parametrize(
     ("designation", "axial", "more", "message"),
     [
-        ("32216", "3 kN", "", "no motion in time yet: quasistatic computes them"),
-        ("NU 208", "500 N", "", "ribs carry thrust in quasistatic alone"),
+        ("32216", "0 N", "", "needs thrust on the inner ring along x"),
+        ("NU 208", "500 N", "", "takes no thrust in this direction"),
+        ("NCF 3008", "0 N", "", "full complement, have no motion in time yet"),
         ("NU 208", "0 N", "[depth]\ncage = false\n", "need their cage"),
         ("NU 208", "0 N", "[parameters.film_thickness]\nx = 1\n", "parameters.film_thickness"),
         ("NU 208", "0 N", '[models]\nfluid_drag = "none"\n', "the law's own values here"),

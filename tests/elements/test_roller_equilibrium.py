@@ -35,11 +35,11 @@ def total(bearing: RollerBearing, state: RollerEquilibrium) -> np.ndarray:
     """Return forces x, y, z on the outer ring by the geometry of the contacts, not by the solver's matrices."""
     angle = bearing.contact_angle
     load = state.outer.sum(axis=1)
-    axial = math.sin(angle) * load.sum()
+    axial, radial = math.sin(angle) * load.sum(), math.cos(angle) * load
     for index, one in enumerate(bearing.ribs):
         if one.ring == "outer":
-            axial += one.end * state.ribs[:, index].sum()
-    radial = math.cos(angle) * load
+            axial -= one.normal[0] * state.ribs[:, index].sum()
+            radial = radial - one.normal[1] * state.ribs[:, index]
     return np.array([axial, radial @ np.cos(state.azimuths), radial @ np.sin(state.azimuths)])
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numba
@@ -16,6 +17,7 @@ from lambda_core.elements.roller.roller_equilibrium import single_springs
 from lambda_core.elements.roller.roller_motion import rolling_motion
 from lambda_core.elements.roller.slices import slice_positions
 from lambda_core.solver import records
+from lambda_core.solver.drivers.roller_tables import write_rib
 from lambda_core.solver.roller import kinematics, motion
 
 TAPERED = RollerBearing(
@@ -167,6 +169,34 @@ def test_forces_are_equal_and_opposite(bearing: RollerBearing) -> None:
     about_origin = moment + np.cross(centre, force)
     about_origin = about_origin + on_ring.moment[0] + np.cross(ring.position[0], on_ring.force[0])
     assert about_origin == pytest.approx(np.zeros(3), abs=1e-14)
+
+
+@pytest.mark.parametrize("end", [-1, 1])
+@pytest.mark.parametrize("ring", ["inner", "outer"])
+def test_ribs_stand_where_the_quasi_static_answer_has_them(ring: str, end: int) -> None:
+    """Gap, place, lever and sliding speed of an end on a rib; its force does not turn the roller about its axis."""
+    bearing, number = replace(NU, kind="NUP"), ("inner", "outer").index(ring)
+    one = next(rib for rib in bearing.ribs if (rib.ring, rib.end) == (ring, end))
+    row, raceway, kin = row_of(bearing), make(records.RACEWAY), make(records.KINEMATICS)
+    row.end_radius = one.contact.end_radius
+    write_rib(raceway[0], bearing, number, end)
+    spin = 150.0 if ring == "inner" else 0.0
+    roller = roller_of(bearing, 150.0)
+    assert rib(roller, body(spin), row, raceway, kin) == pytest.approx(-one.gap, rel=1e-4)
+    # slip of the end is that of the roller's turning about the line of its contact, the height of the rib's contact
+    height, moves = one.contact.height, rolling_motion(bearing, 150.0)
+    assert abs(kin.slip_t[0]) == pytest.approx(moves.roller_speed(ring) * height, rel=1e-3)  # type: ignore[arg-type]
+    entrainment, _ = moves.rib(one, bearing)
+    assert abs(kin.entrainment_t[0]) == pytest.approx(entrainment, rel=1e-3)
+    wrench, on_roller, on_ring = make(records.WRENCH), make(records.WRENCH), make(records.WRENCH)
+    wrench.force[0] = (0.0, 0.0, -100.0)
+    roller.tilt[0] = (2e-3, -1e-3)
+    rib(roller, body(spin), row, raceway, kin)
+    apply(kin, roller, body(spin), wrench, on_roller, on_ring)
+    axis = np.array([math.sqrt(1.0 - 5e-6), 2e-3, -1e-3])
+    assert on_roller.moment[0] @ axis == pytest.approx(0.0, abs=1e-12)
+    assert on_ring.moment[0, 0] == pytest.approx(0.0, abs=1e-12)
+    assert np.sign(on_roller.force[0, 0]) == -end
 
 
 @BEARINGS

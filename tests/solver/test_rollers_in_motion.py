@@ -16,6 +16,7 @@ from lambda_core import api
 from lambda_core.domain.elements import CAGE
 from lambda_core.elements.roller.roller_equilibrium import balance
 from lambda_core.elements.roller.roller_motion import rolling_motion
+from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.dynamics import BearingEngine, initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
@@ -189,6 +190,37 @@ def test_a_roller_bearing_runs() -> None:
     assert orbit.mean() == pytest.approx(equilibrium().orbit, rel=0.05)
     cage, play = engine.context.bundle.bodies_now[CAGE], 0.5 * engine.context.model.cage.pocket_clearance
     assert np.hypot(*cage.position[1:]) < 1.5 * play  # bars hold it in the middle
+
+
+THRUST: dict[str, dict[str, Any]] = {
+    "32216": {"loads": {"axial": "6 kN", "radial": "6.5 kN"}, "operation": {"speed": "2000 rpm"}},
+    "NJ 208": {"loads": {"axial": "1 kN", "radial": "5 kN"}},
+    "NUP 208": {"loads": {"axial": "-1 kN", "radial": "5 kN"}},
+}
+
+
+@pytest.mark.parametrize("name", [*THRUST])
+def test_ribs_take_thrust_in_motion(name: str) -> None:
+    """Loads of ribs as in the quasi-static answer but for friction; energy is kept, and the skew stays small."""
+    model = api.check(CASE | THRUST[name] | {"bearing": {"designation": f"SKF {name}"}})
+    found = solve(model)
+    assert found.converged
+    rollers, bundle = found.context.model.rollers, found.context.bundle
+    assert rollers is not None
+    force = [initial(f) for f in model.inner_ring.force]
+    loads = np.array([force[0], force[1], force[2] - model.inner_ring.mass * 9.81, 0.0, 0.0])
+    alone = balance(rollers, loads, first_angle=-0.5 * np.pi)
+    ribs = found.arcs[:, 2:, L.R.CONTACT_CHANNELS.index("load")].sum(axis=0)
+    assert ribs == pytest.approx(alone.ribs.sum(axis=0), rel=0.2, abs=0.03 * abs(force[0]))
+    assert found.displacement[0] == pytest.approx(alone.ring[0], rel=0.03)
+    engine = BearingEngine(model, equilibrium=found)
+    while engine.time < 0.02:
+        engine.advance(0.02)
+    sums = engine.integrals()
+    lost = sum(value for name, value in sums.items() if name.startswith("loss."))
+    assert abs(sums["input"] - lost - sums["stored"]) < 5e-4 * sums["input_abs"]
+    _, states = engine.buffered()
+    assert np.abs(L.elements_in(bundle, states)["tilt"]).max() < 3e-3
 
 
 def slip_of_the_cage(load: str) -> float:

@@ -10,6 +10,7 @@ from functools import cache, partial
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.domain.elements import RIBS
 from lambda_core.domain.errors import UsageError, nearest
 from lambda_core.domain.units import UNITS, from_si, parse
 from lambda_core.domain.written_values import Scale, scale_of
@@ -93,8 +94,9 @@ def _data() -> Mapping[str, list[dict[str, Any]]]:
 
 
 def exchanges(model: BearingModel) -> list[Exchange]:
-    """Return the laws that may stand in place of those of a model, its own ones left out."""
-    chosen = {role: law.model.name for roles in model.laws.values() for role, law in roles.items()}
+    """Return the laws that may stand in place of those of a model, its own ones and those of ribs left out."""
+    laws = [roles for element, roles in model.laws.items() if element not in RIBS]
+    chosen = {role: law.model.name for roles in laws for role, law in roles.items()}
     found = []
     for entry in _data()["exchange"]:
         role = entry["role"]

@@ -35,6 +35,7 @@ class Geometry:
     # Of two rows: "O" back to back, "X" face to face, "spherical" on one sphere of the outer ring, whose raceway
     # diameter is the sphere's
     arrangement: str = ""
+    ribs: str = ""  # of rollers: ring and end of every rib that guides them, "inner-x outer+x"
 
     @property
     def balls(self) -> int:

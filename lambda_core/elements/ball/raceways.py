@@ -18,8 +18,11 @@ import math
 from dataclasses import dataclass
 from functools import lru_cache
 
-from lambda_core.domain.elements import INNER, OUTER, RACEWAYS
+from lambda_core.domain.channels import RINGS
+from lambda_core.domain.elements import INNER, OUTER, RACEWAYS, RIBS
 from lambda_core.elements.ball.geometry import Geometry
+
+_ENDS = {"+x": 1, "-x": -1}
 
 
 @dataclass(frozen=True)
@@ -27,17 +30,19 @@ class Raceway:
     """One groove that one row of balls runs in."""
 
     ring: int  # INNER, OUTER
-    element: str  # force element of its contacts, "ball_inner", "ball_outer"
+    element: str  # force element of its contacts, "ball_inner", "ball_outer", "rib_inner", "rib_outer"
     row: int
     thrust: int  # +1, -1: it takes a thrust of the shaft to +x, -x; 0: both
     groove_radius: float  # [m]
     groove_circle: float  # radius of the circle of groove centres [m]
     axial_offset: float  # of that circle's plane from the ring's centre [m]
+    end: int = 0  # of a rib: the end of the roller that touches it, +1 towards +x, -1
 
     @property
     def name(self) -> str:
         """The arc for people: "outer +x" takes a thrust of the shaft to +x."""
-        return f"{('inner', 'outer')[self.ring]}{('', ' +x', ' -x')[self.thrust]}"
+        side = self.end or self.thrust
+        return f"{('inner', 'outer')[self.ring]}{' rib' if self.end else ''}{('', ' +x', ' -x')[side]}"
 
 
 def row_places(geometry: Geometry) -> tuple[float, ...]:
@@ -47,12 +52,16 @@ def row_places(geometry: Geometry) -> tuple[float, ...]:
 
 @lru_cache(maxsize=64)  # asked a dozen times for one set of tables
 def raceways(geometry: Geometry) -> tuple[Raceway, ...]:
-    """Return the raceways row by row, of each the inner ring's before the outer ring's."""
-    return tuple(
+    """Return the raceways row by row, of each the inner ring's before the outer ring's; behind them ribs of rollers."""
+    found = tuple(
         _raceway(geometry, row, place, ring, thrust)
         for row, place in enumerate(row_places(geometry))
         for ring in (INNER, OUTER)
         for thrust in geometry.kind.thrusts(geometry, row)
+    )
+    return found + tuple(
+        Raceway(RINGS.index(name[:5]), tuple(RIBS)[RINGS.index(name[:5])], 0, 0, math.inf, 0.0, 0.0, _ENDS[name[5:]])
+        for name in geometry.ribs.split()
     )
 
 

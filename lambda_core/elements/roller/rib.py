@@ -45,6 +45,8 @@ class RibContact:
         From the bearing's axis [m].
     radius_x, radius_y : float
         Reduced radii along sliding (around the bearing's axis) and across it [m].
+    end_radius : float
+        Of the roller's end [m].
     """
 
     height: float
@@ -52,6 +54,7 @@ class RibContact:
     distance: float
     radius_x: float
     radius_y: float
+    end_radius: float
 
 
 def tapered_angles(roller_diameter: float, pitch_diameter: float, outer_angle: float) -> TaperedAngles:
@@ -108,7 +111,7 @@ def rib_contact(
     if around <= end_radius:
         raise ValueError(f"`end_radius` must be below the rib's radius {around:g} m, got {end_radius:g} m")
     radius_x = 1.0 / (1.0 / end_radius - 1.0 / around)
-    return RibContact(height, normal, distance, radius_x, end_radius if rib == "cone" else radius_x)
+    return RibContact(height, normal, distance, radius_x, end_radius if rib == "cone" else radius_x, end_radius)
 
 
 def rib_load(outer_load: float, angles: TaperedAngles, normal: float) -> tuple[float, float]:

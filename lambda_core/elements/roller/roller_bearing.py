@@ -85,6 +85,8 @@ class RollerBearing:
         Of the roller.
     profile_scale, profile_length, profile_exponent : float
         A, L and k of the logarithmic profile [m, m, -], Teutsch's a_p D, c_p and k_p.
+    rib_roughness : float
+        Composite rms roughness of ribs and ends [m]: Wingertszahn et al. 2023, Lubricants 11, 369.
     """
 
     kind: str
@@ -109,6 +111,7 @@ class RollerBearing:
     profile_scale: float = 0.0
     profile_length: float = 0.0
     profile_exponent: float = 2.0
+    rib_roughness: float = 0.24e-6
     series: str = ""
 
     def __post_init__(self) -> None:
@@ -217,5 +220,8 @@ class RollerBearing:
         radius = self.end_radius or lever / math.sin(_RIB_OPENING)
         side = -1.0 if ring == "inner" else 1.0
         distance = self.centre + side * lever
-        contact = RibContact(height, 0.0, distance, radius, radius)
-        return Rib(ring, end, (0.5 * end * self.length, side * lever), (-float(end), 0.0), 0.5 * self.end_play, contact)
+        sine = lever / radius  # of the rib's opening: the sphere's normal there
+        cosine = math.sqrt(1.0 - sine * sine)
+        contact = RibContact(height, 0.0, distance, radius, radius, radius)
+        place = (end * (0.5 * self.length - radius * (1.0 - cosine)), side * lever)
+        return Rib(ring, end, place, (-end * cosine, -side * sine), 0.5 * self.end_play, contact)

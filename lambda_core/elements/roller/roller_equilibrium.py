@@ -181,17 +181,23 @@ def balance(
 
 def _refuse(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> None:
     """Raise ValueError for thrust that nothing takes."""
-    thrust = float(loads[0])
-    if held[0]:
-        return
-    if bearing.kind == "tapered" and thrust <= 0.0:
-        raise ValueError("a tapered roller bearing needs thrust on the inner ring along x, above zero")
+    problem = "" if held[0] else thrust_problem(bearing, float(loads[0]))
+    if problem:
+        raise ValueError(problem)
+
+
+def thrust_problem(bearing: RollerBearing, thrust: float) -> str:
+    """Return what is wrong with a thrust on the inner ring along x [N]; "" where ribs or cones take it."""
+    if bearing.kind == "tapered":
+        wrong = thrust <= 0.0
+        return "a tapered roller bearing needs thrust on the inner ring along x, above zero" if wrong else ""
     if thrust == 0.0:
-        return
+        return ""
     rings = {(rib.ring, rib.end) for rib in bearing.ribs}
     end = -1 if thrust > 0.0 else 1
-    if bearing.kind != "tapered" and not {("inner", end), ("outer", -end)} <= rings:
-        raise ValueError(f"a roller bearing of kind {bearing.kind} takes no thrust in this direction")
+    if {("inner", end), ("outer", -end)} <= rings:
+        return ""
+    return f"a roller bearing of kind {bearing.kind} takes no thrust in this direction"
 
 
 def single_springs(bearing: RollerBearing, slices: int) -> Springs:

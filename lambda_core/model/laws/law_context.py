@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import RIBS
 from lambda_core.formulas.hertz import ball_raceway_radii, reduced_modulus
 from lambda_core.laws.context import Context, Material, Oil
 from lambda_core.laws.par import make_par
@@ -33,6 +34,7 @@ def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: O
     g = model.geometry
     speed = max_speed(model)
     raceways = {"ball_inner": model.inner_material, "ball_outer": model.outer_material}
+    raceways |= {"rib_inner": model.inner_material, "rib_outer": model.outer_material}
     partner = (raceways | {"ball_ball": model.ball_material}).get(element, model.cage_material)
     common = Context(
         element=element,
@@ -70,6 +72,18 @@ def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: O
             race_diameter=(g.race_diameter_inner, g.race_diameter_outer)[i],
             radius_x=rx,
             radius_y=ry,
+            e_eff=effective_modulus(model.ball_material, partner),
+        )
+    if element in RIBS and model.rollers is not None:
+        i = tuple(RIBS).index(element)
+        rib = next(rib for rib in model.rollers.ribs if rib.ring == ("inner", "outer")[i])
+        return dataclasses.replace(
+            common,
+            mean_load=frame.mean_loads[i],
+            contact_angle=frame.angles[i],
+            race_diameter=2.0 * rib.contact.distance,
+            radius_x=rib.contact.radius_x,
+            radius_y=rib.contact.radius_y,
             e_eff=effective_modulus(model.ball_material, partner),
         )
     if element in ("cage_inner", "cage_outer"):

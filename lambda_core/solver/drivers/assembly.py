@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import RINGS
 from lambda_core.domain.elements import BODIES, CAGE, INNER, OUTER
 from lambda_core.elements.ball.raceways import raceways
 from lambda_core.model.bearing_model import ELEMENT_PREFIX, BearingModel, Body
@@ -148,7 +149,7 @@ class Assembly:
             bodies, end = (*bearing.members, *range(body, body + waves)), begin + states_of_an_element(model) * g.balls
             found.append(BearingSpan(bodies, begin, end, balls, g.balls, rows, grooves, states, kept, lines))
             balls, rows, grooves, states = balls + g.balls, rows + g.rows, grooves + len(every), states + kept
-            begin, lines = end, lines + (len(every) if model.rollers is not None else 0)
+            begin, lines = end, lines + (len(RINGS) if model.rollers is not None else 0)
             body += waves
         return tuple(found)
 

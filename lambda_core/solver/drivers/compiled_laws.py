@@ -18,7 +18,7 @@ from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.law_context import ContactFrame, build_context, prepare
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import begin
-from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of, times
+from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, contacts_of, guides, links, oil_of, times
 from lambda_core.solver.records import RACEWAY_ROLES
 
 Announce = Callable[[str], None] | None
@@ -30,7 +30,7 @@ class Kernels:
     """Compiled kernels of a model's laws; pointers and code stay alive with this object."""
 
     def __init__(self, model: BearingModel, announce: Announce = None) -> None:
-        self._laws = model.laws
+        self._laws, self._contacts = model.laws, contacts_of(model)
         self._guides, self._links, self._times = guides(model), links(model), times(model)
         begin(announce)  # the solver is compiled beside the laws
         # one model in several force elements is compiled once
@@ -57,7 +57,7 @@ class Kernels:
             return L.RacewayLaws(*(law(element, role) for role in RACEWAY_ROLES))
 
         return L.Laws(
-            addresses([raceway(element) for element in RACEWAYS]),
+            addresses([raceway(element) for element in self._contacts]),
             addresses([[law(element, "cage_contact")] for element in self._guides]),
             addresses([[law("fluid_drag", "fluid_drag")]]),
             addresses([[law(element, "force_element")] for element in self._links]).reshape(-1, 1),

@@ -55,10 +55,11 @@ def channels_of_states(model: BearingModel, tails: FloatArray) -> dict[str, Floa
     Of four-point contact (n, balls, 4), by arc. NaN for a raceway whose law does not keep the state.
     """
     g = model.geometry
-    count, z, places = len(tails), g.ball_count, len(raceways_of_a_ball(g))
+    count, z = len(tails), g.ball_count
+    places = sum(raceway.end == 0 for raceway in raceways_of_a_ball(g))  # ribs of rollers keep nothing
     found = {channel.name: np.full((count, g.balls, places), np.nan) for channel in state_channels(model)}
     begin = 0
-    for i, raceway in enumerate(raceways(g)):
+    for i, raceway in enumerate(raceway for raceway in raceways(g) if raceway.end == 0):
         states, row = states_of(model, raceway.element), slice(raceway.row * z, (raceway.row + 1) * z)
         own = tails[:, begin : begin + z * len(states)].reshape(count, z, len(states))
         for k, state in enumerate(states):

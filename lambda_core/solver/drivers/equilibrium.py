@@ -34,7 +34,7 @@ from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_la
 from lambda_core.solver.drivers.fault_inputs import INPUTS
 from lambda_core.solver.drivers.first_state import first_frame, first_state, roll
 from lambda_core.solver.drivers.law_inputs import guides, times
-from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring, rings_of_contacts
+from lambda_core.solver.drivers.ring_values import are_ribs, contacts_by_ring, losses_by_ring, rings_of_contacts
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.tables import bearing_of_land
 from lambda_core.solver.drivers.warmer_oil import StaticReport, from_warmer_oil
@@ -97,7 +97,8 @@ class Equilibrium:
 
     def loads_by_row(self) -> tuple[list[float], list[float]]:
         """Return the loads on inner and outer raceways row by row, of four-point contact by pairs of arcs [N]."""
-        load, sides = self.arcs[:, :, _LOAD], self.arcs.shape[1] // 2
+        load = self.arcs[:, ~are_ribs(self.context.model.geometry), _LOAD]
+        sides = load.shape[1] // 2
         return load[:, :sides].T.ravel().tolist(), load[:, sides:].T.ravel().tolist()
 
 
@@ -350,9 +351,10 @@ def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) 
 
 def mean_frame(geometry: Geometry, contacts: FloatArray, before: ContactFrame) -> ContactFrame:
     """Return load-weighted contact angles (absolute) and mean loads of the loaded contacts of each ring."""
-    angles, loads, rings = [], [], rings_of_contacts(geometry)
+    angles, loads, rings, ribs = [], [], rings_of_contacts(geometry), are_ribs(geometry)
     for i in range(2):
-        load, angle = contacts[:, rings == i, _LOAD].ravel(), np.abs(contacts[:, rings == i, _ANGLE]).ravel()
+        own = contacts[:, (rings == i) & ~ribs]
+        load, angle = own[..., _LOAD].ravel(), np.abs(own[..., _ANGLE]).ravel()
         angles.append(float(np.sum(load * angle) / np.sum(load)) if np.sum(load) > 0.0 else before.angles[i])
         loads.append(float(np.mean(load[load > 0.0])) if np.any(load > 0.0) else before.mean_loads[i])
     return ContactFrame((angles[0], angles[1]), (loads[0], loads[1]))

@@ -19,6 +19,7 @@ from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.drivers.roller_start import press_rollers, roll_rollers
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.records import CONTACT_CHANNELS
 
@@ -26,11 +27,13 @@ _LOAD, _ANGLE = CONTACT_CHANNELS.index("load"), CONTACT_CHANNELS.index("contact_
 
 
 def first_frame(model: BearingModel) -> ContactFrame:
-    """Guess contact angle and load from the external loads at t = 0."""
+    """Guess contact angle and load from the external loads at t = 0; rollers touch at the angles of their cones."""
     force = [initial(f) for f in model.inner_ring.force]
     force = [f + model.inner_ring.mass * a for f, a in zip(force, model.gravity, strict=True)]
     total = math.sqrt(sum(f * f for f in force))
     load = max(total * 3.0 / model.geometry.balls, 1.0)
+    if model.rollers is not None:
+        return ContactFrame((model.rollers.angles.inner, model.rollers.angles.outer), (load, load))
     free = free_contact_angle(model) if abs(force[0]) > 0.1 * total else model.geometry.resting_angle
     return ContactFrame((free, free), (load, load))
 
@@ -80,6 +83,8 @@ def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
         row, count = balls[i * g.ball_count : (i + 1) * g.ball_count], g.ball_count
         row["x"] += place
         row["azimuth"] = [-0.5 * math.pi + 2.0 * math.pi * (j + phase + 0.5 * i) / count for j in range(count)]
+    if model.rollers is not None:
+        press_rollers(model, model.rollers, bodies, balls)
     context.shared_part(y)[:] = bodies.view(np.float64)[context.bundle.active]
     y[context.size - context.bundle.states.size :] = context.bundle.states
     roll(model, context.frame, balls)
@@ -93,6 +98,9 @@ def roll(model: BearingModel, frame: ContactFrame, balls: NDArray[Any], contacts
     """
     g = model.geometry
     inner, outer = (initial(b.dofs["spin"].motion) for b in (model.inner_ring, model.outer_ring))
+    if model.rollers is not None:
+        roll_rollers(model.rollers, inner, outer, balls)
+        return
     angle = float(np.mean(frame.angles))
     lever = 0.5 * g.ball_diameter * math.cos(angle)
     v_inner, v_outer = inner * (0.5 * g.pitch_diameter - lever), outer * (0.5 * g.pitch_diameter + lever)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lambda_core.domain.elements import RIBS
 from lambda_core.laws.context import Oil
 from lambda_core.model.bearing_model import ELEMENT_PREFIX, TIME_PREFIX, BearingModel
 
@@ -10,8 +11,16 @@ Oils = tuple[Oil, Oil]  # the oil as the rheology of each of these contacts has 
 
 
 def oil_of(oils: Oils, element: str) -> Oil:
-    """Return the oil that a force element takes: the inner contact's where there is no raceway."""
-    return oils[RACEWAYS.index(element)] if element in RACEWAYS else oils[0]
+    """Return the oil that a force element takes: that of its ring, the inner one's where there is none."""
+    for names in (RACEWAYS, tuple(RIBS)):
+        if element in names:
+            return oils[names.index(element)]
+    return oils[0]
+
+
+def contacts_of(model: BearingModel) -> tuple[str, ...]:
+    """Return the force elements of contacts with rings in the solver's order: raceways, then ribs of rollers."""
+    return (*RACEWAYS, *(element for element in RIBS if element in model.laws))
 
 
 def links(model: BearingModel) -> tuple[str, ...]:

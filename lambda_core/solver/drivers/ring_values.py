@@ -25,20 +25,26 @@ def rings_of_contacts(geometry: Geometry) -> NDArray[np.int64]:
     return np.array([raceway.ring for raceway in raceways_of_a_ball(geometry)])
 
 
+def are_ribs(geometry: Geometry) -> NDArray[np.bool_]:
+    """Return which contacts of a roller are those with ribs; of balls none."""
+    return np.array([raceway.end != 0 for raceway in raceways_of_a_ball(geometry)])
+
+
 def contacts_by_ring(geometry: Geometry, contacts: FloatArray) -> FloatArray:
     """Return the contacts of each ball with its rings, shape (..., Z, 2, channels), from those with its raceways.
 
-    Of two arcs the one that carries more is shown, with the capacitance and the loss of both.
+    Of two arcs the one that carries more is shown, with the capacitance and the loss of both; of rollers the raceway,
+    with the losses of the ring's ribs.
     """
     if contacts.shape[-2] == len(RINGS):
         return contacts
-    rings = rings_of_contacts(geometry)
+    rings, ribs = rings_of_contacts(geometry), are_ribs(geometry)
     found = np.empty((*contacts.shape[:-2], len(RINGS), contacts.shape[-1]))
     for ring in range(len(RINGS)):
-        arcs = contacts[..., rings == ring, :]
+        arcs = contacts[..., (rings == ring) & ~ribs, :]
         most = np.argmax(arcs[..., _LOAD], axis=-1)[..., None, None]
         found[..., ring, :] = np.take_along_axis(arcs, most, axis=-2)[..., 0, :]
-        found[..., ring, _SUMMED] = arcs[..., _SUMMED].sum(axis=-2)
+        found[..., ring, _SUMMED] = contacts[..., rings == ring, :][..., _SUMMED].sum(axis=-2)
     return found
 
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import INNER
 from lambda_core.elements.ball import BALL
-from lambda_core.elements.kind import LINE
-from lambda_core.elements.roller.roller_bearing import Ring, RollerBearing
+from lambda_core.elements.kind import LINE, RIB
+from lambda_core.elements.roller.roller_bearing import Rib, Ring, RollerBearing
 from lambda_core.elements.roller.roller_kinds import ROLLER
 from lambda_core.elements.roller.slices import slice_positions
 from lambda_core.laws.jit.words import addresses
@@ -50,6 +50,23 @@ def write_line(record: Any, rollers: RollerBearing, ring: int, line: int) -> Non
     record["radius_deformed"] = np.inf
 
 
+def rib_of(rollers: RollerBearing, ring: int, end: int) -> Rib:
+    """Return a rib of a ring at one end of the rollers."""
+    name = ("inner", "outer")[ring]
+    return next(rib for rib in rollers.ribs if (rib.ring, rib.end) == (name, end))
+
+
+def write_rib(record: Any, rollers: RollerBearing, ring: int, end: int) -> None:
+    """Write what a rib has in another way than a raceway of balls; R_x is along sliding."""
+    rib = rib_of(rollers, ring, end)
+    record["kind"], record["side"] = RIB.number, end
+    record["axial_offset"], record["rib_radius"] = rib.place[0] + end * rib.gap, rib.contact.distance
+    record["rib_angle"] = np.arctan2(end * -rib.normal[1], end * -rib.normal[0])
+    record["ball_radius"] = rib.contact.end_radius
+    record["radius_x"], record["radius_y"] = rib.contact.radius_x, rib.contact.radius_y
+    record["radius_deformed"], record["roughness"] = 2.0 * rib.contact.radius_y, rollers.rib_roughness
+
+
 def write_row(record: Any, rollers: RollerBearing, cage: Cage) -> None:
     """Write what a row of rollers has in another way than one of balls; large ends of tapered rollers point to -x."""
     polar, transverse = rollers.inertias
@@ -57,7 +74,7 @@ def write_row(record: Any, rollers: RollerBearing, cage: Cage) -> None:
     record["ball_inertia"], record["transverse_inertia"] = polar, transverse
     record["axis_angle"], record["cone_angle"] = -rollers.angles.roller, -rollers.angles.half
     record["length"], record["total_length"] = rollers.effective_length, rollers.length
-    record["end_radius"] = rollers.end_radius
+    record["end_radius"] = rollers.ribs[0].contact.end_radius if rollers.ribs else np.inf
     record["bar_gap"] = record["end_gap"] = 0.5 * cage.pocket_clearance
     record["bar_length"] = _BAR * rollers.effective_length
 

@@ -27,8 +27,8 @@ from lambda_core.model.laws.state_channels import states_of
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.assembly import AssembledBearing, Assembly, BearingSpan
-from lambda_core.solver.drivers.law_inputs import RACEWAYS, guides, oil_of, times
-from lambda_core.solver.drivers.roller_tables import states_of_an_element, write_line, write_row
+from lambda_core.solver.drivers.law_inputs import contacts_of, guides, oil_of, times
+from lambda_core.solver.drivers.roller_tables import states_of_an_element, write_line, write_rib, write_row
 from lambda_core.solver.drivers.time_tables import build_times
 from lambda_core.solver.drivers.wave_tables import give_waves, wave_bodies, wave_rows
 
@@ -265,7 +265,7 @@ def _raceways(bearing: AssembledBearing, span: BearingSpan, offsets: _Offsets, p
         )
         material = (model.inner_material, model.outer_material)[ring]
         record["number"], record["body"] = span.first_raceway + i, span.bodies[(INNER, OUTER)[ring]]
-        record["laws"] = offsets.raceways + RACEWAYS.index(element)  # a set for each ring, however many raceways
+        record["laws"] = offsets.raceways + contacts_of(model).index(element)  # a set for all that are alike
         record["side"] = (-1.0, 1.0)[ring]
         record["groove_circle"], record["groove_radius"] = groove.groove_circle, groove.groove_radius
         record["axial_offset"], record["ball_radius"] = groove.axial_offset, radius
@@ -273,7 +273,9 @@ def _raceways(bearing: AssembledBearing, span: BearingSpan, offsets: _Offsets, p
         record["modulus"] = effective_modulus(model.ball_material, material)
         record["radius_deformed"] = 2.0 * groove.groove_radius * radius / (groove.groove_radius + radius)
         record["roughness"] = model.roughness
-        if model.rollers is not None:
+        if model.rollers is not None and groove.end:
+            write_rib(record, model.rollers, ring, groove.end)
+        elif model.rollers is not None:
             write_line(record, model.rollers, ring, span.first_line + i)
         record["surface_on"] = int(model.laws[element]["surface"].model.name != "none")
         _oil(record["oil"], bearing.oils[ring])
