@@ -48,6 +48,6 @@ def measure(effort: Effort) -> Section:
         tuple(rows),
         ("Equal bearings on one body, each in the state of the single one. Per bearing: over the cost of one alone.",),
     )
-    whole = [sum(cost) for cost in costs]
-    target = Target("cost of a Newton iteration over number of bearings, exponent", "-", exponent(sizes, whole), 1.1)
+    totals = [sum(cost) for cost in costs]
+    target = Target("cost of a Newton iteration over number of bearings, exponent", "-", exponent(sizes, totals), 1.1)
     return Section("bearings", (table,), (target,))

@@ -98,7 +98,7 @@ SCHEMES = {
 }
 
 
-class Led(Protocol):
+class PrescribedBearing(Protocol):
     """A bearing whose inner ring the host leads."""
 
     def begin(self) -> FloatArray:
@@ -135,7 +135,7 @@ class FromUnit:
         from fmpy import extract, read_model_description
         from fmpy.fmi2 import FMU2Slave
 
-        file = File(folder) / "led.fmu"
+        file = File(folder) / "prescribed.fmu"
         api.export_fmu(CASE, changes(tolerance), out=file, couple="motion", processor="native")
         about = read_model_description(str(file))
         named = {variable.name: variable.valueReference for variable in about.modelVariables}
@@ -146,7 +146,7 @@ class FromUnit:
             guid=about.guid,
             unzipDirectory=extract(str(file)),
             modelIdentifier=about.coSimulation.modelIdentifier,
-            instanceName="led",
+            instanceName="prescribed",
         )
         self._unit.instantiate()
 
@@ -170,7 +170,7 @@ class FromUnit:
         return np.array(self._unit.getReal(self._answer))
 
 
-def hosted(scheme: Scheme, step: float, bearing: Led, tolerance: float) -> Path:
+def hosted(scheme: Scheme, step: float, bearing: PrescribedBearing, tolerance: float) -> Path:
     """Return the path of the rotor that a host owns."""
     ring = api.check(CASE, changes(tolerance)).inner_ring
     axial = sum(term.values[0] for term in ring.force[0].terms)  # the load of the case [N]
@@ -181,9 +181,9 @@ def hosted(scheme: Scheme, step: float, bearing: Led, tolerance: float) -> Path:
     for k in range(round(END / step)):
         pushed = rest + load(k * step)
         a = (reaction + pushed) / mass
-        led, slope = scheme.lead(v, a, step)
-        before, reaction = reaction, bearing.step((k + 1) * step, x, led, slope)
-        moved = step * (led + 0.5 * step * slope)
+        velocity, slope = scheme.lead(v, a, step)
+        before, reaction = reaction, bearing.step((k + 1) * step, x, velocity, slope)
+        moved = step * (velocity + 0.5 * step * slope)
         x, v = x + moved, scheme.speed(v, a, (reaction + pushed) / mass, step)
         places.append(x)
         through = float((0.5 * (before + reaction) + rest) @ moved)
@@ -202,7 +202,7 @@ def error(path: Path, reference: Path, step: float, finest: float) -> float:
 
 
 def study(
-    steps: Sequence[float] = STEPS, tolerance: float = 1e-4, bearing: Led | None = None
+    steps: Sequence[float] = STEPS, tolerance: float = 1e-4, bearing: PrescribedBearing | None = None
 ) -> Iterator[tuple[str, float, float, float]]:
     """Yield (scheme, step [s], error, leak) of every step; where the coupling breaks down, infinite."""
     reference, bearing = inside(COMMON, tolerance), bearing or FromProgram(tolerance)

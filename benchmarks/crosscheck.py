@@ -64,7 +64,7 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:+.4f} %"
 
 
-def led_table() -> list[str]:
+def prescribed_table() -> list[str]:
     """Return the lines of the table with the cage guided."""
     lines = [
         "| case | tolerance | power, reference | ours | CVODE | states, ours | CVODE | unloaded | calls, ours "
@@ -103,7 +103,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.crosscheck", description=__doc__)
     parser.add_argument("--write", action="store_true", help=f"write {PAGE.name}")
     wanted = parser.parse_args(arguments)
-    page = "".join([_TEXT, "\n".join(led_table()), "\n", _BETWEEN, "\n".join(free_table()), "\n"])
+    page = "".join([_TEXT, "\n".join(prescribed_table()), "\n", _BETWEEN, "\n".join(free_table()), "\n"])
     if wanted.write:
         PAGE.write_text(page, encoding="utf-8")
     else:

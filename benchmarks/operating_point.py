@@ -25,7 +25,7 @@ def measure(effort: Effort) -> Section:
     points = [(load, speed) for load in LOADS for speed in SPEEDS]
     if effort.quick:
         points = points[:: len(SPEEDS) + 1]
-    solving, whole = [], []
+    solving, total = [], []
     for load, speed in points:
         changes = (f"loads.radial={load} kN", f"operation.speed={speed} rpm")
         task = Task(0, model.case_toml, changes, "quasi-static", ("friction_torque_Nmm",), "")
@@ -34,13 +34,13 @@ def measure(effort: Effort) -> Section:
             raise RuntimeError(f"{changes}: {outcome.reason}")
         point = Point("", MIDDLE.case, changes).model()
         solving.append(best(partial(_solve, point, kernels), effort.repeats))
-        whole.append(best(partial(work, task), effort.repeats))
+        total.append(best(partial(work, task), effort.repeats))
     table = Table(
         "Quasi-static operating point with friction, 6319",
         ("part", "median ms", "slowest ms"),
         (
             ("equilibrium and its numbers", 1e3 * statistics.median(solving), 1e3 * max(solving)),
-            ("the same with reading and resolving the case", 1e3 * statistics.median(whole), 1e3 * max(whole)),
+            ("the same with reading and resolving the case", 1e3 * statistics.median(total), 1e3 * max(total)),
         ),
         (f"{len(points)} points: {LOADS[0]} to {LOADS[-1]} kN radial, {SPEEDS[0]} to {SPEEDS[-1]} 1/min.",),
     )

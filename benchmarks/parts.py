@@ -93,7 +93,7 @@ def _profile(effort: Effort, costs: dict[str, float]) -> Table:
         plain.append(passage(model, start, horizon, samples=False))
         sampled.append(passage(model, start, horizon))
     one = plain[0]
-    compiled, whole = wall(plain) / one.simulated, wall(sampled) / one.simulated
+    compiled, total = wall(plain) / one.simulated, wall(sampled) / one.simulated
     counts = {key: value / one.simulated for key, value in one.statistics.items()}
     parts = {
         "right-hand sides": (counts["rhs_calls"], costs["rhs"]),
@@ -104,9 +104,9 @@ def _profile(effort: Effort, costs: dict[str, float]) -> Table:
     known = sum(count * cost for count, cost in parts.values())
     rows: list[Row] = [(name, count, 1e6 * cost, count * cost) for name, (count, cost) in parts.items()]
     rows.append(("step control, norms, copies", counts["steps"], None, compiled - known))
-    rows.append(("samples turned into channels", SAMPLES_PER_REVOLUTION / _turn(start), None, whole - compiled))
-    rows.append(("integration", None, None, whole))
-    rows += _around(model, start, effort, one.simulated, whole, compiled / counts["steps"])
+    rows.append(("samples turned into channels", SAMPLES_PER_REVOLUTION / _turn(start), None, total - compiled))
+    rows.append(("integration", None, None, total))
+    rows += _around(model, start, effort, one.simulated, total, compiled / counts["steps"])
     return Table(
         f"Where a simulated second goes, {MIDDLE.name}",
         ("part", "per simulated s", "us each", "wall s/s"),
@@ -121,7 +121,7 @@ def _turn(start: Equilibrium) -> float:
 
 
 def _around(
-    model: BearingModel, start: Equilibrium, effort: Effort, duration: float, whole: float, step: float
+    model: BearingModel, start: Equilibrium, effort: Effort, duration: float, total: float, step: float
 ) -> list[Row]:
     """Return what a run adds to the integration; `step` is the time of one step [s], which a call takes at least."""
     engine = BearingEngine(model, equilibrium=start)
@@ -132,7 +132,7 @@ def _around(
     with tempfile.TemporaryDirectory() as folder:
         found = [api.run(timed, out=Path(folder) / f"{k}.h5").summary() for k in range(effort.repeats)]
     run = min(summary.wall_per_simulated_second or 0.0 for summary in found)
-    left = run - whole - records * (record + call)
+    left = run - total - records * (record + call)
     return [
         ("records: reading the running integrals", records, 1e6 * record, records * record),
         ("records: calls from Python into the integrator", records, 1e6 * call, records * call),

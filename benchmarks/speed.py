@@ -94,7 +94,7 @@ def measure(effort: Effort) -> Section:
             "are turned into channels within these times, files are not written.",
         ),
     )
-    return Section("speed", (table, _whole_runs(effort)), tuple(targets))
+    return Section("speed", (table, _complete_runs(effort)), tuple(targets))
 
 
 def _targets(point: Point, found: list[Run], reference: Outcome) -> list[Target]:
@@ -107,7 +107,7 @@ def _targets(point: Point, found: list[Run], reference: Outcome) -> list[Target]
     return [Target(f"{point.name}, fastest accurate setting", "s per simulated s", reached, limit, 0.5 * limit)]
 
 
-def _whole_runs(effort: Effort) -> Table:
+def _complete_runs(effort: Effort) -> Table:
     """Time the default run with everything that belongs to it: records, result file, checkpoints."""
     rows = []
     for point in (cases.MIDDLE,) if effort.quick else (cases.SLOW, cases.MIDDLE):

@@ -28,7 +28,7 @@ class Ratio(NamedTuple):
 
     series: str
     without_drag: float  # loss over q_r A_r
-    whole: float
+    with_drag: float
     viscosity: float  # [m2/s]
 
 
@@ -94,7 +94,7 @@ def measure(effort: Effort) -> Section:
     seconds, points = warm_up_seconds(effort.pick(1, 3))
     ratios, failed = population(effort.pick(8, 1))
     rows: list[tuple[Cell, ...]] = [
-        (name, len(part), *_spread([r.without_drag for r in part]), statistics.median(r.whole for r in part))
+        (name, len(part), *_spread([r.without_drag for r in part]), statistics.median(r.with_drag for r in part))
         for name in ("all", *SERIES)
         if (part := [r for r in ratios if name in ("all", r.series)])
     ]

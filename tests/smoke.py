@@ -80,7 +80,7 @@ class Smoke:
         done = self._run([*command, "-c", str(ROOT / "constraints.txt"), str(wheel)], INSTALL)
         return "" if done.returncode == 0 else done.stderr.strip()
 
-    def faults(self, *, is_whole: bool) -> list[str]:
+    def faults(self, *, is_complete: bool) -> list[str]:
         """Return what does not work."""
         found: list[str] = []
         first = self._tried(found, "equilibrium", [self.python, "-c", STATIC], "compiled")
@@ -89,7 +89,7 @@ class Smoke:
             found.append(f"kept code gives {second} instead of {first}")
         self._tried(found, "plugins check", [self._program, "plugins", "check", "damping"], "ok  damping/cubic")
         self._tried(found, "gui", [self.python, "-c", PAINT], "painted")
-        if is_whole:
+        if is_complete:
             self._tried(found, "quasistatic", [self._program, "quasistatic", CASE, "--json", "--quiet"], "max_load_N")
             run = [self._program, "run", CASE, "--duration", "2 ms", "--quiet", "--json", "--out", "r.h5"]
             said = self._tried(found, "run", run, "friction_torque_Nmm", code=5)  # 5: too short for an average
@@ -128,7 +128,7 @@ def build(python: str, folder: Path) -> Path:
     return wheel
 
 
-def smoke(version: str, python: str, wheel: Path, *, is_whole: bool) -> bool:
+def smoke(version: str, python: str, wheel: Path, *, is_complete: bool) -> bool:
     """Try one Python and print what came of it; returns whether all works."""
     start = time.monotonic()
     one = Smoke(python, wheel.parent / version)
@@ -136,7 +136,7 @@ def smoke(version: str, python: str, wheel: Path, *, is_whole: bool) -> bool:
     if why and version not in REQUIRED:
         print(f"== smoke: {version} left out, its dependencies do not install: {why.splitlines()[-1]}")
         return True
-    faults = [why] if why else one.faults(is_whole=is_whole)
+    faults = [why] if why else one.faults(is_complete=is_complete)
     took = f"== smoke: {version} {'FAILED' if faults else 'ok'} in {time.monotonic() - start:.0f} s"
     print("\n   ".join([took, *faults]), flush=True)
     return not faults
@@ -157,7 +157,7 @@ def main(arguments: list[str]) -> int:
     with tempfile.TemporaryDirectory(prefix="lambda-bearing-smoke-") as name, ThreadPoolExecutor(2) as both:
         wheel = build(next(iter(found.values()), sys.executable), Path(name))
         tries = [
-            both.submit(smoke, version, path, wheel, is_whole=WHOLE in arguments) for version, path in found.items()
+            both.submit(smoke, version, path, wheel, is_complete=WHOLE in arguments) for version, path in found.items()
         ]
         works = [one.result() for one in tries]
     if os.name == "posix":

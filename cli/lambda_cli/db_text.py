@@ -32,9 +32,9 @@ def _table(*columns: str) -> Table:
 
     table = Table(box=None, pad_edge=False, header_style="bold")
     for number, column in enumerate(columns):
-        whole = number == 0  # names are there to be copied
+        uncut = number == 0  # names are there to be copied
         side: Literal["left", "right"] = "right" if column.endswith(">") else "left"
-        table.add_column(column.removesuffix(">"), justify=side, overflow="fold", no_wrap=whole)
+        table.add_column(column.removesuffix(">"), justify=side, overflow="fold", no_wrap=uncut)
     return table
 
 

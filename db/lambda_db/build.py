@@ -134,9 +134,9 @@ def derive_candidates(connection: Connection) -> None:
 def build_file(folder: Path, name: str, plugin_folders: list[Path]) -> Path:
     """Build the database and move it into its place under its name and digest: a reader never sees half of it."""
     folder.mkdir(parents=True, exist_ok=True)
-    handle, beside = tempfile.mkstemp(prefix=name, suffix=".tmp", dir=folder)
+    handle, path = tempfile.mkstemp(prefix=name, suffix=".tmp", dir=folder)
     os.close(handle)
-    temporary = Path(beside)
+    temporary = Path(path)
     try:
         engine = sqlite_engine(file_uri(temporary, "rw"), "BEGIN")
         with engine.begin() as connection:

@@ -131,13 +131,13 @@ def _put_geometry(connection: Connection, row: Row) -> str | None:
     bearing, candidate = table_of("bearing"), Base.metadata.tables["candidate"]
     link = CHILDREN["candidate"][1]
     connection.execute(delete(candidate).where(*(candidate.c[c].collate("NOCASE") == row[p] for p, c in link.items())))
-    whole = completed(row)
-    if whole is not row:
+    complete = completed(row)
+    if complete is not row:
         connection.execute(delete(bearing).where(*same_key("bearing", row)))
-        reason = insert_row(connection, "bearing", whole)
+        reason = insert_row(connection, "bearing", complete)
         if reason is not None:
             return f"its estimated inner geometry is impossible: {reason}"
-    rows = candidate_rows(whole)
+    rows = candidate_rows(complete)
     if rows:
         connection.execute(insert(candidate), rows)
     return None

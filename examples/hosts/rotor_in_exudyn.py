@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from led_bearing import FromPython, FromUnit
+from prescribed_bearing import FromPython, FromUnit
 
 MASS, LENGTH = 20.0, 0.3  # [kg], [m] between the bearings
 CASE = "6208-axial-1300"
@@ -88,7 +88,7 @@ class Path:
 
 
 def rotor(make: Callable[[], Any], end: float = END, step: float = STEP) -> Path:
-    """Return the path of a rotor that is pushed half-way down its shaft; `make` gives a bearing of led_bearing."""
+    """Return the path of a rotor pushed half-way down its shaft; `make` gives a bearing."""
     import exudyn as exu
     import exudyn.itemInterface as items
 

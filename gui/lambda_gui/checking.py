@@ -132,7 +132,7 @@ def node_of(problem: Problem, nodes: Iterable[Node]) -> Node | None:
     """Return the node with the option that a problem is about; the closest one when it has none of its own."""
     best: tuple[int, Node] | None = None
     near: Node | None = None
-    beside: Node | None = None
+    sibling: Node | None = None
     table = problem.where.rpartition(".")[0]
     for node in nodes:
         for place in node.places:
@@ -140,9 +140,9 @@ def node_of(problem: Problem, nodes: Iterable[Node]) -> Node | None:
                 best = (len(place), node)
             if near is None and ".".join(place).startswith(f"{problem.where}."):
                 near = node
-            if beside is None and ".".join(place[:-1]) == table:
-                beside = node
-    return best[1] if best else near or beside
+            if sibling is None and ".".join(place[:-1]) == table:
+                sibling = node
+    return best[1] if best else near or sibling
 
 
 def by_place(problems: Iterable[Problem], places: Sequence[Keys]) -> list[list[str]]:

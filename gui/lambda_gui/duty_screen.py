@@ -20,7 +20,7 @@ from lambda_gui.duty_values import FIRST_TIME, NAME, TIME, Column, Phase, column
 from lambda_gui.entry import Entry
 from lambda_gui.helper import Helper
 from lambda_gui.lifecycle import is_here
-from lambda_gui.new_files import save_beside
+from lambda_gui.new_files import save_next_to_case
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.rows import Rows
 
@@ -228,7 +228,7 @@ class DutyScreen(Screen[None]):
         cycle = self.cycle() | {"case": path.name}
         target = path.with_name(f"{cycle['name']}.toml")
         question = AskText("Save the duty cycle as", str(target))
-        self.app.push_screen(question, lambda text: save_beside(self, cycle, text, "lambda-bearing duty"))
+        self.app.push_screen(question, lambda text: save_next_to_case(self, cycle, text, "lambda-bearing duty"))
 
 
 def _about(column: Column) -> Text:

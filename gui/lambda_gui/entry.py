@@ -25,8 +25,8 @@ def completed(text: str, units: Sequence[str]) -> str:
         return f"{number} {units[0]}"
     if begun in units:
         return text
-    whole = next((unit for unit in units if unit.startswith(begun)), None)
-    return f"{number}{gap}{whole}" if whole else text
+    complete = next((unit for unit in units if unit.startswith(begun)), None)
+    return f"{number}{gap}{complete}" if complete else text
 
 
 def meant(text: str, names: Sequence[str]) -> list[str]:
@@ -85,8 +85,8 @@ class Completion(Suggester):
             return next(
                 (value + name[len(value) :] for name in self._names() if name.casefold().startswith(folded)), None
             )
-        whole = completed(value, self._units)
-        return whole if whole != value else None
+        complete = completed(value, self._units)
+        return complete if complete != value else None
 
 
 class Entry(Input):

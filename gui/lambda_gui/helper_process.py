@@ -136,8 +136,8 @@ def report(say: Say, sources: list[str], target: str, bearing: str | None = None
     from lambda_core import api
 
     say("writing the report ...")
-    whole = Path(target)
-    names = [whole if n == 0 else whole.with_stem(f"{whole.stem}-{n + 1}") for n in range(len(sources))]
+    path = Path(target)
+    names = [path if n == 0 else path.with_stem(f"{path.stem}-{n + 1}") for n in range(len(sources))]
     return [str(api.report(source, name, bearing=bearing)) for source, name in zip(sources, names, strict=True)]
 
 

@@ -81,8 +81,8 @@ def _axis(mesh: FloatArray) -> tuple[FloatArray, int] | None:
     """Return the coordinate and the dimension it runs along, None when it runs along both."""
     for dimension in (0, 1):
         line = mesh[:, 0] if dimension == 0 else mesh[0, :]
-        whole = line[:, None] if dimension == 0 else line[None, :]
-        if np.isfinite(line).all() and np.allclose(mesh, whole, equal_nan=True):
+        lines = line[:, None] if dimension == 0 else line[None, :]
+        if np.isfinite(line).all() and np.allclose(mesh, lines, equal_nan=True):
             return line, dimension
     return None
 

@@ -46,7 +46,7 @@ def save_new(screen: Screen[None], text: str, path: str) -> Path | None:
     return target
 
 
-def save_beside(screen: Screen[None], tables: Mapping[str, Any], text: str | None, command: str) -> None:
+def save_next_to_case(screen: Screen[None], tables: Mapping[str, Any], text: str | None, command: str) -> None:
     """Write tables into a new TOML file and say which command takes it.
 
     Parameters

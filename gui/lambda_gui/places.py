@@ -46,13 +46,13 @@ class Option:
 class Part:
     """An entry of a list that is written completely."""
 
-    def __init__(self, whole: Place, *path: int | str) -> None:
-        self._whole, self._path = whole, path
-        self.keys = (*whole.keys, *(str(part) for part in path))
+    def __init__(self, parent: Place, *path: int | str) -> None:
+        self._parent, self._path = parent, path
+        self.keys = (*parent.keys, *(str(part) for part in path))
 
     def get(self) -> Any:
         """Return the entry."""
-        value = self._whole.get()
+        value = self._parent.get()
         for part in self._path:
             try:
                 value = value[part]
@@ -62,19 +62,19 @@ class Part:
 
     def put(self, value: Any) -> None:
         """Write the list with this entry changed."""
-        whole = deepcopy(self._whole.get())
-        inner = whole
+        parent = deepcopy(self._parent.get())
+        inner = parent
         for part in self._path[:-1]:
             inner = inner.setdefault(part, {}) if isinstance(inner, dict) else inner[part]
         if value is None and isinstance(inner, dict):
             inner.pop(self._path[-1], None)
         else:
             inner[self._path[-1]] = "" if value is None else value
-        self._whole.put(whole)
+        self._parent.put(parent)
 
     def part(self, name: str) -> Part:
         """Return the place of an entry of the table that stands here."""
-        return Part(self._whole, *self._path, name)
+        return Part(self._parent, *self._path, name)
 
 
 class Held:

@@ -307,8 +307,8 @@ class ResultsScreen(ExportScreen):
         """Show what is no picture: summaries, a study, what differs."""
         width = self.query_one("#content", VerticalScroll).size.width - 3
         if self._view == DIFFERENCES:
-            beside = await self._helper.ask("differences", sources=[str(path) for path in paths])
-            await self._put(*map(Static, differences_view(beside, width, self._units)))
+            differences = await self._helper.ask("differences", sources=[str(path) for path in paths])
+            await self._put(*map(Static, differences_view(differences, width, self._units)))
             self.say()
         elif is_study(paths[0]):
             status, points = await self._helper.ask("study_summary", path=str(paths[0]))

@@ -118,10 +118,10 @@ class SignalRow(Branch):
     def _terms(self, table: type[BaseModel]) -> Iterator[Widget]:
         inner = list(members(table.model_fields["terms"].annotation))
         terms = (self.place.get() or {}).get("terms") or []
-        whole = self._option.part("terms")
+        terms_place = self._option.part("terms")
         for number, _ in enumerate(terms):
             card = self.card.model_copy(update={"description": "one term of the sum", "required": True})
-            yield SignalRow(Part(whole, number), card, self.around, inner, deep=True, label=f"term {number + 1}")
+            yield SignalRow(Part(terms_place, number), card, self.around, inner, deep=True, label=f"term {number + 1}")
         yield Horizontal(
             Button("add a term", id="add-term", compact=True),
             Button("remove the last", id="drop-term", compact=True, disabled=len(terms) < 2),

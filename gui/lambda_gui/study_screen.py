@@ -19,7 +19,7 @@ from lambda_gui.entry import Entry
 from lambda_gui.fields import TextRow, row_for
 from lambda_gui.helper import Helper
 from lambda_gui.lifecycle import is_here
-from lambda_gui.new_files import save_beside
+from lambda_gui.new_files import save_next_to_case
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.places import Held
 from lambda_gui.rows import Edited, Row, Rows, Surroundings
@@ -221,4 +221,4 @@ class StudyScreen(Screen[None]):
         study = study_tables(self.values, self._usual) | {"case": path.name}
         target = path.with_name(f"{study['name']}.toml")
         question = AskText("Save the study as", str(target))
-        self.app.push_screen(question, lambda text: save_beside(self, study, text, "lambda-bearing study run"))
+        self.app.push_screen(question, lambda text: save_next_to_case(self, study, text, "lambda-bearing study run"))

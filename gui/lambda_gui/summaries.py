@@ -109,9 +109,9 @@ def _freedoms(node: Node, draft: Draft) -> str:
     for name in DOFS:
         mode = _text(draft.get("bodies", body, name, "mode"))
         if not mode:
-            is_led = draft.get("bodies", body, name, "motion") is not None
+            is_prescribed = draft.get("bodies", body, name, "motion") is not None
             written = draft.get("bodies", body, name) is not None
-            mode = "prescribed" if is_led else "free" if written else str(table.model_fields[name].default)
+            mode = "prescribed" if is_prescribed else "free" if written else str(table.model_fields[name].default)
         modes[mode] = modes.get(mode, 0) + 1
     return "all " + next(iter(modes)) if len(modes) == 1 else "\t".join(f"{n} {mode}" for mode, n in modes.items())
 

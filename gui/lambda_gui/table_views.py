@@ -30,14 +30,14 @@ def differences_view(found: SideBySide, width: int, units: UnitSystem = SI) -> l
     width : int
         Columns that there are.
     """
-    inputs = _beside("what differs", found.names, width)
+    inputs = _side_by_side("what differs", found.names, width)
     for row in found.inputs:
         inputs.add_row(
             Text(row.option), *(Text(NONE if value is None else units.sentence(value)) for value in row.values)
         )
     if not found.inputs:
         inputs.add_row("nothing: the same inputs", *[""] * len(found.names))
-    numbers = _beside("numbers", found.names, width)
+    numbers = _side_by_side("numbers", found.names, width)
     for entry in found.numbers:
         if any(value is not None for value in entry.values):
             name = f"{entry.name} [{units.unit(entry.unit)}]" if entry.unit else entry.name
@@ -47,7 +47,7 @@ def differences_view(found: SideBySide, width: int, units: UnitSystem = SI) -> l
     return [inputs, Text(), numbers]
 
 
-def _beside(head: str, names: list[str], width: int) -> Table:
+def _side_by_side(head: str, names: list[str], width: int) -> Table:
     """Return a table with a column for each result, as wide as its name where there is room."""
     room = max(_NAME, (width - _HEAD) // len(names) - 1)
     table = Table(box=None, pad_edge=False, header_style="bold", padding=(0, 1, 0, 0))

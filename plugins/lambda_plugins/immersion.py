@@ -52,10 +52,10 @@ def mean_immersion(bath: OilBath) -> float:
         """Angle from the lowest point at which a ball's centre stands `height` above it."""
         return math.acos(min(max(1.0 - height / pitch_radius, -1.0), 1.0))
 
-    whole, none = angle(level - ball_radius), angle(level + ball_radius)
-    partly = whole + 0.5 * (none - whole) * (_NODES + 1.0)
+    full, none = angle(level - ball_radius), angle(level + ball_radius)
+    partly = full + 0.5 * (none - full) * (_NODES + 1.0)
     shares = [immersion(each - 0.5 * math.pi, bath) for each in partly]
-    return (whole + 0.5 * (none - whole) * float(_WEIGHTS @ shares)) / math.pi
+    return (full + 0.5 * (none - full) * float(_WEIGHTS @ shares)) / math.pi
 
 
 def kinematic_speeds(context: Context, speed: float) -> tuple[float, float]:

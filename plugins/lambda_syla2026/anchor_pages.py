@@ -55,7 +55,11 @@ def _tables(found: Anchors) -> tuple[Table, ...]:
         for p in found.stribeck
     )  # fmt: skip
     rated = tuple(
-        (r.series, str(r.bearings), *(_with_range(spread) for spread in (r.contacts, r.whole, r.skf, r.skf_whole)))
+        (
+            r.series,
+            str(r.bearings),
+            *(_with_range(spread) for spread in (r.contacts, r.with_drag, r.skf, r.skf_with_drag)),
+        )
         for r in found.rated
     )
     chosen = tuple((path, value or "-", source) for path, value, source in P.anchored_set())

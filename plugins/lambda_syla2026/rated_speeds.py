@@ -26,9 +26,9 @@ class Rated(Record):
     series: str
     bearings: int
     contacts: list[float] = Field(description="median, 5 % and 95 % of the loss without drag")
-    whole: list[float] = Field(description="the same with SKF's drag of an oil bath")
+    with_drag: list[float] = Field(description="the same with SKF's drag of an oil bath")
     skf: list[float] = Field(description="the same of SKF's friction model without drag")
-    skf_whole: list[float] = Field(description="the same of SKF's friction model with drag")
+    skf_with_drag: list[float] = Field(description="the same of SKF's friction model with drag")
 
 
 def rated_speeds(runner: JobRunner) -> tuple[list[Rated], int]:
@@ -75,9 +75,9 @@ def _rated(series: str, answers: list[JobResult]) -> Rated:
         series=series,
         bearings=len(answers),
         contacts=spread("contacts"),
-        whole=spread("contacts", "drag"),
+        with_drag=spread("contacts", "drag"),
         skf=spread("skf"),
-        skf_whole=spread("skf", "skf drag"),
+        skf_with_drag=spread("skf", "skf drag"),
     )
 
 
@@ -86,7 +86,7 @@ def rated_bars(found: list[Rated]) -> list[str]:
     if not found:
         return []
     first, lines = found[0], []
-    for what, spread in (("of the contacts", first.contacts), ("with SKF's drag", first.whole)):
+    for what, spread in (("of the contacts", first.contacts), ("with SKF's drag", first.with_drag)):
         median, low, high = spread
         verdict = "met" if BAR[0] <= median <= BAR[1] else "missed"
         lines.append(

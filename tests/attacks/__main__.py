@@ -1,6 +1,6 @@
 """``python -m tests.attacks``: attack the program on purpose, count what happened, and write it down.
 
-Every trial is told by its part, seed and number, and repeats. A campaign that was stopped goes on where it was.
+Every trial is reported by its part, seed and number, and repeats. A campaign that was stopped goes on where it was.
 """
 
 from __future__ import annotations

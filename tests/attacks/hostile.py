@@ -1,7 +1,7 @@
-"""Hostile inputs: a case that is right but for one value, a study, a command line.
+"""Hostile inputs: a case with one wrong value, a study, a command line.
 
 Most values are of the right kind and unit, so that they get behind validation: tiny, huge, or merely unusual. What an
-option needs beside it (the kind and the other values of a time function, the rest of a material) is filled in with
+option also needs (the kind and the other values of a time function, the rest of a material) is filled in with
 usual values, so that the one hostile value decides.
 """
 
@@ -53,13 +53,13 @@ Path_ = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Leaf:
-    """An option of a case: where it is, the units that it takes, and what it needs beside it."""
+    """An option of a case: where it is, the units that it takes, and what it also requires."""
 
     path: Path_
     units: tuple[str, ...] = ()
     limits: tuple[tuple[str, float], ...] = ()
     choices: tuple[str, ...] = ()
-    whole: bool = False  # an integer
+    integer: bool = False  # an integer
     needs: tuple[tuple[Path_, Any], ...] = ()
 
     @property
@@ -89,8 +89,8 @@ def _walk(
             for name, child in variant["properties"].items():
                 if "const" in child:
                     continue
-                beside = tuple(((*path, other), value) for other, value in usual.items() if other != name)
-                yield from _walk(child, definitions, (*path, name), needs + beside, depth + 1)
+                neighbour = tuple(((*path, other), value) for other, value in usual.items() if other != name)
+                yield from _walk(child, definitions, (*path, name), needs + neighbour, depth + 1)
         elif path and variant.get("type") != "null":
             yield _leaf(variant, path, needs)
 
@@ -108,12 +108,12 @@ def _variants(node: dict[str, Any], definitions: dict[str, Any]) -> Iterator[dic
 
 def _leaf(node: dict[str, Any], path: Path_, needs: tuple[tuple[Path_, Any], ...] = ()) -> Leaf:
     limits = tuple((key, float(node[key])) for key in _LIMITS if key in node)
-    whole = node.get("type") == "integer"
-    return Leaf(path, tuple(node.get("x-units", ())), limits, tuple(node.get("enum", ())), whole, needs)
+    integer = node.get("type") == "integer"
+    return Leaf(path, tuple(node.get("x-units", ())), limits, tuple(node.get("enum", ())), integer, needs)
 
 
 def _usual(node: dict[str, Any], definitions: dict[str, Any]) -> Any:
-    """Return a harmless value for what an option requires beside it."""
+    """Return a harmless value for what an option also requires."""
     first = next(_variants(node, definitions))
     if "const" in first:
         return first["const"]
@@ -160,7 +160,7 @@ def _extreme(pick: random.Random, leaf: Leaf) -> Any:
         number = -number
     if not leaf.units and highest < math.inf:
         number = lowest + (highest - lowest) * pick.random() ** 4 if lowest > -math.inf else highest - number
-    if leaf.whole:
+    if leaf.integer:
         return int(min(number, 2**62))
     return f"{number:.6g} {pick.choice(leaf.units)}".strip() if leaf.units else number
 

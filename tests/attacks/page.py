@@ -23,7 +23,7 @@ Entries = list[dict[str, Any]]
 
 
 def figures(records: Mapping[str, Record]) -> str:
-    """Return a table: trials, how they ended, which failed; and under it what each part counts beside that."""
+    """Return a table: trials, how they ended, which failed; and under it the further counts of each part."""
     lines = ["| attack | trials | failed | how they ended |", "|---|---|---|---|"]
     notes: list[str] = []
     for name, record in records.items():

@@ -25,7 +25,7 @@ def _delete(file: h5py.File) -> None:
     del file["ring"]
 
 
-def _whole_number(file: h5py.File) -> None:
+def _integer(file: h5py.File) -> None:
     file["ball"][0] = 77
 
 
@@ -46,7 +46,7 @@ def _more(file: h5py.File) -> None:
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("change", [_delete, _whole_number, _text, _unit, _title, _more])
+@pytest.mark.parametrize("change", [_delete, _integer, _text, _unit, _title, _more])
 def test_every_kind_of_difference_is_seen(
     change: Callable[[h5py.File], None], runs: tuple[Path, Path], tmp_path: Path
 ) -> None:

@@ -1,4 +1,4 @@
-"""The benchmarks stand beside the packages, not among them."""
+"""Make the benchmarks importable, which are no package of the program."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Two versions in turn: the same one twice has the same counts; what cannot be compared is said."""
+"""Two versions in turn: the same one twice has the same counts; the program reports what it cannot compare."""
 
 from __future__ import annotations
 

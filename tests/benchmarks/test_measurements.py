@@ -80,7 +80,7 @@ def test_the_command_answers_in_json(capsys: pytest.CaptureFixture[str]) -> None
 
 
 @pytest.mark.full
-def test_a_whole_stands_beside_its_bearings(
+def test_a_shaft_is_compared_with_its_bearings(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(whole, "_MILLISECONDS_QUICK", 10)

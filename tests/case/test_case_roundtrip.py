@@ -76,7 +76,7 @@ def test_none_takes_an_option_back_to_its_default() -> None:
     assert "oil_level" not in case.with_(lubricant={"oil_level": None}).written()["lubricant"]
 
 
-def test_with_replaces_a_time_function_as_a_whole() -> None:
+def test_with_replaces_a_time_function_entirely() -> None:
     ramp = {"kind": "ramp", "start": "0 N", "end": "1 kN", "end_time": "1 s"}
     case = load_case("6208-axial-700").with_(loads={"axial": ramp})
     harmonic = {"kind": "harmonic", "amplitude": "5 N", "frequency": "9 Hz"}
@@ -109,7 +109,7 @@ def test_override_without_path_or_value_is_a_usage_error(text: str) -> None:
         apply_overrides(load_case("6208-axial-700"), [text])
 
 
-def test_csv_table_is_read_beside_the_case_and_written_out_for_a_result(tmp_path: Path) -> None:
+def test_csv_table_is_read_next_to_the_case_and_written_out_for_a_result(tmp_path: Path) -> None:
     (tmp_path / "load.csv").write_text("time [ms], load [kN]\n0, 0\n100, 0.5\n200, 0.7\n")
     path = tmp_path / "mine.toml"
     path.write_text(builtin_text("6208-axial-700").replace('"700 N"', '{ kind = "table", file = "load.csv" }'))

@@ -180,7 +180,7 @@ def test_what_the_case_says_wins(designation: str, changes: Any, words: str, fou
 
 @pytest.mark.parametrize(("clearance", "count"), [("C3", 1), ("C2", 0), ("6 um", 0)])
 def test_two_classes_of_clearance_are_a_warning(clearance: str, count: int) -> None:
-    """A measured value beside a class is how one writes it; another class is a slip of one of the two."""
+    """A measured value next to a class is how one writes it; another class is a slip of one of the two."""
     warned = operating_warnings(model("SKF 6208 C2", bearing={"clearance": clearance}))
     assert [sentence for sentence in warned if "contradict" in sentence] == count * [
         "C2 of the designation and bearing.clearance = C3 contradict each other: C3 counts"

@@ -20,7 +20,7 @@ CHIRP = (
 )
 
 
-def test_a_law_beside_a_constant_is_looked_at_before_the_run() -> None:
+def test_a_law_next_to_a_constant_is_looked_at_before_the_run() -> None:
     model = api.check(CASE, [f'loads.axial={{kind = "sum", terms = ["1 kN", {CHIRP}]}}'])
     force = model.inner_ring.force[0]
     term = next(term for term in force.terms if isinstance(term, LawTerm))

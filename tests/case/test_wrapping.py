@@ -26,7 +26,7 @@ def test_no_line_is_longer_and_no_word_is_lost(width: int) -> None:
     assert " ".join(found).split() == " ".join(LINES).split()
 
 
-def test_parts_stay_whole_and_go_on_below_the_first() -> None:
+def test_parts_stay_unbroken_and_go_on_below_the_first() -> None:
     found = wrapped(LINES, 80)
     assert found[0] == LINES[0]
     assert "  damping   0.0" in found[2]

@@ -79,7 +79,7 @@ def test_the_data_of_bearing_and_oil_are_named(file: Path) -> None:
     assert "bearing.ball_diameter" in paths
 
 
-def test_json_is_the_whole_answer(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_is_the_complete_answer(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["cite", str(file), "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == api.cite(file).model_dump(mode="json")
 

@@ -1,4 +1,4 @@
-"""lambda-bearing compare: methods side by side, a result beside them, mistakes named."""
+"""lambda-bearing compare: methods and a result side by side, mistakes named."""
 
 from __future__ import annotations
 

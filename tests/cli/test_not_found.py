@@ -26,7 +26,7 @@ def test_a_search_without_rows_says_what_the_catalogue_holds(
     assert "oils and greases: --lubricants" in shown.err
 
 
-def test_a_slip_in_a_file_name_names_the_file_beside_it(
+def test_a_slip_in_a_file_name_names_the_file_next_to_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)

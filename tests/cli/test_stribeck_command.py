@@ -1,4 +1,4 @@
-"""The command stribeck: torque over speed with its parts, SKF's model beside it."""
+"""The command stribeck: torque over speed with its parts and SKF's model."""
 
 from __future__ import annotations
 

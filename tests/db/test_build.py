@@ -83,14 +83,14 @@ def one_number_changed(content: bytes) -> bytes:
 def test_c3_a_damaged_cache_of_the_catalogue_is_built_again(
     damage: Callable[[bytes], bytes], built: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    whole = built.read_bytes()
-    built.write_bytes(damage(whole))
+    complete = built.read_bytes()
+    built.write_bytes(damage(complete))
     catalogue = open_catalogue()
     assert catalogue.bearing("6208", "SKF")
     assert "is damaged; building it again" in caplog.text
     catalogue.close()
     (again,) = built.parent.iterdir()
-    assert len(again.read_bytes()) == len(whole)
+    assert len(again.read_bytes()) == len(complete)
 
 
 def test_no_cache_folder_means_in_memory(

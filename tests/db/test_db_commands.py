@@ -149,7 +149,7 @@ def test_search(capsys: pytest.CaptureFixture[str]) -> None:
     ]
 
 
-def test_names_of_oils_are_whole_in_a_narrow_terminal(
+def test_names_of_oils_are_complete_in_a_narrow_terminal(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from lambda_cli import db_text

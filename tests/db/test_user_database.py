@@ -76,7 +76,7 @@ def test_parameters_of_a_third_law_join_a_built_in_oil(catalogue: SqlCatalogue) 
     assert "tau_eyring" in oil.parameters["traction"]["ree-eyring"]
 
 
-def test_an_own_set_of_parameters_replaces_the_whole_set(catalogue: SqlCatalogue) -> None:
+def test_an_own_set_of_parameters_replaces_the_complete_set(catalogue: SqlCatalogue) -> None:
     cells = {"lubricant": "FVA3", "role": "traction", "model": "ree-eyring", "name": "tau_eyring"}
     add_row(catalogue, "lubricant_parameter", cells | {"value": 8, "unit": "MPa", "source": "own test", "grade": "B"})
     own = catalogue.lubricant("FVA3").parameters["traction"]["ree-eyring"]
@@ -176,8 +176,8 @@ def test_a_file_cut_short_leaves_the_core_working(catalogue: SqlCatalogue, caplo
         add_row(catalogue, "bearing", ROW | {"designation": f"N{i}"})
     path = user_database()
     copy = path.with_name("copy.sqlite")
-    with sqlite3.connect(path) as whole, sqlite3.connect(copy) as target:
-        whole.backup(target)
+    with sqlite3.connect(path) as complete, sqlite3.connect(copy) as target:
+        complete.backup(target)
     catalogue.close()
     content = copy.read_bytes()
     shutil.rmtree(path.parent)

@@ -1,4 +1,4 @@
-"""The tools that make the pages are beside the pages."""
+"""Make the tools that write the pages importable."""
 
 from __future__ import annotations
 

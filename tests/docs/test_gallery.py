@@ -1,4 +1,4 @@
-"""The gallery: one picture, the command that made it; small enough to be kept beside the code."""
+"""The gallery: one picture, the command that made it; small enough to be kept with the code."""
 
 from __future__ import annotations
 

@@ -77,11 +77,11 @@ def test_functions_that_people_call_have_all_sections(name: str) -> None:
         assert "Parameters" in doc.sections
 
 
-def _whole() -> list[str]:
+def _complete() -> list[str]:
     return [n for n, cls in CLASSES.items() if not cls.__module__.startswith(GAPS) or cls.__module__ in COMPLETE]
 
 
-@pytest.mark.parametrize("name", _whole())
+@pytest.mark.parametrize("name", _complete())
 def test_classes_are_documented_with_all_their_fields(name: str) -> None:
     cls = CLASSES[name]
     assert docstrings.parsed(cls).text, "has no docstring"

@@ -34,7 +34,7 @@ def test_every_law_is_in_the_theory_with_its_source(label: str) -> None:
     first = _SOURCE.search(reference)
     if first is not None and found:
         author, year = first.groups()
-        assert any(author in text and year in text for text in found), f"{author} {year} is missing beside {label}"
+        assert any(author in text and year in text for text in found), f"{author} {year} is missing next to {label}"
 
 
 def test_no_law_is_in_the_theory_that_does_not_exist() -> None:

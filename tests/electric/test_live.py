@@ -1,4 +1,4 @@
-"""The circuit of a run beside its motion: written while it runs, the same bits however it is cut."""
+"""Test the circuit of a run during its motion: written while it runs, the same bits however it is cut."""
 
 from __future__ import annotations
 
@@ -51,8 +51,8 @@ def test_samples_may_come_in_any_pieces(run: Result, size: int) -> None:
         live.take({"bearing": {name: values[i : i + size] for name, values in samples.items()}})
         for i in range(0, samples["time"].size, size)
     ]
-    for kind, whole in (("circuit", run.circuit()), ("discharges", run.discharges())):
-        for name, values in whole.items():
+    for kind, complete in (("circuit", run.circuit()), ("discharges", run.discharges())):
+        for name, values in complete.items():
             assert np.concatenate([getattr(part, kind)[name] for part in parts]).tobytes() == values.tobytes(), name
 
 

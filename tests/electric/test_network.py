@@ -66,7 +66,7 @@ def test_isolated_rotor_keeps_its_charge() -> None:
     assert found.total[L.T_MOTION] == pytest.approx(work, rel=1e-9)
 
 
-def test_whole_step_doubles_the_voltage() -> None:
+def test_full_step_doubles_the_voltage() -> None:
     """With the step inside one interval, start and end are on either side of it."""
     films = steady(400e-12, 400e-12)
     time = np.array([0.0, 1e-3, 1e-3 + 1e-12, 2e-3])
@@ -156,7 +156,7 @@ def test_insulation_takes_the_voltage() -> None:
 
 
 def test_impedance() -> None:
-    """One ball, capacitance and conductance in each film, the rings beside them."""
+    """One ball, capacitance and conductance in each film, next to those of the rings."""
     films = steady(100e-12, 50e-12, leak=1e-8)
     omega = 2.0 * math.pi * np.array([1.0, 50.0, 1e6])
     each = [1.0 / (1e-8 + 1j * omega * c) for c in (100e-12, 50e-12)]
@@ -177,16 +177,16 @@ def test_stretches_make_no_difference() -> None:
     """However the samples are cut, events, extremes and the end are the same bits."""
     source, films = switching(0.021), turning(film=0.55e-6)
     for circuit in CIRCUITS[1:4:2]:
-        whole = integrate(films, circuit, ROUGH, source, seed=1)
+        complete = integrate(films, circuit, ROUGH, source, seed=1)
         for cuts in ([0, 1, 2, 40], [0, 13, 40], [0, *range(5, 41, 5)]):
             network = Network(circuit, [ROUGH], [9], seed=1)
             parts = [network.advance(films.part(slice(a, b + 1)), source).of(0) for a, b in pairwise(cuts)]
             events = np.concatenate([part.events for part in parts])
             count = L.E_SAMPLE  # counts from the start of a stretch
-            assert events[:, :count].tobytes() == whole.events[:, :count].tobytes()
-            assert np.concatenate([part.extremes for part in parts]).tobytes() == whole.extremes.tobytes()
-            assert parts[-1].total[L.T_STORED] == whole.total[L.T_STORED]
-            assert sum(part.total[L.T_ARC] for part in parts) == pytest.approx(whole.total[L.T_ARC], rel=1e-9)
+            assert events[:, :count].tobytes() == complete.events[:, :count].tobytes()
+            assert np.concatenate([part.extremes for part in parts]).tobytes() == complete.extremes.tobytes()
+            assert parts[-1].total[L.T_STORED] == complete.total[L.T_STORED]
+            assert sum(part.total[L.T_ARC] for part in parts) == pytest.approx(complete.total[L.T_ARC], rel=1e-9)
 
 
 def test_laws_that_refuse_are_named() -> None:
@@ -215,14 +215,14 @@ def test_cage_between_balls() -> None:
     circuit = one_bearing(1e-6, 1e-15, 0.0, pocket=10e-12, cage_inner=2e-12, cage_outer=3e-12)
     matrix = np.array([[160.0, 0.0, -10.0], [0.0, 110.0, -10.0], [-10.0, -10.0, 25.0]])  # balls, cage
     first, second, cage = np.linalg.solve(matrix, [100.0, 20.0, 2.0])
-    whole = 100.0 * (1.0 - first) + 20.0 * (1.0 - second) + 2.0 * (1.0 - cage)
+    complete = 100.0 * (1.0 - first) + 20.0 * (1.0 - second) + 2.0 * (1.0 - cage)
     measured = impedance(films, circuit.bearings[0], np.array([1e5]))[0, 0]
-    assert 1e12 / (2.0 * math.pi * 1e5 * abs(measured)) == pytest.approx(whole, rel=1e-12)
+    assert 1e12 / (2.0 * math.pi * 1e5 * abs(measured)) == pytest.approx(complete, rel=1e-12)
     step = np.array([0.0, 1e-4, 1.001e-4, 1.0]), np.array([0.0, 0.0, 1.0, 1.0])
     found = integrate(films, circuit, SMOOTH, step, window=(0.0, 1.0))
-    assert found.trace[-1, 2] == pytest.approx(1e6 / (1e6 + 1e-3 + whole), rel=1e-12)
+    assert found.trace[-1, 2] == pytest.approx(1e6 / (1e6 + 1e-3 + complete), rel=1e-12)
     # A ramp of 1 V into a capacitance takes half of what its charge carries.
-    assert found.total[L.T_SOURCE] == pytest.approx(0.5e-12 * whole, rel=1e-3)
+    assert found.total[L.T_SOURCE] == pytest.approx(0.5e-12 * complete, rel=1e-3)
 
 
 def test_cage_balances_with_arcs() -> None:
@@ -251,7 +251,7 @@ def test_balls_that_insulate() -> None:
     assert bearing_capacitance(ceramic)[0] < 0.02 * bearing_capacitance(steel)[0]
 
 
-def test_seals_stand_beside_the_rings() -> None:
+def test_seals_stand_next_to_the_rings() -> None:
     geometry = {"shoulder_diameter_inner": 0.05, "shoulder_diameter_outer": 0.07, "width": 0.018}
     bare = surroundings(Electric(), geometry).rings
     assert bare == pytest.approx(2.0 * math.pi * 8.8541878128e-12 * 0.018 / math.log(1.4), rel=1e-12)

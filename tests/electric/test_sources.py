@@ -54,17 +54,17 @@ def test_average_follows_no_fundamental() -> None:
     [Inverter(), Sine(amplitude="10 V", frequency="3 kHz"), Series(points=["0 s, 0 V", "7 us, 5 V", "9 us, 1 V"])],
 )
 def test_stretches_have_the_same_corners(source: Inverter | Sine | Series) -> None:
-    """A span that is cut has the corners of the whole, bit for bit."""
+    """A span in two parts has the same corners, bit for bit."""
 
     def turned(t: FloatArray) -> FloatArray:
         return np.asarray(300.0 * t + 40.0 * t * t)
 
-    whole = set(zip(*map(tuple, corners(source, 0.1, 0.11, turned)), strict=True))
+    complete = set(zip(*map(tuple, corners(source, 0.1, 0.11, turned)), strict=True))
     for begin, end in ((0.1, 0.1023), (0.1023, 0.10231), (0.10231, 0.11)):
         time, volts = corners(source, begin, end, turned, origin=0.1)
         assert time[0] <= begin + 1e-12
         assert time[-1] >= end - 1e-12
-        assert set(zip(time[1:-1], volts[1:-1], strict=True)) <= whole
+        assert set(zip(time[1:-1], volts[1:-1], strict=True)) <= complete
 
 
 def test_step() -> None:

@@ -23,7 +23,7 @@ VARIED = ("lubricant.temperature=30..60 degC", "bearing.clearance=9..19 um")  # 
 
 @pytest.fixture(scope="session")
 def host() -> ModuleType:
-    """Return the module host beside this file, which is no package."""
+    """Return the module host in this folder, which is no package."""
     place = importlib.util.spec_from_file_location("fmu_host", HERE / "host.py")
     assert place is not None
     assert place.loader is not None

@@ -97,22 +97,22 @@ def test_the_next_version_has_the_same_bits(host: Any, exported: Export, tmp_pat
     assert bearings[0].get(outputs) == bearings[1].get(outputs)
 
 
-def test_a_led_ring_has_the_bits_of_the_program(host: Any, exported: Export, tmp_path: Path) -> None:
+def test_a_prescribed_ring_has_the_bits_of_the_program(host: Any, exported: Export, tmp_path: Path) -> None:
     unit = unit_of(host, exported, tmp_path, 3, "motion")
-    led = host.Instance(unit).ready()
+    unit = host.Instance(unit).ready()
     bearing = api.iterate(CASE, CHANGES, exact=True, couple="motion")
-    (z,) = led.get(["inner_ring.z"])
+    (z,) = unit.get(["inner_ring.z"])
     reactions = [f"{ring}.reaction_force_{axis}" for ring in ("inner_ring", "outer_ring") for axis in "xyz"]
     for k in range(30):
         rate = -2e-3 * math.sin(0.2 * k)
         for suffix, value in (("", z), ("_rate", rate), ("_acceleration", 0.5)):
-            assert led.set(f"inner_ring.z{suffix}", value) == host.OK
+            assert unit.set(f"inner_ring.z{suffix}", value) == host.OK
         bearing.give("inner_ring.z", z, rate, 0.5)
         z += rate * STEP
-        expected = bearing.step_to(led.time + STEP)
-        assert led.step(STEP) == host.OK
-        assert led.get(reactions) == [*expected.reactions["inner_ring"][:3], *expected.reactions["outer_ring"][:3]]
-    assert led.get(["bearing.friction_torque"])[0] == pytest.approx(1e-3 * expected.friction_torque_Nmm, rel=1e-12)
+        expected = bearing.step_to(unit.time + STEP)
+        assert unit.step(STEP) == host.OK
+        assert unit.get(reactions) == [*expected.reactions["inner_ring"][:3], *expected.reactions["outer_ring"][:3]]
+    assert unit.get(["bearing.friction_torque"])[0] == pytest.approx(1e-3 * expected.friction_torque_Nmm, rel=1e-12)
 
 
 @pytest.mark.slow
@@ -175,7 +175,7 @@ def test_states_and_instances(host: Any, exported: Export, tmp_path: Path, fmi: 
 
 
 def test_two_threads_step_their_own_bearings_at_once(host: Any, exported: Export, tmp_path: Path) -> None:
-    """Calls of the library run beside each other: ctypes lets other threads work meanwhile."""
+    """Calls of the library run in parallel: ctypes lets other threads work meanwhile."""
     unit = unit_of(host, exported, tmp_path)
     outputs = unit.named("output")
 

@@ -70,15 +70,17 @@ def test_a_rotor_on_two_bearings_in_exudyn(example: Callable[[str], Any], tmp_pa
     """Against one bearing that owns half of it: 0.033 % and 1.3e-4 at 20 us, order 2; through the FMU the same bits."""
     pytest.importorskip("exudyn", reason="Exudyn is not installed: pip install exudyn")
     pytest.importorskip("fmpy", reason="FMPy is not installed: pip install fmpy")
-    module, led = example("rotor_in_exudyn"), example("led_bearing")
-    file = api.export_fmu(module.CASE, module.CHANGES, out=tmp_path / "led.fmu", couple="motion", processor="native")
+    module, prescribed = example("rotor_in_exudyn"), example("prescribed_bearing")
+    file = api.export_fmu(
+        module.CASE, module.CHANGES, out=tmp_path / "prescribed.fmu", couple="motion", processor="native"
+    )
     end, step = 2e-3, 1e-5
     places, speeds = rotor_inside(module, end, step)
     way = np.linalg.norm(places - places[0], axis=1).max()
     assert way > 4e-6  # [m]
     off = {}
     for every in (2, 8):
-        path = module.rotor(lambda: led.FromUnit(file), end, every * step)
+        path = module.rotor(lambda: prescribed.FromUnit(file), end, every * step)
         off[every] = float(np.linalg.norm(path.places[1:] - places[every - 1 :: every], axis=1).max() / way)
         if every > 2:
             continue
@@ -86,7 +88,7 @@ def test_a_rotor_on_two_bearings_in_exudyn(example: Callable[[str], Any], tmp_pa
         flow = np.abs((0.5 * (forces[1:] + forces[:-1]) * np.diff(path.places, axis=0)).sum(axis=1)).sum()
         energy, inside = (0.5 * module.MASS * (v**2).sum(axis=1) for v in (path.speeds[1:], speeds[1::2]))
         assert np.abs(energy - inside).max() < 1e-3 * flow
-        python = module.rotor(lambda: led.FromPython(module.CASE, module.CHANGES), 0.2 * end, every * step)
+        python = module.rotor(lambda: prescribed.FromPython(module.CASE, module.CHANGES), 0.2 * end, every * step)
         assert np.array_equal(python.reactions, path.reactions[: len(python.time)])
     assert off[2] < 1e-3
     assert off[8] > 10.0 * off[2]  # a fourth of the step is at least a tenth of the error: order 1.7 and more
@@ -105,8 +107,8 @@ def test_the_command_in_the_example_exports_its_case(example: Callable[[str], An
 def test_a_step_is_repeated_until_both_sides_agree(exported: Export, example: Callable[[str], Any]) -> None:
     """Iterate by rollback: the speed at the end of a step as the reactions at both ends want it."""
     pytest.importorskip("fmpy", reason="FMPy is not installed: pip install fmpy")
-    module, led = example("rotor_in_exudyn"), example("led_bearing")
-    element = module.Element(led.FromUnit(exported(2, "motion")))
+    module, prescribed = example("rotor_in_exudyn"), example("prescribed_bearing")
+    element = module.Element(prescribed.FromUnit(exported(2, "motion")))
     step, mass, load = 2e-5, 2.0, np.array([1300.0, 0.0, -500.0])
     before, rate, changes = element.reaction, np.zeros(5), []
     for _ in range(8):

@@ -105,7 +105,7 @@ def test_what_cannot_be_is_answered_with_a_sentence(host: Any, unit: Any) -> Non
     assert bearing.ready().step(STEP) == host.OK
 
 
-def test_a_led_bearing_starts_where_its_host_has_the_rings(host: Any, exported: Export, tmp_path: Path) -> None:
+def test_a_prescribed_bearing_starts_where_its_host_has_the_rings(host: Any, exported: Export, tmp_path: Path) -> None:
     unit = host.Unit(exported(2, "motion"), tmp_path)
     bearing, names = host.Instance(unit), ["inner_ring.reaction_force_x", "inner_ring.reaction_force_z"]
     (x,), before = bearing.get(["inner_ring.x"]), bearing.get(names)

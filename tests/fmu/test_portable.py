@@ -103,9 +103,9 @@ define double @it(double %a, double %b, double %c, <2 x double> %v, ptr %to) {
 
 def test_products_and_sums_are_fused_where_it_is_written() -> None:
     """One product for one sum, on either side; what says nothing, and what two sums use, is rounded for itself."""
-    whole = exact(llvm.parse_assembly(_SUMS), fused=True)
-    whole.verify()
-    lines = [line.strip() for line in str(whole).splitlines()]
+    complete = exact(llvm.parse_assembly(_SUMS), fused=True)
+    complete.verify()
+    lines = [line.strip() for line in str(complete).splitlines()]
     calls = [re.sub(r"\s+", " ", line) for line in lines if "call " in line]
     assert [line.partition(" = ")[2] for line in calls] == [
         "call double @llvm.fma.f64(double %a, double %b, double %c)",
@@ -117,5 +117,5 @@ def test_products_and_sums_are_fused_where_it_is_written() -> None:
     assert {"%lb.2 = fneg double %b", "%lb.3 = fneg double 1.000000e+00"} <= set(lines)
     assert "%6 = fadd double %5, %5" in lines
     assert "%7 = fadd double %6, %kept" in lines
-    assert "contract" not in str(whole)
+    assert "contract" not in str(complete)
     assert "llvm.fma" not in str(exact(llvm.parse_assembly(_SUMS), fused=False))

@@ -62,7 +62,7 @@ def differences(bearing: Any, known: str, by: float) -> FloatArray:
 
 
 def moving(host: Any, unit: Any) -> Any:
-    """Return a led bearing whose inner ring is pushed and tilted as it goes."""
+    """Return a bearing whose prescribed inner ring is pushed and tilted as it goes."""
     bearing = host.Instance(unit).ready()
     (z,) = bearing.get(["inner_ring.z"])
     for name, value in (("z", z), ("z_rate", -2e-3), ("tilt_y_rate", 1e-2), ("x_rate", 1e-3)):
@@ -72,7 +72,7 @@ def moving(host: Any, unit: Any) -> Any:
 
 
 def test_stiffness_and_damping_are_those_of_differences(host: Any, exported: Export, tmp_path: Path) -> None:
-    """All of both rings, each entry beside the root of the product of its diagonals; differences are exact to 1e-7.
+    """All of both rings, each entry over the root of the product of its diagonals; differences are exact to 1e-7.
 
     The Jacobian itself moves contacts by 1e-8 m and 1e-5 of their penetration, one-sided: 2e-4 in stiffness.
     """

@@ -19,7 +19,7 @@ Export = Callable[[int, str], Path]
 
 
 def test_where_laws_end_the_host_is_told(host: Any, exported: Export, tmp_path: Path) -> None:
-    """Once when it begins, again when it has been over for a tenth of a second; what is said is what there is."""
+    """Once when it begins, again when it has been over for a tenth of a second; the text gives the present values."""
     unit = host.Unit(exported(2, "force"), tmp_path)
     bearing = host.Instance(unit).ready()
 

@@ -91,7 +91,7 @@ def hear_every_key(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(textual.pilot, "wait_for_idle", at_rest)
     patch.setattr(Pilot, "_wait_for_screen", screen_at_rest)
     patch.setattr(constants, "TEXTUAL_ANIMATIONS", "none")
-    patch.setattr(Compositor, "render_update", _draw_whole)
+    patch.setattr(Compositor, "render_update", _draw_complete)
 
 
 def _is_to_be_drawn(screen: Screen[object]) -> bool:
@@ -104,7 +104,7 @@ def _is_to_be_drawn(screen: Screen[object]) -> bool:
 _draw = Compositor.render_update
 
 
-def _draw_whole(self: Compositor, full: bool = False, *what: Any, **how: Any) -> Any:
+def _draw_complete(self: Compositor, full: bool = False, *what: Any, **how: Any) -> Any:
     return _draw(self, full, *what, **how) if full else None
 
 

@@ -26,7 +26,7 @@ Cut = str
 
 
 def cut_on(app: BuilderApp, within: Widget | None = None) -> list[Cut]:
-    """Return a sentence for each piece of text on the screen, or within a widget, that is not there as a whole."""
+    """Return a sentence for each piece of text on the screen, or within a widget, that is not there completely."""
     found = [f"ellipsis: {line.strip()}" for line in screen_text(app).splitlines() if "…" in line]
     for widget in (within or app.screen).query("*").results(Widget):
         if not widget.is_attached or not all(above.display for above in widget.ancestors_with_self):
@@ -103,7 +103,7 @@ def _cut_cells(table: DataTable[object]) -> Iterator[str]:
 
 
 def _cut_options(app: BuilderApp, options: OptionList, region: Region) -> Iterator[str]:
-    """Entries that begin on the screen, and whose successor does, must stand there as a whole."""
+    """Entries that begin on the screen, and whose successor does, must stand there completely."""
     lines = screen_text(app).splitlines()[region.y : region.bottom]
     right = region.right - (options.scrollbar_size_vertical if options.show_vertical_scrollbar else 0)
     shown = "".join("".join(line[region.x : right].split()) for line in lines)

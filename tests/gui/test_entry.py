@@ -12,7 +12,7 @@ from lambda_core.case.parts import Surface
 
 
 @pytest.mark.parametrize(
-    ("typed", "whole"),
+    ("typed", "complete"),
     [
         ("700", "700 N"),
         (" 7.5e2", "7.5e2 N"),
@@ -26,8 +26,8 @@ from lambda_core.case.parts import Surface
         ("abc", "abc"),
     ],
 )
-def test_a_number_takes_its_unit(typed: str, whole: str) -> None:
-    assert completed(typed, ["N", "kN", "MN"]) == whole
+def test_a_number_takes_its_unit(typed: str, complete: str) -> None:
+    assert completed(typed, ["N", "kN", "MN"]) == complete
 
 
 def test_values_as_the_case_has_them() -> None:

@@ -1,4 +1,4 @@
-"""The builder in a browser: a case is built from nothing and run; who may reach it is said."""
+"""The builder in a browser: a case is built from nothing and run; the program states who may reach it."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ NAMES = {
 
 
 def bearing_on_shaft(name: str, position: float) -> api.BearingEquilibrium:
-    """Return what could be said of a bearing: solving it would take compiled code."""
+    """Return a possible answer for a bearing: solving it would take compiled code."""
     return api.BearingEquilibrium(
         name=name, title="6208", position_mm=position, force_N=[213.0, 416.0, 286.0], moment_Nm=[0.0, 0.0],
         radial_load_N=505.0, axial_load_N=-213.0, displacement_um=[1.0, 2.0, 3.0], misalignment_mrad=[0.1, 0.2],
@@ -53,7 +53,7 @@ def bearing_on_shaft(name: str, position: float) -> api.BearingEquilibrium:
 
 
 def report() -> api.MachineEstimate:
-    """Return what could be said of the shaft that `init --template geared-shaft` writes."""
+    """Return a possible answer for the shaft that `init --template geared-shaft` writes."""
     mode = {"frequency_Hz": 600.0, "direction": 1.0, "kind": "bending", "bodies_share": 0.0, "damping_ratio": 0.0}
     equilibrium = api.MachineEquilibrium(
         case="box", speed_rpm=3000.0, bearings=[bearing_on_shaft("left", 21.0), bearing_on_shaft("right", 148.0)],
@@ -73,7 +73,7 @@ def report() -> api.MachineEstimate:
 
 @pytest.fixture
 def answered(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Answer at once, in place of the process beside the builder."""
+    """Answer at once, in place of the helper process."""
 
     async def ask(self: Estimator, tables: dict[str, Any], folder: Path | None) -> None:
         self._tell(report(), "")

@@ -212,7 +212,7 @@ def test_impossible_diameters_are_refused() -> None:
     assert math.isfinite(fits.outer_ring_contraction(1e-6, 0.08, 0.07, fits.STEEL, fits.STEEL, math.inf))
 
 
-def test_rigid_housing_hands_on_the_whole_interference() -> None:
+def test_rigid_housing_hands_on_the_complete_interference() -> None:
     """A rigid housing leaves the ring alone to yield: u = I (2 h)/[(1 + h^2) - nu (1 - h^2)], h = d_race/D."""
     h, nu = 0.071917 / 0.080, 0.3
     rigid = fits.Solid(math.inf, 0.3, 12e-6)

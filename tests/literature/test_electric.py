@@ -1,4 +1,4 @@
-"""Bearing capacitance and first breakdown beside numbers from elsewhere."""
+"""Bearing capacitance and first breakdown against published numbers."""
 
 from __future__ import annotations
 

@@ -119,8 +119,8 @@ def test_masses(catalogue: SqlCatalogue) -> None:
         )
         count, ball, _, _ = design(row)
         balls = count * model.ball_material.density * math.pi / 6.0 * ball**3
-        whole = model.inner_ring.mass + model.outer_ring.mass + model.cage_body.mass + balls
-        found.append(whole / row.mass.value)
+        complete = model.inner_ring.mass + model.outer_ring.mass + model.cage_body.mass + balls
+        found.append(complete / row.mass.value)
     assert sorted(found)[len(found) // 2] == pytest.approx(1.0, abs=0.04)
 
 

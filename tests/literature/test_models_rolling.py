@@ -94,7 +94,7 @@ def test_point_contacts_end_in_houperts_forms(shape: float) -> None:
         Published(expected, "Houpert's forms of the limits", "fits of another route", rel=0.12).check(found)
 
 
-def test_a_long_ellipse_under_load_is_a_line_with_oil_beside_it() -> None:
+def test_a_long_ellipse_under_load_is_a_line_with_oil_next_to_it() -> None:
     """1.8 (4/pi)^(-1/4) U2^0.75 E' R_x on the width 2 a, against 1.47 of the line law: 1.15 times."""
     given = contact_6208(load=5e3, eta0=0.01)
     given |= {"R_y": 500.0 * given["R_x"], "semi_b": 1e-2 * given["semi_a"]}

@@ -107,11 +107,11 @@ def test_meniscus_against_hamrock_and_dowson(distance: float) -> None:
 
     film = evaluate("supply/inlet-distance", {"distance": distance}, u_mean=3.0, **FILM)[0]
     root = math.sqrt(distance**2 - 1.0)
-    beside = 0.5 * FILM["semi_b"] ** 2 / FILM["R_x"] * (distance * root - math.log(distance + root))
+    neighbour = 0.5 * FILM["semi_b"] ** 2 / FILM["R_x"] * (distance * root - math.log(distance + root))
     low, high = 0.0, 1.0
     for _ in range(60):  # the film whose meniscus stands where Hertz's gap is that of this distance
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if meniscus(middle) - middle < beside / FILM["h_cen"] else (low, middle)
+        low, high = (middle, high) if meniscus(middle) - middle < neighbour / FILM["h_cen"] else (low, middle)
     Published(
         float(film), "Hamrock and Dowson 1977, J. Lubr. Technol. 99, 15", "line and point contacts", rel=0.08
     ).check(low)

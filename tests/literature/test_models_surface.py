@@ -233,8 +233,8 @@ def test_a_defect_is_struck_at_the_ball_pass_frequency(ring: str) -> None:
     harmonic = found.strongest(0) / passing
     assert harmonic == pytest.approx(round(harmonic), abs=5e-3)  # a sixth of a line of the spectrum
     at = [found.amplitude(0, i * passing) for i in range(1, 7)]
-    beside = [found.amplitude(0, (i + 0.5) * passing) for i in range(1, 7)]
-    assert min(at) > 10.0 * max(beside)
+    neighbour = [found.amplitude(0, (i + 0.5) * passing) for i in range(1, 7)]
+    assert min(at) > 10.0 * max(neighbour)
     assert abs(found.residual) < 1e-3
 
 

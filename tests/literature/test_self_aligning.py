@@ -299,10 +299,10 @@ def test_masses(catalogue: SqlCatalogue) -> None:
         model = api.check(case(radial=1000.0) | {"bearing": {"designation": name}})
         count, ball, _, _ = design(catalogue.bearing(name, "SKF"))
         balls = 2 * count * model.ball_material.density * math.pi / 6.0 * ball**3
-        whole = model.inner_ring.mass + model.outer_ring.mass + model.cage_body.mass + balls
+        complete = model.inner_ring.mass + model.outer_ring.mass + model.cage_body.mass + balls
         mass = catalogue.bearing(name, "SKF").mass
         assert mass is not None
-        found.append(whole / mass.value)
+        found.append(complete / mass.value)
     assert sorted(found)[5] == pytest.approx(1.0, abs=0.08)
 
 

@@ -93,7 +93,7 @@ def test_the_overhung_gear_without_weight() -> None:
 def test_self_aligning_bearings_bear_no_moment(axial: float) -> None:
     """Two 1208 E on locked seats: levers alone (1e-6); their forces go through the centres of the outer rings' spheres.
 
-    Under thrust an inner ring stands 0.1 mm beside its sphere's centre, by which its force has a lever that no beam on
+    Under thrust an inner ring stands 0.1 mm off its sphere's centre, by which its force has a lever that no beam on
     points has (6e-5 of the load); about the centre nothing is left.
     Tilts differ by what a beam on two points has, F a l/(6 E I) at the far bearing and -F a l/(3 E I) at the near one
     (Timoshenko, Strength of Materials); shear takes one percent of a shaft this slender.
@@ -111,8 +111,8 @@ def test_self_aligning_bearings_bear_no_moment(axial: float) -> None:
     )
     force, moment = state.reactions[:, :3], np.zeros((2, 3))
     moment[:, 1:] = state.reactions[:, 3:]
-    beside = np.array([state.pose(model, i)[:3] for i in range(2)])
-    about_sphere = (moment + np.cross(beside, force))[:, 1:]
+    neighbour = np.array([state.pose(model, i)[:3] for i in range(2)])
+    about_sphere = (moment + np.cross(neighbour, force))[:, 1:]
     assert np.abs(about_sphere).max() < 1e-6 * 1500.0 * 0.6
     assert force[:, 0] == pytest.approx([-axial, 0.0], abs=1e-6 * 1500.0)
     assert force.sum(axis=0) == pytest.approx([-axial, 0.0, 1500.0], abs=1e-6 * 1500.0)
@@ -329,7 +329,7 @@ def test_directions_of_gear_forces() -> None:
     ],
 )
 def test_factors_of_angular_contact(angle: int, limit: float, x: float, y: float, y_0: float) -> None:
-    """ISO 281:2007, table 3 (15 degrees: f_0 F_a/C_0r = 0.178), ISO 76:2006, table 2; at and beside the limit e."""
+    """ISO 281:2007, table 3 (15 degrees: f_0 F_a/C_0r = 0.178), ISO 76:2006, table 2; at and near the limit e."""
     radians, static = math.radians(angle), 10e3
     axial = 0.178 * static / 14.0
     found = dynamic_equivalent_load(0.1 * axial, axial, static, 14.0, radians)
@@ -344,8 +344,8 @@ def test_life_of_a_system() -> None:
     assert system_life([1000.0, 1e9]) == pytest.approx(1000.0, rel=1e-5)
 
 
-def test_warm_rings_in_the_equilibrium_of_the_whole() -> None:
-    """An inner ring 30 K warmer takes alpha dT d of the clearance; the whole stands as with bearings bought that tight.
+def test_warm_rings_in_the_equilibrium_of_the_machine() -> None:
+    """An inner ring 30 K warmer takes alpha dT d of the clearance; the machine equals one with such clearance.
 
     Growth at the raceway, 12e-6/K times the raceway's diameter (docs/theory); reactions and poses to 1e-9.
     """

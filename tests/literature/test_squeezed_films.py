@@ -51,11 +51,11 @@ def reynolds(h0: float, edge: float, r_x: float, r_y: float) -> float:
         for sign in (1, -1):
             half = 0.5 * sign * step
             flow = (gap(x + half, y) if along == 0 else gap(x, y + half)) ** 3 / step**2
-            beside = np.roll(number, (-sign * shift[0], -sign * shift[1]), axis=(0, 1))
+            neighbour = np.roll(number, (-sign * shift[0], -sign * shift[1]), axis=(0, 1))
             here = number[inside]
-            rows += [here, here[beside[inside] >= 0]]
-            columns += [here, beside[inside][beside[inside] >= 0]]
-            values += [-flow[inside], flow[inside][beside[inside] >= 0]]
+            rows += [here, here[neighbour[inside] >= 0]]
+            columns += [here, neighbour[inside][neighbour[inside] >= 0]]
+            values += [-flow[inside], flow[inside][neighbour[inside] >= 0]]
     matrix = csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))))
     pressure = spsolve(matrix.tocsc(), np.full(int(inside.sum()), -12.0 * ETA * SPEED))
     return float(pressure.sum() * dx * dy)
@@ -131,8 +131,8 @@ def pocket_reynolds(ball: float, play: float, h0: float, half_wall: float) -> fl
     own[1:] += round_it[:-1]
     own[:, 1:] += along[:, :-1]
     along[:, -1] = 0.0  # no neighbour beyond the row's end
-    across, beside = round_it[:-1].ravel(), along.ravel()[:-1]
-    matrix = diags_array([own.ravel(), -across, -across, -beside, -beside], offsets=[0, n[1], -n[1], 1, -1])
+    across, neighbour = round_it[:-1].ravel(), along.ravel()[:-1]
+    matrix = diags_array([own.ravel(), -across, -across, -neighbour, -neighbour], offsets=[0, n[1], -n[1], 1, -1])
     closing = np.cos(p / ball)[:, None] * ds[:, None] * dx
     return float(4.0 * closing.ravel() @ spsolve(matrix.tocsc(), 12.0 * closing.ravel()))
 

@@ -51,27 +51,27 @@ def alone(**elastic: Any) -> api.BearingModel:
 
 
 @pytest.fixture(scope="module")
-def whole() -> MachineEngine:
+def complete() -> MachineEngine:
     """Return the shaft in its one bearing at the beginning of its motion."""
     return machine_engine(resolve_machine(ONE))
 
 
-def test_equilibrium_of_one_bearing(whole: MachineEngine) -> None:
+def test_equilibrium_of_one_bearing(complete: MachineEngine) -> None:
     """Pose as in a case of that bearing alone, whose balls' friction moves it by 6e-5, elastic or rigid: 1e-4."""
     found: QuasiStatic = api.quasistatic(alone(outer_ring=SOFT))
-    pose = whole.start.state.pose(whole.machine, 0)
+    pose = complete.start.state.pose(complete.machine, 0)
     assert 1e6 * pose[2] == pytest.approx(found.inner_ring_displacement_um[2], rel=1e-4)
     rigid = copy.deepcopy(ONE)
     del rigid["bearings"]["only"]["elastic"]
     stiff = solve_shaft(resolve_machine(rigid))
     assert stiff.pose(resolve_machine(rigid), 0)[2] > 1.05 * pose[2]  # down; the soft one goes further
-    assert whole.start.state.stiffness[0][2, 2] < 0.8 * stiff.stiffness[0][2, 2]
+    assert complete.start.state.stiffness[0][2, 2] < 0.8 * stiff.stiffness[0][2, 2]
 
 
-def test_motion_of_one_bearing(whole: MachineEngine) -> None:
+def test_motion_of_one_bearing(complete: MachineEngine) -> None:
     """For 2 ms balls and waves are where those of the bearing alone are, 1 % of the largest: their starts differ."""
     one = BearingEngine(alone(outer_ring=SOFT, cage=CAGE))
-    engine = machine_engine(whole.machine)
+    engine = machine_engine(complete.machine)
     assert one.advance(2e-3).ok
     assert engine.advance(2e-3).ok
     samples, other = engine.samples(), one.samples()
@@ -102,7 +102,7 @@ def feels_the_same(engine: MachineEngine) -> FloatArray:
     return bodies
 
 
-def test_a_bearing_of_the_whole_moves_as_it_does_alone(whole: MachineEngine) -> None:
+def test_a_bearing_of_the_machine_moves_as_it_does_alone(complete: MachineEngine) -> None:
     """Balls and waves of both rings and the cage feel the same bits as in a model of that bearing alone."""
     changed = copy.deepcopy(ONE)
     parts = {"inner_ring": SOFT, "outer_ring": SOFT, "cage": CAGE}
@@ -120,8 +120,8 @@ def test_a_bearing_of_the_whole_moves_as_it_does_alone(whole: MachineEngine) -> 
     assert np.abs(bodies[outer][:, [L.SY, L.SZ]]).max() > 1e-6
 
 
-def test_kinds_of_bearings_in_a_whole() -> None:
-    """Two rows beside four-point contact beside one row: rows, raceways and laws of each stand in their places."""
+def test_kinds_of_bearings_in_a_machine() -> None:
+    """Two rows, four-point contact and one row: rows, raceways and laws of each stand in their places."""
     changed = copy.deepcopy(ONE)
     changed["shaft"] = {"sections": [{"length": "300 mm", "diameter": "40 mm"}]}
     floats = {"support": {"x": "free"}, "elastic": {"outer_ring": SOFT, "cage": {"orders": 2}}}
@@ -136,14 +136,14 @@ def test_kinds_of_bearings_in_a_whole() -> None:
     assert engine.advance(2e-4).ok
 
 
-def test_damping_lets_waves_follow(whole: MachineEngine) -> None:
+def test_damping_lets_waves_follow(complete: MachineEngine) -> None:
     """An inner ring made 200 times as heavy, free along z: the whole Jacobian's damping to 4 %, with its waves.
 
     As in test_damping.test_a_ring_that_vibrates, where rings are rigid: the eigenvalue near sqrt(k/m), balls and the
     outer ring's waves moving, against k and c of the matrices at that frequency. With waves at
     rest the damping is another one by a tenth and more.
     """
-    (found,) = whole.start.equilibria
+    (found,) = complete.start.equilibria
     context = freed(found.context)
     count, mass = context.model.geometry.balls, 200.0 * context.model.inner_ring.mass
     context.bundle.bodies["mass"][0] = mass

@@ -1,4 +1,4 @@
-"""Mistakes of every stage at once: of the tables, of single bearings, of places, of the whole and of its files."""
+"""Mistakes of every stage at once: of the tables, of single bearings, of places, of the machine and of its files."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ def test_no_stage_hides_another_one() -> None:
     ],
 )
 def test_what_follows_is_not_said(changes: dict[str, Any], paths: list[str]) -> None:
-    """A stand-in takes the place of what is wrong; what is said of that, or of what refers to it, is no mistake."""
+    """A stand-in takes the place of what is wrong; messages about it, or about references to it, are no mistakes."""
     found = mistakes(changes)
     assert sorted(found) == sorted(paths), found
 

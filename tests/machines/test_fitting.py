@@ -86,7 +86,7 @@ def test_an_undercut_takes_no_seat() -> None:
 
 
 def test_it_is_said_everywhere(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """In `check`, its `--json`, and the builder; nothing is said of loads before they are known."""
+    """In `check`, its `--json`, and the builder; no loads are reported before they are known."""
     changed = tables(bearings={"left": {"designation": "SKF 6319", "at": "25 mm"}})
     case = tmp_path / "box.toml"
     case.write_text(tables_toml(changed))
@@ -110,7 +110,7 @@ def test_it_is_said_of_a_run(tmp_path: Path) -> None:
 def test_laws_are_tried_out(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """As `check` does of one bearing: what is wrong with a plugin's law is said once for all bearings."""
+    """As `check` does of one bearing: an error of a plugin's law is reported once for all bearings."""
     monkeypatch.setattr(api, "law_problems", lambda model: (Problem("models.traction", "gives no number"),))
     (tmp_path / "box.toml").write_text(geared_shaft("box"))
     assert main(["check", str(tmp_path / "box.toml")]) == 3

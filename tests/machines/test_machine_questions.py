@@ -163,7 +163,7 @@ def test_every_mistake_at_once(folder: Path, capsys: pytest.CaptureFixture[str])
         assert any(line.split()[0] == place and hint in line for line in said.splitlines()[1:]), (place, said)
 
 
-def test_what_only_the_whole_shows(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_results_of_the_machine_alone(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A place off the shaft, two bearings in one, a power at rest."""
     changes = ["gears.wheel.at=300 mm", "bearings.right.at=21 mm", "operation.speed=0 rpm"]
     arguments = [part for change in changes for part in ("--set", change)]

@@ -39,7 +39,7 @@ def plain(body: ElasticBody) -> dict[str, Any]:
 
 
 def problems(path: Path) -> list[str]:
-    """Return what a case whose shaft is the file is told."""
+    """Return the messages for a case whose shaft is the file."""
     ledger = Ledger()
     assert (reduced_shaft(path, ledger) is None) == bool(ledger.problems)
     assert {problem.where for problem in ledger.problems} <= {"shaft.reduced"}
@@ -79,7 +79,7 @@ def _as_npz(path: Path, body: ElasticBody, **changes: Any) -> None:
     np.savez(path, **{**plain(body), **changes})
 
 
-def _beside(path: Path, matrix: Callable[[Path], object]) -> None:
+def _next_to(path: Path, matrix: Callable[[Path], object]) -> None:
     matrix(path.with_name("k.csv"))
     path.write_text('nodes = [0.0, 0.1, 0.2]\nstiffness = "k.csv"\nmass = "k.csv"\n')
 
@@ -101,11 +101,11 @@ def _beside(path: Path, matrix: Callable[[Path], object]) -> None:
         ("a.json", lambda p, b: _as_json(p, b, mass=[["1"]]), "mass: is not a list of rows of numbers"),
         ("a.json", lambda p, b: None, "cannot be read: no such file"),
         ("a.txt", lambda p, b: p.write_text("x"), "must have a name that ends in .json, .npz"),
-        ("a.toml", lambda p, b: _beside(p, os.mkfifo), 'stiffness: "k.csv" cannot be read: it is a pipe'),
-        ("a.toml", lambda p, b: _beside(p, Path.mkdir), 'stiffness: "k.csv" cannot be read: it is a folder'),
-        ("a.toml", lambda p, b: _beside(p, lambda k: k.write_text("1" * 200000)), 'stiffness: "k.csv" line 1: field'),
-        ("a.toml", lambda p, b: _beside(p, lambda k: k.write_text("1\na")), 'stiffness: "k.csv" line 2: could not'),
-        ("a.toml", lambda p, b: _beside(p, lambda k: k.write_bytes(b"\xff")), 'stiffness: "k.csv" is not text'),
+        ("a.toml", lambda p, b: _next_to(p, os.mkfifo), 'stiffness: "k.csv" cannot be read: it is a pipe'),
+        ("a.toml", lambda p, b: _next_to(p, Path.mkdir), 'stiffness: "k.csv" cannot be read: it is a folder'),
+        ("a.toml", lambda p, b: _next_to(p, lambda k: k.write_text("1" * 200000)), 'stiffness: "k.csv" line 1: field'),
+        ("a.toml", lambda p, b: _next_to(p, lambda k: k.write_text("1\na")), 'stiffness: "k.csv" line 2: could not'),
+        ("a.toml", lambda p, b: _next_to(p, lambda k: k.write_bytes(b"\xff")), 'stiffness: "k.csv" is not text'),
     ],
 )  # fmt: skip
 def test_files_at_fault(

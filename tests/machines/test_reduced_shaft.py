@@ -83,7 +83,7 @@ def test_the_own_beam_from_a_file_stands_and_swings_as_itself(beam: MachineModel
 
 
 def test_the_own_beam_from_a_file_runs_as_itself(beam: MachineModel, tmp_path: Path) -> None:
-    """Lumps, and a millisecond of the whole: forces and displacements to 1e-9 of the largest."""
+    """Lumps, and a millisecond of the machine: forces and displacements to 1e-9 of the largest."""
     other = of_file(beam, tmp_path / "shaft.json")
     for name in ("positions", "mass", "polar_inertia", "transverse_inertia", "stiffness"):
         one, two = getattr(lump(beam), name), getattr(lump(other), name)

@@ -66,12 +66,16 @@ def test_ross_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
         api.ross_rotor(resolve_machine(tables()))
 
 
-def test_no_motion_is_led() -> None:
+def test_points_of_the_shaft_have_no_prescribed_motion() -> None:
     """A motion over time stands under its name, the shaft has none, a body none about x; each said at its path."""
-    led = {"kind": "harmonic", "amplitude": "1 um", "frequency": "50 Hz"}
+    prescribed = {"kind": "harmonic", "amplitude": "1 um", "frequency": "50 Hz"}
     body = {"x": "85 mm", "mass": "9 kg", "polar_inertia": "1 kg m2", "transverse_inertia": "1 kg m2"}
-    body["support"] = {"z": led, "tilt_x": {"motion": "1 mrad"}}
-    changes = {"bearings": {"left": {"support": {"y": led}}}, "bodies": {"box": body}, "shaft": {"z": led}}
+    body["support"] = {"z": prescribed, "tilt_x": {"motion": "1 mrad"}}
+    changes = {
+        "bearings": {"left": {"support": {"y": prescribed}}},
+        "bodies": {"box": body},
+        "shaft": {"z": prescribed},
+    }
     with pytest.raises(api.CaseError) as found:
         resolve_machine(tables(**changes))
     said = {problem.where: problem.message for problem in found.value.problems}
@@ -88,8 +92,8 @@ def test_what_of_a_housing_is_left_out_is_said(tmp_path: Path) -> None:
     held = body.stiffness + np.diag(np.tile([1e8, 1e8, 1e8, 1e5, 1e5, 1e5], 2))
     turning = np.zeros_like(held)
     turning[4, 5], turning[5, 4] = 0.01, -0.01
-    whole = ElasticBody(body.positions, held, body.mass, turning, lumps=(0,), damping=1e-5 * held)
-    write_reduced(whole, tmp_path / "housing.json")
+    complete = ElasticBody(body.positions, held, body.mass, turning, lumps=(0,), damping=1e-5 * held)
+    write_reduced(complete, tmp_path / "housing.json")
     model = resolve_machine(tables(housing={"reduced": "housing.json"}), folder=tmp_path)
     told = " ".join(model.assumptions)
     for what in ("the mass", "the gyroscopic matrix", "the lumps"):

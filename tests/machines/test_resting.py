@@ -53,7 +53,7 @@ def test_what_a_resting_bearing_did_last_stands(engine: MachineEngine) -> None:
     assert one.first_ball == 0
 
 
-def test_a_jacobian_in_parts_is_the_whole_one(engine: MachineEngine) -> None:
+def test_a_jacobian_in_parts_is_the_complete_one(engine: MachineEngine) -> None:
     """Renewed for one ball at the same state; and where that ball has moved, for all others it stays."""
     bundle, blocks, y, t = engine.context.bundle, engine.context.blocks, engine._memory.y.copy(), engine.time
     dydt, powers = np.zeros(y.size), np.zeros(L.power_count(bundle))
@@ -67,16 +67,16 @@ def test_a_jacobian_in_parts_is_the_whole_one(engine: MachineEngine) -> None:
         return found
 
     everywhere = list(range(blocks.due.size))
-    whole, size = jacobian(y, everywhere), np.abs(blocks.d).max()
-    assert np.abs(jacobian(y, [3]) - whole).max() < 1e-12 * size
+    complete, size = jacobian(y, everywhere), np.abs(blocks.d).max()
+    assert np.abs(jacobian(y, [3]) - complete).max() < 1e-12 * size
     moved = y.copy()
     moved[3 * L.NB] += 1e-7
     changed = jacobian(moved, [3])
-    assert np.abs(changed - whole).max() > 0.0
+    assert np.abs(changed - complete).max() > 0.0
     assert np.abs(changed - jacobian(moved, everywhere)).max() < 1e-9 * size
 
 
-def test_factors_of_single_balls_are_those_of_the_whole_row() -> None:
+def test_factors_of_single_balls_are_those_of_the_complete_row() -> None:
     """After partial renewals inverses belong to their blocks, and a row's part of the Schur complement is the sum."""
     engine = machine_engine(resolve_machine(tables()))
     assert engine.advance(END).ok
@@ -88,8 +88,8 @@ def test_factors_of_single_balls_are_those_of_the_whole_row() -> None:
         share = np.zeros((n, n))
         for j in balls:
             assert blocks.newer[j] == 0
-            whole = np.eye(L.NB) - gamma * blocks.a[j]
-            assert np.abs(factors.inverse[j].T @ whole - np.eye(L.NB)).max() < 1e-7
+            complete = np.eye(L.NB) - gamma * blocks.a[j]
+            assert np.abs(factors.inverse[j].T @ complete - np.eye(L.NB)).max() < 1e-7
             across = factors.inverse[j].T @ (-gamma * blocks.b[j][:, :n])
             assert np.allclose(factors.across[j, :n].T, across, rtol=1e-7, atol=1e-9 * np.abs(across).max())
             share += gamma * blocks.c[j, :n] @ across

@@ -79,17 +79,17 @@ def test_another_course_of_a_load_is_another_run() -> None:
 def test_modes_in_motion_are_those_of_the_rotor() -> None:
     """Eigenvalues of all balls, rings and lumps against those of the beam on the bearings' matrices.
 
-    To 8 %: the beam has no rings and balls (0.4 kg beside 4 kg), and balls that stand still.
+    To 8 %: the beam has no rings and balls (0.4 kg against 4 kg), and balls that stand still.
     """
     tables = box(VIBRATION)
     engine = machine_engine(resolve_machine(tables))
     assert engine.advance(2e-4).ok
-    whole = np.array([frequency for frequency, damping in engine.modes()])
-    assert np.all(np.diff(whole) > 0.0)
+    complete = np.array([frequency for frequency, damping in engine.modes()])
+    assert np.all(np.diff(complete) > 0.0)
     rotor = [mode.frequency_Hz for mode in api.modes(tables).modes[:5]]
-    near = [int(np.argmin(np.abs(whole / frequency - 1.0))) for frequency in rotor]
+    near = [int(np.argmin(np.abs(complete / frequency - 1.0))) for frequency in rotor]
     assert len(set(near)) == 5
-    assert whole[near] == pytest.approx(rotor, rel=0.08)
+    assert complete[near] == pytest.approx(rotor, rel=0.08)
 
 
 @pytest.mark.parametrize("is_shaken", [True, False])
@@ -181,13 +181,13 @@ def test_a_run_with_a_defect_balances_and_goes_on_bit_for_bit(tmp_path: Path) ->
     """Every ball that crosses it strikes: one run to the end, and one that stopped halfway."""
     found = box()
     found["bearings"]["right"]["forces"] = DEFECT
-    whole = api.run(found, ["solver.duration=6 ms"], out=tmp_path / "whole.h5").summary()
-    assert whole.energy_residual is not None
-    assert abs(whole.energy_residual) < 1e-3
-    assert whole.vibrations is not None
-    assert whole.vibrations.resolve_Hz == 2000.0
-    assert whole.vibrations.modes
-    assert "vibrations" in whole.text()
+    complete = api.run(found, ["solver.duration=6 ms"], out=tmp_path / "whole.h5").summary()
+    assert complete.energy_residual is not None
+    assert abs(complete.energy_residual) < 1e-3
+    assert complete.vibrations is not None
+    assert complete.vibrations.resolve_Hz == 2000.0
+    assert complete.vibrations.modes
+    assert "vibrations" in complete.text()
     api.run(found, ["solver.duration=3 ms"], out=tmp_path / "parts.h5")
     api.resume(tmp_path / "parts.h5", ["solver.duration=6 ms"])
     for name in ("left", "right"):

@@ -127,7 +127,7 @@ def test_impossible_constants_are_refused_in_words() -> None:
         make_par(bode, bode.parameters.model_validate(REQUIRED["rheology/bode"] | {"a2": 1000.0}), context)
 
 
-def test_permittivity_grows_with_pressure_and_does_not_depend_on_the_rheology_beside_it() -> None:
+def test_permittivity_grows_with_pressure_and_does_not_depend_on_the_rheology_next_to_it() -> None:
     p = np.linspace(0.0, 2e9, 50)
     light = evaluate("permittivity/bode", BODE_PERMITTIVITY, p=p, T=313.15, rho=800.0)
     heavy = evaluate("permittivity/bode", BODE_PERMITTIVITY, p=p, T=313.15, rho=1100.0)

@@ -57,8 +57,8 @@ def test_the_torque_is_the_closed_form_and_no_built_in_law_was_imported(site: In
     assert found["loss"] / found["angle"] == pytest.approx(expected, rel=1e-3)
     assert found["hysteresis"] == pytest.approx(found["loss"], rel=1e-3)
     assert found["angle"] == pytest.approx(2750.0 * math.pi / 30.0 * 0.08, rel=1e-2)
-    beside = ("lambda_plugins.methods", "lambda_plugins.views")
-    laws = [name for name in found["imported"] if not name.startswith(beside)]
+    neighbour = ("lambda_plugins.methods", "lambda_plugins.views")
+    laws = [name for name in found["imported"] if not name.startswith(neighbour)]
     assert laws == []
 
 

@@ -59,7 +59,7 @@ def fails(run: Any) -> Any:
         (lambda run: [replace(TABLE, rows=(("A",),))], "is not as long as its head"),
     ],
 )
-def test_one_that_fails_is_named_and_the_page_is_whole(
+def test_one_that_fails_is_named_and_the_page_is_complete(
     radial_run: Result, content: Callable[[Any], Any], words: str
 ) -> None:
     text = page(radial_run, section(content))

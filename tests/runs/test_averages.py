@@ -28,7 +28,7 @@ def test_columns_name_every_loss_once() -> None:
 
 
 @given(st.floats(0.1, 6.0), st.floats(0.1, 20.0), st.sampled_from([1.0, -1.0]))
-def test_boundaries_lie_at_whole_turns_on_the_straight_line(start: float, turn: float, sign: float) -> None:
+def test_boundaries_lie_at_full_turns_on_the_straight_line(start: float, turn: float, sign: float) -> None:
     before = rows_at(1.0, cage_angle=sign * start, drive=5.0)
     after = rows_at(2.0, cage_angle=sign * (start + turn), drive=7.0)
     found = boundaries(before, after, 0)

@@ -202,20 +202,20 @@ def test_nothing_left_to_do_is_said(provenance: MakeProvenance, tmp_path: Path) 
 def test_a_run_that_converges_after_its_continuation_stops_where_it_would_have(
     provenance: MakeProvenance, tmp_path: Path
 ) -> None:
-    whole = run(FakeEngine(Truth(noise=0.5)), provenance(), tmp_path / "whole.h5")
+    complete = run(FakeEngine(Truth(noise=0.5)), provenance(), tmp_path / "whole.h5")
     path = tmp_path / "r.h5"
     run(FakeEngine(Truth(noise=0.5)), provenance(max_duration=0.21), path)
     resumed = resume(FakeEngine(Truth(noise=0.5)), provenance(), path)
-    same(path, growing(whole.path))
-    assert resumed.summary().friction_torque_Nmm == whole.summary().friction_torque_Nmm
+    same(path, growing(complete.path))
+    assert resumed.summary().friction_torque_Nmm == complete.summary().friction_torque_Nmm
     assert resumed.summary().converged
 
 
 def test_statistics_go_on_counting(provenance: MakeProvenance, tmp_path: Path) -> None:
-    whole = run(FakeEngine(), provenance(duration=0.2), tmp_path / "whole.h5").status().statistics
+    complete = run(FakeEngine(), provenance(duration=0.2), tmp_path / "whole.h5").status().statistics
     path = tmp_path / "r.h5"
     run(FakeEngine(), provenance(duration=0.1), path)
-    assert resume(FakeEngine(), provenance(duration=0.2), path).status().statistics == whole
+    assert resume(FakeEngine(), provenance(duration=0.2), path).status().statistics == complete
 
 
 def checkpoint(sequence: int) -> bytes:
@@ -223,7 +223,7 @@ def checkpoint(sequence: int) -> bytes:
     return Checkpoint(Position(sequence, Rows(7, 3, 1), 1.5, {"steps": 9.0}), state).to_bytes()
 
 
-def test_the_newer_whole_slot_counts() -> None:
+def test_the_newer_complete_slot_counts() -> None:
     found = latest([checkpoint(4), checkpoint(3)])
     assert found is not None
     assert found.position == Position(4, Rows(7, 3, 1), 1.5, {"steps": 9.0})

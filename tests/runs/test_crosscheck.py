@@ -96,8 +96,8 @@ def test_a_wrong_equation_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def elsewhere(start: object, times: object, tolerance: float) -> object:
         other = api.check("6208-axial-1300", ["lubricant.temperature=40.2 degC"])
-        led = with_locked_cage(other, solve(other))
-        return integrate(bearing_start(solve(led), led), times, tolerance)  # type: ignore[arg-type]
+        prescribed = with_locked_cage(other, solve(other))
+        return integrate(bearing_start(solve(prescribed), prescribed), times, tolerance)  # type: ignore[arg-type]
 
     monkeypatch.setattr(crosscheck, "integrate", elsewhere)
     found = api.cross_check("6208-axial-1300", ["solver.duration=10 ms"])
@@ -129,7 +129,7 @@ def test_without_the_extra_it_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
         api.cross_check("6208-axial-1300", ["solver.duration=1 ms"])
 
 
-def test_the_led_cage_turns_with_the_balls() -> None:
+def test_the_prescribed_cage_turns_with_the_balls() -> None:
     model = api.check("6208-axial-1300")
     start = solve(model)
     dofs = with_locked_cage(model, start).cage_body.dofs

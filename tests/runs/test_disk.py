@@ -23,14 +23,14 @@ WANTED = {"solver": {"duration": 1.2}, "checkpoint_interval": 0.03}
 
 
 def run(warm: Warm, verb: str, path: Path, **wanted: object) -> tuple[int | None, str]:
-    """Run or resume; return the exit code and what was said."""
+    """Run or resume; return the exit code and the messages."""
     process = warm.start(FAKE_RUN, verb, str(path), json.dumps(wanted))
     _, said = process.communicate()
     return process.returncode, said
 
 
 @pytest.fixture(scope="module")
-def whole(warm: Warm, tmp_path_factory: pytest.TempPathFactory) -> Result:
+def complete(warm: Warm, tmp_path_factory: pytest.TempPathFactory) -> Result:
     """The same run with room enough."""
     path = tmp_path_factory.mktemp("whole") / "r.h5"
     assert run(warm, "run", path, **WANTED) == (0, "")
@@ -40,7 +40,7 @@ def whole(warm: Warm, tmp_path_factory: pytest.TempPathFactory) -> Result:
 @pytest.mark.parametrize(
     "limit", [*LIMITS[:-2], *(pytest.param(limit, marks=pytest.mark.full) for limit in LIMITS[-2:])]
 )
-def test_a_full_disk_at_any_point(limit: int, warm: Warm, tmp_path: Path, whole: Result) -> None:
+def test_a_full_disk_at_any_point(limit: int, warm: Warm, tmp_path: Path, complete: Result) -> None:
     path = tmp_path / "r.h5"
     code, said = run(warm, "run", path, limit=limit, **WANTED)
     assert "Traceback" not in said
@@ -58,7 +58,7 @@ def test_a_full_disk_at_any_point(limit: int, warm: Warm, tmp_path: Path, whole:
     assert status.state == "interrupted"
     assert run(warm, "resume", path, **WANTED) == (0, "")  # with room again
     for channel in result.channels:
-        assert Result(path)[channel.name].tobytes() == whole[channel.name].tobytes()
+        assert Result(path)[channel.name].tobytes() == complete[channel.name].tobytes()
 
 
 @pytest.mark.full

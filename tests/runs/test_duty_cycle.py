@@ -92,7 +92,7 @@ def test_mistakes_are_told_at_their_place(tmp_path: Path) -> None:
         api.duty(tmp_path / "bad.toml")
 
 
-def test_the_command_reads_a_case_beside_the_file(
+def test_the_command_reads_a_case_next_to_the_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "own.toml").write_text(_OWN)

@@ -64,15 +64,17 @@ def wait_for_samples(path: Path, process: Started) -> None:
         time.sleep(0.01)
 
 
-def is_beginning_of(found: Series, whole: Series) -> None:
+def is_beginning_of(found: Series, complete: Series) -> None:
     """Check that what a killed run left behind is the beginning of the undisturbed one, bit for bit."""
     for name in set(found) - {"integrals"}:  # the last record may stand between two of the grid
         values = found[name]
-        assert values.tobytes() == whole[name][: len(values)].tobytes(), name
-    assert found["integrals"][:-1].tobytes() == whole["integrals"][: len(found["integrals"]) - 1].tobytes()
+        assert values.tobytes() == complete[name][: len(values)].tobytes(), name
+    assert found["integrals"][:-1].tobytes() == complete["integrals"][: len(found["integrals"]) - 1].tobytes()
 
 
-def kill_and_resume(warm: Warm, path: Path, chance: random.Random, whole: Series, most: int = KILLS) -> tuple[int, int]:
+def kill_and_resume(
+    warm: Warm, path: Path, chance: random.Random, complete: Series, most: int = KILLS
+) -> tuple[int, int]:
     """Kill a run and its continuations, look at what each leaves, let the last one finish.
 
     Returns the number of kills, and of those that struck between the first sample and the end.
@@ -90,7 +92,7 @@ def kill_and_resume(warm: Warm, path: Path, chance: random.Random, whole: Series
         kills += 1
         if path.exists():  # from its first moment on
             verb = "resume"
-            is_beginning_of(growing(path), whole)
+            is_beginning_of(growing(path), complete)
             status = api.result(path).status()
             if status.state == "finished":
                 break
@@ -100,7 +102,7 @@ def kill_and_resume(warm: Warm, path: Path, chance: random.Random, whole: Series
         _, errors = process.communicate()
         assert process.returncode == 0, errors
     found = growing(path)
-    for name, values in whole.items():
+    for name, values in complete.items():
         assert found[name].tobytes() == values.tobytes(), name
     assert api.summary(path).state == "finished"
     return kills, midway

@@ -22,7 +22,7 @@ TURN = FakeEngine().turn
 def test_killed_before_its_last_word(
     solver: dict[str, float], provenance: MakeProvenance, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    whole = loop.run(FakeEngine(), provenance(**solver), tmp_path / "whole.h5")
+    complete = loop.run(FakeEngine(), provenance(**solver), tmp_path / "whole.h5")
     path = tmp_path / "killed.h5"
 
     def killed(session: Any, state: str, message: str, **_: Any) -> None:
@@ -38,10 +38,10 @@ def test_killed_before_its_last_word(
     monkeypatch.setattr("lambda_core.results.run_status.Status.alive", lambda status: False)
     resumed = loop.resume(FakeEngine(), provenance(**solver), path)
     assert resumed.status().state == "finished"
-    assert resumed.integrals().tobytes() == whole.integrals().tobytes()
-    assert resumed.revolutions().tobytes() == whole.revolutions().tobytes()
-    for channel in whole.channels:
-        assert resumed[channel.name].tobytes() == whole[channel.name].tobytes()
+    assert resumed.integrals().tobytes() == complete.integrals().tobytes()
+    assert resumed.revolutions().tobytes() == complete.revolutions().tobytes()
+    for channel in complete.channels:
+        assert resumed[channel.name].tobytes() == complete[channel.name].tobytes()
     assert {file.name for file in tmp_path.iterdir()} == {"whole.h5", "killed.h5"}
 
 

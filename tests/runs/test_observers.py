@@ -73,36 +73,36 @@ def with_observer(found: Observer, **more: Any) -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> Result:
+def complete(tmp_path_factory: pytest.TempPathFactory) -> Result:
     return launch(model(**with_observer(observer())), tmp_path_factory.mktemp("observed") / "whole.h5")
 
 
-def test_channels_integrals_and_numbers(whole: Result) -> None:
-    time, rate = whole["time"], 2.0 * whole["loss"].sum(axis=1)
-    np.testing.assert_array_equal(whole["loss_sum"], rate)
+def test_channels_integrals_and_numbers(complete: Result) -> None:
+    time, rate = complete["time"], 2.0 * complete["loss"].sum(axis=1)
+    np.testing.assert_array_equal(complete["loss_sum"], rate)
     work = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(time) * (rate[1:] + rate[:-1]))])
-    np.testing.assert_allclose(whole["work_lost"], work, rtol=1e-12)
-    assert whole["contact_work"].shape == whole["contact_loss"].shape
-    found = {number.name: number for number in whole.summary().observed}
-    assert found["work"].value == whole["work_lost"][-1]
+    np.testing.assert_allclose(complete["work_lost"], work, rtol=1e-12)
+    assert complete["contact_work"].shape == complete["contact_loss"].shape
+    found = {number.name: number for number in complete.summary().observed}
+    assert found["work"].value == complete["work_lost"][-1]
     assert found["work"].unit == "J"
     assert found["mean loss"].value == pytest.approx(rate.mean())
-    assert "observed" in whole.summary().text()
-    assert whole.observers[0]["parameters"] == '{"factor":2.0}'
+    assert "observed" in complete.summary().text()
+    assert complete.observers[0]["parameters"] == '{"factor":2.0}'
 
 
-def test_going_on_writes_what_an_uninterrupted_run_writes(whole: Result, tmp_path: Path) -> None:
+def test_going_on_writes_what_an_uninterrupted_run_writes(complete: Result, tmp_path: Path) -> None:
     watched = with_observer(observer())
     path = tmp_path / "parts.h5"
     launch(model("3 ms", **watched), path)
     again = relaunch(path, model(**watched))
     for name in ("time", "loss_sum", "work_lost", "contact_work"):
-        np.testing.assert_array_equal(again[name], whole[name], err_msg=name)
+        np.testing.assert_array_equal(again[name], complete[name], err_msg=name)
 
 
-def test_the_motion_does_not_know_of_it(whole: Result, tmp_path: Path) -> None:
+def test_the_motion_does_not_know_of_it(complete: Result, tmp_path: Path) -> None:
     bare = launch(model(), tmp_path / "bare.h5")
-    np.testing.assert_array_equal(bare["ball_velocity"], whole["ball_velocity"])
+    np.testing.assert_array_equal(bare["ball_velocity"], complete["ball_velocity"])
     assert "loss_sum" not in [channel.name for channel in bare.channels]
 
 
@@ -168,13 +168,13 @@ def failing(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any
     ],
 )
 def test_an_observer_that_fails_stays_alone(
-    observe: Callable[..., Any], words: str, whole: Result, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+    observe: Callable[..., Any], words: str, complete: Result, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     import re
 
     result = launch(model(**with_observer(observer(observe))), tmp_path / "failed.h5")
     assert capfd.readouterr().out == ""
-    np.testing.assert_array_equal(result["load"], whole["load"])
+    np.testing.assert_array_equal(result["load"], complete["load"])
     assert np.isnan(result["loss_sum"]).all()
     (fault,) = result.summary().plugin_faults
     assert re.search(words, fault)

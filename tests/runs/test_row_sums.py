@@ -23,11 +23,11 @@ def begun(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_sums_do_not_depend_on_how_rows_come() -> None:
-    rows, whole, parts = np.random.default_rng(1).random((10, 3)), RowSums(), RowSums()
-    whole.add("/load", rows)
+    rows, complete, parts = np.random.default_rng(1).random((10, 3)), RowSums(), RowSums()
+    complete.add("/load", rows)
     for start in (0, 4, 9):
         parts.add("/load", rows[start : {0: 4, 4: 9, 9: 10}[start]])
-    assert whole.by_name() == parts.by_name()
+    assert complete.by_name() == parts.by_name()
 
 
 def test_the_checkpoint_knows_what_stands_in_the_file(begun: Path) -> None:

@@ -1,4 +1,4 @@
-"""Results beside each other: what their cases say differently, and what follows."""
+"""Test results side by side: what their cases say differently, and what follows."""
 
 from __future__ import annotations
 

@@ -149,8 +149,8 @@ def test_what_no_bearing_takes_ends_and_changes_nothing(exact: bool) -> None:
         assert np.array_equal(after[name], expected[name], equal_nan=True), name
 
 
-def test_a_ring_that_is_led_answers_with_the_load_of_its_place() -> None:
-    """Led from the place of 14 kN to that of 16 kN, the ring is pushed back with 16 kN."""
+def test_a_prescribed_ring_answers_with_the_load_of_its_place() -> None:
+    """Moved from the place of 14 kN to that of 16 kN, the ring is pushed back with 16 kN."""
     at = {load: api.quasistatic(CASE, [f"loads.radial={load} kN"]).inner_ring_displacement_um[2] for load in (14, 16)}
     stepping = api.iterate(CASE, ["solver.duration=12 ms", "loads.radial=14 kN"], interval=0.1e-3, couple="motion")
     begin, down = 1e-6 * at[14], 1e-6 * (at[16] - at[14])

@@ -36,7 +36,7 @@ def test_the_verdict_comes_first_with_its_margins() -> None:
         assert words in text[1]
 
 
-def test_modified_lives_stand_beside_the_basic_ones() -> None:
+def test_modified_lives_stand_next_to_the_basic_ones() -> None:
     found = api.quasistatic(CASE)
     assert isinstance(found, QuasiStatic)
     rating = found.rating

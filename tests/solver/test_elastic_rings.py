@@ -115,13 +115,13 @@ def test_energy_and_waves_of_a_run() -> None:
 
 def test_a_continued_run_is_the_uninterrupted_one() -> None:
     model = api.check("6319-cp10-3000", soft("100 N/um", 3))
-    whole, first, second = (BearingEngine(model) for _ in range(3))
-    whole.advance(2e-3)
-    whole.advance(4e-3)
+    complete, first, second = (BearingEngine(model) for _ in range(3))
+    complete.advance(2e-3)
+    complete.advance(4e-3)
     first.advance(2e-3)
     second.restore(first.state())
     second.advance(4e-3)
-    for name, value in whole.now().items():
+    for name, value in complete.now().items():
         np.testing.assert_array_equal(second.now()[name], value, err_msg=name)
 
 

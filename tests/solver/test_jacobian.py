@@ -45,7 +45,7 @@ def test_jacobian(name: str, mode: str, seed: int) -> None:
     """Left out by design: how slip changes the thermal film factor, the smaller component of entrainment (tangent.py).
 
     Both reach the columns of the axial velocity and of spins and cost below 1 % of the largest entry of a row (in
-    mixed friction 5 %, on steep waves 2 %); the matrix as a whole is within 0.03 % (0.2 %). Newton needs two to three
+    mixed friction 5 %, on steep waves 2 %); the entire matrix is within 0.03 % (0.2 %). Newton needs two to three
     steps.
     """
     m = machine(*MODELS[name])
@@ -53,8 +53,8 @@ def test_jacobian(name: str, mode: str, seed: int) -> None:
     exact, ours = scaled(m, differences(m, y)), scaled(m, m.jacobian(y))
     if m.model.depth.cage:
         assert np.all(exact[neighbours(m)] == 0.0)
-    whole, row = {"thin film": (2e-3, 0.05), "wavy raceways": (3e-4, 0.02)}.get(name, (3e-4, 0.01))
-    assert np.linalg.norm(ours - exact) < whole * np.linalg.norm(exact)
+    complete, row = {"thin film": (2e-3, 0.05), "wavy raceways": (3e-4, 0.02)}.get(name, (3e-4, 0.01))
+    assert np.linalg.norm(ours - exact) < complete * np.linalg.norm(exact)
     largest = np.abs(exact).max(axis=1, keepdims=True)
     assert np.all(np.abs(ours - exact) < row * largest + 1e-3)
 

@@ -48,9 +48,9 @@ def test_a_little_starvation_changes_little() -> None:
     for short, most in ((1e-3, 0.08), (1e-5, 0.003), (1e-12, 1e-6)):
         found = api.quasistatic(CASE, [f"lubricant.starvation={1.0 - short!r}"])
         for name in ("rolling_inner", "rolling_outer", "sliding_inner"):
-            whole, part = full.friction_breakdown_Nmm[name], found.friction_breakdown_Nmm[name]
-            assert whole is not None
-            assert part == pytest.approx(whole, rel=most), (short, name)
+            complete, part = full.friction_breakdown_Nmm[name], found.friction_breakdown_Nmm[name]
+            assert complete is not None
+            assert part == pytest.approx(complete, rel=most), (short, name)
         assert found.friction_torque_Nmm == pytest.approx(full.friction_torque_Nmm, rel=most)
 
 

@@ -39,13 +39,13 @@ def test_slopes_of_touching_balls_are_those_of_differences(pairs: tuple[int, ...
     y = touching(m, pairs)
     exact, ours = scaled(m, differences(m, y)), scaled(m, m.jacobian(y))
     of = np.repeat(np.arange(m.count), L.NB)
-    beside = np.zeros_like(exact, dtype=bool)
-    beside[: of.size, : of.size] = of[:, None] != of[None, :]
-    coupled = {(int(of[i]), int(of[k])) for i, k in zip(*np.nonzero(exact * beside), strict=True)}
+    neighbour = np.zeros_like(exact, dtype=bool)
+    neighbour[: of.size, : of.size] = of[:, None] != of[None, :]
+    coupled = {(int(of[i]), int(of[k])) for i, k in zip(*np.nonzero(exact * neighbour), strict=True)}
     assert coupled == {p for j in pairs for p in ((j, (j + 1) % m.count), ((j + 1) % m.count, j))}
     largest = np.abs(exact).max(axis=1, keepdims=True)
-    assert np.all(np.abs(ours - exact)[beside] < np.broadcast_to(0.01 * largest + 1e-3, exact.shape)[beside])
-    assert np.linalg.norm((ours - exact)[beside]) < 3e-3 * np.linalg.norm(exact[beside])
+    assert np.all(np.abs(ours - exact)[neighbour] < np.broadcast_to(0.01 * largest + 1e-3, exact.shape)[neighbour])
+    assert np.linalg.norm((ours - exact)[neighbour]) < 3e-3 * np.linalg.norm(exact[neighbour])
 
 
 # Runs in a process without Numba's compiler, which would take longer over the elimination than all of this file: the
@@ -85,13 +85,13 @@ def test_chains_of_balls_are_solved_as_one_matrix(tmp_path: Path) -> None:
                 blocks.cross[ball, side, 3:] = (
                     rng.uniform(-1.0, 1.0, (6, L.NB)) * 0.3 * np.abs(blocks.a[ball, 3:]).max(axis=0)
                 )
-        whole = dense(blocks)
+        complete = dense(blocks)
         if len(joined) == m.count:
             last = L.NB * (m.count - 1)
-            whole[: L.NB, last : last + L.NB] = whole[last : last + L.NB, : L.NB] = 0.0
-        wanted.append(rng.uniform(-1.0, 1.0, whole.shape[0]))
+            complete[: L.NB, last : last + L.NB] = complete[last : last + L.NB, : L.NB] = 0.0
+        wanted.append(rng.uniform(-1.0, 1.0, complete.shape[0]))
         crosses.append(blocks.cross.copy())
-        rights.append((np.eye(whole.shape[0]) - _GAMMA * whole) @ wanted[-1])
+        rights.append((np.eye(complete.shape[0]) - _GAMMA * complete) @ wanted[-1])
     arrays = {name: value for name, value in blocks._asdict().items() if name != "reach"}
     arrays |= {f"reach.{name}": value for name, value in blocks.reach._asdict().items()}
     np.savez(tmp_path / "given.npz", crosses=crosses, rights=rights, gamma=_GAMMA, **arrays)

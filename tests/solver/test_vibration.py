@@ -92,7 +92,7 @@ def test_a_swing_without_a_loss_stays(amplitude: float) -> None:
 
 
 def test_a_swing_in_contacts_of_hertz_without_a_loss_stays() -> None:
-    """5 kg on an axial 6208 under 1 300 N, let go from its rest under the load that presses it 20 um further.
+    """5 kg on an axial 6208 under 1 300 N, released from its rest under the load that presses it 20 um further.
 
     No friction, no damping, no gravity; 28 periods with the default's steps for 2 kHz. Contacts are not linear: the
     ring swings 23.5 um to the other side, at 466 Hz.
@@ -216,14 +216,14 @@ def test_a_swing_of_a_bearing_keeps_its_frequency_and_damping(amplitude: float) 
 
 def test_energy_closes_and_a_continuation_is_the_run_itself() -> None:
     overrides = ('solver.accuracy="vibration"', "solver.duration=1 s")
-    whole, first = (BearingEngine(api.check(AXIAL, overrides)) for _ in range(2))
+    complete, first = (BearingEngine(api.check(AXIAL, overrides)) for _ in range(2))
     assert first.advance(2e-3).ok
     second = BearingEngine(api.check(AXIAL, overrides))
     second.restore(first.state())
-    for engine in (whole, second):
+    for engine in (complete, second):
         assert engine.advance(6e-3).ok
-    assert np.array_equal(whole._memory.y, second._memory.y)
-    sums = whole.integrals()
+    assert np.array_equal(complete._memory.y, second._memory.y)
+    sums = complete.integrals()
     assert sums == second.integrals()
     losses = sum(value for name, value in sums.items() if name.startswith("loss."))
     assert abs(sums["input"] - losses - sums["stored"]) < 1e-5 * sums["input_abs"]

@@ -20,7 +20,7 @@ PARTS = {"rolling": 30.0, "hysteresis": 10.0, "sliding": 20.0, "spin": 5.0, "skf
 
 
 class Invented:
-    """A runner whose torque is SKF's but for what it is told about load and set."""
+    """A runner whose torque is SKF's but for its inputs of load and set."""
 
     def all(self, jobs: list[Job]) -> list[JobResult]:
         return [
@@ -62,7 +62,7 @@ def test_bias_and_scatter_of_known_ratios() -> None:
     assert (blind.parameters, blind.bias_pct) == ("blind", pytest.approx(-30.0))
     assert "met: 0.515/0.525 grooves" in found.bars[0]
     assert [bar.split(":")[0] for bar in found.bars[-2:]] == ["met", "missed"]
-    assert found.rated[0].whole == pytest.approx([1.5] * 3)
+    assert found.rated[0].with_drag == pytest.approx([1.5] * 3)
     titles = [table.caption for table in chapter(found, ()).tables]
     assert len(titles) == len(set(titles)) == 7
     for p in found.populations:

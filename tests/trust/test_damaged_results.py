@@ -20,15 +20,15 @@ SIGNATURE = b"GCOL\x01\x00\x00\x00"
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def complete(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("result") / "r.h5"
     api.run("6208-axial-1300", ["solver.duration=1 ms"], out=path)
     return path
 
 
 @pytest.fixture
-def file(whole: Path, tmp_path: Path) -> Path:
-    return Path(shutil.copy(whole, tmp_path / "r.h5"))
+def file(complete: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copy(complete, tmp_path / "r.h5"))
 
 
 def replace_text(path: Path, name: str, text: str) -> None:

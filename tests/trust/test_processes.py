@@ -88,13 +88,13 @@ def test_of_two_that_resume_one_file_one_is_refused(tmp_path: Path, monkeypatch:
 def test_a_failed_write_leaves_no_run_that_counts_as_running(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Input/output errors of a disk: the run ends, and its file can be resumed by the same process."""
     path, calls = tmp_path / "run.h5", []
-    whole = writer.ResultWriter._append_samples
+    complete = writer.ResultWriter._append_samples
 
     def failing(self: writer.ResultWriter) -> None:
         calls.append(1)
         if len(calls) > 1:
             raise OSError(5, "Input/output error")
-        whole(self)
+        complete(self)
 
     monkeypatch.setattr(writer.ResultWriter, "_append_samples", failing)
     with pytest.raises(PartialResultError, match="Input/output error"):

@@ -1,4 +1,4 @@
-"""Geometries that are possible and that nobody builds are told."""
+"""Test the warnings about geometries that nobody builds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A data package that puts its rows in front of the built-in ones is told in every run that uses them."""
+"""A data package that puts its rows in front of the built-in ones is reported in every run that uses them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SOURCE = "key,title\n{key},Fabricated and Evil 2030\n"
 
 @pytest.fixture
 def brings(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Callable[..., None]]:
-    """Install a package with these seed files beside what is there."""
+    """Install a package with these seed files next to the installed ones."""
     monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(tmp_path / "cache"))
 
     def install(**files: str) -> None:
@@ -100,7 +100,7 @@ def test_a4_bad_rows_are_named_and_the_rest_goes_on(brings: Callable[..., None])
 
 
 def test_a2_an_oil_that_passes_the_check_runs(brings: Callable[..., None]) -> None:
-    """An oil with data for its rheology alone resolves with every default law; what it lacks is told."""
+    """An oil with data for its rheology alone resolves with every default law; missing data are reported."""
     brings(
         source="key,title\nmine,My own measurement\n",
         lubricant="name,base_type,rheology,note\nmine,mineral,roelands,my own\n",

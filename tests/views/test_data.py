@@ -140,9 +140,9 @@ def test_simulation_and_catalogues_stand_on_one_axis(radial_run: Result, combine
     sums = np.nansum([s.y for s in panel.series], axis=0)
     expected = [summary.friction_torque_Nmm, summary.rating.skf_torque_Nmm, summary.rating.schaeffler_torque_Nmm]
     np.testing.assert_allclose(sums, np.array(expected, float), rtol=1e-9)
-    beside = api.view([radial_run, combined_run], "comparison").panels[1]
-    assert [s.name for s in beside.series] == ["simulation", "SKF", "Schaeffler"]
-    assert series(beside, "SKF").y[0] == summary.rating.skf_torque_Nmm
+    neighbour = api.view([radial_run, combined_run], "comparison").panels[1]
+    assert [s.name for s in neighbour.series] == ["simulation", "SKF", "Schaeffler"]
+    assert series(neighbour, "SKF").y[0] == summary.rating.skf_torque_Nmm
 
 
 def test_friction_adds_up_and_its_mean_is_the_summarys(radial_run: Result) -> None:
@@ -256,12 +256,12 @@ def test_the_ring_moves_with_the_balls_passing_the_outer_ring(radial_run: Result
 
 
 def test_the_capacitance_swings_with_the_balls_passing(radial_run: Result) -> None:
-    contacts, spectrum, whole = data(radial_run, "capacitance").panels
+    contacts, spectrum, complete = data(radial_run, "capacitance").panels
     marks = {mark.label: mark.value for mark in spectrum.marks}
     line = spectrum.series[0]
     assert line.x[np.argmax(line.y)] == pytest.approx(marks["BPFO"], rel=0.05)
     values = radial_run["bearing_capacitance"]
-    assert whole.series[0].y[-1] == pytest.approx(1e12 * values[-1])
+    assert complete.series[0].y[-1] == pytest.approx(1e12 * values[-1])
     inner = series(contacts, "inner ring")
     assert inner.x[np.nanargmax(inner.y)] == pytest.approx(270.0, abs=10.0)
 

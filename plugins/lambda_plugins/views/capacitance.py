@@ -21,7 +21,7 @@ def capacitance(run: RunData, options: Options) -> ViewData:
     known = np.isfinite(values)
     if not known.any():
         raise NotApplicable("asperities short every ball in this run: there is no capacitance")
-    whole = trace("bearing", 1e3 * time, np.where(known, values, np.nan), "total")
+    total = trace("bearing", 1e3 * time, np.where(known, values, np.nan), "total")
     contacts: list[Series] = []
     for ring in ("inner", "outer"):
         each = 1e12 * of_ring(run, "capacitance", ring)
@@ -34,7 +34,7 @@ def capacitance(run: RunData, options: Options) -> ViewData:
         notes += integration(run, float(panels[-1].series[0].x[-1]))
     else:
         notes.append("no spectrum: the capacitance is steady, or a contact is shorted at times")
-    panels.append(Panel("bearing", Axis("time", "ms"), Axis("capacitance", "pF"), (whole,)))
+    panels.append(Panel("bearing", Axis("time", "ms"), Axis("capacitance", "pF"), (total,)))
     return ViewData("capacitance", "Electrical capacitance", source(run), tuple(panels), 2, tuple(notes))
 
 

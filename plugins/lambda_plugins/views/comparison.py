@@ -52,7 +52,7 @@ def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
             Axis("friction torque", "N mm", low=0.0),
             tuple(
                 Series(name, places, column(values), "bars", group=group)
-                for group, (name, values) in enumerate(_beside(summaries))
+                for group, (name, values) in enumerate(_side_by_side(summaries))
             ),
         ),
         Panel("load on the inner ring", AZIMUTH, Axis("load", "kN", low=0.0), _loads(runs, names)),
@@ -73,7 +73,7 @@ def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
     return ViewData("comparison", "Comparison of results", ", ".join(names), panels, 2, tuple(notes))
 
 
-def _beside(summaries: Sequence[Any]) -> Iterator[tuple[str, list[float | None]]]:
+def _side_by_side(summaries: Sequence[Any]) -> Iterator[tuple[str, list[float | None]]]:
     """Yield the friction torques of the simulations, and of the catalogues for the same cases."""
     yield "simulation", [s.friction_torque_Nmm for s in summaries]
     for name, field in (("SKF", "skf_torque_Nmm"), ("Schaeffler", "schaeffler_torque_Nmm")):

@@ -57,7 +57,7 @@ def voltage(run: Any, options: Seed) -> ViewData:
     middle = 1e3 * 0.5 * (found.time[1:] + found.time[:-1])
     low, high = found.solution.extremes.T
     step = max(1, events.time.size // 3000)
-    whole = Panel(
+    span = Panel(
         "whole span",
         Axis("time", "ms"),
         Axis("bearing voltage", "V"),
@@ -67,7 +67,7 @@ def voltage(run: Any, options: Seed) -> ViewData:
         ),
     )
     notes = (f"{found.outcome.discharges_per_s:.4g} discharges per second; {found.contacts.origin}",)
-    return ViewData("bearing-voltage", "Bearing voltage", _source(run, found), (close, whole), 1, notes)
+    return ViewData("bearing-voltage", "Bearing voltage", _source(run, found), (close, span), 1, notes)
 
 
 def discharges(run: Any, options: Seed) -> ViewData:

@@ -1,4 +1,4 @@
-"""Seats and bodies that are led: a shaft carried along stays as it is; in motion it follows, and energy is balanced."""
+"""Test prescribed motions of seats and bodies: equilibrium, motion and balance of energy."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 
 
 def tables(left: dict[str, Any], right: dict[str, Any], **changes: Any) -> dict[str, Any]:
-    """Return the case that init writes with seats that are led."""
+    """Return the case that init writes with prescribed motions of its seats."""
     seats = {"left": {"support": left}, "right": {"support": right}}
     return merged(tomllib.loads(geared_shaft("box")), {"bearings": seats, **changes})
 
@@ -95,7 +95,7 @@ def boxed(hold: dict[str, Any]) -> dict[str, Any]:
     return case
 
 
-def test_a_body_that_is_led_carries_its_bearings() -> None:
+def test_a_body_with_prescribed_motion_carries_its_bearings() -> None:
     """By 20 um and, about its centre, 0.2 mrad: reactions as before, the shaft where the body takes it."""
     at_rest, model = (
         solve_shaft(resolve_machine(boxed({}))),
@@ -127,7 +127,7 @@ def test_a_body_that_is_shaken_does_work() -> None:
     assert abs(row["input"] - losses - row["stored"]) < 1e-3 * row["input_abs"]
 
 
-def test_what_cannot_be_led() -> None:
+def test_motions_that_cannot_be_prescribed() -> None:
     """Each at its path: a ring that gives way, one in a body, one on a preload spring, a course by a law."""
     box = {"x": "85 mm", "mass": "9 kg", "polar_inertia": "1 kg m2", "transverse_inertia": "1 kg m2"}
     for changes, where, said in (

@@ -12,8 +12,8 @@ from lambda_core.results.circuit_rows import DISCHARGES
 def events(numbers: list[int], joined: list[bool]) -> Events:
     count = len(numbers)
     values = {channel.name: np.ones(count) for channel in DISCHARGES}
-    whole = {name: np.ones(count, dtype=np.int64) for name in ("ball", "ring")}
-    values |= whole | {"discharge": np.array(numbers), "joined": np.array(joined), "time": np.arange(count) * 1e-6}
+    complete = {name: np.ones(count, dtype=np.int64) for name in ("ball", "ring")}
+    values |= complete | {"discharge": np.array(numbers), "joined": np.array(joined), "time": np.arange(count) * 1e-6}
     return Events(**values)
 
 

@@ -1,4 +1,4 @@
-"""Markers, bodies beside the shaft, springs between them: equilibrium, modes and motion against what must hold."""
+"""Test markers, rigid bodies and the springs between them: equilibrium, modes and motion against what must hold."""
 
 from __future__ import annotations
 
