@@ -25,7 +25,7 @@ from pathlib import Path
 
 DOCS = Path(__file__).parents[1]
 PROGRAMS = Path(sys.executable).parent
-ELSEWHERE = {"plugins.md"}  # followed by tests of its own
+ELSEWHERE = {"plugins.md", "plugin-reference.md"}  # tests/plugins follows them
 _BLOCK = re.compile(
     r"(?:^<!-- before: (?P<before>.+?) -->$)|(?:^(?P<head>[^\n]*)\n+)?^```(?P<language>\w*)\n(?P<body>.*?)^```$",
     re.M | re.S,

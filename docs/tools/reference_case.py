@@ -160,7 +160,7 @@ def _watching() -> list[str]:
     return [
         "## `[observers]` and `[events]`",
         "",
-        "NAME is an observer or event that [a plugin](../plugins.md#channels-and-events-of-your-own) brings; an "
+        "NAME is an observer or event that [a plugin](../plugin-reference.md#channels-and-events-of-your-own) brings; an "
         "empty table, `[observers.NAME]`, leaves all parameters at their defaults.",
         "",
         *md.table(("option", "default", "meaning"), rows),

@@ -1,4 +1,4 @@
-"""Roles and quantities in pages: `python -m lambda_core.discovery.reference docs/kernels.md docs/plugins.md`."""
+"""Roles and quantities in pages: `python -m lambda_core.discovery.reference docs/kernels.md docs/plugin-reference.md`."""
 
 from __future__ import annotations
 

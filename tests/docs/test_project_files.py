@@ -52,7 +52,7 @@ def test_links_between_the_files_of_the_root_hold() -> None:
 
 
 def test_the_house_plan_names_every_package_and_room() -> None:
-    text = (ROOT / "docs" / "contributing.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
     for name in ("lambda_core", "lambda_plugins", "lambda_syla2026", "lambda_db", "lambda_gui", "lambda_cli"):
         assert name in text
     rooms = {path.name for path in (ROOT / "lambda_core").iterdir() if (path / "__init__.py").exists()}

@@ -151,7 +151,7 @@ def test_every_hook_is_described() -> None:
     hooks = [name for name in vars(hookspecs) if name.startswith("lambda_")]
     assert hooks
     for hook in hooks:
-        assert f"`{hook}`" in page("plugins.md")
+        assert f"`{hook}`" in page("plugin-reference.md")
 
 
 def test_every_error_and_exit_code_is_described() -> None:

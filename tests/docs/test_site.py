@@ -100,7 +100,7 @@ def test_images_exist_and_are_drawings(site: Path) -> None:
 
 
 def test_every_screen_of_the_builder_has_its_pictures(site: Path) -> None:
-    page = (site / "gui.html").read_text(encoding="utf-8")
+    page = (site / "screens.html").read_text(encoding="utf-8")
     named = set(re.findall(r"images/gui/([\w-]+\.png)", page))
     assert named == {path.name for path in (DOCS / "images" / "gui").glob("*.png")}
     assert all(name.replace("80x24", "160x48") in named for name in named)

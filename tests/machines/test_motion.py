@@ -66,7 +66,7 @@ def frequencies(model: MachineModel, shaft: LumpedShaft) -> tuple[FloatArray, Fl
 
 @pytest.mark.parametrize("changes", [{}, LONG], ids=["gearbox", "ten diameters"])
 def test_lumps_keep_mass_centre_inertia_and_low_frequencies(changes: dict[str, Any]) -> None:
-    """The gearbox shaft's first five to 0.3 %; ten diameters between bearings: the first six to 1 % (docs/shaft.md)."""
+    """The gearbox shaft's first five to 0.3 %, ten diameters between bearings: the first six to 1 %."""
     model = resolve_machine(tables(**changes))
     shaft = lump(model)
     assert shaft.mass.sum() == pytest.approx(model.body.total_mass, rel=1e-12)

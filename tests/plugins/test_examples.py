@@ -86,8 +86,8 @@ def test_a_package_with_its_test_is_at_most_60_lines(name: str) -> None:
 
 
 def settings_on_the_page() -> list[str]:
-    """Return what docs/plugins.md writes into cases to use the packages, as ``--set`` takes it."""
-    page = (EXAMPLES.parent / "docs" / "plugins.md").read_text()
+    """Return what docs/plugin-reference.md writes into cases to use the packages, as ``--set`` takes it."""
+    page = (EXAMPLES.parent / "docs" / "plugin-reference.md").read_text()
     below = page[page.index("## Channels and events of your own") :]
     return [
         line for text in re.findall(r"^```toml\n(.*?)^```$", below, re.M | re.S) for line in flat(tomllib.loads(text))

@@ -1,6 +1,6 @@
 """Reduced models from outside: mass, stiffness and nodes of any finite-element program, in one file.
 
-What a file says stands in docs/shaft.md. Units are SI, or millimetres, tonnes and newtons.
+docs/shaft-reference.md describes the file. Units are SI, or millimetres, tonnes and newtons.
 """
 
 from __future__ import annotations
