@@ -69,7 +69,7 @@ PICTURES = (
     Picture(
         "load-distribution",
         "Load of every ball",
-        "Which balls carry the motor bearing of the tutorial, and how much.",
+        "The load that each ball of the tutorial's bearing carries.",
         "lambda-bearing view motor.h5 load-distribution",
         "motor-load-distribution.png",
         "motor",
@@ -85,7 +85,7 @@ PICTURES = (
     Picture(
         "catalogues",
         "Comparison with catalogues",
-        "The simulated torque by parts, and what SKF's and Schaeffler's models say for the same point.",
+        "The simulated torque by parts, and the models of SKF and Schaeffler for the same point.",
         "lambda-bearing view motor.h5 catalogues",
         "motor-catalogues.png",
         "motor",
@@ -118,7 +118,7 @@ PICTURES = (
     Picture(
         "ball-speeds",
         "Speeds of the balls",
-        "Orbital speed and spin over the kinematic ones, and how far the balls skid where nothing loads them.",
+        "Orbital speed and spin over the kinematic ones; the unloaded balls skid.",
         "lambda-bearing view radial.h5 ball-speeds",
         "radial-ball-speeds.png",
         "6319",
@@ -126,7 +126,7 @@ PICTURES = (
     Picture(
         "pocket-forces",
         "Forces in the cage",
-        "What the balls do to their pockets as they enter and leave the load zone.",
+        "Forces of the balls on their pockets as they enter and leave the load zone.",
         "lambda-bearing view radial.h5 pocket-forces",
         "radial-pocket-forces.png",
         "6319",
@@ -150,7 +150,7 @@ PICTURES = (
     Picture(
         "comparison",
         "Two oils side by side",
-        "The same bearing with two oils: what changes, and by how much.",
+        "Differences between two oils in the same bearing.",
         "lambda-bearing view thin.h5 thick.h5",
         "thin-and-1-more-comparison.png",
         "two oils",
@@ -167,7 +167,7 @@ PICTURES = (
     Picture(
         "sensitivity",
         "What decides",
-        "Sobol' indices: which input decides friction and film, alone and with others.",
+        "Sobol' indices: the effect of each input on friction and film, alone and with others.",
         "lambda-bearing view what-decides sensitivity",
         "what-decides-sensitivity.png",
         "sensitivity",
