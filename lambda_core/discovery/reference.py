@@ -1,4 +1,4 @@
-"""Roles and quantities in pages: `python -m lambda_core.discovery.reference docs/kernels.md docs/plugin-reference.md`."""
+"""Write roles and quantities into pages: `python -m lambda_core.discovery.reference FILE.md ...`."""
 
 from __future__ import annotations
 
