@@ -160,8 +160,8 @@ def _watching() -> list[str]:
     return [
         "## `[observers]` and `[events]`",
         "",
-        "NAME is an observer or event that [a plugin](../plugin-reference.md#channels-and-events-of-your-own) brings; an "
-        "empty table, `[observers.NAME]`, leaves all parameters at their defaults.",
+        "NAME is an observer or event that [a plugin](../plugin-reference.md#channels-and-events-of-your-own) brings; "
+        "an empty table, `[observers.NAME]`, leaves all parameters at their defaults.",
         "",
         *md.table(("option", "default", "meaning"), rows),
     ]
