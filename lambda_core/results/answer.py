@@ -67,7 +67,8 @@ def answers(question: Callable[P, R]) -> Callable[P, R]:
         changes = given.arguments["overrides"] = list(given.arguments.get("overrides", ()))
         found = question(*given.args, **given.kwargs)
         if isinstance(found, Answer) and (case := _case_of(given.arguments[first], changes)) is not None:
-            rest = {name: value for name, value in given.arguments.items() if name not in (first, "overrides")}
+            left = (first, "overrides", "announce")  # a callback for progress cannot go to another process
+            rest = {name: value for name, value in given.arguments.items() if name not in left}
             found._again = partial(_ask_again, asked, first, case, rest)
         return found
 

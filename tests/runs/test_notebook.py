@@ -103,3 +103,9 @@ def test_other_answers_answer_for_a_changed_case() -> None:
     assert course.with_(thermal={"ambient": "30 degC"}).time_s[-1] == course.time_s[-1] == 60.0
     curve = api.stribeck("6208-axial-1300", speeds_rpm=[500.0, 1000.0])
     assert curve.with_(loads={"axial": "2 kN"}).torque_Nmm[0] > curve.torque_Nmm[0]
+
+
+def test_an_answer_goes_to_another_process() -> None:
+    """The builder's helper process sends answers that were asked with a local function for progress."""
+    found = api.estimate(api.check("6208-axial-1300"), announce=lambda _: None)
+    assert pickle.loads(pickle.dumps(found)) == found
