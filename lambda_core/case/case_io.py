@@ -32,6 +32,7 @@ _DEEPEST = 20  # levels of tables and lists
 _LOCATION = re.compile(r"\(at (?:line (\d+), column (\d+)|end of document)\)")
 _BARE_UNIT = re.compile(r"^(\s*[\w.\"-]+\s*=\s*)([+-]?[\d.,]+\s*[A-Za-z/][^#\"]*?)\s*(#.*)?$")
 _LAWS_IN = ("models", "forces", "electric")  # where a program may hand over a law in place of its name
+_SOURCES = "give a file, the name of a built-in case, tables, a case or a machine"
 _FILES = 8  # most names that an error lists
 STAND_IN = "stand-in"  # a bearing where no other is left
 _PIECES = [{"length": "1 m", "diameter": "40 mm"}]
@@ -114,6 +115,8 @@ def read_tables(source: Source, folder: Path | None = None) -> Tables:
     if isinstance(source, Mapping):
         return Tables(dict(source), str(source.get("name", "case")), folder)
     if not isinstance(source, str | PathLike):
+        if not hasattr(source, "written"):
+            raise UsageError(f"{type(source).__name__} is no case: {_SOURCES}")
         return Tables(source.written(), source.name, source.folder)
     path = Path(source)
     if path.is_file():

@@ -21,6 +21,7 @@ import h5py
 import numpy as np
 
 from lambda_core import api
+from lambda_core.model.machine_templates import geared_shaft
 from tests.attacks.trial import Outcome, Trial, attempt
 
 CASE = "6208-axial-1300"
@@ -30,12 +31,16 @@ RUN = (
     *("run", CASE, "--out", "out.h5"),
     *("--set", f"solver.duration={DURATION}", "--set", "output.checkpoint_interval=20 ms"),
 )
+# The same of a machine; its file stands in a folder of its own, see victims.
+MACHINE = "geared-shaft"
+_MACHINE_DURATION = "20 ms"
+OF_MACHINES = "_of_machines"  # how the names of parts about machines end
 _WRITING = 1.2  # times the wall time that the run had its file open, within which it is killed
 # Of the time that the undisturbed run had its file open: when a run is killed in its middle. That time may have been
 # measured on a busier machine, so small shares follow, and all of them several times.
 _SHARES = (0.5, 0.7, 0.3, 0.6, 0.8, 0.4, 0.2, 0.9, 0.1, 0.05, 0.02) * 3
 _TRIES = 4  # at meeting a run that still goes on
-_LIMIT = 60.0  # [s] of wall time for any command on such a file
+LIMIT = 60.0  # [s] of wall time for any command on such a file
 _READS = (
     ("show", "out.h5"),
     ("show", "out.h5", "--json"),
@@ -68,9 +73,17 @@ def _part(folder: Path) -> str:
     return folder.name.partition("-")[0]
 
 
+def command(folder: Path) -> tuple[str, ...]:
+    """Return the run that a part attacks: of one bearing, or of a machine."""
+    if not _part(folder).endswith(OF_MACHINES):
+        return RUN
+    made = made_once(folder, "case", lambda place: (place / "box.toml").write_text(geared_shaft("box")))
+    return ("run", str(made / "box.toml"), *RUN[2:4], "--set", f"solver.duration={_MACHINE_DURATION}", *RUN[6:])
+
+
 def whole(folder: Path) -> Path:
     """Return the result of the run that nobody disturbed."""
-    return made_once(folder, "whole", lambda place: _must(RUN, place)) / "out.h5"
+    return made_once(folder, "whole", lambda place: _must(command(folder), place)) / "out.h5"
 
 
 def half(folder: Path) -> Path:
@@ -94,7 +107,7 @@ def _is_midway(file: Path) -> bool:
 
 
 def _must(arguments: tuple[str, ...], place: Path) -> None:
-    outcome = attempt(arguments, place, 2.0 * _LIMIT, watched=place / "out.h5")
+    outcome = attempt(arguments, place, 2.0 * LIMIT, watched=place / "out.h5")
     if outcome.verdict not in ("fine", "partial"):
         raise RuntimeError(f"{line(arguments)}: {outcome.verdict}: {outcome.said}")
     (place / "open").write_text(str(outcome.open_s), encoding="utf-8")
@@ -111,8 +124,18 @@ def killed_run(seed: int, number: int, folder: Path) -> Said:
         if killed := _kill(folder, pick.uniform(0.0, longest) / 2.0**again):
             break
     if not killed:
-        return Outcome("fine", said="every run was over before it could be killed"), line(RUN), {"met": False}
-    outcome = attempt(("resume", "out.h5"), folder, _LIMIT)
+        return (
+            Outcome("fine", said="every run was over before it could be killed"),
+            line(command(folder)),
+            {"met": False},
+        )
+    return gone_on_with(folder, undisturbed), line(command(folder)), {"met": True}
+
+
+def gone_on_with(folder: Path, undisturbed: Path) -> Outcome:
+    """Go on with a run that was killed, and compare every number with the run that nobody killed."""
+    file = folder / "out.h5"
+    outcome = attempt(("resume", "out.h5"), folder, LIMIT)
     over = outcome.verdict == "usage" and "is finished: nothing is left to do" in outcome.said
     if outcome.verdict not in ("fine", "partial") and not over:
         outcome = outcome.but("lost", "could not be gone on with") if outcome.good else outcome
@@ -120,13 +143,13 @@ def killed_run(seed: int, number: int, folder: Path) -> Said:
         outcome = outcome.but("different", f"not bit for bit: {', '.join(wrong)}")
     elif left := hidden(folder):
         outcome = outcome.but("litter", f"left behind: {', '.join(left)}")
-    return outcome, line(RUN), {"met": True}
+    return outcome
 
 
 def _kill(folder: Path, after_s: float) -> bool:
     """Start the run and kill it so long after it has opened its file [s]; tell whether it still went on."""
-    victim = Trial(RUN, folder)
-    end = time.monotonic() + _LIMIT
+    victim = Trial(command(folder), folder)
+    end = time.monotonic() + LIMIT
     while not (folder / "out.h5").is_file() and time.monotonic() < end:
         time.sleep(0.001)
     time.sleep(after_s)
@@ -189,7 +212,7 @@ def corrupted(seed: int, number: int, folder: Path) -> Said:
     data = bytearray(source.read_bytes())
     _damage(data, pick)
     (folder / "out.h5").write_bytes(data)
-    outcome = attempt(arguments, folder, _LIMIT)
+    outcome = attempt(arguments, folder, LIMIT)
     told = _what_differs(outcome, arguments, folder, before)
     if outcome.good and told:
         outcome = outcome.but("different", told)
@@ -243,13 +266,13 @@ def _drawn(file: Path) -> str:
 def race(seed: int, number: int, folder: Path) -> Said:
     """Let two runs write one file at the same time; the later one has it, the file is whole, nothing is left behind."""
     pick = random.Random(seed * 1_000_003 + number)
-    arguments = ["run", CASE, "--set", "solver.duration=5 ms", "--out", str(folder / "out.h5"), "--force"]
+    arguments = [*command(folder)[:2], "--set", "solver.duration=5 ms", "--out", str(folder / "out.h5"), "--force"]
     one = Trial(arguments, folder / "one")
     time.sleep(pick.uniform(0.0, 0.3))
     other = Trial(arguments, folder / "two")
-    ends = [one.wait(_LIMIT), other.wait(_LIMIT)]
+    ends = [one.wait(LIMIT), other.wait(LIMIT)]
     bad = next((end for end in ends if not end.good), None)
-    shown = attempt(["show", str(folder / "out.h5")], folder / "show", _LIMIT)
+    shown = attempt(["show", str(folder / "out.h5")], folder / "show", LIMIT)
     if bad is None and shown.verdict != "fine":
         bad = shown.but("torn", "the file of two runs is not whole") if shown.good else shown
     if bad is None and (left := hidden(folder)):

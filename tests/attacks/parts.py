@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tests.attacks import cases, damage, disks, guests, hostile, soak, stores, sweeps, visitors
+from tests.attacks import cases, damage, disks, guests, hostile, machines, points, soak, stores, sweeps, visitors
 from tests.attacks.damage import line
 from tests.attacks.record import Record
 from tests.attacks.trial import Outcome, attempt
@@ -50,6 +50,13 @@ PARTS = {
         Part("served", "bursts of 20 hostile requests to the served builder", 50, visitors.visit),
         Part("soak", "a run of 60 simulated seconds, its memory watched", 1, soak.soak),
         Part("races", "two runs on one output", 20, damage.race),
+        Part("points", "runs killed before or behind a write, gone on with, compared", 60, points.killed_at_a_point),
+        Part("kills_of_machines", "machines in motion killed at random times, likewise", 200, damage.killed_run),
+        Part("points_of_machines", "machines in motion killed before or behind a write", 60, points.killed_at_a_point),
+        Part("corruption_of_machines", "damaged results of machines", 100, damage.corrupted),
+        Part("races_of_machines", "two runs of a machine on one output", 20, damage.race),
+        Part("machines", "one hostile value in a machine, circuit, network, duty cycle, fit", 1000, machines.hostile),
+        Part("calls", "calls of the Python API with one hostile argument", 300, machines.call),
     )
 }
 

@@ -1,0 +1,83 @@
+"""Runs killed before or behind one of the calls that write them to their file, gone on with and compared."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+from collections import Counter
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from lambda_core.results import hdf5
+from lambda_core.results.writer import ResultWriter
+from tests.attacks.damage import LIMIT, Said, command, gone_on_with, line, made_once, whole
+from tests.attacks.trial import Trial, attempt
+
+
+def killed_at_a_point(seed: int, number: int, folder: Path) -> Said:
+    """Kill a run before or after one of its writes to the file, go on, and compare."""
+    undisturbed, counts = whole(folder), _counts(folder)
+    pick = random.Random(seed * 1_000_003 + number)
+    name = pick.choice(sorted(counts))
+    call, behind = pick.randrange(counts[name]), pick.random() < 0.5
+    victim = Trial(command(folder), folder, before=partial(_patch, name, call, behind))
+    ended = victim.wait(LIMIT)
+    at = {"point": f"{'after' if behind else 'before'} call {call} of {name}"}
+    if ended.verdict != "killed":
+        return ended.but("missed", f"nothing was killed {at['point']}"), line(command(folder)), at
+    return gone_on_with(folder, undisturbed), line(command(folder)), at
+
+
+def _points() -> dict[str, tuple[Any, str]]:
+    """Return the functions that write a run to its file, by name."""
+    owned = [(ResultWriter, name) for name in ("_put_status", "flush", "save", "close")]
+    owned += [(hdf5, "copy"), (os, "replace")]
+    return {f"{owner.__name__.rsplit('.', 1)[-1]}.{name}": (owner, name) for owner, name in owned}
+
+
+def _counts(folder: Path) -> dict[str, int]:
+    """Return how often an undisturbed run calls each of them once its file is there."""
+
+    def make(place: Path) -> None:
+        attempt(command(folder), place, 2.0 * LIMIT, before=partial(_count, place / "counts"))
+
+    lines = (made_once(folder, "counts", make) / "counts").read_text(encoding="utf-8").splitlines()
+    return dict(Counter(lines))
+
+
+def _count(log: Path) -> None:
+    """Write a line for each call, in the process that runs."""
+    for name, (owner, attribute) in _points().items():
+        setattr(owner, attribute, _counted(getattr(owner, attribute), name, log))
+
+
+def _counted(function: Callable[..., Any], name: str, log: Path) -> Callable[..., Any]:
+    def call(*arguments: Any, **options: Any) -> Any:
+        if Path("out.h5").exists():
+            with log.open("a", encoding="utf-8") as file:
+                file.write(f"{name}\n")
+        return function(*arguments, **options)
+
+    return call
+
+
+def _patch(name: str, number: int, behind: bool) -> None:
+    """Kill the process that runs before or behind the call of that number, counted once its file is there."""
+    owner, attribute = _points()[name]
+    function, seen = getattr(owner, attribute), [0]
+
+    def call(*arguments: Any, **options: Any) -> Any:
+        if not Path("out.h5").exists():
+            return function(*arguments, **options)
+        seen[0] += 1
+        if seen[0] <= number:
+            return function(*arguments, **options)
+        if behind:
+            function(*arguments, **options)
+        os.kill(os.getpid(), signal.SIGKILL)
+        raise AssertionError("killed")
+
+    setattr(owner, attribute, call)
