@@ -351,6 +351,8 @@ def overridden(data: Mapping[str, Any], overrides: Iterable[str], root: type[Bas
     """
     tables = dict(data)
     for text in overrides:
+        if not isinstance(text, str):
+            raise UsageError(f'{text!r} is no change: write path=value, for example loads.radial="20 kN"')
         path, equals, value = text.partition("=")
         parts = [part.strip() for part in path.split(".")]
         if not equals or not all(parts):

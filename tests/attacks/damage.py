@@ -22,6 +22,7 @@ import numpy as np
 
 from lambda_core import api
 from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.results import hdf5
 from tests.attacks.trial import Outcome, Trial, attempt
 
 CASE = "6208-axial-1300"
@@ -168,7 +169,7 @@ def differences(one: Path, other: Path) -> list[str]:
     Left out are only wall times, the day, checkpoints, and references from one dataset to another.
     """
     found: list[str] = []
-    with h5py.File(one, "r") as a, h5py.File(other, "r") as b:
+    with hdf5.open_for_reading(one) as a, hdf5.open_for_reading(other) as b:
         names: list[list[str]] = [[], []]
         for file, its in zip((a, b), names, strict=True):
             file.visit(its.append)

@@ -174,7 +174,7 @@ _CALLS: dict[str, Callable[[Any], object]] = {
     "a result": api.result,
     "resume": api.resume,
     "a duty cycle": api.duty,
-    "a study": api.study,
+    "what a study varies": lambda odd: api.study("6208-axial-1300", odd),
     "a fit": lambda odd: api.fit("6208-axial-1300", odd, ["loss_factor"]),
     "what a fit varies": lambda odd: api.fit("6208-axial-1300", "rig.csv", odd),
     "a bearing's speed": lambda odd: api.quasistatic("6208-axial-1300", {"operation.speed": odd}),
@@ -188,11 +188,14 @@ _CALLS: dict[str, Callable[[Any], object]] = {
 
 
 def _called(name: str, odd: Any) -> None:
-    """Make one call and end the process as the command would: 0, 3 for an invalid case, 4 without a solution."""
+    """Make one call and end the process as the command would: 0, 3 for an invalid case, 4 without a solution.
+
+    A TypeError is Python's word for an argument of another type than the declared one.
+    """
     code = 0
     try:
         _CALLS[name](odd)
-    except LambdaError as error:
+    except (LambdaError, TypeError) as error:
         sys.stderr.write(f"{error}\n")
         code = 3 if isinstance(error, CaseError) else 4 if isinstance(error, SolverError) else 2
     sys.stdout.flush()

@@ -63,7 +63,7 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
         report, done = taken
         moving += done
     log.warning(
-        "the axial velocities of the balls differ from their paths by %.2g %% of the largest (%g %% are allowed): the "
+        "the axial velocities of the balls differ from their paths by %.0f %% of the largest (%g %% are allowed): the "
         "friction of this equilibrium is less exact",
         100.0 * change / across,
         100.0 * PATH_TOLERANCE,
