@@ -2,7 +2,8 @@
 
 Draws bearings of all kinds, 1 to 20 000 1/min, oils, 20 to 90 degC, and radial, axial or combined loads from 1 to 25 %
 of the basic dynamic rating (self-aligning and double-row bearings included). Every point has a quasi-static solution
-with friction, or a sentence that says why not. Prints the points without one; exit code 1 where there are any.
+with friction, or is refused as a case with the reason. Prints the points without a solution; exit code 1 where one was
+not refused.
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ def points(count: int, seed: int = SEED) -> Iterator[Point]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Solve the points; print a line for each without a solution, then the counts."""
+    """Solve the points; print a line for each that is refused or has no solution, then the counts."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.static_points", description=__doc__)
     parser.add_argument("--count", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=SEED)
@@ -80,8 +81,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         spent = time.process_time() - begun
         outcomes[outcome] += 1
         slowest = max(slowest, spent)
-        if outcome == "no solution":
-            print(f"{number}: {point.bearing} ({point.kind}) {' '.join(point.changes)}: {sentence}", flush=True)
+        if outcome != "solved":
+            changes = " ".join(point.changes)
+            print(f"{number}: {point.bearing} ({point.kind}) {changes}: {outcome}, {sentence}", flush=True)
     told = ", ".join(f"{count} {outcome}" for outcome, count in outcomes.items())
     print(f"{options.count} points: {told}; slowest {slowest:.1f} s of processor time")
     return 1 if outcomes["no solution"] else 0
