@@ -25,6 +25,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.export.stiffness import write_stiffness
     from lambda_core.fitting.fit_case import fit
     from lambda_core.fitting.measured import compare_measured
+    from lambda_core.fitting.traction_curve import traction
     from lambda_core.model.cases import builtin_cases, case, catalogue, init_case, save, schema
     from lambda_core.model.checking import check, describe
     from lambda_core.runs.answers import cite, compare, result, side_by_side, summary

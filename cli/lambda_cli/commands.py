@@ -55,6 +55,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "modes": ("lambda_cli.quasistatic:modes", "Critical speeds and natural frequencies of a machine."),
     "stribeck": ("lambda_cli.stribeck:stribeck", "Friction torque over speed, compared with SKF's model."),
     "fit": ("lambda_cli.fit:fit", "Fit parameters of a case to measured operating points."),
+    "traction": ("lambda_cli.traction:traction", "Traction of an oil over slide-roll ratio."),
     "measured": ("lambda_cli.measured:app", "Measured series, compared with the program."),
     "thermal": ("lambda_cli.thermal:thermal", "Temperatures of a bearing by its own losses."),
     "electric-map": ("lambda_cli.electric:risk_map", "Discharges over speed and temperature."),

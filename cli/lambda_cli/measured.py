@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import ForceOption, JsonOption
+from lambda_cli.options import BandOption, Bands, ForceOption, JsonOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 from lambda_core.domain.wrapping import wrapped
 
@@ -52,7 +52,7 @@ def add(
 @app.command()
 def compare(
     names: NamesArgument = None,
-    band: Annotated[bool, typer.Option("--band/--no-band", help="Compute the 90 % model band.")] = True,
+    band: BandOption = Bands.MODEL,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
@@ -61,7 +61,7 @@ def compare(
     from lambda_core import api
 
     with talk(progress, quiet) as speaker:
-        found = api.compare_measured(names or (), band=band, announce=speaker.say)
+        found = api.compare_measured(names or (), band=band is Bands.MODEL, announce=speaker.say)
     if as_json:
         typer.echo(found.model_dump_json(indent=2))
     else:

@@ -67,6 +67,7 @@ UNITS: dict[str, dict[str, float]] = {
     "capacitance": {"pF": 1e-12, "nF": 1e-9, "uF": 1e-6, "F": 1.0},
     "field_strength": {"V/um": 1e6, "kV/mm": 1e6, "MV/m": 1e6, "V/mm": 1e3, "V/m": 1.0},
     "conductivity": {"S/m": 1.0, "pS/m": 1e-12, "nS/m": 1e-9, "uS/m": 1e-6},
+    "ratio": {"-": 1.0, "%": 1e-2},
     "number_density": {"1/mm3": 1e9, "1/m3": 1.0},
 }
 

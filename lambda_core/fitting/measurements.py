@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lambda_core.analysis.band.quantities import CONDITIONS, ERROR, LABEL, MEASURED
+from lambda_core.analysis.band.quantities import ERROR, LABEL, OPERATING_POINTS, Vocabulary
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
@@ -22,7 +22,6 @@ from lambda_core.domain.units import from_si, misread, parse, units_of
 _LARGEST = 4 * 2**20  # [byte] of a file
 _MOST_ROWS = 2000
 _HEADER = re.compile(r"^\s*(.*?)\s*(?:\[\s*(.*?)\s*\])?\s*$")
-_EXAMPLE = '"speed [1/min],radial load [kN],friction torque [N mm]"'
 _SHARE = "%"  # unit of an error as a share of the value
 
 
@@ -43,7 +42,7 @@ class Measurements:
     condition_errors : dict of str to float64[:]
         Their standard deviations in SI; absent where they are exact.
     measured : dict of str to float64[:]
-        Measured quantities in the units of `quantities.MEASURED`; NaN where one was not measured.
+        Measured quantities in the units of the vocabulary; NaN where one was not measured.
     errors : dict of str to float64[:]
         Standard deviations in the same units.
     shares : dict of str to float64[:]
@@ -75,11 +74,18 @@ class _Column:
     header: str
 
 
-def read_measurements(path: str | Path) -> Measurements:
+def read_measurements(path: str | Path, words: Vocabulary = OPERATING_POINTS) -> Measurements:
     """Read measured operating points.
 
     The first line names the columns with their units, for example ``speed [1/min]``. A column whose name ends in
     ``error`` holds standard deviations, in a unit or in %. Lines that start with # are comments.
+
+    Parameters
+    ----------
+    path : path-like
+        CSV file in UTF-8.
+    words : Vocabulary
+        Names of columns; by default those of operating points of a bearing.
 
     Raises
     ------
@@ -95,24 +101,24 @@ def read_measurements(path: str | Path) -> Measurements:
         raise CaseError(file.name, [Problem("", "is not UTF-8 text: save it as CSV in UTF-8")]) from None
     except OSError as error:
         raise UsageError(f'cannot read "{file}": {error.strerror}') from None
-    return parse_measurements(text, file.name)
+    return parse_measurements(text, file.name, words)
 
 
-def parse_measurements(text: str, name: str) -> Measurements:
+def parse_measurements(text: str, name: str, words: Vocabulary = OPERATING_POINTS) -> Measurements:
     """Read measured operating points from text; CaseError with every mistake."""
     problems: list[Problem] = []
     rows = list(_rows(text.removeprefix("\ufeff"), problems))
     if problems or not rows:
-        raise CaseError(name, problems or [Problem("line 1", f"is empty: write a header, for example {_EXAMPLE}")])
+        raise CaseError(name, problems or [Problem("line 1", f"is empty: write a header, for example {words.example}")])
     (head, header), *body = rows
-    columns = _columns(head, header, problems)
+    columns = _columns(head, header, problems, words)
     if not body:
         problems.append(Problem(f"line {head}", "no measured point follows the header"))
     if len(body) > _MOST_ROWS:
         problems.append(Problem(f"line {body[_MOST_ROWS][0]}", f"has more than {_MOST_ROWS} points: average them"))
     if problems:
         raise CaseError(name, problems)
-    table = [_values(line, cells, columns, problems) for line, cells in body]
+    table = [_values(line, cells, columns, problems, words) for line, cells in body]
     if problems:
         raise CaseError(name, problems)
     return _measurements(name, text, [line for line, _ in body], columns, table, problems)
@@ -137,12 +143,12 @@ def _rows(text: str, problems: list[Problem]) -> Iterator[tuple[int, list[str]]]
         yield line, [cell.strip() for cell in cells]
 
 
-def _columns(line: int, header: list[str], problems: list[Problem]) -> list[_Column]:
+def _columns(line: int, header: list[str], problems: list[Problem], words: Vocabulary) -> list[_Column]:
     """Return what the columns hold."""
     found: list[_Column] = []
     for number, text in enumerate(header, 1):
         where = f"line {line}, column {number}"
-        column = _column(text, where, problems)
+        column = _column(text, where, problems, words)
         if column is None:
             continue
         if any((column.kind, column.name) == (other.kind, other.name) for other in found):
@@ -152,7 +158,7 @@ def _columns(line: int, header: list[str], problems: list[Problem]) -> list[_Col
         return found
     names = {(column.kind, column.name) for column in found}
     if not any(kind == "measured" for kind, _ in names):
-        listed = ", ".join(MEASURED)
+        listed = ", ".join(words.measured)
         problems.append(Problem(f"line {line}", f"has no measured quantity: add a column named {listed}"))
     for column in found:
         owner = "measured" if column.kind in ("error", "share") else "condition"
@@ -163,21 +169,22 @@ def _columns(line: int, header: list[str], problems: list[Problem]) -> list[_Col
     return found
 
 
-def _column(text: str, where: str, problems: list[Problem]) -> _Column | None:
+def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabulary) -> _Column | None:
     """Return what one column holds, None after a mistake."""
+    conditions, measured = vocabulary.conditions, vocabulary.measured
     match = _HEADER.match(text)
     words, unit = (match[1].casefold(), match[2]) if match else ("", None)
     if words == LABEL:
         return _Column("label", LABEL, "", "", text)
     name, is_error = words.removesuffix(ERROR), words.endswith(ERROR)
-    known = [*CONDITIONS, *MEASURED]
+    known = [*conditions, *measured]
     if name not in known:
         close = nearest(name, known) or known
         problems.append(Problem(where, f'"{text}" is not a known column; nearest: {", ".join(close)}'))
         return None
-    quantity = CONDITIONS[name].quantity if name in CONDITIONS else MEASURED[name].quantity
-    if is_error and name in CONDITIONS:
-        quantity = CONDITIONS[name].error_quantity
+    quantity = conditions[name].quantity if name in conditions else measured[name].quantity
+    if is_error and name in conditions:
+        quantity = conditions[name].error_quantity
     units = units_of(quantity)
     if unit is None:
         first = next(iter(units))
@@ -185,20 +192,22 @@ def _column(text: str, where: str, problems: list[Problem]) -> _Column | None:
             Problem(where, f'"{text}" has no unit: write "{words} [{first}]" (allowed: {", ".join(units)})')
         )
         return None
-    if unit == _SHARE and is_error and name in MEASURED:
+    if unit == _SHARE and is_error and name in measured:
         return _Column("share", name, unit, "", text)
     try:
         parse(f"1 {unit}", quantity)
     except ValueError as error:
         problems.append(Problem(where, f'"{text}": {str(error).split(": ", 1)[-1]}'))
         return None
-    kind = "condition" if name in CONDITIONS else "measured"
+    kind = "condition" if name in conditions else "measured"
     return _Column(
-        ("condition error" if name in CONDITIONS else "error") if is_error else kind, name, unit, quantity, text
+        ("condition error" if name in conditions else "error") if is_error else kind, name, unit, quantity, text
     )
 
 
-def _values(line: int, cells: list[str], columns: list[_Column], problems: list[Problem]) -> list[float | str]:
+def _values(
+    line: int, cells: list[str], columns: list[_Column], problems: list[Problem], words: Vocabulary
+) -> list[float | str]:
     """Return the values of one line."""
     if len(cells) != len(columns):
         comma = (
@@ -206,11 +215,11 @@ def _values(line: int, cells: list[str], columns: list[_Column], problems: list[
         )
         problems.append(Problem(f"line {line}", f"has {len(cells)} cells, the header {len(columns)}{comma}"))
         return []
-    return [_value(f"line {line}, column {n}", cell, column, problems) for n, (cell, column) in enumerate(
+    return [_value(f"line {line}, column {n}", cell, column, problems, words) for n, (cell, column) in enumerate(
         zip(cells, columns, strict=True), 1)]  # fmt: skip
 
 
-def _value(where: str, cell: str, column: _Column, problems: list[Problem]) -> float | str:
+def _value(where: str, cell: str, column: _Column, problems: list[Problem], words: Vocabulary) -> float | str:
     """Return one value: a condition in SI, a measured quantity in the unit in which it is fitted."""
     if column.kind == "label":
         return cell
@@ -235,7 +244,8 @@ def _value(where: str, cell: str, column: _Column, problems: list[Problem]) -> f
             message = f'"{cell}" is not a number: write it without quotes, units or words'
         problems.append(Problem(where, f"{column.header}: {message}"))
         return math.nan
-    return from_si(value, column.quantity, MEASURED[column.name].unit) if column.name in MEASURED else value
+    known = words.measured
+    return from_si(value, column.quantity, known[column.name].unit) if column.name in known else value
 
 
 def _measurements(

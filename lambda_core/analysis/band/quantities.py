@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 
@@ -67,5 +68,25 @@ MEASURED: dict[str, Measured] = {
     "displacement y": Measured("inner_ring_displacement_um.y", "small_length", "um"),
     "displacement z": Measured("inner_ring_displacement_um.z", "small_length", "um"),
 }
+
+
+@dataclass(frozen=True)
+class Vocabulary:
+    """Names that the columns of a file may have.
+
+    Attributes
+    ----------
+    conditions, measured : mapping
+        By name; at least one column of a file is measured.
+    example : str
+        A header, for messages.
+    """
+
+    conditions: Mapping[str, Condition]
+    measured: Mapping[str, Measured]
+    example: str
+
+
+OPERATING_POINTS = Vocabulary(CONDITIONS, MEASURED, '"speed [1/min],radial load [kN],friction torque [N mm]"')
 ERROR = " error"  # ends the name of a column of errors
 LABEL = "label"  # a column of words, kept for tables
