@@ -10,6 +10,7 @@ import pytest
 from lambda_gui.summary_view import summary_view
 
 from lambda_core import api
+from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium
 from lambda_core.export.report.key_tables import key_figures, run_figures
 from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.quantity import quantities, quantity
@@ -84,5 +85,7 @@ def test_a_new_number_of_an_equilibrium_is_everywhere(monkeypatch: pytest.Monkey
 
 
 def test_numbers_that_are_placed_by_hand_exist() -> None:
-    declared = {name for kind in (Summary, BearingSummary, QuasiStatic, Rating) for name in quantities(kind)}
+    declared = {
+        name for kind in (Summary, BearingSummary, QuasiStatic, Rating, BearingEquilibrium) for name in quantities(kind)
+    }
     assert declared >= PLACED

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.number_text import hours, number
+from lambda_core.domain.number_text import hours, hours_alone, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import show
 from lambda_core.results.bearing_summary import BearingSummary
@@ -164,34 +164,55 @@ def given_values(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> Tab
     return Table("", ("", "value", "source"), rows)
 
 
-def machine_figures(found: Any, units: UnitSystem = SI) -> Table:
-    """Return the key numbers of the bearings of a machine, a column for each."""
-    each = found.bearings
-    head = ("", *(one.name for one in each))
+def machine_figures(found: Any, units: UnitSystem = SI, run: Any = None) -> Table:
+    """Return the key numbers of the bearings of a machine, a column for each and one for all of them.
 
-    def row(name: str) -> tuple[str, ...]:
-        one = quantity_of(each[0], name)
-        values = (getattr(bearing, name) for bearing in each)
-        shown = [None if value is None else units.value(value, one.unit) for value in values]
-        return (f"{one.label} {units.unit(one.unit)}".rstrip(), *(rounded(value, one.digits) for value in shown))
+    Parameters
+    ----------
+    found : MachineEquilibrium
+        Loads, lives and films.
+    run : Summary, optional
+        Of a run: friction and losses are its averages.
+    """
+    each = found.bearings
+    moving = [run.bearings[one.name] for one in each] if run is not None else each
+    total = run if run is not None else found
+    power = [one.power_loss_W for one in moving]
+    known = [value for value in power if value is not None]
+    all_power = getattr(total, "power_loss_W", sum(known) if len(known) == len(power) else None)
+
+    def row(name: str, owners: Sequence[Any] = each, last: float | None = None) -> tuple[str, ...]:
+        one = quantity_of(owners[0], name)
+        cells = [getattr(bearing, name) for bearing in owners] + ([] if last is None else [last])
+        shown = [None if value is None else units.value(value, one.unit) for value in cells]
+        head = f"{one.label} {units.unit(one.unit)}".rstrip()
+        return (head, *(rounded(value, one.digits) for value in shown), *([""] if last is None else []))
+
+    def band(name: str, unit: str, label: str) -> list[tuple[str, ...]]:
+        ends = [getattr(one, f"{name}_band", []) for one in (*moving, total)]
+        cells = ("..".join(rounded(units.value(end, unit), 3) for end in own) for own in ends)
+        return [(f"  {label}, 90 % model band", *cells)] if any(ends) else []
 
     rows = [
-        ("bearing", *(one.title for one in each)),
+        ("bearing", *(one.title for one in each), ""),
         row("position_mm"),
         row("radial_load_N"),
         row("axial_load_N"),
         *(
-            (f"{symbol}, {standard}", *(_life(_every_life(one)[i][3]) for one in each))
+            (f"{symbol}, {standard}", *(_life(_every_life(one)[i][3]) for one in each),
+             _life(found.system_life_h) if symbol == "L10rh" else "")
             for i, (_, symbol, standard, _) in enumerate(_every_life(each[0]))
         ),
         row("static_safety"),
-        row("max_pressure_GPa"),
-        row("friction_torque_Nmm"),
-        row("power_loss_W"),
-        ("film um", *("..".join(rounded(v, 2) for v in one.film_um) for one in each)),
-    ]
-    life = _life(found.system_life_h)
-    return Table(f"life of all bearings together (L10rh, 90 %): {life}", head, tuple(rows))
+        row("max_pressure_GPa", moving),
+        row("friction_torque_Nmm", moving, total.friction_torque_Nmm),
+        *band("friction_torque_Nmm", "N mm", "torque"),
+        row("power_loss_W", moving, all_power),
+        *band("power_loss_W", "W", "loss"),
+        (f"film {units.unit('um')}", *("..".join(rounded(units.value(v, "um"), 2) for v in one.film_um)
+                                       for one in moving), ""),
+    ]  # fmt: skip
+    return Table("loads, lives and losses", ("", *(one.name for one in each), "all bearings"), tuple(rows))
 
 
 def machine_reactions(found: Any, units: UnitSystem = SI) -> Table:
@@ -300,7 +321,8 @@ def contacts(summary: Any, units: UnitSystem = SI) -> Table:
     rows = tuple(
         (
             str(c.ball), c.ring, f"{c.azimuth_deg:.1f}", f"{units.value(c.load_N, 'N'):.1f}",
-            number(c.contact_angle_deg, 2), in_unit("", c.film_um, "um", units)[1], written(c.capacitance_pF),
+            number(c.contact_angle_deg, 2), rounded(None if c.film_um is None else units.value(c.film_um, "um")),
+            rounded(c.capacitance_pF),
         )
         for c in summary.contacts
         if c.load_N > _LEAST_LOAD * most
@@ -336,13 +358,20 @@ def study_points(table: StudyTable, units: UnitSystem = SI) -> Table:
     rows = tuple(
         (
             str(row["point"]),
-            *(in_unit("", row[c.name], c.unit, units)[1] for c in columns),
+            *(_cell(row[c.name], c.unit, units) for c in columns),
             f"{row['state']}: {row['reason']}" if row["reason"] else row["state"],
         )
         for row in shown
     )
     left = f" (the first {_ROWS} of {len(table)})" if len(table) > _ROWS else ""
     return Table(f"points{left}", head, rows)
+
+
+def _cell(value: Any, unit: str, units: UnitSystem) -> str:
+    """Write a number of a point: a life as a life, others to four digits."""
+    if not isinstance(value, float):
+        return written(value)
+    return hours_alone(value) if unit == "h" else rounded(units.value(value, unit), 4)
 
 
 def value_tables(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> tuple[Table, ...]:

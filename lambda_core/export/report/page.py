@@ -98,7 +98,7 @@ def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) ->
         }
         sketch = shaft_sketch(model, sizes, units)  # type: ignore[arg-type]
         if found is not None:
-            overview = (machine_figures(found[1], units), machine_reactions(found[1], units))
+            overview = (machine_figures(found[1], units, summary), machine_reactions(found[1], units))
             shown = machine_drawings(registry, *found, cover)
     tables = [run_figures(summary, units)] if alone is not None else []
     for one in summary.bearings.values():
@@ -106,7 +106,7 @@ def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) ->
     return Chapter(
         kind="run",
         title=result.title,
-        subtitle=f"{summary.case}   {result.path.name}   {result.created}",
+        subtitle=f"{result.path.name}   {result.created[:16].replace('T', ' ')}",
         state="converged" if summary.converged else "not converged",
         good=summary.converged,
         bearings=run_bearings(result, units),
@@ -167,6 +167,7 @@ def study_chapter(
         if count
     ]
     tables = [study_points(table, cover.units)]
+    pictures = _pictures(registry, table, "study", cover, all_of_them=True)
     if status.best is not None:
         units = table.units()
         rows = tuple(in_unit(name, value, units.get(name, ""), cover.units) for name, value in status.best.items())
@@ -181,7 +182,7 @@ def study_chapter(
         reasons=tuple(status.reasons),
         figures=figures,
         overview=tuple(tables),
-        shown=tuple(_pictures(registry, table, "study", cover, all_of_them=True)),
+        shown=tuple(picture for picture in pictures if picture.svg or cover.appendices),
         inputs=inputs,
         definition=definition,
     )
