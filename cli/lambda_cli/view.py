@@ -32,6 +32,10 @@ def view(
     options: Annotated[
         list[str] | None, typer.Option("--set", metavar="OPTION=VALUE", help="Option of the view (see --list).")
     ] = None,
+    measured: Annotated[
+        Path | None,
+        typer.Option("--measured", metavar="FILE.csv", help='Measured signal, for the view "vibration".'),
+    ] = None,
     bearing: BearingOption = None,
     shown: Annotated[
         bool, typer.Option("--show", help="Print the pictures in a terminal with kitty's graphics or sixel; no files.")
@@ -51,6 +55,8 @@ def view(
         return
     sources, name = _sorted_out(words or [])
     chosen = dict(_pairs(options or []))
+    if measured is not None:
+        chosen, name = {**chosen, "measured": str(measured)}, name or "vibration"
     kind = picture_kind() if shown and not as_json else None
     if not (as_json or kind or out.is_file()):  # of a file the drawing says what it would write instead
         check_folder(out, made=True)

@@ -20,7 +20,6 @@ from lambda_core.domain.files import read_text
 from lambda_core.domain.units import from_si, misread, parse, units_of
 
 _LARGEST = 4 * 2**20  # [byte] of a file
-_MOST_ROWS = 2000
 _HEADER = re.compile(r"^\s*(.*?)\s*(?:\[\s*(.*?)\s*\])?\s*$")
 _SHARE = "%"  # unit of an error as a share of the value
 
@@ -114,8 +113,8 @@ def parse_measurements(text: str, name: str, words: Vocabulary = OPERATING_POINT
     columns = _columns(head, header, problems, words)
     if not body:
         problems.append(Problem(f"line {head}", "no measured point follows the header"))
-    if len(body) > _MOST_ROWS:
-        problems.append(Problem(f"line {body[_MOST_ROWS][0]}", f"has more than {_MOST_ROWS} points: average them"))
+    if len(body) > words.most:
+        problems.append(Problem(f"line {body[words.most][0]}", f"has more than {words.most} points: average them"))
     if problems:
         raise CaseError(name, problems)
     table = [_values(line, cells, columns, problems, words) for line, cells in body]

@@ -80,11 +80,14 @@ class Vocabulary:
         By name; at least one column of a file is measured.
     example : str
         A header, for messages.
+    most : int
+        Largest number of lines.
     """
 
     conditions: Mapping[str, Condition]
     measured: Mapping[str, Measured]
     example: str
+    most: int = 2000
 
 
 OPERATING_POINTS = Vocabulary(CONDITIONS, MEASURED, '"speed [1/min],radial load [kN],friction torque [N mm]"')

@@ -28,6 +28,7 @@ def register_views(register: Callable[[View], None]) -> None:
         ring,
         ring_shape,
         study,
+        vibration,
     )
 
     for module in (
@@ -47,6 +48,7 @@ def register_views(register: Callable[[View], None]) -> None:
         machine,
         operating_point,
         channel,
+        vibration,
         comparison,
         study,
     ):

@@ -1,0 +1,192 @@
+"""The vibration of a ring, as a sensor sees it: over time, its spectrum, and the spectrum of its envelope."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.analysis.band.quantities import Condition, Measured, Vocabulary
+from lambda_core.domain.channels import DIMENSIONS
+from lambda_core.domain.errors import UsageError
+from lambda_core.fitting.measurements import read_measurements
+from lambda_core.plugins import (
+    Axis,
+    FloatArray,
+    Mark,
+    NotApplicable,
+    Options,
+    Panel,
+    RunData,
+    Series,
+    View,
+    ViewData,
+)
+from lambda_plugins.views.common import BODY, averaging, integration, source, spectrum, speeds, trace
+
+_STILL = 1e-12  # [m] below this a ring does not move
+_WIDTH = 3.5  # times the highest characteristic frequency: end of the spectra
+_ENVELOPE = 1.0  # times the highest characteristic frequency: low end of the band whose envelope is taken
+_MOST = 200_000  # lines of a measured signal
+# How often the position is differentiated; unit and its size in SI.
+_MOTIONS = {"displacement": ("um", 1e-6), "velocity": ("mm/s", 1e-3), "acceleration": ("m/s2", 1.0)}
+COLUMNS = Vocabulary(
+    {"time": Condition("", "time", "time")},
+    {
+        "displacement": Measured("", "small_length", "um"),
+        "velocity": Measured("", "velocity", "mm/s"),
+        "acceleration": Measured("", "acceleration", "m/s2"),
+    },
+    '"time [s],acceleration [m/s2]"',
+    _MOST,
+)
+
+
+class VibrationOptions(Options):
+    """What a sensor measures, and where."""
+
+    motion: Literal["displacement", "velocity", "acceleration"] = Field("acceleration", description="what is shown")
+    place: Literal["housing", "shaft"] = Field("shaft", description="outer ring with its housing, or inner ring")
+    axis: Literal["x", "y", "z"] = Field("z", description="along the shaft, horizontal, vertical")
+    above: float = Field(
+        0.0, ge=0.0, description="low end of the band of the envelope [Hz]; 0: the highest defect frequency"
+    )
+    measured: str = Field("", description='CSV file of a measured signal: "time [s]" and the motion with its unit')
+
+
+@dataclass(frozen=True)
+class _Signal:
+    name: str
+    time: FloatArray  # [s], evenly spaced
+    values: FloatArray  # in the unit of the motion
+    role: str
+
+
+def envelope(time: FloatArray, values: FloatArray, low: float) -> FloatArray:
+    """Return the envelope of the part of a signal above a frequency: the size of its analytic signal.
+
+    Parameters
+    ----------
+    time, values : float64[:], shape (n,)
+        Evenly spaced.
+    low : float
+        [Hz].
+
+    References
+    ----------
+    Randall and Antoni 2011, Mech. Syst. Signal Process. 25, 485, section 5.
+    """
+    n = values.size
+    parts = np.fft.fft(values - values.mean())
+    frequency = np.fft.fftfreq(n, float(time[-1] - time[0]) / (n - 1))
+    return np.abs(np.fft.ifft(np.where(frequency >= low, 2.0 * parts, 0.0)))
+
+
+def vibration(run: RunData, options: VibrationOptions) -> ViewData:
+    """Show displacement, velocity or acceleration over time, its spectrum and that of its envelope."""
+    span = averaging(run)
+    unit, _ = _MOTIONS[options.motion]
+    own = _computed(run, options, span.rows(run["time"]))
+    signals = [own, _read(options)] if options.measured else [own]
+    marks = speeds(run, span).frequencies()
+    highest = max(marks.values())
+    low = options.above or _ENVELOPE * highest
+    if not low < 0.5 / (own.time[1] - own.time[0]):
+        raise UsageError(f"view vibration: above={low:g} Hz is beyond what the samples hold: choose a lower one")
+    lines = tuple(Mark(name, value, "x") for name, value in marks.items() if value > 0.0)
+    end = max(_WIDTH * highest, 1.5 * low)
+    panels = (
+        _over_time(signals, options.motion, unit),
+        _spectra("spectrum", [(s, s.values) for s in signals], unit, end, lines),
+        _spectra(
+            "spectrum of the envelope", [(s, envelope(s.time, s.values, low)) for s in signals], unit,
+            _WIDTH * highest, (*lines, *_sidebands(marks)),
+        ),
+    )  # fmt: skip
+    words = "BPFI - shaft and BPFI + shaft: sidebands of a defect that turns through the loaded zone"
+    notes = (
+        f"{options.motion} of the {options.place} along {options.axis} over {span.words}; Hann window",
+        f"envelope of all above {low:.4g} Hz; {words}",
+        *integration(run, 0.5 / (own.time[1] - own.time[0])),
+    )
+    return ViewData("vibration", f"{options.motion.capitalize()} of the {options.place}", source(run), panels, 1, notes)
+
+
+def _computed(run: RunData, options: VibrationOptions, rows: slice) -> _Signal:
+    """Return the signal of a run; acceleration by differences of the velocity."""
+    body, k = BODY["outer" if options.place == "housing" else "inner"], DIMENSIONS["axis"].index(options.axis)
+    time, place = run["time"][rows], run["body_position"][rows, body, k]
+    if place.size < 3 or np.ptp(place) <= _STILL:
+        remedy = (
+            "let it move, for example with outer_ring.z = a stiffness and damping"
+            if options.place == "housing"
+            else "choose another axis"
+        )
+        raise NotApplicable(f"the {options.place} does not move along {options.axis} in the averaging window: {remedy}")
+    values = place - place.mean()
+    if options.motion != "displacement":
+        values = run["body_velocity"][rows, body, k]
+    if options.motion == "acceleration":
+        values = np.gradient(values, time)
+    role = "outer" if options.place == "housing" else "inner"
+    return _Signal("computed", time, values / _MOTIONS[options.motion][1], role)
+
+
+def _read(options: VibrationOptions) -> _Signal:
+    """Return a measured signal, from time 0 on."""
+    data = read_measurements(Path(options.measured), COLUMNS)
+    if options.motion not in data.measured or "time" not in data.conditions:
+        unit = _MOTIONS[options.motion][0]
+        raise UsageError(f'{data.name}: the columns "time [s]" and "{options.motion} [{unit}]" are needed')
+    time, values = data.conditions["time"], data.measured[options.motion]
+    steps = np.diff(time)
+    if time.size < 2 or not np.all(steps > 0.0) or np.ptp(steps) > 0.01 * steps.mean():
+        raise UsageError(f"{data.name}: the times of a signal must be evenly spaced and rise")
+    return _Signal(data.name, time - time[0], values, "reference")
+
+
+def _over_time(signals: list[_Signal], motion: str, unit: str) -> Panel:
+    """Return the signals, each from its beginning on, as long as the shorter one."""
+    length = min(float(s.time[-1] - s.time[0]) for s in signals)
+    series = []
+    for s in signals:
+        since = s.time - s.time[0]
+        shown = since <= length
+        series.append(trace(s.name, 1e3 * since[shown], (s.values - s.values.mean())[shown], s.role))
+    return Panel("over time", Axis("time", "ms"), Axis(motion, unit), tuple(series))
+
+
+def _spectra(
+    title: str, signals: list[tuple[_Signal, FloatArray]], unit: str, end: float, marks: tuple[Mark, ...]
+) -> Panel:
+    series = []
+    for one, values in signals:
+        frequency, amplitude = spectrum(one.time, values)
+        shown = frequency <= end
+        series.append(Series(one.name, frequency[shown], amplitude[shown], "line", one.role))
+    return Panel(
+        title, Axis("frequency", "Hz", low=0.0, high=end), Axis("amplitude", unit, low=0.0), tuple(series), marks
+    )
+
+
+def _sidebands(marks: dict[str, float]) -> tuple[Mark, ...]:
+    """Return the sidebands that the load zone makes of a defect of the inner ring."""
+    inner, shaft = marks["BPFI"], marks["shaft"]
+    return (Mark("BPFI - shaft", inner - shaft, "x"), Mark("BPFI + shaft", inner + shaft, "x"))
+
+
+VIEWS = (
+    View(
+        "vibration",
+        "displacement, velocity or acceleration of shaft or housing; spectrum, envelope; measured signal",
+        "result",
+        vibration,
+        VibrationOptions,
+        reference="Randall and Antoni 2011, Mech. Syst. Signal Process. 25, 485",
+        offered=lambda run: False,
+        view_api=1,
+    ),
+)

@@ -1,0 +1,65 @@
+"""Vibration as a sensor sees it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lambda_plugins.views.common import spectrum
+from lambda_plugins.views.vibration import envelope
+
+from lambda_core import api
+from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.plugins import NotApplicable
+from lambda_core.results.reader import Result
+
+
+def test_the_envelope_of_a_modulated_carrier_is_its_modulation() -> None:
+    """(1 + m cos(2 pi f t)) cos(2 pi F t) has the envelope 1 + m cos(2 pi f t), also with a low tone added."""
+    time = np.arange(8192) / 8192.0
+    size = 1.0 + 0.5 * np.cos(2.0 * np.pi * 40.0 * time)
+    values = size * np.cos(2.0 * np.pi * 2000.0 * time) + 3.0 * np.sin(2.0 * np.pi * 25.0 * time)
+    found = envelope(time, values, 1000.0)
+    assert found == pytest.approx(size, abs=0.01)
+    frequency, amplitude = spectrum(time, found)
+    assert frequency[np.argmax(amplitude)] == pytest.approx(40.0, abs=0.5)
+
+
+def test_displacement_velocity_and_acceleration_are_of_one_motion(radial_run: Result) -> None:
+    """Amplitudes at one frequency differ by 2 pi f: at the passing of the balls, where the ring moves most."""
+    views = {
+        motion: api.view(radial_run, "vibration", {"motion": motion, "axis": "y"})
+        for motion in ("displacement", "velocity", "acceleration")
+    }
+    scale = {"displacement": 1e-6, "velocity": 1e-3, "acceleration": 1.0}
+    lines = {motion: view.panels[1].series[0] for motion, view in views.items()}
+    at = int(np.argmax(lines["velocity"].y))
+    frequency = lines["velocity"].x[at]
+    sizes = {motion: scale[motion] * float(line.y[at]) for motion, line in lines.items()}
+    assert sizes["velocity"] == pytest.approx(2.0 * np.pi * frequency * sizes["displacement"], rel=0.05)
+    assert sizes["acceleration"] == pytest.approx(2.0 * np.pi * frequency * sizes["velocity"], rel=0.05)
+    marks = {mark.label: mark.value for mark in views["velocity"].panels[2].marks}
+    assert marks["BPFI + shaft"] - marks["BPFI - shaft"] == pytest.approx(2.0 * marks["shaft"])
+
+
+def test_a_locked_housing_has_no_signal(radial_run: Result) -> None:
+    with pytest.raises(NotApplicable, match="the housing does not move"):
+        api.view(radial_run, "vibration", {"place": "housing"})
+
+
+def test_a_measured_signal_stands_with_the_computed_one(radial_run: Result, tmp_path: Path) -> None:
+    file = tmp_path / "rig.csv"
+    rows = [f"{t:.6f},{np.sin(2.0 * np.pi * 100.0 * t):.6f}" for t in np.arange(3000) / 2000.0]
+    file.write_text("\n".join(["time [s],acceleration [m/s2]", *rows]))
+    data = api.view(radial_run, "vibration", {"measured": str(file)})
+    assert all([series.name for series in panel.series] == ["computed", "rig.csv"] for panel in data.panels)
+    line = data.panels[1].series[1]
+    assert line.x[np.argmax(line.y)] == pytest.approx(100.0, abs=1.0)
+    assert line.y.max() == pytest.approx(1.0, rel=0.02)
+    file.write_text("time [s],acceleration [m/s2]\n0,1\n0.1,one\n")
+    with pytest.raises(CaseError, match="line 3, column 2"):
+        api.view(radial_run, "vibration", {"measured": str(file)})
+    file.write_text("time [s],acceleration [m/s2]\n0,1\n0.1,2\n0.5,1\n")
+    with pytest.raises(UsageError, match="evenly spaced"):
+        api.view(radial_run, "vibration", {"measured": str(file)})
