@@ -247,9 +247,11 @@ def test_a_cage_slips_the_more_the_lighter_the_load() -> None:
 
 
 @pytest.mark.full
-def test_the_torque_converges(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["NU 208", "32216", "NJ 208"])
+def test_the_torque_converges(name: str, tmp_path: Path) -> None:
     """The friction torque of a few revolutions of the cage is known to a percent, and energy is kept."""
-    found = api.run(CASE, out=tmp_path / "rollers.h5").summary()
+    case = CASE | THRUST.get(name, {}) | {"bearing": {"designation": f"SKF {name}"}}
+    found = api.run(case, out=tmp_path / "rollers.h5").summary()
     assert found.converged, found.reasons
     assert found.energy_residual is not None
     assert abs(found.energy_residual) < 1e-3

@@ -17,6 +17,7 @@ from lambda_core.solver.core import Core
 from lambda_core.solver.drivers.contact_memory import channels_of_states
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring
+from lambda_core.solver.drivers.roller_tables import spin_in_space
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.drivers.wave_tables import wave_values
@@ -92,7 +93,7 @@ def channels_of(
         "ball_radius": balls["radius"].copy(),
         "ball_azimuth": balls["azimuth"].copy(),
         "ball_velocity": balls["velocity"].copy(),
-        "ball_spin": balls["spin"].copy(),
+        "ball_spin": spin_in_space(context.model.rollers, balls["spin"]),
         "pocket_force": pockets,
         "land_force": lands,
         "bearing_capacitance": totals["capacitance"].copy(),

@@ -33,6 +33,15 @@ def states_of_an_element(model: BearingModel) -> int:
     return (BALL if model.rollers is None else ROLLER).states
 
 
+def spin_in_space(rollers: RollerBearing | None, spin: FloatArray) -> FloatArray:
+    """Return spins (..., 3), axial, radial, tangential, from those of the state; rollers have theirs about own axes."""
+    if rollers is None:
+        return spin.copy()
+    c, s = np.cos(rollers.angles.roller), np.sin(rollers.angles.roller)  # the large end points to -x
+    own, across = spin[..., 0], spin[..., 1]
+    return np.stack([c * own + s * across, c * across - s * own, spin[..., 2]], axis=-1)
+
+
 def write_line(record: Any, rollers: RollerBearing, ring: int, line: int) -> None:
     """Write what a raceway of rollers has in another way than one of balls.
 
