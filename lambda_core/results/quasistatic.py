@@ -23,10 +23,10 @@ from lambda_core.results.bearing_summary import Equilibrium as StartState
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
 from lambda_core.results.model_band import Banded
 from lambda_core.results.quantity import quantity, same_as, shown
-from lambda_core.results.rating import Rating
+from lambda_core.results.rating import Rating, rated_verdict
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import capacitance_note, contact_list, merged_cage, span
-from lambda_core.results.verdict import Verdict, rated_verdict
+from lambda_core.results.verdict import Verdict
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.wave_tables import waves_at

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from lambda_core.results.quantity import FLOATING, quantity
 from lambda_core.results.record import Record
-from lambda_core.results.verdict import Limits
+from lambda_core.results.verdict import Found, Limits, Verdict, verdict
 
 
 class Rating(Record):
@@ -57,3 +57,36 @@ class Rating(Record):
     )  # fmt: skip
     limits: Limits | None = Field(description="what the bearing has to keep to", default=None)
     notes: list[str] = Field(description="why a method does not answer, one sentence each")
+
+
+def life_that_counts(rating: Rating) -> tuple[str, float | None]:
+    """Return the name and the hours of the rating life that a requirement is compared with.
+
+    The loads of every ball count where they are known (ISO/TS 16281), a_ISO where the case gives e_C.
+    """
+    lives = [("L_10rh", rating.reference_life_h), ("L_10h", rating.basic_life_h)]
+    if rating.contamination_given:
+        lives = [("L_nmrh", rating.modified_reference_life_h), ("L_nmh", rating.modified_life_h), *lives]
+    return next(((name, life) for name, life in lives if life is not None), ("L_10rh", None))
+
+
+def rated_verdict(rating: Rating | None, pressure: float | None, film: list[float], tilt: float) -> Verdict | None:
+    """Judge a solution whose lives are known; None without them.
+
+    Parameters
+    ----------
+    pressure : float or None
+        Largest Hertzian pressure [GPa].
+    film : list of float
+        Smallest and largest Lambda; empty without a film.
+    tilt : float
+        Between the axes of the rings [mrad].
+    """
+    if rating is None or rating.limits is None:
+        return None
+    name, life = life_that_counts(rating)
+    found = Found(
+        pressure, film[0] if film else None, tilt, rating.equivalent_load_N, rating.static_safety,
+        rating.viscosity_ratio, life, name,
+    )  # fmt: skip
+    return verdict(rating.limits, found)

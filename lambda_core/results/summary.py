@@ -40,10 +40,10 @@ from lambda_core.results.machine_numbers import (
 )
 from lambda_core.results.model_band import sum_of_bands
 from lambda_core.results.quantity import FLOATING, SMALL, quantity, shown
+from lambda_core.results.rating import rated_verdict
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.rolling import ROLLING, rolling_of
 from lambda_core.results.run_status import Status
-from lambda_core.results.verdict import rated_verdict
 from lambda_core.results.watched import events_seen, observed_numbers
 
 if TYPE_CHECKING:

@@ -25,7 +25,6 @@ from lambda_core.results.record import Record
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
-    from lambda_core.results.rating import Rating
 
 _ZERO_CELSIUS = 273.15
 _LEAST_SAFETY = 1.0  # ISO 76: the total dent of 0.0001 D_w is reached at P_0 = C_0
@@ -128,39 +127,6 @@ def limits_of(model: BearingModel) -> Limits:
         required_film_parameter=required.film_parameter,
         required_oil_degC=None if required.temperature is None else required.temperature - _ZERO_CELSIUS,
     )
-
-
-def life_that_counts(rating: Rating) -> tuple[str, float | None]:
-    """Return the name and the hours of the rating life that a requirement is compared with.
-
-    The loads of every ball count where they are known (ISO/TS 16281), a_ISO where the case gives e_C.
-    """
-    lives = [("L_10rh", rating.reference_life_h), ("L_10h", rating.basic_life_h)]
-    if rating.contamination_given:
-        lives = [("L_nmrh", rating.modified_reference_life_h), ("L_nmh", rating.modified_life_h), *lives]
-    return next(((name, life) for name, life in lives if life is not None), ("L_10rh", None))
-
-
-def rated_verdict(rating: Rating | None, pressure: float | None, film: list[float], tilt: float) -> Verdict | None:
-    """Judge a solution whose lives are known; None without them.
-
-    Parameters
-    ----------
-    pressure : float or None
-        Largest Hertzian pressure [GPa].
-    film : list of float
-        Smallest and largest Lambda; empty without a film.
-    tilt : float
-        Between the axes of the rings [mrad].
-    """
-    if rating is None or rating.limits is None:
-        return None
-    name, life = life_that_counts(rating)
-    found = Found(
-        pressure, film[0] if film else None, tilt, rating.equivalent_load_N, rating.static_safety,
-        rating.viscosity_ratio, life, name,
-    )  # fmt: skip
-    return verdict(rating.limits, found)
 
 
 def verdict(limits: Limits, found: Found) -> Verdict:

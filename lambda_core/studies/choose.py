@@ -313,7 +313,7 @@ def _solved(
 def _candidate(row: BearingRow, shared: dict[str, Any], announce: Callable[[str], None] | None) -> Candidate:
     """Solve one bearing and judge it."""
     from lambda_core.results.quasistatic import QuasiStatic
-    from lambda_core.results.verdict import life_that_counts
+    from lambda_core.results.rating import life_that_counts
     from lambda_core.runs.simulation import quasistatic
 
     sizes = (row.bore_diameter, row.outside_diameter, row.width)

@@ -28,10 +28,10 @@ from lambda_core.results.limits import warnings
 from lambda_core.results.model_band import Banded, MachineBand, sum_of_bands
 from lambda_core.results.quantity import FLOATING, quantity, same_as
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
-from lambda_core.results.rating import Rating
+from lambda_core.results.rating import Rating, rated_verdict
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Summary
-from lambda_core.results.verdict import Verdict, rated_verdict
+from lambda_core.results.verdict import Verdict
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 from lambda_core.solver.drivers.structure import point_on, static_rows, stretch
