@@ -136,6 +136,8 @@ def _bearing(group: h5py.Group, origin: BearingOrigin, channels: Sequence[Channe
     group["ball"].attrs["long_name"] = "number of the ball"
     if any("marker" in channel.dims for channel in channels):
         _scale(group, "marker", tuple(model.markers))
+    if model.links:
+        _scale(group, "element", tuple(model.links))
     _series(group, channels)
     _series(group.create_group(INTEGRALS_GROUP), INTEGRALS, "time")
     number = Channel("revolution", (), "-", "whole cage revolutions completed")

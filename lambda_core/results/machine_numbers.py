@@ -27,6 +27,14 @@ class Swing(Record):
     swing_um: list[float] = Field(description="half of what lies between the smallest and largest value: x, y, z")
 
 
+class ElementForce(Record):
+    """What a force element, or a connection by a law, does over time."""
+
+    force_N: list[float] = Field(description="mean force x, y, z on the second of its bodies")
+    force_swing_N: list[float] = Field(description="half of what lies between the smallest and largest value: x, y, z")
+    power_W: float = Field(description="mean power that it puts into its bodies; negative: takes out")
+
+
 def total(values: Iterable[float | None]) -> float | None:
     """Return the sum; None where one of them is missing."""
     known = list(values)
@@ -91,6 +99,20 @@ def _means(machine: Result, name: str, start: float) -> list[tuple[FloatArray, F
         sums, count = sums + values.sum(axis=0), count + len(values)
         low, high = np.minimum(low, values.min(axis=0)), np.maximum(high, values.max(axis=0))
     return list(zip(sums / max(count, 1), 0.5 * (high - low), strict=True))
+
+
+def element_numbers(result: Result, start: float) -> dict[str, ElementForce]:
+    """Return forces and powers of the force elements of a result from time `start` [s], by name."""
+    every = {channel.name for channel in result.channels}
+    dim = next((dim for dim in ("element", "connection") if f"{dim}_force" in every), "")
+    if not dim:
+        return {}
+    labels = result.labels(dim)
+    pairs = zip(labels, _means(result, f"{dim}_force", start), _means(result, f"{dim}_power", start), strict=True)
+    return {
+        str(name): ElementForce(force_N=force.tolist(), force_swing_N=swing.tolist(), power_W=float(power))
+        for name, (force, swing), (power, _) in pairs
+    }
 
 
 def reactions(result: Result, start: float) -> dict[str, list[float]]:

@@ -11,7 +11,7 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import wrapped
 from lambda_core.results.band_text import ends, named_sources
 from lambda_core.results.quantity import quantities, shown
-from lambda_core.results.text import assumption_lines, line, warning_lines, watched_lines
+from lambda_core.results.text import assumption_lines, element_lines, line, warning_lines, watched_lines
 
 if TYPE_CHECKING:
     from lambda_core.results.bearing_summary import BearingSummary
@@ -54,6 +54,7 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
             f"at {units.text(largest.position_mm, 'mm', 2)}",
         ),
         *(line(name, *(f"{axis} {_swung(one, k, units)}" for k, axis in enumerate("xyz"))) for name, one in places),
+        *element_lines(found, units),
         *(text for one in each for text in watched_lines(one)),
         *(line("failed" if i == 0 else "", fault) for i, fault in enumerate(found.plugin_faults)),
         *warning_lines([units.sentence(warning) for warning in found.warnings], width),

@@ -31,7 +31,9 @@ from lambda_core.results.currents import currents_of
 from lambda_core.results.followed import FOURTH_POWERS, ITERATION_WORK, Followed, followed
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_warning, warnings, worst
 from lambda_core.results.machine_numbers import (
+    ElementForce,
     Swing,
+    element_numbers,
     machine_numbers,
     machine_warnings,
     reactions,
@@ -103,6 +105,9 @@ class Summary(Record):
     orbit: list[Swing] = Field(description="of a machine's shaft at every lump", default=[])
     bodies: dict[str, Swing] = Field(description="bodies of a machine other than the shaft", default={})
     markers: dict[str, Swing] = Field(description="named places of a machine", default={})
+    elements: dict[str, ElementForce] = Field(
+        description="force elements of a bearing, connections by a law of a machine", default={}
+    )
     plugin_faults: list[str] = Field(description="observers and events that failed, and why", default=[])
     warnings: list[str] = Field(description="where case or run left what bearings, oil and laws are made for")
     energy_residual: float | None = quantity(
@@ -204,6 +209,7 @@ def summarise(result: Result) -> Summary:
         friction_torque_Nmm_band=sum_of_bands([one.friction_torque_Nmm_band for one in known]),
         power_loss_W_band=sum_of_bands([one.power_loss_W_band for one in known]),
         bearings=bearings,
+        elements=element_numbers(result.whole() if of_machine and result.is_machine else first, start),
         plugin_faults=list(status.faults),
         warnings=alone.warnings if not of_machine else machine_warnings(result, bearings),
         energy_residual=finite(whole.energy_residual()),

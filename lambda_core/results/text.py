@@ -75,6 +75,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *([line("", summary.capacitance_note)] if summary.capacitance_note else []),
         *_currents(summary.currents),
         *other_lines(summary, units),
+        *element_lines(summary, units),
         *watched_lines(summary),
         *(line("failed" if index == 0 else "", fault) for index, fault in enumerate(summary.plugin_faults)),
         *([line("shoulders", *(_margin(edge, units) for edge in summary.shoulders))] if summary.shoulders else []),
@@ -153,6 +154,18 @@ def watched_lines(summary: Summary | BearingSummary) -> list[str]:
         said = "did not happen" if not event.count else f"began {event.count} times, first at {_four(event.first_s)} s"
         lines.append(line("events" if index == 0 else "", f"{event.event} {said}"))
     return lines
+
+
+def element_lines(found: Summary, units: UnitSystem = SI) -> list[str]:
+    """Return mean force and power of every force element."""
+    return [
+        line(
+            f"element {name}",
+            f"force x, y, z {', '.join(units.number(value, 'N', 1) for value in one.force_N)} {units.unit('N')}",
+            f"power {one.power_W:.3g} W into its bodies",
+        )
+        for name, one in found.elements.items()
+    ]
 
 
 def _four(value: float | None) -> str:

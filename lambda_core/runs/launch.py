@@ -227,7 +227,11 @@ def _machine(model: MachineModel, announce: Announce | None) -> tuple[RunEngine,
         headline=f"{title}\n{30.0 / math.pi * model.speed:.5g} 1/min   {model.body.total_mass:.4g} kg on the shaft",
         model=machine_data(model),
         numbers={"drive_torque": start.drive_torque},
-        labels={"lump": start.shaft.positions, **{_DIMS[what]: names for what, names in model.names.items()}},
+        labels={
+            "lump": start.shaft.positions,
+            "connection": [link.name for link in model.links],
+            **{_DIMS[what]: names for what, names in model.names.items()},
+        },
         assumptions=model.assumptions,
         warnings=model.warnings,
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from lambda_core.domain.channels import Channel
+from lambda_core.model.laws.state_channels import element_channels
 
 MACHINE_CHANNELS = (
     Channel("shaft_position", ("lump", "axis"), "m", "displacement of the shaft at every lump"),
@@ -14,4 +15,5 @@ MACHINE_CHANNELS = (
     Channel("reaction_force", ("bearing", "axis"), "N", "force of every bearing on the shaft"),
     Channel("reaction_moment", ("bearing", "axis"), "N m", "moment of every bearing on the shaft about its centre"),
     Channel("power_loss", (), "W", "power that all bearings dissipate"),
+    *element_channels("connection", "connection by a law"),
 )

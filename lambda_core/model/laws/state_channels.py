@@ -50,6 +50,19 @@ def wave_channels(model: BearingModel) -> tuple[Channel, ...]:
     return tuple(found)
 
 
+def element_channels(dim: str, what: str) -> tuple[Channel, ...]:
+    """Return the channels of force elements, named by `dim`, the dimension that counts them; `what` is for people."""
+    return (
+        Channel(f"{dim}_force", (dim, "axis"), "N", f"force of every {what} on the second of its bodies"),
+        Channel(f"{dim}_moment", (dim, "axis"), "N m", f"couple of every {what} on the second of its bodies"),
+        Channel(f"{dim}_power", (dim,), "W", f"power that every {what} puts into its bodies, negative: takes out"),
+    )
+
+
 def result_channels(model: BearingModel) -> tuple[Channel, ...]:
     """Return what every sample of a run of the model carries."""
-    return (*CHANNELS, *arc_channels(model), *state_channels(model), *wave_channels(model))
+    return (*CHANNELS, *arc_channels(model), *state_channels(model), *wave_channels(model), *_of_elements(model))
+
+
+def _of_elements(model: BearingModel) -> tuple[Channel, ...]:
+    return element_channels("element", "force element") if model.links else ()

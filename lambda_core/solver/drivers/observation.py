@@ -15,6 +15,7 @@ from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import Core
 from lambda_core.solver.drivers.contact_memory import channels_of_states
+from lambda_core.solver.drivers.element_forces import element_forces, named_forces
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring
 from lambda_core.solver.drivers.roller_tables import spin_in_space
@@ -109,4 +110,8 @@ def channels_of(
         i = CONTACT_CHANNELS.index(channel.name.removeprefix("arc_"))
         channels[channel.name] = contacts[:, :, :, i].copy()
     tails = states[:n, context.size - context.bundle.states.size :]
-    return channels | channels_of_states(context.model, tails) | wave_values(everything, context.model)
+    channels |= channels_of_states(context.model, tails) | wave_values(everything, context.model)
+    if context.assembly.links:
+        wrenches, powers = element_forces(context, times, flat)
+        channels |= named_forces("element", wrenches, powers)
+    return channels

@@ -20,6 +20,7 @@ from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.assembly import BearingSpan
+from lambda_core.solver.drivers.element_forces import element_forces, named_forces
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.observation import Scratch, channels_of, observe
 from lambda_core.solver.drivers.ring_values import losses_by_ring, losses_of_raceways
@@ -232,6 +233,7 @@ class MachineReadings:
             **self._members(times, flat),
             "reaction_force": np.stack([wrenches[:, :3] for _, wrenches in found], axis=1),
             "reaction_moment": np.stack([wrenches[:, 3:] for _, wrenches in found], axis=1),
+            **named_forces("connection", *element_forces(self._context, times, flat)),
             "power_loss": sum((channels["loss"].sum(axis=1) for channels, _ in found), np.zeros(times.size)),
         }
         return MachineSamples(machine, [channels for channels, _ in found])
