@@ -18,8 +18,9 @@ from lambda_core.elements.roller.roller_equilibrium import balance
 from lambda_core.elements.roller.roller_motion import rolling_motion
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.fault_roles import ROLES
 from lambda_core.solver.drivers.dynamics import BearingEngine, initial_state
-from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, solve
 from lambda_core.solver.drivers.right_hand_side import Handle
 
 from .support import FloatArray
@@ -152,6 +153,16 @@ def test_loads_are_those_of_independent_laminae() -> None:
     assert loads == pytest.approx(theirs, rel=0.01, abs=0.01 * theirs.max())
     tilts = L.elements_in(found.context.bundle, found.state)["tilt"]
     assert np.abs(tilts).max() < 1e-9  # nothing tilts between rings that do not
+
+
+def test_a_refusal_speaks_of_rollers() -> None:
+    context = equilibrium().context
+    fault = context.bundle.scratch[0].fault
+    fault.role, fault.status, fault.ball, fault.place = ROLES.index("film_thickness"), 1, 2, 1
+    sentence = fault_sentence(context)
+    fault.role = -1
+    assert "roller 3, roller - outer" in sentence
+    assert "ball" not in sentence
 
 
 def test_jacobian_of_rollers() -> None:

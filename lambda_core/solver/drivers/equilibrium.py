@@ -387,9 +387,10 @@ def fault_sentence(context: SolverContext, time: float | None = None) -> str:
         what = "wrote behind the end of its output: an index is out of its array"
     else:
         what = f"returned status {status}: {model.errors.get(status, 'not declared')}"
-    place = element.replace("_", " - ") + (f", t = {time:.6g} s" if time is not None else "")
+    shown = element if bearing.model.rollers is None else element.replace("ball", "roller")
+    place = shown.replace("_", " - ") + (f", t = {time:.6g} s" if time is not None else "")
     if element not in LANDS and role not in _WHOLE:
-        place = f"ball {ball + 1}, {place}"
+        place = f"{'ball' if bearing.model.rollers is None else 'roller'} {ball + 1}, {place}"
     names = [_state_of(context, element) if name == "state" else name for name in INPUTS[role]]
     given = [*zip(names, fault.inputs, strict=False), *_states_read(context, role, model, int(fault.place))]
     inputs = ", ".join(f"{name} {value:.6g}" for name, value in given)
