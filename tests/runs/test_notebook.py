@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from fake_engine import FakeEngine, MakeProvenance
 
 from lambda_core import api
 from lambda_core.domain.errors import UsageError
+from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.results.reader import Result
 from lambda_core.runs.loop import run
 
@@ -108,4 +110,9 @@ def test_other_answers_answer_for_a_changed_case() -> None:
 def test_an_answer_goes_to_another_process() -> None:
     """The builder's helper process sends answers that were asked with a local function for progress."""
     found = api.estimate(api.check("6208-axial-1300"), announce=lambda _: None)
+    assert pickle.loads(pickle.dumps(found)) == found
+
+
+def test_an_estimate_of_a_machine_goes_to_another_process() -> None:
+    found = api.estimate(api.check(tomllib.loads(geared_shaft("box"))), announce=lambda _: None)
     assert pickle.loads(pickle.dumps(found)) == found

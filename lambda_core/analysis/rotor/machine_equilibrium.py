@@ -174,6 +174,11 @@ class MachineEquilibrium(Answer):
 
     _model: MachineModel | None = PrivateAttr(default=None)
 
+    def __getstate__(self) -> dict[Any, Any]:
+        """Return the state without the model, whose compiled laws cannot go to another process."""
+        state = super().__getstate__()
+        return state | {"__pydantic_private__": (state["__pydantic_private__"] or {}) | {"_model": None}}
+
     def to_dict(self) -> dict[str, Any]:
         """Return plain data, ready for JSON."""
         return self.model_dump(mode="json")
