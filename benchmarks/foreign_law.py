@@ -32,11 +32,11 @@ from lambda_core.plugins import OK, hookimpl, law
 import benchmark_traction
 
 
-@law("traction", "benchmark-plain", benchmark_traction.ReeEyring, role_api=2, reference="own work")
+@law("traction", "benchmark-plain", benchmark_traction.ReeEyring, role_api=3, reference="own work")
 def plain_eyring(slip, p, T, ln_eta, h, par, tau):
     """The same law as a newcomer would write it, with the functions of the standard library."""
-    film = max(h, 1e-10)
     for i in range(tau.size):
+        film = max(h[i], 1e-10)
         viscosity = math.exp(min(max(ln_eta[i], -60.0), 60.0))
         stress = par.tau_eyring * math.asinh(viscosity * slip[i] / (film * par.tau_eyring))
         limit = max(par.limit_ratio * p[i], 0.0)

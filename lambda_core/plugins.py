@@ -1,4 +1,4 @@
-"""Provide the stable names for plugin authors under ROLE_API 2."""
+"""Provide the stable names for plugin authors under ROLE_API 3."""
 
 from typing import TYPE_CHECKING
 

@@ -13,7 +13,8 @@ class Argument:
     kind: str  # "f": float64 scalar, "a": float64[:] contiguous
     meaning: str
     output: bool = False
-    optional: bool = False  # came later: a kernel that does not name it is not given it
+    optional: bool = False  # a kernel that does not name it is not given it
+    each: bool = False  # the contacts of a raceway differ in it: the solver hands over one number for each of them
 
 
 @dataclass(frozen=True)
@@ -38,12 +39,29 @@ class Role:
     # for the whole run, must not depend on them.
     reads_states: bool = False
 
+    @property
+    def batched(self) -> bool:
+        """Whether one call of the compiled law is for all contacts of a raceway, its kernel called for each in turn."""
+        return any(argument.each for argument in self.arguments)
+
 
 def arguments_of(spec: str) -> tuple[Argument, ...]:
-    """Read ``name kind meaning; ...``; a kind of ``A`` is an output array, ``f?`` an optional number."""
+    """Read ``name kind meaning; ...``.
+
+    Kinds: ``f`` a number, ``e`` a number of each contact, ``a`` an array, ``A`` an output array; with ``?`` optional.
+    """
     result = []
     for part in spec.split(";"):
         name, kind, meaning = part.strip().split(" ", 2)
         plain = kind.rstrip("?")
-        result.append(Argument(name, plain.lower(), meaning, output=plain == "A", optional=kind != plain))
+        result.append(
+            Argument(
+                name,
+                "f" if plain == "e" else plain.lower(),
+                meaning,
+                output=plain == "A",
+                optional=kind != plain,
+                each=plain == "e",
+            )
+        )
     return tuple(result)

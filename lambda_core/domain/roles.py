@@ -14,7 +14,7 @@ from lambda_core.domain import elements
 from lambda_core.domain.role import Role, arguments_of
 from lambda_core.domain.section_roles import SECTION_ROLES
 
-ROLE_API = 2
+ROLE_API = 3
 OK = 1  # what a kernel returns for a valid result; the number of lambda_core.solver.status.Status.OK
 
 _POSITIVE = (0.0, math.inf)
@@ -35,7 +35,7 @@ ROLES: dict[str, Role] = {
         Role(
             "normal_contact",
             "load and contact ellipse from penetration",
-            arguments_of(f"delta f penetration, > 0 [m]; {_MATERIAL}; par a parameters; out A results"),
+            arguments_of(f"delta e penetration, > 0 [m]; {_MATERIAL}; par a parameters; out A results"),
             ("load [N]", "semi-axis across rolling a [m]", "semi-axis along rolling b [m]", "maximum pressure [Pa]"),
             RACEWAYS,
             bounds=(_POSITIVE,) * 4,
@@ -44,10 +44,10 @@ ROLES: dict[str, Role] = {
             "damping",
             "normal force opposing the penetration velocity",
             arguments_of(
-                "delta f penetration, below zero a gap within the law's reach [m]; "
-                "delta_dot f penetration velocity [m/s]; load f elastic load [N]; "
-                "u_mean f? mean surface velocity, >= 0 [m/s]; semi_a f? semi-axis across rolling [m]; "
-                "semi_b f? semi-axis along rolling [m]; R_x f? reduced radius along rolling [m]; "
+                "delta e penetration, below zero a gap within the law's reach [m]; "
+                "delta_dot e penetration velocity [m/s]; load e elastic load [N]; "
+                "u_mean e? mean surface velocity, >= 0 [m/s]; semi_a e? semi-axis across rolling [m]; "
+                "semi_b e? semi-axis along rolling [m]; R_x f? reduced radius along rolling [m]; "
                 "R_y f? reduced radius across rolling [m]; E_eff f? E' [Pa]; "
                 "eta0 f? viscosity at ambient pressure [Pa s]; alpha_p f? pressure-viscosity coefficient [1/Pa]; "
                 "par a parameters; out A results"
@@ -73,9 +73,9 @@ ROLES: dict[str, Role] = {
             "film_thickness",
             "isothermal, fully flooded film",
             arguments_of(
-                "u_mean f mean surface velocity, >= 0 [m/s]; "
-                "theta f angle of entrainment to the rolling direction [rad]; "
-                f"load f normal load [N]; {_MATERIAL}; {_OIL}; par a parameters; out A results"
+                "u_mean e mean surface velocity, >= 0 [m/s]; "
+                "cos2 e square of the cosine between entrainment and the rolling direction [-]; "
+                f"load e normal load [N]; {_MATERIAL}; {_OIL}; par a parameters; out A results"
             ),
             ("central film thickness [m]", "minimum film thickness [m]"),
             RACEWAYS,
@@ -86,8 +86,8 @@ ROLES: dict[str, Role] = {
             "thermal_correction",
             "factor on the film for heating in the inlet",
             arguments_of(
-                "u_mean f mean surface velocity, >= 0 [m/s]; u_slide f sliding velocity at the contact's centre [m/s]; "
-                "p_max f maximum pressure [Pa]; E_eff f E' [Pa]; eta0 f viscosity at ambient pressure [Pa s]; "
+                "u_mean e mean surface velocity, >= 0 [m/s]; u_slide e sliding velocity at the contact's centre [m/s]; "
+                "p_max e maximum pressure [Pa]; E_eff f E' [Pa]; eta0 f viscosity at ambient pressure [Pa s]; "
                 "beta f -d ln(eta)/dT [1/K]; k_oil f thermal conductivity of the oil [W/(m K)]; "
                 "par a parameters; out A results"
             ),
@@ -100,10 +100,10 @@ ROLES: dict[str, Role] = {
             "supply",
             "factors on film and rolling resistance for oil that is missing in the inlet",
             arguments_of(
-                "u_mean f mean surface velocity, >= 0 [m/s]; load f normal load [N]; "
-                "semi_a f semi-axis across rolling [m]; semi_b f semi-axis along rolling [m]; "
-                "R_x f reduced radius along rolling [m]; h_cen f central film of the flooded contact [m]; "
-                "h_min f minimum film of the flooded contact [m]; par a parameters; out A results"
+                "u_mean e mean surface velocity, >= 0 [m/s]; load e normal load [N]; "
+                "semi_a e semi-axis across rolling [m]; semi_b e semi-axis along rolling [m]; "
+                "R_x f reduced radius along rolling [m]; h_cen e central film of the flooded contact [m]; "
+                "h_min e minimum film of the flooded contact [m]; par a parameters; out A results"
             ),
             ("factor on the film [-], 0..1", "factor on the rolling resistance [-], 0..1"),
             RACEWAYS,
@@ -114,8 +114,8 @@ ROLES: dict[str, Role] = {
             "contact_temperature",
             "temperature of the film in each cell",
             arguments_of(
-                "T_in f oil temperature at the inlet [K]; u_mean f mean surface velocity, >= 0 [m/s]; "
-                "h f central film [m]; semi_b f semi-axis along rolling [m]; tau a shear stress [Pa]; "
+                "T_in f oil temperature at the inlet [K]; u_mean e mean surface velocity, >= 0 [m/s]; "
+                "h e central film [m]; semi_b e semi-axis along rolling [m]; tau a shear stress [Pa]; "
                 "slip a slip velocity [m/s]; "
                 "par a parameters; T A film temperature [K]"
             ),
@@ -130,7 +130,7 @@ ROLES: dict[str, Role] = {
             "shear stress of the film from its rate of shear",
             arguments_of(
                 "slip a slip velocity, >= 0 [m/s]; p a pressure [Pa]; T a temperature [K]; "
-                "ln_eta a ln(viscosity / Pa s); h f central film [m]; par a parameters; tau A shear stress, >= 0 [Pa]"
+                "ln_eta a ln(viscosity / Pa s); h a central film [m]; par a parameters; tau A shear stress, >= 0 [Pa]"
             ),
             ("shear stress [Pa]",),
             RACEWAYS,
@@ -143,9 +143,9 @@ ROLES: dict[str, Role] = {
             "rolling_resistance",
             "hydrodynamic force of the inlet on each surface",
             arguments_of(
-                "u_mean f mean surface velocity, >= 0 [m/s]; load f normal load [N]; "
-                "semi_a f semi-axis across rolling [m]; "
-                f"semi_b f semi-axis along rolling [m]; {_MATERIAL}; {_OIL}; beta f -d ln(eta)/dT [1/K]; "
+                "u_mean e mean surface velocity, >= 0 [m/s]; load e normal load [N]; "
+                "semi_a e semi-axis across rolling [m]; "
+                f"semi_b e semi-axis along rolling [m]; {_MATERIAL}; {_OIL}; beta f -d ln(eta)/dT [1/K]; "
                 "k_oil f thermal conductivity of the oil [W/(m K)]; par a parameters; out A results"
             ),
             ("force on each body, >= 0 [N]",),
@@ -157,7 +157,7 @@ ROLES: dict[str, Role] = {
             "elastic_hysteresis",
             "couple that resists rolling by losses in the solids",
             arguments_of(
-                "load f normal load [N]; semi_a f semi-axis across rolling [m]; semi_b f semi-axis along rolling [m]; "
+                "load e normal load [N]; semi_a e semi-axis across rolling [m]; semi_b e semi-axis along rolling [m]; "
                 "R_x f reduced radius along rolling [m]; R_y f reduced radius across rolling [m]; "
                 "R_ball f ball radius [m]; par a parameters; out A results"
             ),
@@ -169,7 +169,7 @@ ROLES: dict[str, Role] = {
         Role(
             "asperity_load",
             "share of the load carried by touching asperities",
-            arguments_of("Lambda f film over composite roughness [-]; par a parameters; out A results"),
+            arguments_of("Lambda e film over composite roughness [-]; par a parameters; out A results"),
             ("share of the load psi [-], 0..1",),
             RACEWAYS,
             bounds=((0.0, 1.0),),
@@ -179,7 +179,7 @@ ROLES: dict[str, Role] = {
             "boundary_friction",
             "coefficient of friction of touching asperities",
             arguments_of(
-                "slip a slip velocity, >= 0 [m/s]; p a pressure [Pa]; u_mean f mean surface velocity, >= 0 [m/s]; "
+                "slip a slip velocity, >= 0 [m/s]; p a pressure [Pa]; u_mean e mean surface velocity, >= 0 [m/s]; "
                 "par a parameters; mu A coefficient [-]"
             ),
             ("coefficient of friction [-], >= 0, 0 at rest",),
@@ -193,9 +193,9 @@ ROLES: dict[str, Role] = {
             "mixing",
             "shares of film and asperities in the shear stress of a contact where both carry",
             arguments_of(
-                "psi f share of the load on asperities [-]; Lambda f film over composite roughness [-]; "
-                "load f normal load [N]; p_max f maximum pressure [Pa]; semi_a f semi-axis across rolling [m]; "
-                "semi_b f semi-axis along rolling [m]; par a parameters; out A results"
+                "psi e share of the load on asperities [-]; Lambda e film over composite roughness [-]; "
+                "load e normal load [N]; p_max e maximum pressure [Pa]; semi_a e semi-axis across rolling [m]; "
+                "semi_b e semi-axis along rolling [m]; par a parameters; out A results"
             ),
             ("factor on the film's shear stress [-], 0..1", "factor on mu p, the asperities' stress [-], 0..1"),
             RACEWAYS,

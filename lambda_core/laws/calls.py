@@ -93,13 +93,19 @@ def plain_call(kernel: Callable[..., int], role: Role, arguments: list[Any]) -> 
     return Outcome(status, outputs)
 
 
+def handed_over(role: Role, arguments: list[Any]) -> list[Any]:
+    """Return arguments of one contact as compiled laws take them: numbers in which contacts differ as arrays of one."""
+    pairs = zip(role.arguments, arguments, strict=True)
+    return [np.array([value]) if argument.each else value for argument, value in pairs]
+
+
 def compiled_call(dispatcher: Callable[..., int], role: Role, arguments: list[Any]) -> Outcome:
     """Call the compiled kernel twice on arrays that stand between guard cells.
 
     The outputs are filled with NaN the first time and with a number the second: a kernel
     that reads its outputs, or keeps a state, answers differently.
     """
-    answers = []
+    answers, arguments = [], handed_over(role, arguments)
     for fill in (np.nan, 0.5):
         buffers = [_guarded(value) if isinstance(value, np.ndarray) else value for value in arguments]
         views = [_inside(value) if isinstance(value, np.ndarray) else value for value in buffers]

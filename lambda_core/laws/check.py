@@ -20,7 +20,7 @@ from lambda_core.domain.installed import OWN, project_of
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.role import Role
 from lambda_core.domain.roles import ROLES
-from lambda_core.laws.calls import Outcome, compiled_call, plain_call, relative_difference
+from lambda_core.laws.calls import Outcome, compiled_call, handed_over, plain_call, relative_difference
 from lambda_core.laws.context import Context
 from lambda_core.laws.jit.reach import raises
 from lambda_core.laws.kernels import CompiledKernel, compile_kernel, kernel_reach
@@ -316,7 +316,7 @@ def time_per_call(model: Law, par: FloatArray) -> float:
     """Return the time of one call, or per cell of an elementwise role, best of several [s]."""
     role = ROLES[model.role]
     cells = 512 if role.elementwise else 1
-    arguments = draw(role, par, cells, np.random.default_rng(1), len(model.states))
+    arguments = handed_over(role, draw(role, par, cells, np.random.default_rng(1), len(model.states)))
     with compiled_here():  # calls from Python cost more there than what they call
         dispatcher = compile_kernel(model).dispatcher
     best = float("inf")

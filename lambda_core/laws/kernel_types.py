@@ -29,7 +29,7 @@ class FilmThicknessKernel(Protocol):
     def __call__(
         self,
         u_mean: float,
-        theta: float,
+        cos2: float,
         load: float,
         R_x: float,
         R_y: float,
@@ -95,7 +95,14 @@ class TractionKernel(Protocol):
     """Kernel of the role traction."""
 
     def __call__(
-        self, slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: Any, tau: FloatArray
+        self,
+        slip: FloatArray,
+        p: FloatArray,
+        T: FloatArray,
+        ln_eta: FloatArray,
+        h: FloatArray,
+        par: Any,
+        tau: FloatArray,
     ) -> int: ...
 
 

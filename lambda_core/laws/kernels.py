@@ -145,8 +145,8 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
         whose content cannot be followed; the sentence names the model and its distribution.
     """
     start, kernel, reached = time.perf_counter(), plain_function(model), kernel_reach(model)
-    arguments, layout = argument_names(model.role), par_layout(model)
-    words = f"{model.role} {reached.key} {binding.source(arguments, layout, binding.taken_by(kernel))}"
+    role, layout = ROLES[model.role], par_layout(model)
+    words = f"{model.role} {reached.key} {binding.source(role, layout, binding.taken_by(kernel))}"
     key = hashlib.sha256(words.encode()).hexdigest()
     if (packed := _packed(model, key, start)) is not None:
         return packed
@@ -154,7 +154,7 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
     folder = cache_folder() / f"{model.role}-{key[:24]}-{environment()}{'-checked' if checked else ''}"
     if folder in _in_memory:
         return _in_memory[folder]
-    from lambda_core.laws.jit import machine_code
+    from lambda_core.laws.jit import inlined, machine_code
 
     missed: list[str] = []
 
@@ -167,10 +167,12 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
     if checked:
         sys.unraisablehook = _without_indices(sys.unraisablehook)
     machine_code.make_callable((*reached.helpers, kernel), **options)
-    wanted, flat = signature(model.role), binding.bound(kernel, arguments, layout)
+    wanted, flat = signature(model.role), binding.bound(kernel, role, layout)
     try:
-        dispatcher = machine_code.compile_into(flat, wanted.args, folder, on_miss, **options)
+        dispatcher = machine_code.compile_into(flat, wanted.args, folder, on_miss, **inlined.LAW, **options)
     except Exception as error:  # Numba answers odd source code with exceptions of many kinds
+        if role.batched:
+            _check_alone(model, kernel, wanted)
         raise PluginError(f"{model.label} cannot be compiled: {gist(error)}") from None
     _check_return(model, machine_code.returned_type(dispatcher), wanted.return_type)
     pointer = machine_code.Pointer(dispatcher, wanted)
@@ -213,6 +215,19 @@ def _check_arguments(model: Law, kernel: FunctionType) -> None:
 
 
 _in_memory: dict[Path, CompiledKernel] = {}
+
+
+def _check_alone(model: Law, kernel: FunctionType, wanted: Any) -> None:
+    """Refuse a kernel that returns anything but a status, where the loop over contacts cannot be compiled for it."""
+    from lambda_core.laws.jit import machine_code
+
+    role = ROLES[model.role]
+    alone = binding.bound(kernel, role, par_layout(model), alone=True)
+    try:
+        found = machine_code.return_type(alone, machine_code.alone_arguments(role))
+    except Exception:  # something else is wrong with it: the caller reports that
+        return
+    _check_return(model, found, wanted.return_type)
 
 
 def _check_return(model: Law, found: Any, wanted: Any) -> None:

@@ -286,7 +286,7 @@ def law(
     parameters : type of pydantic.BaseModel
         Fields with defaults, units, limits and sources; the kernel reads them by name from ``par``, SI.
     role_api : int
-        Version of the role interface that the law is written for, as a number: 2. Without it the law is refused.
+        Version of the role interface that the law is written for, as a number: 3. Without it the law is refused.
     reference : str
         Publication and equation numbers, "-" where there is nothing to cite.
     summary, validity : str
@@ -311,7 +311,7 @@ def law(
     >>> from lambda_core.plugins import OK, Parameters, law, parameter
     >>> class Limit(Parameters):
     ...     limit_ratio: float = parameter(0.07, "limiting shear stress over pressure")
-    >>> @law("traction", "plastic", Limit, role_api=2, reference="own work")
+    >>> @law("traction", "plastic", Limit, role_api=3, reference="own work")
     ... def plastic(slip, p, T, ln_eta, h, par, tau):
     ...     for i in range(tau.size):
     ...         tau[i] = par.limit_ratio * p[i] if slip[i] > 0.0 else 0.0

@@ -147,7 +147,8 @@ class Pack:
             return None
         if self._functions[name]["kernel"] != f"{kernel.__module__}:{kernel.__qualname__}":
             return None
-        return self._function(name, ["float" if a.kind == "f" else _WORDS for a in ROLES[model.role].arguments])
+        kinds = [_WORDS if a.each or a.kind == "a" else "float" for a in ROLES[model.role].arguments]
+        return self._function(name, kinds)
 
     def _function(self, name: str, kinds: Sequence[Any]) -> Function:
         if name not in self._found:

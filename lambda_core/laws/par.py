@@ -107,7 +107,7 @@ def make_par(law: Law, parameters: BaseModel, context: Context) -> FloatArray:
 
 
 def flat_kernel(law: Law, *, strict: bool = False) -> Callable[..., int]:
-    """Return a law's kernel as the solver calls it, in plain Python: with the flat array of :func:`make_par`.
+    """Return a law's kernel for one contact, in plain Python, with the flat array of :func:`make_par`.
 
     Parameters
     ----------
@@ -116,8 +116,12 @@ def flat_kernel(law: Law, *, strict: bool = False) -> Callable[..., int]:
     strict : bool
         Refuse to read parameters by position, for the checks of laws.
     """
-    arguments = tuple(argument.name for argument in ROLES[law.role].arguments)
-    return bound(law.kernel, arguments, par_layout(law), strict=strict)
+    return bound(law.kernel, ROLES[law.role], par_layout(law), alone=True, strict=strict)
+
+
+def batched_kernel(law: Law) -> Callable[..., int]:
+    """Return a law's kernel as the solver calls it, for all contacts of a raceway, in plain Python."""
+    return bound(law.kernel, ROLES[law.role], par_layout(law))
 
 
 def _record_type(law: Law) -> type:

@@ -53,7 +53,7 @@ RANGES: dict[str, Range] = {
     "u_mean": Range(1e-3, 40.0, log=True, zero=True),
     "u_slide": Range(1e-6, 10.0, log=True, zero=True),
     "slip": Range(1e-8, 10.0, log=True, zero=True),
-    "theta": Range(0.0, math.pi / 2.0),
+    "cos2": Range(0.0, 1.0),
     "eta0": Range(1e-3, 5.0, log=True),
     "alpha_p": Range(5e-9, 4e-8),
     "beta": Range(0.01, 0.1),

@@ -23,7 +23,7 @@ def stress_ratio(law: Law, par: FloatArray) -> float:
     pressure, temperature = np.full(slip.size, _PRESSURE), np.full(slip.size, _TEMPERATURE)
     stress = np.zeros(slip.size)
     status = flat_kernel(law)(
-        slip, pressure, temperature, np.full(slip.size, _LN_VISCOSITY), np.float64(_FILM), par, stress
+        slip, pressure, temperature, np.full(slip.size, _LN_VISCOSITY), np.full(slip.size, _FILM), par, stress
     )
     return float(np.abs(stress).max()) / _PRESSURE if status == 1 and np.all(np.isfinite(stress)) else 0.0
 

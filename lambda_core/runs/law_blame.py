@@ -140,7 +140,7 @@ def _shear(context: SolverContext, element: str, now: dict[str, FloatArray]) -> 
             pressure, temperature, context.parameters(element, "rheology"), ln_eta, rho
         )
         compiled[element, "traction"].dispatcher(
-            slip, pressure, temperature, ln_eta, film, context.parameters(element, "traction"), tau
+            slip, pressure, temperature, ln_eta, np.full(_CELLS, film), context.parameters(element, "traction"), tau
         )
         odd = np.flatnonzero(~(tau >= 0.0) | (tau > np.maximum(pressure, 1e6)))
         if odd.size:

@@ -27,7 +27,7 @@ SOURCES = compiled_sources()
 
 # Each unit calls the others through pointers, so that none is compiled into another.
 UNITS: dict[str, tuple[Any, Any]] = {
-    "wrench": (raceway.raceway_wrench, layout.wrench_sig),
+    "wrench": (raceway.raceway_wrenches, layout.wrench_sig),
     "tangent": (tangent.contact_tangent, layout.tangent_sig),
     "evaluate": (forces.evaluate, memory.evaluate_sig),
     "jacobian": (jacobian.jacobian, memory.jacobian_sig),

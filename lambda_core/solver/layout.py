@@ -46,15 +46,14 @@ guide_law = reader(_law_t("cage_contact"))
 drag_law = reader(_law_t("fluid_drag"))
 link_law = reader(_law_t("force_element"))
 time_law = reader(_law_t("time_function"))
-# One contact: (raceway, kinematics, laws, par, system, grid, cells, scratch, contact, wrench) -> status
+# Contacts: (raceway, first, count, laws, par, system, grid, cells, scratch) -> status
 wrench_sig = i8(
-    record_t(R.RACEWAY), record_t(R.KINEMATICS), raceway_laws_t, array1, record_t(R.SYSTEM), array2, array2,
-    record_t(R.SCRATCH), record_t(R.CONTACT), record_t(R.WRENCH),
-)  # fmt: skip
-# Its tangent: (raceway, kinematics, laws, par, system, grid, cells, scratch, tangent) -> status
+    record_t(R.RACEWAY), i8, i8, raceway_laws_t, array1, record_t(R.SYSTEM), array2, array2, record_t(R.SCRATCH)
+)
+# The tangent of one: (raceway, laws, par, system, grid, cells, scratch, tangent) -> status
 tangent_sig = i8(
-    record_t(R.RACEWAY), record_t(R.KINEMATICS), raceway_laws_t, array1, record_t(R.SYSTEM), array2, array3,
-    record_t(R.SCRATCH), record_t(R.TANGENT),
+    record_t(R.RACEWAY), raceway_laws_t, array1, record_t(R.SYSTEM), array2, array2, record_t(R.SCRATCH),
+    record_t(R.TANGENT),
 )  # fmt: skip
 bundle_t = reference_t(Bundle, {"wrench": types.FunctionType(wrench_sig), "tangent": types.FunctionType(tangent_sig)})
 
@@ -100,6 +99,12 @@ def allocating_helper(function):
 def part(par, span):
     """Return the parameters of one law, a view."""
     return par[span[0] : span[1]]
+
+
+@numba.njit(inline="always")
+def of(lane, first, count):
+    """Return the numbers of contacts from place `first` on, a view."""
+    return lane[first : first + count]
 
 
 @helper

@@ -344,15 +344,33 @@ FAULT = record(
     ("place", i8),  # raceway, or land; -1: neither
     ("inputs", f8, (4,)),
 )
+# Contacts of a raceway for which laws are called at once: those that carry load from place 0 on, films that nothing
+# presses yet from place BATCH on.
+BATCH = 16
+PLACES = 2 * BATCH
+SWEEPS = 4  # places that the derivative of a contact's wrench takes
+STRIDE = 8  # from the results of one contact to those of the next
+LANES = record(  # what laws take of contacts, number by number
+    *(
+        (name, f8, (PLACES,))
+        for name in (
+            "delta", "velocity", "load", "semi_a", "semi_b", "p_max", "u_mean", "cos2", "u_slide", "h_cen", "h_min",
+            "h", "film_parameter", "psi",
+        )
+    )
+)  # fmt: skip
 SCRATCH = record(
-    ("kinematics", KINEMATICS, (2,)),  # of the contact in hand, and of a neighbouring state
-    ("contact", CONTACT, (2,)),
-    ("wrench", WRENCH, (2,)),
+    ("kinematics", KINEMATICS, (PLACES,)),  # of contacts; where there is one in hand, the second is of a state near it
+    ("contact", CONTACT, (PLACES,)),
+    ("wrench", WRENCH, (PLACES,)),
+    ("lanes", LANES),
+    ("ball", i8, (PLACES,)),  # whose contacts they are
+    ("order", i8, (BATCH,)),  # their places by the number of the ball
     ("on_ring", WRENCH),
     ("on_ground", WRENCH),
     ("guide", GUIDE),
     ("at_rest", GUIDE),
-    ("out", f8, (64,)),  # results of scalar laws
+    ("out", f8, (STRIDE * BATCH,)),  # results of laws without cells
     ("surface", f8, (3,)),  # height of a raceway and its slopes
     ("fault", FAULT),  # survives the call
 )

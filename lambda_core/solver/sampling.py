@@ -101,13 +101,13 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
     if delta <= -near(raceway, system):
         return 1
     hand_states(raceway, j, bundle)
-    if contact_wrench(raceway, bundle) != 1:
+    if contact_wrench(raceway, 0, bundle) != 1:
         return 0
     if delta > 0.0:
         _show(kin, contact, sample)
-    add_contact(raceway, j, bundle)
+    add_contact(raceway, 0, j, bundle)
     losses[:] = 0.0
-    named, cells = losses_of(losses, bundle.raceways.size), cells_of(bundle.cells[0])
+    named, cells = losses_of(losses, bundle.raceways.size), cells_of(bundle.cells, 0, 1, bundle.grid.shape[1])
     raceway_losses(raceway, kin, system, grid_of(bundle.grid), contact, cells, named)
     for i in range(MECHANISMS * bundle.raceways.size):
         sample.contact_loss += losses[i]

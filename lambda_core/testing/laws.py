@@ -15,6 +15,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws import check
+from lambda_core.laws.calls import handed_over
 from lambda_core.laws.check import ModelReport
 from lambda_core.laws.context import Context
 from lambda_core.laws.jit.binding import taken_by
@@ -140,7 +141,7 @@ def evaluate(
             values.append(np.array(np.broadcast_to(np.asarray(arguments[argument.name], np.float64), size)))
         else:
             values.append(float(np.asarray(arguments[argument.name])))
-    status = _compiled(model, law).dispatcher(*values)
+    status = _compiled(model, law).dispatcher(*handed_over(role, values))
     if status != 1:
         raise AssertionError(f"{law.label} returned {status}: {law.errors.get(status, 'no sentence declared')}")
     outputs = tuple(v for a, v in zip(role.arguments, values, strict=True) if a.output)

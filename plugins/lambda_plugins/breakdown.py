@@ -36,7 +36,7 @@ class Field(Parameters):
     "breakdown",
     "field",
     Field,
-    role_api=2,
+    role_api=3,
     reference=_STRENGTH,
     validity="smooth surfaces; measured first breakdowns of rough ones are an order below it",
 )
@@ -69,7 +69,7 @@ def lowest_spot(sigma: float, area: float, length: float, u: float) -> float:
     "breakdown",
     "statistical",
     Rough,
-    role_api=2,
+    role_api=3,
     reference=_ONSET,
     validity="Gaussian heights that do not touch: film above roughness; one draw per patch of surface",
 )
@@ -99,7 +99,7 @@ class Particles(Rough):
     "breakdown",
     "particles",
     Particles,
-    role_api=2,
+    role_api=3,
     reference=f"{_ONSET}; Poisson statistics of particles",
     validity="as statistical; particles of one size, independent of each other",
 )

@@ -198,7 +198,7 @@ def push_back(
     "cage_contact",
     "spherical-pocket",
     Pocket,
-    role_api=2,
+    role_api=3,
     reference=_SOURCES,
     validity=_VALIDITY,
     prepare=prepare_sphere,
@@ -227,7 +227,7 @@ def spherical_pocket(
     "cage_contact",
     "cylindrical-pocket",
     Pocket,
-    role_api=2,
+    role_api=3,
     reference=_SOURCES,
     validity=_VALIDITY,
     prepare=prepare_cylinder,
@@ -255,7 +255,7 @@ def cylindrical_pocket(
     "cage_contact",
     "land-guidance",
     CageContact,
-    role_api=2,
+    role_api=3,
     reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
     validity=_VALIDITY,
     prepare=prepare_land,
@@ -279,7 +279,7 @@ def land_guidance(
     "cage_contact",
     "ball-ball",
     CageContact,
-    role_api=2,
+    role_api=3,
     reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
     validity=_VALIDITY,
     prepare=prepare_balls,
@@ -299,7 +299,7 @@ def ball_ball(r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: flo
     return OK
 
 
-@law("cage_contact", "none", role_api=2, reference="-")
+@law("cage_contact", "none", role_api=3, reference="-")
 def none(
     r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: NoParameters, out: FloatArray
 ) -> int:

@@ -87,7 +87,7 @@ def prepare(parameters: CavityMixture, context: Context) -> Mixture:
     "fluid_drag",
     "cavity-mixture",
     CavityMixture,
-    role_api=2,
+    role_api=3,
     reference="Parker 1984, NASA TP-2300 (share of oil); Clift, Grace and Weber 1978, eq. 5-8; Sawatzki 1970",
     validity="oil jet, under-race and oil-air; share of oil unconfirmed, tested at 1 to 3 million mm/min; neighbours, "
     "cage and rings left out",

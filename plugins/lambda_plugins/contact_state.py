@@ -5,7 +5,7 @@ from __future__ import annotations
 from lambda_core.plugins import OK, FloatArray, NoParameters, law
 
 
-@law("contact_state", "none", role_api=2, reference="-")
+@law("contact_state", "none", role_api=3, reference="-")
 def none(
     t: float,
     load: float,

@@ -52,7 +52,7 @@ def band_rise(semi_b: float, speed: float, body: Solid) -> float:
 @law(
     "contact_temperature",
     "shear-heating",
-    role_api=2,
+    role_api=3,
     reference="Jaeger 1942; Archard 1959, Wear 2, 438; Carslaw and Jaeger 1959, sections 10.5 and 10.7",
     validity="thin film, heat flow across the film only; mean over the length of the contact",
     prepare=prepare_shear_heating,
@@ -88,7 +88,7 @@ def shear_heating(
     return OK
 
 
-@law("contact_temperature", "isothermal", role_api=2, reference="-")
+@law("contact_temperature", "isothermal", role_api=3, reference="-")
 def isothermal(
     T_in: float,
     u_mean: float,

@@ -7,7 +7,7 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, Quantity, law, parameter
+from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, Quantity, exp, law, parameter
 from lambda_plugins.film_thickness import Floors, chittenden
 from lambda_plugins.film_thickness import prepare as prepare_floors
 from lambda_plugins.normal_contact import stiffness
@@ -54,7 +54,7 @@ def prepare_cubic(parameters: CubicDamping, context: Context) -> Onset:
     "damping",
     "cubic",
     CubicDamping,
-    role_api=2,
+    role_api=3,
     reference="Teutsch 2005 (thesis, TU Kaiserslautern); Syla et al. 2026, Lubricants 14, 154, eq. 12-13",
     validity="parametric: both constants are to be identified; defaults are assumptions",
     prepare=prepare_cubic,
@@ -109,7 +109,7 @@ def prepare_film(parameters: SqueezeFilm, context: Context) -> Squeezed:
     rx, ry, oil, found = context.radius_x, context.radius_y, context.oil, np.zeros(2)
     speed = 0.25 * context.speed * context.pitch_diameter
     floors = prepare_floors(Floors(), context)
-    chittenden(speed, 0.0, context.mean_load, rx, ry, context.e_eff, oil.viscosity, oil.alpha_p, floors, found)
+    chittenden(speed, 1.0, context.mean_load, rx, ry, context.e_eff, oil.viscosity, oil.alpha_p, floors, found)
     shape = 12.0 * math.pi * math.sqrt(rx * ry) / (1.0 / rx + 1.0 / ry)
     return Squeezed(*onset, parameters.layer, math.hypot(float(found[0]), parameters.thinnest_film), shape)
 
@@ -118,7 +118,7 @@ def prepare_film(parameters: SqueezeFilm, context: Context) -> Squeezed:
     "damping",
     "squeeze-film",
     SqueezeFilm,
-    role_api=2,
+    role_api=3,
     reference="Teutsch 2005 (thesis, TU Kaiserslautern); Pitois et al. 2000, J. Colloid Interface Sci. 231, 26",
     validity="lightly loaded contacts: pressures that thicken the oil leave the cubic damping alone",
     prepare=prepare_film,
@@ -147,8 +147,8 @@ def squeeze_film(
     film = par.touch + at_least(-delta, 0.0)
     edge = 1.0 - film / (par.touch + par.reach)
     squeezed = par.shape * eta0 * edge * edge / film
-    if load > 0.0:
-        squeezed *= math.exp(-1.5 * alpha_p * load / (math.pi * semi_a * semi_b))
+    # of an open contact both the load and its area are zero
+    squeezed *= exp(-at_most(1.5 * alpha_p * load / (math.pi * at_least(semi_a * semi_b, 1e-290)), 700.0))
     out[0] = at_least((par.d_max * s * s * (3.0 - 2.0 * s) + squeezed) * delta_dot, -load)
     return OK
 
@@ -170,7 +170,7 @@ class HuntCrossley(Parameters):
     "damping",
     "hunt-crossley",
     HuntCrossley,
-    role_api=2,
+    role_api=3,
     reference="Hunt and Crossley 1975, J. Appl. Mech. 42, 440",
     validity="dry impacts at low speed, alpha v far below 1; no oil between the bodies",
 )
@@ -184,7 +184,7 @@ def hunt_crossley(delta: float, delta_dot: float, load: float, par: HuntCrossley
     return OK
 
 
-@law("damping", "none", role_api=2, reference="-", contact="any")
+@law("damping", "none", role_api=3, reference="-", contact="any")
 def none(delta: float, delta_dot: float, load: float, par: NoParameters, out: FloatArray) -> int:
     """No damping."""
     out[0] = 0.0

@@ -22,7 +22,7 @@ class Channel(Parameters):
     "discharge",
     "resistance",
     Channel,
-    role_api=2,
+    role_api=3,
     reference="Ohm's law",
     validity="resistances of arcs are hardly known; charge and energy depend little on them, the largest current does",
 )
@@ -44,7 +44,7 @@ class Arc(Channel):
     "discharge",
     "arc-voltage",
     Arc,
-    role_api=2,
+    role_api=3,
     reference="constant arc voltage and Ohm's law",
     validity="arcs that burn longer than they take to form",
 )

@@ -26,7 +26,7 @@ class LossFactor(Parameters):
     "elastic_hysteresis",
     "loss-factor",
     LossFactor,
-    role_api=2,
+    role_api=3,
     reference="Johnson, Contact Mechanics (1985), section 9.2; Greenwood, Minshall and Tabor 1961",
     validity="small losses; alpha_h of bearing steel is known within a factor of a few only",
 )
@@ -45,7 +45,7 @@ def loss_factor(
 @law(
     "elastic_hysteresis",
     "houpert",
-    role_api=2,
+    role_api=3,
     reference="Houpert 2002, Tribol. Int. 35 (as commonly quoted)",
     validity="steel on steel; not confirmed from its original",
 )
@@ -86,7 +86,7 @@ class Scheuermann(Parameters):
     "elastic_hysteresis",
     "scheuermann",
     Scheuermann,
-    role_api=2,
+    role_api=3,
     reference="Wingertszahn et al. 2023, Lubricants 11, 369, eq. 19",
     validity="constants must be identified by the user",
 )
@@ -101,7 +101,7 @@ def scheuermann(
     return OK
 
 
-@law("elastic_hysteresis", "none", role_api=2, reference="-", contact="any")
+@law("elastic_hysteresis", "none", role_api=3, reference="-", contact="any")
 def none(
     load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: NoParameters, out: FloatArray
 ) -> int:

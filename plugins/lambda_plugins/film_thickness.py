@@ -46,14 +46,14 @@ def prepare(parameters: Floors, context: Context) -> FilmFloors:
     "film_thickness",
     "chittenden",
     Floors,
-    role_api=2,
+    role_api=3,
     reference="Chittenden, Dowson, Dunn and Taylor 1985, Proc. R. Soc. A 397, 245 and 271",
     validity="piezoviscous-elastic regime, fully flooded, isothermal; floors at rest and without load are numerical",
     prepare=prepare,
 )
 def chittenden(
     u_mean: float,
-    theta: float,
+    cos2: float,
     load: float,
     R_x: float,
     R_y: float,
@@ -70,10 +70,9 @@ def chittenden(
     across the entrainment. Chittenden et al. 1985, Proc. R. Soc. A 397, 245 and 271. Syla et al. 2026 (eq. 25-26,
     Table 2) print the exponent 0.67 and the sum velocity, which together give 1.9 times this film.
     """
-    c2 = math.cos(theta) ** 2
-    s2 = 1.0 - c2
-    R_e = 1.0 / (c2 / R_x + s2 / R_y)
-    R_s = 1.0 / (s2 / R_x + c2 / R_y)
+    sin2 = 1.0 - cos2
+    R_e = 1.0 / (cos2 / R_x + sin2 / R_y)
+    R_s = 1.0 / (sin2 / R_x + cos2 / R_y)
     speed = math.sqrt(u_mean * u_mean + par.speed * par.speed)
     force = math.sqrt(load * load + par.load * par.load)
     U = eta0 * speed / (E_eff * R_e)
@@ -92,14 +91,14 @@ def chittenden(
     "film_thickness",
     "hamrock-dowson",
     Floors,
-    role_api=2,
+    role_api=3,
     reference="Hamrock and Dowson 1977, J. Lubr. Technol. 99, 264",
     validity="piezoviscous-elastic regime, k >= 1, entrainment along the minor axis, fully flooded, isothermal",
     prepare=prepare,
 )
 def hamrock_dowson(
     u_mean: float,
-    theta: float,
+    cos2: float,
     load: float,
     R_x: float,
     R_y: float,

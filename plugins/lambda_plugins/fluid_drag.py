@@ -158,7 +158,7 @@ def power_factors(parameters: SharedLoss, context: Context) -> tuple[float, floa
     "fluid_drag",
     "skf-catalogue",
     Skf,
-    role_api=2,
+    role_api=3,
     reference="SKF, Rolling bearings, catalogue 17000 EN (2018), chapter Friction; edition of 2008: Syla et al. 2026, "
     "Lubricants 14, 154, eq. 40",
     validity="oil bath, horizontal shaft; V_M from SKF's chart, read within 15 %; oil jet: twice that of a usual bath",
@@ -246,7 +246,7 @@ def viscous_number(nu: float, n: float) -> float:
     "fluid_drag",
     "schaeffler-catalogue",
     Schaeffler,
-    role_api=2,
+    role_api=3,
     reference="Schaeffler, Rolling bearings (catalogue); Syla et al. 2026, Lubricants 14, 154, eq. 38-39",
     validity="oil bath to the centre of the lowest ball; the share of drag in M0 is an assumption",
     prepare=prepare_schaeffler,
@@ -268,7 +268,7 @@ def schaeffler_catalogue(
     return OK
 
 
-@law("fluid_drag", "none", role_api=2, reference="-")
+@law("fluid_drag", "none", role_api=3, reference="-")
 def none(
     v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: NoParameters, out: FloatArray
 ) -> int:

@@ -46,7 +46,7 @@ class Bushing(Parameters):
     "force_element",
     "bushing",
     Bushing,
-    role_api=2,
+    role_api=3,
     reference="linear spring and damper along and about each axis (Kelvin-Voigt)",
     validity="small displacements and tilts; the axes are the inertial ones",
 )

@@ -42,7 +42,7 @@ def hertz_line(line_load: float, R_x: float, E_eff: float) -> tuple[float, float
 @law(
     "normal_contact",
     "iso-line",
-    role_api=2,
+    role_api=3,
     reference="ISO 16281:2025; Hertz: Johnson, Contact Mechanics (1985), eq. 4.43-4.45",
     validity="line contacts; a power law of steel rollers of usual proportions, other materials in proportion to E'",
     contact="line",
@@ -67,7 +67,7 @@ def iso_line(delta: float, R_x: float, R_y: float, E_eff: float, par: NoParamete
 @law(
     "normal_contact",
     "hertz-line",
-    role_api=2,
+    role_api=3,
     reference="Lundberg 1939, Forsch. Ing.-Wes. 10, 201; Johnson, Contact Mechanics (1985), eq. 3.19 and 4.43",
     validity="line contacts of half spaces, length much larger than the half width",
     contact="line",
@@ -98,7 +98,7 @@ def hertz_line_contact(delta: float, R_x: float, R_y: float, E_eff: float, par: 
     "film_thickness",
     "moes-line",
     Floors,
-    role_api=2,
+    role_api=3,
     reference="Moes 1992, Wear 159, 57; minimum: Dowson 1968, Proc. IMechE 182, 151",
     validity="line contacts from rigid-isoviscous to elastic-piezoviscous, fully flooded, isothermal",
     prepare=prepare_floors,
@@ -106,7 +106,7 @@ def hertz_line_contact(delta: float, R_x: float, R_y: float, E_eff: float, par: 
 )
 def moes_line(
     u_mean: float,
-    theta: float,
+    cos2: float,
     load: float,
     R_x: float,
     R_y: float,
@@ -122,7 +122,7 @@ def moes_line(
     U^0.01 G^-0.02 W^-0.03 of it, the ratio of Dowson's 2.65 U^0.70 G^0.54 W^-0.13 (Dowson 1968) to Dowson and Toyoda's
     3.06 U^0.69 G^0.56 W^-0.10, at most 1.
     """
-    across = u_mean * math.cos(theta)
+    across = u_mean * math.sqrt(cos2)
     speed = math.sqrt(across * across + par.speed * par.speed)
     force = math.sqrt(load * load + par.load * par.load)
     G = at_least(alpha_p * E_eff, 1e-3)
@@ -139,7 +139,7 @@ def moes_line(
     "film_thickness",
     "dowson-toyoda",
     Floors,
-    role_api=2,
+    role_api=3,
     reference="Dowson and Toyoda 1979, 5th Leeds-Lyon Symposium, 60; minimum: Dowson 1968, Proc. IMechE 182, 151",
     validity="line contacts, elastic-piezoviscous, fully flooded, isothermal",
     prepare=prepare_floors,
@@ -147,7 +147,7 @@ def moes_line(
 )
 def dowson_toyoda(
     u_mean: float,
-    theta: float,
+    cos2: float,
     load: float,
     R_x: float,
     R_y: float,
@@ -161,7 +161,7 @@ def dowson_toyoda(
 
     Dowson and Toyoda 1979 for the centre, Dowson 1968 for the minimum; U with the mean velocity across the line.
     """
-    across = u_mean * math.cos(theta)
+    across = u_mean * math.sqrt(cos2)
     speed = math.sqrt(across * across + par.speed * par.speed)
     force = math.sqrt(load * load + par.load * par.load)
     G = at_least(alpha_p * E_eff, 1e-3)
@@ -178,7 +178,7 @@ def dowson_toyoda(
     "rolling_resistance",
     "biboulet-houpert-line",
     InletShear,
-    role_api=2,
+    role_api=3,
     reference="Biboulet and Houpert 2010, Proc. IMechE J 224, Part 1; heat: Aihara 1987, J. Tribol. 109, 471",
     validity="line contacts, fully flooded inlet, rigid-isoviscous to piezoviscous-elastic",
     contact="line",
@@ -214,7 +214,7 @@ def biboulet_houpert_line(
     "elastic_hysteresis",
     "johnson-line",
     LossFactor,
-    role_api=2,
+    role_api=3,
     reference="Johnson, Contact Mechanics (1985), section 9.2",
     validity="line contacts, small losses; alpha_h of bearing steel is known within a factor of a few only",
     contact="line",
@@ -262,7 +262,7 @@ def prepare_line_film(parameters: SqueezeFilm, context: Context) -> SqueezedLine
     "damping",
     "squeeze-line",
     SqueezeFilm,
-    role_api=2,
+    role_api=3,
     reference="Teutsch 2005 (thesis, TU Kaiserslautern); Reynolds' equation of a cylinder",
     validity="line contacts, lightly loaded: pressures that thicken the oil leave the cubic damping alone",
     prepare=prepare_line_film,
@@ -299,7 +299,7 @@ def squeeze_line(
 @law(
     "capacitance",
     "line-gap",
-    role_api=2,
+    role_api=3,
     reference="Derjaguin 1934, Kolloid-Z. 69, 155, for a cylinder",
     validity="line contacts; the gap outside the flat is that of the undeformed cylinder, wider than the true one",
     contact="line",

@@ -7,7 +7,7 @@ from typing import Annotated, NamedTuple, Self
 
 from pydantic import model_validator
 
-from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, Quantity, law, parameter
+from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, Quantity, law, parameter, power
 from lambda_plugins.shapes import at_least, at_most, cubic_friction
 
 _SISTER = "Wingertszahn et al. 2023, Lubricants 11, 369"
@@ -36,7 +36,7 @@ class ZhouHoeprich(Parameters):
     "asperity_load",
     "zhou-hoeprich",
     ZhouHoeprich,
-    role_api=2,
+    role_api=3,
     reference="Zhou and Hoeprich 1991, J. Tribol. 113, 590; constants: Wingertszahn et al. 2023, Lubricants 11, 369",
     validity="constants belong to the roughness that they were fitted with",
 )
@@ -61,7 +61,7 @@ class SpikesOlver(Parameters):
     "asperity_load",
     "spikes-olver",
     SpikesOlver,
-    role_api=2,
+    role_api=3,
     reference="Spikes and Olver 2003, Lubr. Sci. 16(1), 3",
     validity="friction of rough point contacts over the whole transition; Lambda of the smooth surfaces",
 )
@@ -72,11 +72,11 @@ def spikes_olver(Lambda: float, par: SpikesOlver, out: FloatArray) -> int:
     Lambda the smooth film over the composite rms roughness: Spikes and Olver 2003, Lubr. Sci. 16(1), 3.
     """
     share = 1.0 / (1.0 + at_least(Lambda, 0.0))
-    out[0] = share * share if par.exponent == 2.0 else share**par.exponent
+    out[0] = share * share if par.exponent == 2.0 else power(share, par.exponent)
     return OK
 
 
-@law("asperity_load", "none", role_api=2, reference="-")
+@law("asperity_load", "none", role_api=3, reference="-")
 def none(Lambda: float, par: NoParameters, out: FloatArray) -> int:
     """Full film: no load on asperities."""
     out[0] = 0.0
@@ -117,7 +117,7 @@ def prepare_micro_slip(parameters: MicroSlip, context: Context) -> Creep:
     "boundary_friction",
     "micro-slip",
     MicroSlip,
-    role_api=2,
+    role_api=3,
     reference="Carter 1926, Proc. R. Soc. A 112, 151; Johnson, Contact Mechanics (1985), section 8.3",
     validity="steady rolling; elastic bodies of equal material; no memory of the contact before a reversal",
     prepare=prepare_micro_slip,
@@ -165,7 +165,7 @@ class CubicFriction(Parameters):
     "boundary_friction",
     "cubic",
     CubicFriction,
-    role_api=2,
+    role_api=3,
     reference="Teutsch 2005 (thesis, TU Kaiserslautern); Wingertszahn et al. 2023, Lubricants 11, 369, eq. 21",
     validity="constants are assumptions until measured for the oil and surfaces",
 )
@@ -194,7 +194,7 @@ class Coulomb(Parameters):
     "boundary_friction",
     "coulomb-regularised",
     Coulomb,
-    role_api=2,
+    role_api=3,
     reference="Coulomb's law with a smooth start",
     validity="constant coefficient beyond a few v_0",
 )

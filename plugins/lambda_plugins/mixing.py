@@ -13,7 +13,7 @@ from lambda_plugins.shapes import at_most
     "mixing",
     "load-share",
     NoParameters,
-    role_api=2,
+    role_api=3,
     reference="Spikes and Olver 2003, Lubr. Sci. 16(1), 3: mu = mu_film + (mu_bl - mu_film) psi",
     validity="psi the share of friction or of load",
 )
@@ -39,7 +39,7 @@ class Hardness(Parameters):
     "mixing",
     "contact-area",
     Hardness,
-    role_api=2,
+    role_api=3,
     reference="Gelinck and Schipper 2000, Tribol. Int. 33, 175; real area: Bowden and Tabor 1939, Proc. R. Soc. A 169, "
     "391",
     validity="psi the share of the load (zhou-hoeprich), not of friction (spikes-olver); asperities yield",

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lambda_core.plugins import OK, Context, FloatArray, NoParameters, hertz_shape, law
+from lambda_plugins.shapes import at_least
 
 _Q = math.pi / 2.0 - 1.0
 _MAX_RATIO = 2.0e4  # of the principal radii; range of the exact model's fit
@@ -53,14 +54,8 @@ def ellipse_from_penetration(
     (6 k^2 eps Q R'/(pi E'))^(1/3), solved for Q and written in s = sqrt(delta/F), so that nothing divides by a
     vanishing number at first touch. The longer axis lies along the larger radius.
     """
-    if delta <= 0.0:
-        out[0] = 0.0
-        out[1] = 0.0
-        out[2] = 0.0
-        out[3] = 0.0
-        return
     k, first, scale, root = shape
-    s = math.sqrt(delta / first)
+    s = math.sqrt(at_least(delta, 0.0) / first)
     minor = root * s
     major = minor * k
     out[0] = math.pi * k * E_eff * scale * s * s * s
@@ -93,7 +88,7 @@ def prepare_fitted(parameters: NoParameters, context: Context) -> Shape:
 @law(
     "normal_contact",
     "hamrock-brewe",
-    role_api=2,
+    role_api=3,
     reference="Hamrock and Brewe 1983, J. Lubr. Technol. 105, 171; Syla et al. 2026, Lubricants 14, 154, eq. 1-11",
     validity="elliptical contact of smooth elastic half-spaces; fit error: pressure -0.2..+1.4 %, load -2..+4 %",
     prepare=prepare_fitted,
@@ -156,7 +151,7 @@ def prepare_exact(parameters: NoParameters, context: Context) -> Exact:
 @law(
     "normal_contact",
     "hertz-exact",
-    role_api=2,
+    role_api=3,
     reference="Hertz 1881; Johnson, Contact Mechanics (1985), eq. 4.25-4.28",
     validity="elliptical contact of smooth elastic half-spaces; ratio of principal radii up to 20 000",
     prepare=prepare_exact,

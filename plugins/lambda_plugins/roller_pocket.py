@@ -77,7 +77,7 @@ def squeezed_line(guide: RollerGuide, gap: float, closing: float, eta0: float) -
     "cage_contact",
     "roller-pocket",
     RollerPocket,
-    role_api=2,
+    role_api=3,
     reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
     validity="rigid bodies with a penalty contact; round bars, flat end faces; all constants are assumptions",
     prepare=prepare_roller,

@@ -31,7 +31,7 @@ def peak_load(load: float, semi_a: float, E_eff: float, R_x: float) -> float:
     "rolling_resistance",
     "matsuyama",
     InletShear,
-    role_api=2,
+    role_api=3,
     reference="Matsuyama, as in Manjunath et al. 2023, Machines 11, 801, table 1; heat: "
     "Aihara 1987, J. Tribol. 109, 471",
     validity="fully flooded piezoviscous-elastic line contact applied strip by strip; original not seen",
@@ -72,7 +72,7 @@ def matsuyama(
     "rolling_resistance",
     "zhou-hoeprich",
     InletShear,
-    role_api=2,
+    role_api=3,
     reference="Zhou and Hoeprich 1991, J. Tribol. 113, 590, eq. 17; heat: Aihara 1987, J. Tribol. 109, 471",
     validity="fully flooded piezoviscous-elastic line contact applied strip by strip; fitted from W 1e-4 to 3e-4, U "
     "1e-11 to 1e-9",
@@ -113,7 +113,7 @@ def zhou_hoeprich(
     "rolling_resistance",
     "aihara",
     InletShear,
-    role_api=2,
+    role_api=3,
     reference="Aihara 1987, J. Tribol. 109, 471, section 2.4",
     validity="tapered roller bearings; line contact applied strip by strip; constants second-hand",
 )
@@ -166,7 +166,7 @@ def ellipse_perimeter(ratio: float) -> float:
     "rolling_resistance",
     "biboulet-houpert-point",
     InletShear,
-    role_api=2,
+    role_api=3,
     reference="Biboulet and Houpert 2010, Proc. IMechE J 224, Part 2; heat: Aihara 1987, J. Tribol. 109, 471",
     validity="fully flooded point contact, rigid-isoviscous to piezoviscous-elastic, wider across rolling than along "
     "it; oil on both sides of the ellipse (truncation left out)",

@@ -15,12 +15,13 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, Quantity, law, parameter
+from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, Quantity, law, parameter, power
 from lambda_plugins.shapes import POLYNOMIAL_TERMS, at_least, at_most, polynomial, series
 
 # Of q = (0.966)^2 M of the middle strip, the sum has a polynomial for each half of an octave of these.
 _OCTAVE_LOW, _OCTAVE_HIGH = -8, 28
 _HALVES_BELOW = 2 * (1023 + _OCTAVE_LOW)  # exponent and first bit of the mantissa, as they stand in a float
+_LEAST = 1e-290  # of what a power is taken of, or is divided by
 # Integral of (1 - s^2)^0.0126 ds over -1..1: the beta function B(1/2, 1.0126).
 _STRIPS = math.sqrt(math.pi) * math.gamma(1.0126) / math.gamma(1.5126)
 
@@ -78,16 +79,15 @@ def prepare(parameters: InletShear, context: Context) -> Strips:
 
 def summed(q: float, halves: FloatArray) -> float:
     """Return :func:`strip_sum` of one q > 0: constant far below 1, falling with the root far above; NaN of NaN."""
-    if not q > 0.0:
-        return math.nan
-    held = at_most(at_least(q, 2.0**_OCTAVE_LOW), 2.0**_OCTAVE_HIGH * (1.0 - 1e-15))
+    held = at_most(q, 2.0**_OCTAVE_HIGH * (1.0 - 1e-15)) if q > 2.0**_OCTAVE_LOW else 2.0**_OCTAVE_LOW
     bits = np.float64(held).view(np.int64)
     half = (bits >> 51) - _HALVES_BELOW
     middle = np.int64((bits >> 51 << 51) + (1 << 50)).view(np.float64)
     start = np.int64(bits >> 52 << 52).view(np.float64)
     first = POLYNOMIAL_TERMS * half
     value = polynomial(4.0 * (held - middle) / start, halves[first : first + POLYNOMIAL_TERMS])
-    return float(value * math.sqrt(held / q)) if q > held else float(value)
+    beyond = value * math.sqrt(held / q) if q > held else value
+    return float(beyond) if q > 0.0 else math.nan
 
 
 def regular_speed(u_mean: float, floor: float) -> float:
@@ -98,15 +98,14 @@ def regular_speed(u_mean: float, floor: float) -> float:
 def thermal_factor(coefficient: float, speed: float, eta0: float, beta: float, k_oil: float) -> float:
     """Return 1/(1 + c L^0.78), L = eta0 beta u^2/lambda: Aihara 1987, J. Tribol. 109, 471 (c = 0.29)."""
     L = eta0 * beta * speed * speed / k_oil
-    load_term: float = at_least(L, 0.0) ** 0.78
-    return 1.0 / (1.0 + coefficient * load_term)
+    return 1.0 / (1.0 + coefficient * power(at_least(L, _LEAST), 0.78))
 
 
 @law(
     "rolling_resistance",
     "biboulet-houpert",
     InletShear,
-    role_api=2,
+    role_api=3,
     reference="Biboulet and Houpert 2010, Proc. IMechE J 224, Part 1; heat: Aihara 1987, J. Tribol. 109, 471",
     validity="fully flooded inlet, rigid-isoviscous to piezoviscous-elastic line contact applied strip by strip",
     prepare=prepare,
@@ -133,16 +132,15 @@ def biboulet_houpert(
     eq. 40-42, as used by Wingertszahn et al. 2023, Lubricants 11, 369, eq. 16 (whose printed inner root must be
     sqrt(M)). It lies 0..56 % above Goksem and Hargreaves.
     """
-    if load <= 0.0 or semi_a <= 0.0:
-        out[0] = 0.0
-        return OK
     speed = regular_speed(u_mean, par.inlet.speed_floor)
     U2 = 2.0 * eta0 * speed / (E_eff * R_x)
-    peak = 0.75 * load / (semi_a * E_eff * R_x)
+    peak = 0.75 * load / (at_least(semi_a, _LEAST) * E_eff * R_x)
     # the strip in the middle has W = `peak`; what is in brackets falls with 1 - s^2 to the sides
     total = math.sqrt(U2 * peak) * summed(0.966 * 0.966 * peak / math.sqrt(U2), par.halves)
     force = 1.4 / 0.985 * E_eff * R_x * semi_a * total
-    out[0] = force * thermal_factor(par.inlet.thermal_coefficient, speed, eta0, beta, k_oil) * abs(u_mean) / speed
+    heated = force * thermal_factor(par.inlet.thermal_coefficient, speed, eta0, beta, k_oil) * abs(u_mean) / speed
+    # a choice, no early return: all contacts of a raceway take the same way through the kernel, several at once
+    out[0] = 0.0 if load <= 0.0 or semi_a <= 0.0 else heated
     return OK
 
 
@@ -150,7 +148,7 @@ def biboulet_houpert(
     "rolling_resistance",
     "goksem-hargreaves",
     InletShear,
-    role_api=2,
+    role_api=3,
     reference="Goksem and Hargreaves 1978, J. Lubr. Technol. 100, 346; Zhou and Hoeprich 1991, J. Tribol. 113, 590",
     validity="fully flooded inlet, piezoviscous-elastic line contact applied strip by strip",
 )
@@ -185,7 +183,7 @@ def goksem_hargreaves(
     return OK
 
 
-@law("rolling_resistance", "none", role_api=2, reference="-", contact="any")
+@law("rolling_resistance", "none", role_api=3, reference="-", contact="any")
 def none(
     u_mean: float,
     load: float,

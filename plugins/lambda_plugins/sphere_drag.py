@@ -65,7 +65,7 @@ def churning_of_sphere(share: float, omega: float, R: float, nu: float, rho: flo
     "fluid_drag",
     "sphere-drag",
     SphereDrag,
-    role_api=2,
+    role_api=3,
     reference="Clift, Grace and Weber 1978, eq. 5-8; Sawatzki 1970, Acta Mech. 9, 159; Kirchhoff 1876",
     validity="single sphere; drag Re < 3e5, spin Re < 4e4; neighbours, cage and rings left out",
     prepare=prepare,

@@ -6,7 +6,7 @@ together, and both are exactly 1 for a flooded contact.
 
 from __future__ import annotations
 
-from lambda_plugins.shapes import at_least
+from lambda_plugins.shapes import at_least, at_most
 
 ROLLING = "Biboulet and Houpert 2010, Proc. IMechE J 224, Part 1, eq. 44"
 CHEVALIER = "Chevalier, Lubrecht, Cann, Colin and Dalmaz 1998, J. Tribol. 120, 126"
@@ -19,10 +19,9 @@ def starved_rolling(inlet: float) -> float:
     S is the thickness of the oil at the meniscus over the flooded minimum film. Biboulet and Houpert 2010, Proc. IMechE
     J 224 (Part 1, line contacts, doi 10.1243/13506501JET790), eq. 44: 0 without oil, 1 for endless oil.
     """
-    s = at_least(inlet, 0.0)
-    if s > 1e9:
-        return 1.0
-    return (s * s + 162.8 * s) / (s * s + 193.1 * s + 1257.0)
+    s = at_most(at_least(inlet, 0.0), 1e9)
+    factor = (s * s + 162.8 * s) / (s * s + 193.1 * s + 1257.0)
+    return 1.0 if inlet > 1e9 else factor
 
 
 def starved_film(layer: float, gamma: float) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from lambda_core.plugins import OK, Context, FloatArray, Parameters, law, parameter
+from lambda_core.plugins import OK, Context, FloatArray, Parameters, exp, law, parameter
 from lambda_plugins.methods.skf_drag import K_Z_OF_KINDS
 from lambda_plugins.shapes import at_least, at_most
 from lambda_plugins.starved_inlet import INLET, ROLLING, meniscus, starved_rolling
@@ -36,7 +36,7 @@ def given(parameters: FilmFactor, context: Context) -> Given:
     "supply",
     "constant",
     FilmFactor,
-    role_api=2,
+    role_api=3,
     reference=f"{INLET}; rolling: {ROLLING}",
     validity="the same share of the flooded film at every speed and load; Grubin's inlet and rolling of line contacts, "
     "the inlet derived anew",
@@ -89,7 +89,7 @@ def prepare_distance(parameters: InletDistance, context: Context) -> Meniscus:
     "supply",
     "inlet-distance",
     InletDistance,
-    role_api=2,
+    role_api=3,
     reference=f"Hamrock and Dowson 1977, J. Lubr. Technol. 99, 15 (part IV); rolling: {ROLLING}",
     validity="entrainment along the minor axis",
     prepare=prepare_distance,
@@ -163,7 +163,7 @@ def prepare_replenishment(parameters: Replenishment, context: Context) -> Decay:
     "supply",
     "skf-replenishment",
     Replenishment,
-    role_api=2,
+    role_api=3,
     reference="SKF, Rolling bearings, catalogue 17000 EN (2018), chapter Friction; "
     f"prescribed film: {INLET}; its rolling: {ROLLING}",
     validity="series and speeds of the catalogue; the film itself is left as flooded where the case prescribes none",
@@ -189,6 +189,6 @@ def skf_replenishment(
     one counts. The rolling resistance therefore has the smaller of phi_rs and the factor of `supply/constant`.
     """
     out[0] = par.film
-    kinematic = math.exp(-par.per_speed * at_least(u_mean, 0.0))
+    kinematic = exp(-at_most(par.per_speed * at_least(u_mean, 0.0), 700.0))
     out[1] = at_most(kinematic, starved_rolling(par.gap * h_cen / h_min))
     return OK

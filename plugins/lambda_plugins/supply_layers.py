@@ -40,7 +40,7 @@ class OilLayer(Parameters):
     "supply",
     "oil-layer",
     OilLayer,
-    role_api=2,
+    role_api=3,
     reference=f"{CHEVALIER}; inlet: {INLET}; rolling: {ROLLING}",
     validity="an even layer of known thickness; inlet and rolling resistance of line contacts",
 )
@@ -160,7 +160,7 @@ def layer_after(fresh: float, time: float, flow: float, replenishment: float) ->
     "supply",
     "side-flow",
     SideFlow,
-    role_api=2,
+    role_api=3,
     reference=f"{_SIDE_FLOW}; {CHEVALIER}; inlet: {INLET}; rolling: {ROLLING}",
     validity="base oil of a grease or an oil-air layer after churning; every contact of a track taken as this one; no "
     "flow back from the ridges at the sides of the track, no spin; originals not seen, derived anew",

@@ -22,7 +22,7 @@ SmallLength = Annotated[float, Quantity("small_length")]
 _MEASURED = "no value of its own: measured on the ring"
 
 
-@law("surface", "none", role_api=2, reference="-")
+@law("surface", "none", role_api=3, reference="-")
 def none(azimuth: float, contact_angle: float, par: NoParameters, out: FloatArray) -> int:
     """Nominal raceway."""
     out[0] = 0.0
@@ -86,7 +86,7 @@ def prepare_waviness(parameters: Waviness, context: Context) -> Waves:
     "surface",
     "waviness",
     Waviness,
-    role_api=2,
+    role_api=3,
     reference="Wardle 1988, Proc. Instn Mech. Engrs 202 C5, 305; Harsha et al. 2004, J. Sound Vib. 272, 557",
     validity="waves long against the contact ellipse; slopes small against 1",
     prepare=prepare_waviness,
@@ -173,7 +173,7 @@ def prepare_defect(parameters: Defect, context: Context) -> Gap:
     "surface",
     "defect",
     Defect,
-    role_api=2,
+    role_api=3,
     reference="geometry of a circle on an edge; Sawalhi and Randall 2008, Mech. Syst. Signal Process. 22, 1924",
     validity="gap longer along rolling than the contact ellipse; rigid edges",
     prepare=prepare_defect,

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from lambda_core.plugins import OK, FloatArray, NoParameters, Parameters, law, parameter
+from lambda_core.plugins import OK, FloatArray, NoParameters, Parameters, law, parameter, power
 from lambda_plugins.shapes import at_least, at_most
+
+_LEAST = 1e-290  # of what a power is taken of
 
 
 @law(
     "thermal_correction",
     "murch-wilson",
-    role_api=2,
+    role_api=3,
     reference="Murch and Wilson 1975, J. Lubr. Technol. 97, 212",
     validity="pure rolling",
 )
@@ -29,8 +31,8 @@ def murch_wilson(
     Phi_T = 3.94/(3.94 + L^0.62), L = eta0 beta u_m^2/lambda, u_m the mean velocity, beta = -(1/eta) d eta/dT.
     Murch and Wilson 1975, J. Lubr. Technol. 97, 212; Syla et al. 2026, eq. 23-24.
     """
-    L = at_least(eta0 * beta * u_mean * u_mean / k_oil, 0.0)
-    out[0] = 3.94 / (3.94 + L**0.62)
+    L = at_least(eta0 * beta * u_mean * u_mean / k_oil, _LEAST)
+    out[0] = 3.94 / (3.94 + power(L, 0.62))
     return OK
 
 
@@ -50,7 +52,7 @@ class ZhuCheng(Parameters):
     "thermal_correction",
     "zhu-cheng",
     ZhuCheng,
-    role_api=2,
+    role_api=3,
     reference="Gupta, Cheng, Zhu, Forster and Schrand 1992, Tribol. Trans. 35, 269",
     validity="slide-to-roll ratio 0..2; the fit's numerator limits the product of pressure and thermal parameter",
 )
@@ -78,7 +80,7 @@ def zhu_cheng(
     return OK
 
 
-@law("thermal_correction", "none", role_api=2, reference="-")
+@law("thermal_correction", "none", role_api=3, reference="-")
 def none(
     u_mean: float,
     u_slide: float,

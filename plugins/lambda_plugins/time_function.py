@@ -29,7 +29,7 @@ class Sweep(Parameters):
     "time_function",
     "chirp",
     Sweep,
-    role_api=2,
+    role_api=3,
     reference="linear swept sine sin(2 pi integral of f dt), f rising evenly (ISO 7626-2, swept sinusoidal excitation)",
 )
 def chirp(t: float, par: Sweep, out: FloatArray) -> int:

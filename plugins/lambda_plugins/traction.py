@@ -44,12 +44,12 @@ class ReeEyring(LimitedShear):
     "traction",
     "ree-eyring",
     ReeEyring,
-    role_api=2,
+    role_api=3,
     reference="Johnson and Tevaarwerk 1977, Proc. R. Soc. A 356, 215; Syla et al. 2026, Lubricants 14, 154, eq. 20-21",
     validity="viscous shear of the film; tau_e and zeta are class values of oils, not measured for this one",
 )
 def ree_eyring(
-    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: ReeEyring, tau: FloatArray
+    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: FloatArray, par: ReeEyring, tau: FloatArray
 ) -> int:
     """Shear stress of an Eyring fluid, limited to a share of the pressure.
 
@@ -57,11 +57,10 @@ def ree_eyring(
     Syla et al. 2026, eq. 20-21), tau <= zeta p with the corner rounded over the last tenth. Viscous part only: no shear
     compliance of film or bodies.
     """
-    film = at_least(h, 1e-10)
-    per_stress = 1.0 / (film * par.tau_eyring)
     # In two loops: from ln(eta) to the stress is a longer chain than a processor looks ahead, a third slower in one.
     for i in range(tau.size):
-        tau[i] = exp(at_most(at_least(ln_eta[i], _LOG_ETA_MIN), _LOG_ETA_MAX)) * slip[i] * per_stress
+        viscosity = exp(at_most(at_least(ln_eta[i], _LOG_ETA_MIN), _LOG_ETA_MAX))
+        tau[i] = viscosity * slip[i] / (at_least(h[i], 1e-10) * par.tau_eyring)
     for i in range(tau.size):
         y = tau[i]
         limit = at_least(par.limit_ratio * p[i], 0.0)
@@ -83,20 +82,20 @@ class BairWiner(LimitedShear):
     "traction",
     "bair-winer",
     BairWiner,
-    role_api=2,
+    role_api=3,
     reference="Bair and Winer 1979, J. Lubr. Technol. 101, 258; Wingertszahn et al. 2023, Lubricants 11, 369, eq. 6",
     validity="viscous shear of the film; limiting stress proportional to pressure",
 )
 def bair_winer(
-    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: BairWiner, tau: FloatArray
+    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: FloatArray, par: BairWiner, tau: FloatArray
 ) -> int:
     """Shear stress that approaches its limit exponentially, after Bair and Winer.
 
     gamma_dot = -(tau_L/eta) ln(1 - tau/tau_L), tau_L = zeta p: Bair and Winer 1979, J. Lubr. Technol. 101, 258;
     Wingertszahn et al. 2023, Lubricants 11, 369, eq. 6 with its sign corrected. Viscous part only.
     """
-    film = at_least(h, 1e-10)
     for i in range(tau.size):
+        film = at_least(h[i], 1e-10)
         log_eta = at_most(at_least(ln_eta[i], _LOG_ETA_MIN), _LOG_ETA_MAX)
         limit = at_least(par.limit_ratio * p[i], 1e-3)
         share = exp(log_eta) * slip[i] / (film * limit)
@@ -112,19 +111,19 @@ class Newtonian(LimitedShear):
     "traction",
     "newtonian",
     Newtonian,
-    role_api=2,
+    role_api=3,
     reference="Newton's law of viscosity; limiting stress after Johnson and Tevaarwerk 1977",
     validity="small shear stress, or as the upper bound of fluid friction",
 )
 def newtonian(
-    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: Newtonian, tau: FloatArray
+    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: FloatArray, par: Newtonian, tau: FloatArray
 ) -> int:
     """Shear stress of a Newtonian fluid, tau = eta v/h_cen, limited to a share of the pressure.
 
     Without the limit the stress of a film at bearing pressures would exceed the strength of steel.
     """
-    film = at_least(h, 1e-10)
     for i in range(tau.size):
+        film = at_least(h[i], 1e-10)
         log_eta = at_most(at_least(ln_eta[i], _LOG_ETA_MIN), _LOG_ETA_MAX)
         limit = at_least(par.limit_ratio * p[i], 0.0)
         tau[i] = smooth_min(exp(log_eta) * slip[i] / film, limit, 0.1 * limit)

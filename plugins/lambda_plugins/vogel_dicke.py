@@ -66,7 +66,7 @@ def prepare(parameters: VogelDicke, context: Context) -> Constants:
     "rheology",
     "vogel-dicke",
     VogelDicke,
-    role_api=2,
+    role_api=3,
     reference="Vogel 1921; Dicke's pressure term as in Wingertszahn et al. 2023, Lubricants 11, 369, Table A1; "
     "density: Dowson and Higginson 1966",
     validity="-40..300 degC; ln(eta) capped at 1e12 Pa s (glass transition)",

@@ -18,7 +18,7 @@ from tests.attacks.trial import attempt
 _LIMIT = 120.0  # [s] of wall time
 _HEAD = '"""A stranger."""\nimport numpy as np\nfrom lambda_core.plugins import Method, View, hookimpl, law\n\n'
 _KERNEL = """
-@law("damping", "guest", role_api=2, reference="none: made to misbehave")
+@law("damping", "guest", role_api=3, reference="none: made to misbehave")
 def guest(delta, delta_dot, load, par, out):
 {body}
     return {returned}
@@ -82,9 +82,9 @@ _OTHERS = (
     _VIEW.format(body="raise SystemExit(9)"),
     _VIEW.format(body="return subject['no-such-channel']"),
     "@hookimpl\ndef lambda_views(register):\n    register(View('film', 'twice', 'result', print, view_api=1))\n",
-    '@law("no-such-role", "guest", role_api=2, reference="none")\ndef other(par, out):\n    return 1\n',
-    '@law("damping", "cubic", role_api=2, reference="-")\ndef cubic(delta, delta_dot, load, par, out):\n    return 1\n',
-    '@law("damping", "", role_api=2, reference="")\ndef nameless(delta, delta_dot, load, par, out):\n    return 1\n',
+    '@law("no-such-role", "guest", role_api=3, reference="none")\ndef other(par, out):\n    return 1\n',
+    '@law("damping", "cubic", role_api=3, reference="-")\ndef cubic(delta, delta_dot, load, par, out):\n    return 1\n',
+    '@law("damping", "", role_api=3, reference="")\ndef nameless(delta, delta_dot, load, par, out):\n    return 1\n',
     "x = [0] * 10**7\n",
     "",
 )

@@ -42,12 +42,12 @@ def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Mon
 
 
 def scalar(kernel: Any, **more: Any) -> Law:
-    given = {"reference": "own work", "role_api": 2, "distribution": "trials 0.3"}
+    given = {"reference": "own work", "role_api": 3, "distribution": "trials 0.3"}
     return Law("asperity_load", "trial", kernel, **(given | more))
 
 
 def elementwise(kernel: Any, **more: Any) -> Law:
-    given = {"reference": "own work", "role_api": 2, "distribution": "trials 0.3"}
+    given = {"reference": "own work", "role_api": 3, "distribution": "trials 0.3"}
     return Law("boundary_friction", "trial", kernel, Ratio, **(given | more))
 
 
@@ -302,7 +302,7 @@ def test_a_force_of_the_wrong_sign_is_told() -> None:
         out[0] = -delta_dot
         return 1
 
-    report = check_model(Law("damping", "drive", driving_damper, role_api=2, reference="own work"))
+    report = check_model(Law("damping", "drive", driving_damper, role_api=3, reference="own work"))
     assert "against the sign of delta_dot" in report.faults[0]
 
 
@@ -394,7 +394,7 @@ def test_missing_parameters_are_named() -> None:
     class Needed(BaseModel):
         exponent: float
 
-    law = Law("asperity_load", "needy", good, Needed, role_api=2, reference="own work")
+    law = Law("asperity_load", "needy", good, Needed, role_api=3, reference="own work")
     assert "exponent: Field required" in check_model(law).faults[0]
     assert check_model(law, {"exponent": 2.0}).ok
 
@@ -442,7 +442,7 @@ class TestHelpersForTests:
             out[1] = 0.0
             return 1
 
-        law = Law("fluid_drag", "cube", cube, role_api=2, reference="own work")
+        law = Law("fluid_drag", "cube", cube, role_api=3, reference="own work")
         given = {"omega_spin": 1.0, "azimuth": 0.0, "nu": 1e-5, "rho": 850.0}
         assert_symmetric(law, "v_orbit", [1.0, 2.0], odd=True, **given)
         with pytest.raises(AssertionError, match="is not even in v_orbit"):
@@ -466,7 +466,7 @@ def wavy_with_a_slip_of_the_sign(azimuth, contact_angle, par, out):
 def test_a_slope_that_is_not_the_derivative_is_told() -> None:
     """A raceway whose slopes do not belong to its height would make energy from nothing."""
     good, bad = (
-        replace(Law("surface", "trial", kernel, role_api=2, reference="own work"), distribution="trials 0.3")
+        replace(Law("surface", "trial", kernel, role_api=3, reference="own work"), distribution="trials 0.3")
         for kernel in (wavy, wavy_with_a_slip_of_the_sign)
     )
     assert check_model(good).faults == ()

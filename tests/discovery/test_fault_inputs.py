@@ -27,7 +27,7 @@ def test_every_role_of_the_solver_names_its_inputs() -> None:
         assert {name.partition("[")[0] for name in names} <= known, role
 
 
-@law("fluid_drag", "choosy", role_api=2, reference="none", errors={2: "too fast for this law"})
+@law("fluid_drag", "choosy", role_api=3, reference="none", errors={2: "too fast for this law"})
 def choosy(
     v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: NoParameters, out: Any
 ) -> int:

@@ -21,7 +21,7 @@ from law_package import middle
 from lambda_core.laws.law import law_of
 from lambda_core.plugins import law
 
-@law("asperity_load", "test-law", role_api=2, reference="own work")
+@law("asperity_load", "test-law", role_api=3, reference="own work")
 def kernel(Lambda, par, out):
     out[0] = {factor} * middle.shape(Lambda)
     return 1
@@ -50,7 +50,7 @@ from law_package.law import LAW
 said = []
 compiled = compile_kernel(LAW, said.append)
 out = np.full(1, np.nan)
-status = compiled.dispatcher(2.0, np.empty(0), out)
+status = compiled.dispatcher(np.array([2.0]), np.empty(0), out)
 print(json.dumps(dict(status=status, value=out[0], cached=compiled.cached, key=compiled.key, said=said)))
 """
 
@@ -231,9 +231,9 @@ from lambda_core.laws.law import Law
 from lambda_core.laws.kernels import compile_kernel
 
 exec("def kernel(Lambda, par, out):\\n    out[0] = 4.0 * Lambda\\n    return 1", globals())
-compiled = compile_kernel(Law("asperity_load", "typed-in", kernel, role_api=2, reference="own work"))
+compiled = compile_kernel(Law("asperity_load", "typed-in", kernel, role_api=3, reference="own work"))
 out = np.zeros(1)
-compiled.dispatcher(2.0, np.empty(0), out)
+compiled.dispatcher(np.array([2.0]), np.empty(0), out)
 print(json.dumps(dict(value=out[0], cached=compiled.cached)))
 """
     assert package.ask(code) == {"value": 8.0, "cached": False}
@@ -259,7 +259,7 @@ host = compile_host(
     said.append,
 )
 law = compile_kernel(LAW).pointer
-print(json.dumps(dict(value=host.dispatcher(core.Laws(law, law), np.empty(1)), cached=host.cached, said=said)))
+print(json.dumps(dict(value=host.dispatcher(core.Laws(law, law), np.empty(2)), cached=host.cached, said=said)))
 """
 CORE = """
 from typing import Any, NamedTuple
@@ -273,10 +273,13 @@ class Laws(NamedTuple):
     second: Any
 
 def twice(laws, out):
-    laws.first(1.0, out, out)
-    total = out[0]
-    laws.second(10.0, out, out)
-    return total + out[0] + part(0.0) + OFFSET
+    ratio, found = out[:1], out[1:]
+    ratio[0] = 1.0
+    laws.first(ratio, found, found)
+    total = found[0]
+    ratio[0] = 10.0
+    laws.second(ratio, found, found)
+    return total + found[0] + part(0.0) + OFFSET
 """
 PART = """
 from numba import njit

@@ -45,7 +45,7 @@ class Wordy(Parameters):
 
 
 def law(name: str = "half", *, role: str = "asperity_load", **changes: Any) -> Law:
-    return Law(role, name, kernel, **({"reference": "own work", "role_api": 2} | changes))
+    return Law(role, name, kernel, **({"reference": "own work", "role_api": 3} | changes))
 
 
 def method(**changes: Any) -> Method:
@@ -117,7 +117,7 @@ def test_models_know_their_distribution_and_keep_their_order() -> None:
         (plugin(law("twice"), law("twice")), ['"twice" is already taken by broken 1.2']),
         (
             plugin(law(role_api=1)),
-            ["version 1 of the role interface; this program has 2", '@law("asperity_load", "half"'],
+            ["version 1 of the role interface; this program has 3", '@law("asperity_load", "half"'],
         ),
         (plugin(law(role="asperity_laod")), ['"asperity_laod"', "nearest: asperity_load"]),
         (plugin(law(parameters=Unread)), ['the default of tau is a text: declare it with parameter("6 MPa", ']),
@@ -219,7 +219,7 @@ class TestLazyLaws:
     def test_imported_when_chosen(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         import sys
 
-        registry = self.lazy(tmp_path, monkeypatch, self.GOOD_TEXT.format(name="half", api=2))
+        registry = self.lazy(tmp_path, monkeypatch, self.GOOD_TEXT.format(name="half", api=3))
         assert registry.names("asperity_load") == ("half",)
         assert "lazy_laws" not in sys.modules
         assert registry.model("asperity_load", "half").distribution == "lazy 1.2"
@@ -232,7 +232,7 @@ class TestLazyLaws:
             ("kernel = (", "kernel", "cannot be imported: SyntaxError"),
             ("", "kernel", "has no attribute 'kernel'"),
             ("kernel = 3", "kernel", "lazy_laws:kernel is a int, not a law"),
-            (GOOD_TEXT.format(name="other", api=2), "kernel", "lazy_laws:kernel is asperity_load/other"),
+            (GOOD_TEXT.format(name="other", api=3), "kernel", "lazy_laws:kernel is asperity_load/other"),
             (GOOD_TEXT.format(name="half", api=9), "kernel", "version 9 of the role interface"),
         ],
     )

@@ -17,6 +17,7 @@ from lambda_core.discovery.manager import registry
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws.check import parameters_of
 from lambda_core.laws.jit import plain
+from lambda_core.laws.calls import handed_over
 from lambda_core.laws.jit.machine_code import OPTIONS
 from lambda_core.laws.kernels import compile_kernel, kernel_reach, signature
 from lambda_core.laws.par import make_par
@@ -31,7 +32,7 @@ for label in ("traction/ree-eyring", "film_thickness/chittenden", "surface/wavin
     par = make_par(law, parameters_of(law, None), trial_context(role.elements[0]))
     arguments = draw(role, par, 9, np.random.default_rng(3))
     compiled = compile_kernel(law)
-    assert compiled.dispatcher(*arguments) == 1
+    assert compiled.dispatcher(*handed_over(role, arguments)) == 1
     numbers[label] = [value.tolist() for spec, value in zip(role.arguments, arguments) if spec.output]
 
 law = compile_kernel(models.model("asperity_load", "zhou-hoeprich"))
@@ -39,10 +40,12 @@ pointer = types.FunctionType(signature("asperity_load"))
 
 @njit(types.float64(pointer, types.float64[::1], types.float64[::1]), error_model="numpy")
 def share(law, par, out):
-    law(1.5, par, out)
+    ratio = out[1:]
+    ratio[0] = 1.5
+    law(ratio, par, out[:1])
     return out[0]
 
-numbers["by pointer"] = share(law.pointer, np.array([2.32, 0.97]), np.zeros(1))
+numbers["by pointer"] = share(law.pointer, np.array([2.32, 0.97]), np.zeros(2))
 print(json.dumps(dict(plain=plain.is_plain(), keys=keys, numbers=numbers, cached=law.cached)))
 """
 

@@ -39,7 +39,7 @@ def package(project: str, **items: Any) -> Source:
 
 def law(name: str) -> Law:
     own = FunctionType(kernel.__code__, globals(), "kernel")  # each law has a kernel of its own
-    return Law("traction", name, own, role_api=2, reference="own work")
+    return Law("traction", name, own, role_api=3, reference="own work")
 
 
 @pytest.fixture

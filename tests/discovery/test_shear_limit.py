@@ -19,10 +19,10 @@ from lambda_core.solver.drivers import equilibrium
 BUILT_IN = registry().names("traction")
 
 
-@law("traction", "limitless", role_api=2, reference="none")
+@law("traction", "limitless", role_api=3, reference="none")
 def limitless(slip: Any, p: Any, T: Any, ln_eta: Any, h: Any, par: NoParameters, tau: Any) -> int:
     for i in range(slip.size):
-        tau[i] = exp(min(ln_eta[i], 40.0)) * slip[i] / h
+        tau[i] = exp(min(ln_eta[i], 40.0)) * slip[i] / h[i]
     return OK
 
 

@@ -30,7 +30,7 @@ def rising(slip: Any, p: Any, u_mean: float, par: Any, mu: Any) -> int:
     return 1
 
 
-LAW = Law("boundary_friction", "rising", rising, Ratio, reference="own work", role_api=2, distribution="trials 0.3")
+LAW = Law("boundary_friction", "rising", rising, Ratio, reference="own work", role_api=3, distribution="trials 0.3")
 
 
 @pytest.fixture

@@ -57,10 +57,10 @@ def fine(Lambda: float, par: Any, out: Any) -> int:
 
 
 def test_a5_a_law_of_today_is_refused_by_the_next_version(monkeypatch: pytest.MonkeyPatch) -> None:
-    written_today = Law("asperity_load", "fine", fine, role_api=2, reference="own work")
+    written_today = Law("asperity_load", "fine", fine, role_api=3, reference="own work")
     assert law_fault(written_today) == ""
-    monkeypatch.setattr(collect, "ROLE_API", 3)
-    assert "is written for version 2 of the role interface; this program has 3" in law_fault(written_today)
+    monkeypatch.setattr(collect, "ROLE_API", 4)
+    assert "is written for version 3 of the role interface; this program has 4" in law_fault(written_today)
 
 
 def test_a5_a_method_and_a_view_of_today_are_refused_by_the_next_version(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -77,7 +77,7 @@ def test_a2_a_law_builds_on_one_of_ours() -> None:
     ours = built_in("asperity_load/zhou-hoeprich")
     share = ours.kernel
 
-    @law("asperity_load", "half", ours.parameters, role_api=2, reference="own work", prepare=ours.prepare)
+    @law("asperity_load", "half", ours.parameters, role_api=3, reference="own work", prepare=ours.prepare)
     def half(Lambda: float, par: Any, out: Any) -> int:
         status = share(Lambda, par, out)
         out[0] *= 0.5

@@ -76,10 +76,10 @@ class Limit(Parameters):
     limit_share: float = parameter(0.07, "limiting shear stress over pressure, measured by us", gt=0.0, le=0.3)
 
 
-@law("traction", "hyperbolic-limit", Limit, role_api=2, reference="Own work 2026, eq. 7")
+@law("traction", "hyperbolic-limit", Limit, role_api=3, reference="Own work 2026, eq. 7")
 def traction(slip, p, T, ln_eta, h, par, tau):
     for i in range(slip.size):
-        newtonian = math.exp(min(ln_eta[i], 40.0)) * slip[i] / h
+        newtonian = math.exp(min(ln_eta[i], 40.0)) * slip[i] / h[i]
         limit = par.limit_share * p[i]
         tau[i] = newtonian * limit / (newtonian + limit + 1e-300)
     return 1

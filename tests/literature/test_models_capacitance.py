@@ -37,7 +37,7 @@ def contact(axial: int, inner: bool) -> dict[str, Any]:
     film = evaluate(
         "film_thickness/chittenden",
         u_mean=u_mean,
-        theta=0.0,
+        cos2=1.0,
         load=load,
         R_x=R_x,
         R_y=R_y,

@@ -81,7 +81,7 @@ FILM = [
 def test_film_of_the_6208(name: str, expected: Published) -> None:
     R_x, R_y = B6208.radii(True)
     u_mean = B6208.mean_velocity(2750.0 * math.pi / 30.0)
-    given = {"theta": 0.0, "load": 600.0, "R_x": R_x, "R_y": R_y, "E_eff": STEEL, "eta0": 0.0976, "alpha_p": 20.4e-9}
+    given = {"cos2": 1.0, "load": 600.0, "R_x": R_x, "R_y": R_y, "E_eff": STEEL, "eta0": 0.0976, "alpha_p": 20.4e-9}
     expected.check(evaluate(f"film_thickness/{name}", u_mean=u_mean, **given)[0])
 
 
@@ -89,7 +89,7 @@ def test_misprinted_exponent_and_sum_velocity_would_nearly_double_the_film() -> 
     """Syla et al. 2026 print U^0.67 (eq. 25) and the sum velocity (Table 2): 1.9 times the film; 3 % for the regime."""
     R_x, R_y = B6208.radii(True)
     u_mean = B6208.mean_velocity(2750.0 * math.pi / 30.0)
-    given = {"theta": 0.0, "load": 600.0, "R_x": R_x, "R_y": R_y, "E_eff": STEEL, "eta0": 0.0976, "alpha_p": 20.4e-9}
+    given = {"cos2": 1.0, "load": 600.0, "R_x": R_x, "R_y": R_y, "E_eff": STEEL, "eta0": 0.0976, "alpha_p": 20.4e-9}
     h = evaluate("film_thickness/chittenden", u_mean=u_mean, **given)[0]
     U = 0.0976 * u_mean / (STEEL * R_x)
     printed = h * (2.0 * U) ** 0.67 / U**0.68
@@ -98,7 +98,15 @@ def test_misprinted_exponent_and_sum_velocity_would_nearly_double_the_film() -> 
 
 def test_circular_film_coefficient_of_chittenden() -> None:
     """R_s = R_e: 4.31 {1 - exp(-1.23)} = 3.051 in the centre, 3.68 {1 - exp(-0.67)} = 1.797 at the minimum."""
-    given = {"theta": 0.3, "load": 500.0, "R_x": 0.01, "R_y": 0.01, "E_eff": STEEL, "eta0": 0.05, "alpha_p": 2e-8}
+    given = {
+        "cos2": math.cos(0.3) ** 2,
+        "load": 500.0,
+        "R_x": 0.01,
+        "R_y": 0.01,
+        "E_eff": STEEL,
+        "eta0": 0.05,
+        "alpha_p": 2e-8,
+    }
     U, W, G = 0.05 * 5.0 / (STEEL * 0.01), 500.0 / (STEEL * 1e-4), 2e-8 * STEEL
     common = 0.01 * G**0.49 * U**0.68 * W**-0.073
     assert evaluate("film_thickness/chittenden", u_mean=5.0, **given) / common == pytest.approx(

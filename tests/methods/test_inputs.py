@@ -126,7 +126,7 @@ def test_permittivity_uses_the_chosen_laws() -> None:
         rho[0] = 870.0
         return 2 if p[0] > 1e9 else 1
 
-    rheology = Law("rheology", "thin", thin, role_api=2, reference="test", errors={2: "beyond the measured pressures"})
+    rheology = Law("rheology", "thin", thin, role_api=3, reference="test", errors={2: "beyond the measured pressures"})
     permittivity = law_of(constant)
     assert permittivity is not None
     value = permittivity_over_pressure(permittivity, np.array([2.3]), rheology, np.zeros(1), 313.15)

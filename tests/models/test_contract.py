@@ -15,6 +15,7 @@ from lambda_plugins import lambda_laws
 from lambda_core.discovery.manager import registry
 from lambda_core.discovery.survey import split_label
 from lambda_core.domain.roles import DEFAULT_MODELS, ROLES
+from lambda_core.laws.calls import handed_over
 from lambda_core.laws.check import check_model, parameters_of
 from lambda_core.laws.kernels import compile_kernel
 from lambda_core.laws.par import make_par
@@ -157,7 +158,7 @@ def test_nan_is_never_swallowed(label: str) -> None:
         arguments = draw(role, par, 4, np.random.default_rng(7))
         place = names.index(name)
         arguments[place] = arguments[place] * np.nan
-        dispatcher(*arguments)
+        dispatcher(*handed_over(role, arguments))
         outputs = [value for argument, value in zip(role.arguments, arguments, strict=True) if argument.output]
         assert any(np.isnan(value).any() for value in outputs), name
 

@@ -11,14 +11,14 @@ from lambda_core.plugins import OK, law
 from lambda_core.testing import check_model, evaluate
 
 
-@law("damping", "of-the-film", role_api=2, reference="own work")
+@law("damping", "of-the-film", role_api=3, reference="own work")
 def of_the_film(delta, delta_dot, load, u_mean, eta0, par, out):  # type: ignore[no-untyped-def]
     """Viscosity times what the contact rolls on, as a number to be recognised."""
     out[0] = eta0 * (1.0 + u_mean) * delta_dot
     return OK
 
 
-@law("damping", "in-another-order", role_api=2, reference="own work")
+@law("damping", "in-another-order", role_api=3, reference="own work")
 def in_another_order(delta, delta_dot, load, eta0, u_mean, par, out):  # type: ignore[no-untyped-def]
     out[0] = 0.0
     return OK

@@ -41,7 +41,7 @@ print(status, "numba" in sys.modules)
 LAW = """
 from lambda_core.plugins import OK, law
 
-@law("asperity_load", "half", role_api=2, reference="own work")
+@law("asperity_load", "half", role_api=3, reference="own work")
 def kernel(Lambda, par, out):
     out[0] = 0.5 if Lambda < 1.0 else 0.0
     return OK

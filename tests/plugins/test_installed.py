@@ -21,7 +21,7 @@ LAW = """
 @law("traction", "{name}", Limit, role_api={api}, reference="own work")
 def kernel(slip, p, T, ln_eta, h, par, tau):
     for i in range(tau.size):
-        newtonian = math.exp(min(ln_eta[i], 40.0)) * slip[i] / h
+        newtonian = math.exp(min(ln_eta[i], 40.0)) * slip[i] / h[i]
         limit = {ratio} * p[i]
         tau[i] = {result}
     return {status}
@@ -38,7 +38,7 @@ def code(
     status: str = "1",
     hook: str = "lambda_laws",
     name: str = "",
-    api: int = 2,
+    api: int = 3,
     ratio: str = "par.ratio",
 ) -> str:
     return HEAD + LAW.format(result=result, status=status, hook=hook, name=name, api=api, ratio=ratio)
@@ -69,7 +69,8 @@ PACKAGES = {
     "bad-hook": code(name="bad-hook", hook="lambda_lwas"),
     "bad-name": code(name="Bad_Name"),
     "bad-version": code(name="bad-version", api=1),
-    "bad-future": code(name="bad-future", api=3),
+    "bad-second": code(name="bad-second", api=2),
+    "bad-future": code(name="bad-future", api=4),
     "old-form": OLD,
     # listed, refused when chosen or checked
     "bad-signature": code(name="bad-signature").replace("p, T, ln_eta", "T, p, ln_eta"),
@@ -89,9 +90,11 @@ SENTENCES = {
     "bad-import": "cannot be imported: ModuleNotFoundError: No module named 'a_library_that_is_not_installed'",
     "bad-hook": '"lambda_lwas" is not a known hook; nearest: lambda_laws',
     "bad-name": 'the traction name "Bad_Name" is not in lower case with hyphens ("my-law")',
-    "bad-version": "traction/bad-version is written for version 1 of the role interface; this program has 2: "
-    'write @law("traction", "bad-version", Limit, role_api=2, reference=...) above the kernel and read par.ratio',
-    "bad-future": "traction/bad-future is written for version 3 of the role interface; this program has 2",
+    "bad-version": "traction/bad-version is written for version 1 of the role interface; this program has 3: "
+    'write @law("traction", "bad-version", Limit, role_api=3, reference=...) above the kernel and read par.ratio',
+    "bad-second": "traction/bad-second is written for version 2 of the role interface; this program has 3: "
+    "take the film as an array, h[i] in place of h, and write role_api=3",
+    "bad-future": "traction/bad-future is written for version 4 of the role interface; this program has 3",
     "old-form": "model belongs to version 1 of the role interface: write @law(",
 }
 REFUSALS = {

@@ -18,7 +18,7 @@ from typing import Protocol
 from lambda_core.plugins import OK, FloatArray, law
 
 
-@law("mixing", "short", role_api=2, reference="own work")
+@law("mixing", "short", role_api=3, reference="own work")
 def short(psi: float, out: FloatArray) -> int:
     return OK
 
@@ -29,7 +29,7 @@ class Worn(Protocol):
     wear_depth: float
 
 
-@law("boundary_friction", "reader", role_api=2, reference="own work", reads={"wear_depth": 1e-6})
+@law("boundary_friction", "reader", role_api=3, reference="own work", reads={"wear_depth": 1e-6})
 def reader(slip: FloatArray, p: FloatArray, u_mean: float, par: Worn, mu: FloatArray) -> int:
     mu[0] = par.wear_depth
     return OK

@@ -23,17 +23,17 @@ from lambda_core.plugins import OK, law
 LAW = """from math import exp
 from lambda_core.plugins import OK, law
 
-@law("traction", "short", role_api=2, reference="own work")
+@law("traction", "short", role_api=3, reference="own work")
 def traction(slip, p, T, ln_eta, h, par, tau):
     for i in range(slip.size):
-        newtonian = exp(min(ln_eta[i], 40.0)) * slip[i] / h
+        newtonian = exp(min(ln_eta[i], 40.0)) * slip[i] / h[i]
         tau[i] = newtonian * 0.07 * p[i] / (newtonian + 0.07 * p[i] + 1e-300)
     return OK
 """
 CHOICE = ["models.traction=short"]
 
 
-@law("traction", "handed", role_api=2, reference="own work")
+@law("traction", "handed", role_api=3, reference="own work")
 def by_hand(slip: Any, p: Any, T: Any, ln_eta: Any, h: float, par: Any, tau: Any) -> int:
     for i in range(slip.size):
         tau[i] = 0.05 * p[i] if slip[i] > 0.0 else 0.0
@@ -107,7 +107,7 @@ def test_an_edited_file_is_another_text(file: Path) -> None:
         ("def law(", r"bad.py \w+ \(.*bad.py\): cannot be imported: SyntaxError.*line 1"),
         ("import helpers_beside_it", "cannot be imported: ModuleNotFoundError: No module named 'helpers_beside_it'"),
         ("x = 1\n", "has no law and implements no hook"),
-        (LAW.replace(", role_api=2", ""), r"does not say for which version of the roles it is written: write role_api"),
+        (LAW.replace(", role_api=3", ""), r"does not say for which version of the roles it is written: write role_api"),
     ],
 )
 def test_a_file_that_cannot_be_used_says_why(tmp_path: Path, text: str, words: str) -> None:

@@ -10,7 +10,7 @@ import math
 import numpy as np
 import pytest
 
-from lambda_core.solver.drivers.contact_grid import cell_blocks, unit_grid
+from lambda_core.solver.drivers.contact_grid import cell_block, contacts_at_once, unit_grid
 from lambda_core.solver.vec import inverse_root
 
 
@@ -22,5 +22,5 @@ def test_inverse_root() -> None:
 
 @pytest.mark.parametrize(("strips", "rows"), [(31, 1), (21, 11), (3, 1)])
 def test_every_row_of_cells_begins_with_a_line_of_the_cache(strips: int, rows: int) -> None:
-    blocks = cell_blocks(unit_grid(strips, rows).shape[1])
-    assert {row.ctypes.data % 64 for block in blocks for row in block} == {0}
+    cells = unit_grid(strips, rows).shape[1]
+    assert {row.ctypes.data % 64 for row in cell_block(cells, contacts_at_once(cells))} == {0}

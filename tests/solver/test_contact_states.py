@@ -42,7 +42,7 @@ class Tau(Parameters):
 SPIRAL = (State("rest", "-", "real part", scale=1.0, start=1.0), State("turned", "-", "imaginary part", scale=1.0))
 
 
-@law("contact_state", "spiral", Tau, role_api=2, reference="own work", states=SPIRAL)
+@law("contact_state", "spiral", Tau, role_api=3, reference="own work", states=SPIRAL)
 def spiral(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):  # type: ignore[no-untyped-def]
     """Two coupled states: dz/dt = -(1 + 3i) z/tau."""
     out[0] = (3.0 * par.turned - par.rest) / par.tau
@@ -50,7 +50,7 @@ def spiral(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi
     return OK
 
 
-@law("contact_state", "warmth", role_api=2, reference="own work",
+@law("contact_state", "warmth", role_api=3, reference="own work",
      states=(State("warmth", "K", "temperature over the oil's", scale=1.0),))  # fmt: skip
 def warmth(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):  # type: ignore[no-untyped-def]
     """Heat of a lump: 2e-4 J/K, 0.2 W/K."""
@@ -58,7 +58,7 @@ def warmth(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi
     return OK
 
 
-@law("traction", "thinner", role_api=2, reference="own work", reads={"warmth": 20.0})
+@law("traction", "thinner", role_api=3, reference="own work", reads={"warmth": 20.0})
 def thinner(slip, p, T, ln_eta, h, par, tau):  # type: ignore[no-untyped-def]
     """A stress that falls by 3 % per kelvin."""
     for i in range(tau.size):
@@ -178,7 +178,7 @@ def test_declarations_that_are_refused(role: str, more: dict[str, Any], words: s
     arguments = ", ".join(argument.name for argument in ROLES[role].arguments)
     scope: dict[str, Any] = {}
     exec(f"def kernel({arguments}):\n    return 1", scope)
-    made = law_of(law(role, "own", role_api=2, reference="own work", **more)(scope["kernel"]))
+    made = law_of(law(role, "own", role_api=3, reference="own work", **more)(scope["kernel"]))
     assert made is not None
     assert words in law_fault(made)
 
@@ -187,14 +187,14 @@ def test_a_parameter_and_a_state_of_one_name() -> None:
     from lambda_core.laws.law import law_of
     from lambda_core.laws.par import par_layout
 
-    made = law_of(law("traction", "own", Tau, role_api=2, reference="-", reads={"tau": 1.0})(thinner))
+    made = law_of(law("traction", "own", Tau, role_api=3, reference="-", reads={"tau": 1.0})(thinner))
     assert made is not None
     with pytest.raises(PluginError, match="has a parameter and a state of one name, tau"):
         par_layout(made)
 
 
 def test_a_rate_that_is_no_number_is_blamed() -> None:
-    @law("contact_state", "broken", role_api=2, reference="own work", states=(State("age", "s", "age", scale=1.0),))
+    @law("contact_state", "broken", role_api=3, reference="own work", states=(State("age", "s", "age", scale=1.0),))
     def broken(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):  # type: ignore[no-untyped-def]
         out[0] = 1.0 / (1.0 - par.age * 1e3) if par.age < 0.9e-3 else 1e308 * 1e308
         return OK
@@ -209,14 +209,14 @@ def test_a_rate_that_is_no_number_is_blamed() -> None:
 DEPTH = State("wear_depth", "m", "depth worn off", scale=1e-9, lower=0.0)
 
 
-@law("contact_state", "worn", role_api=2, reference="own work", states=(DEPTH,))
+@law("contact_state", "worn", role_api=3, reference="own work", states=(DEPTH,))
 def worn(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):  # type: ignore[no-untyped-def]
     """Wear that starts at zero, is polished away for half a millisecond, and grows then."""
     out[0] = -1e-6 if t < 0.5e-3 else 1e-9 * power / (1e-9 + par.wear_depth)
     return OK
 
 
-@law("traction", "rough", role_api=2, reference="own work", reads={"wear_depth": 1e-9})
+@law("traction", "rough", role_api=3, reference="own work", reads={"wear_depth": 1e-9})
 def rough(slip, p, T, ln_eta, h, par, tau):  # type: ignore[no-untyped-def]
     """A stress that reads the root of a depth: no number where the depth is below zero."""
     for i in range(tau.size):
@@ -237,7 +237,7 @@ def test_a_state_stays_within_its_bounds_where_laws_read_it() -> None:
 
 
 def test_check_tries_readers_of_states_at_their_start() -> None:
-    @law("traction", "divides", role_api=2, reference="own work", reads={"wear_depth": 1e-9})
+    @law("traction", "divides", role_api=3, reference="own work", reads={"wear_depth": 1e-9})
     def divides(slip, p, T, ln_eta, h, par, tau):  # type: ignore[no-untyped-def]
         for i in range(tau.size):
             tau[i] = 1e-12 * p[i] * slip[i] / par.wear_depth

@@ -18,7 +18,7 @@ PLAIN = """
 import sys
 import numpy as np
 from lambda_core import api
-from lambda_core.laws.par import flat_kernel
+from lambda_core.laws.par import batched_kernel
 from lambda_core.solver.motion import forces
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
@@ -28,7 +28,7 @@ given = np.load(sys.argv[1])
 model = api.check(str(given["case"]), [str(text) for text in given["overrides"]])
 
 def law(element, role):
-    return flat_kernel(model.laws[element][role].model)
+    return batched_kernel(model.laws[element][role].model)
 
 def raceway_laws(element):
     return L.RacewayLaws(*(law(element, role) for role in R.RACEWAY_ROLES))
@@ -56,7 +56,7 @@ arrays |= {name: np.frombuffer(given[name].tobytes(), kind).copy() for name, kin
 arrays["signals"] = arrays["inputs"].view(R.SIGNAL)
 arrays["shared"] = arrays["bodies_now"].view(np.float64)
 arrays["shared_rates"] = arrays["body_rates"].view(np.float64)
-bundle = L.Bundle(laws=laws, wrench=raceway.raceway_wrench, tangent=None, **arrays)
+bundle = L.Bundle(laws=laws, wrench=raceway.raceway_wrenches, tangent=None, **arrays)
 rows, powers = [], []
 for y in given["trials"]:
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))

@@ -91,7 +91,7 @@ def unmapped(azimuth, contact_angle, par, out):  # type: ignore[no-untyped-def]
 
 
 def test_a_surface_that_refuses_is_named() -> None:
-    law = Law("surface", "unmapped", unmapped, role_api=2, reference="-", errors={2: "the scan ends here"})
+    law = Law("surface", "unmapped", unmapped, role_api=3, reference="-", errors={2: "the scan ends here"})
     case = api.check("6319-cp10-1500", (TIGHT,))
     inner = case.laws["ball_inner"]
     own = dataclasses.replace(inner["surface"], model=dataclasses.replace(law, distribution="scans 1.2"))

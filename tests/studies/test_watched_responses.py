@@ -23,7 +23,7 @@ class Factor(Parameters):
 
 DOSE = State("slip_dose", "m", "distance slid by each contact", scale=1e-6)
 
-@law("contact_state", "dose", role_api=2, reference="own work", states=(DOSE,))
+@law("contact_state", "dose", role_api=3, reference="own work", states=(DOSE,))
 def dose(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):
     out[0] = abs(u_slide)
     return OK

@@ -15,7 +15,7 @@ import math
 from lambda_core.plugins import law
 
 
-@law("damping", "endless", role_api=2, reference="none: made to misbehave")
+@law("damping", "endless", role_api=3, reference="none: made to misbehave")
 def endless(delta, delta_dot, load, par, out):
     out[0] = 0.0
     while math.exp(1e4 + out[0]) > 1.0:  # endless in machine code alone: Python's own raises
@@ -23,7 +23,7 @@ def endless(delta, delta_dot, load, par, out):
     return 1
 
 
-@law("fluid_drag", "lurking", role_api=2, reference="none: made to misbehave")
+@law("fluid_drag", "lurking", role_api=3, reference="none: made to misbehave")
 def lurking(v_orbit, omega_spin, azimuth, nu, rho, par, out):
     out[0] = 0.0
     out[1] = 0.0

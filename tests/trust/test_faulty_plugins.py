@@ -314,13 +314,13 @@ def loud(parameters: Any, context: Any) -> NoParameters:
 
 
 def test_a4_parameters_that_raise_at_discovery_leave_the_package_out() -> None:
-    rude = Law("damping", "rude", still, Rude, role_api=2, reference="none")
+    rude = Law("damping", "rude", still, Rude, role_api=3, reference="none")
     (fault,) = discover([package(lambda_laws=rude)]).faults
     assert fault.message.startswith("cannot be taken: RuntimeError: not like this (test_faulty_plugins.py, line ")
 
 
 def test_a4_a_prepare_that_prints_and_leaves_is_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:
-    law = Law("damping", "loud", still, role_api=2, reference="none", prepare=loud, distribution="guest 1.0")
+    law = Law("damping", "loud", still, role_api=3, reference="none", prepare=loud, distribution="guest 1.0")
     report = check_model(law)
     assert "damping/loud (guest 1.0): the parameters cannot be prepared: SystemExit: 9" in report.faults[0]
     said = capsys.readouterr()

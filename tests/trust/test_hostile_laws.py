@@ -39,7 +39,7 @@ def plain(slip, p, tau):
     for i in range(slip.size):
         tau[i] = 0.05 * p[i] if slip[i] > 0.0 else 0.0
 
-@law("traction", "outside", role_api=2, reference="none")
+@law("traction", "outside", role_api=3, reference="none")
 def outside(slip, p, T, ln_eta, h, par, tau):
     plain(slip, p, tau)
     for i in range(slip.size):
@@ -47,21 +47,21 @@ def outside(slip, p, T, ln_eta, h, par, tau):
             tau[i + 40] = 1e300
     return OK
 
-@law("traction", "long-contacts", role_api=2, reference="none")
+@law("traction", "long-contacts", role_api=3, reference="none")
 def long_contacts(slip, p, T, ln_eta, h, par, tau):
     plain(slip, p, tau)
     if slip.size > 20:
         tau[slip.size + 3] = 1e300
     return OK
 
-@law("traction", "many-cells", role_api=2, reference="none")
+@law("traction", "many-cells", role_api=3, reference="none")
 def many_cells(slip, p, T, ln_eta, h, par, tau):
     plain(slip, p, tau)
     if abs(slip.size * slip.size - 2304.0) < 0.5:
         tau[slip.size] = 1.0
     return OK
 
-@law("traction", "gap", role_api=2, reference="none")
+@law("traction", "gap", role_api=3, reference="none")
 def gap(slip, p, T, ln_eta, h, par, tau):
     plain(slip, p, tau)
     for i in range(slip.size):
@@ -69,7 +69,7 @@ def gap(slip, p, T, ln_eta, h, par, tau):
             tau[i] = math.nan
     return OK
 
-@law("traction", "driving", role_api=2, reference="none")
+@law("traction", "driving", role_api=3, reference="none")
 def driving(slip, p, T, ln_eta, h, par, tau):
     plain(slip, p, tau)
     for i in range(slip.size):
@@ -77,7 +77,7 @@ def driving(slip, p, T, ln_eta, h, par, tau):
             tau[i] = -1e9
     return OK
 
-@law("traction", "lurking", role_api=2, reference="none")
+@law("traction", "lurking", role_api=3, reference="none")
 def lurking(slip, p, T, ln_eta, h, par, tau):
     plain(slip, p, tau)
     for i in range(slip.size):
@@ -85,24 +85,24 @@ def lurking(slip, p, T, ln_eta, h, par, tau):
             tau[i] = 1.0
     return OK
 
-@law("traction", "vectors", role_api=2, reference="none")
+@law("traction", "vectors", role_api=3, reference="none")
 def vectors(slip, p, T, ln_eta, h, par, tau):
     tau[:] = np.exp(-slip) * slip
     return OK
 
-@law("traction", "special", role_api=2, reference="none")
+@law("traction", "special", role_api=3, reference="none")
 def of_scipy(slip, p, T, ln_eta, h, par, tau):
     for i in range(tau.size):
         tau[i] = erf(slip[i])
     return OK
 
-@law("traction", "special-two", role_api=2, reference="none")
+@law("traction", "special-two", role_api=3, reference="none")
 def of_scipy_too(slip, p, T, ln_eta, h, par, tau):
     for i in range(tau.size):
         tau[i] = special.erf(slip[i])
     return OK
 
-@law("traction", "sound", role_api=2, reference="none")
+@law("traction", "sound", role_api=3, reference="none")
 def sound(slip, p, T, ln_eta, h, par, tau):
     plain(slip, p, tau)
     return OK
@@ -173,7 +173,7 @@ def test_a4_checked_laws_raise_at_a_wrong_index(monkeypatch: pytest.MonkeyPatch)
     room = np.zeros(60)
     compiled = compile_kernel(law("long-contacts")).dispatcher
     with pytest.raises(IndexError):
-        compiled(np.ones(31), np.ones(31), np.ones(31), np.ones(31), 1e-7, np.zeros(1), room[:31])
+        compiled(np.ones(31), np.ones(31), np.ones(31), np.ones(31), np.full(31, 1e-7), np.zeros(1), room[:31])
     assert not room[31:].any()
 
 

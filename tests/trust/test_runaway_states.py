@@ -24,17 +24,17 @@ from lambda_core.plugins import OK, State, law
 HEAT = State("heat", "J", "heat of a contact", scale=1.0)
 WARMTH = State("warmth", "K", "warmth of a contact", scale=1.0)
 
-@law("contact_state", "feeding", role_api=2, reference="none", states=(HEAT,))
+@law("contact_state", "feeding", role_api=3, reference="none", states=(HEAT,))
 def feeding(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):
     out[0] = 3e4 * (1.0 + par.heat)
     return OK
 
-@law("contact_state", "stiff", role_api=2, reference="none", states=(WARMTH,))
+@law("contact_state", "stiff", role_api=3, reference="none", states=(WARMTH,))
 def stiff(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):
     out[0] = 1e9 * (20.0 - par.warmth) + load
     return OK
 
-@law("traction", "asking", role_api=2, reference="none", reads={"heta": 1.0})
+@law("traction", "asking", role_api=3, reference="none", reads={"heta": 1.0})
 def asking(slip, p, T, ln_eta, h, par, tau):
     for i in range(slip.size):
         tau[i] = 0.05 * p[i] * par.heta / (1.0 + par.heta) if slip[i] > 0.0 else 0.0

@@ -22,16 +22,15 @@ class LimitingShear(Parameters):
     "traction",
     "gecim-winer",
     LimitingShear,
-    role_api=2,
+    role_api=3,
     reference="Gecim and Winer 1980, J. Lubr. Technol. 102, 213: limiting shear stress effect on the film",
     validity="viscous shear of the film; limiting stress linear in pressure, the same at every temperature",
 )
 def gecim_winer(slip, p, T, ln_eta, h, par, tau):
     """Shear stress of a film, tau = tau_L tanh(eta gamma_dot/tau_L), gamma_dot = v/h."""
-    film = max(h, 1e-10)
     for i in range(tau.size):
         limit = par.ambient + par.slope * p[i]
-        newtonian = math.exp(min(ln_eta[i], 60.0)) * slip[i] / film
+        newtonian = math.exp(min(ln_eta[i], 60.0)) * slip[i] / max(h[i], 1e-10)
         tau[i] = limit * math.tanh(newtonian / limit)
     return OK
 

@@ -29,7 +29,7 @@ def prepare(parameters: Machine, context: Context) -> Pull:
     "force_element",
     "magnetic-pull",
     Machine,
-    role_api=2,
+    role_api=3,
     reference="Maxwell stress B^2/(2 mu_0) of a field B cos(p phi), p > 1, over a gap g - e cos(phi), to first order",
     validity="eccentricity far below the air gap; no saturation, no damping by currents in the rotor",
     prepare=prepare,

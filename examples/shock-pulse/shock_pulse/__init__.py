@@ -13,7 +13,7 @@ class Pulse(Parameters):
     duration: Time = parameter("11 ms", "how long it lasts", source="IEC 60068-2-27", gt=0.0)
 
 
-@law("time_function", "half-sine", Pulse, role_api=2, reference="IEC 60068-2-27, half-sine pulse")
+@law("time_function", "half-sine", Pulse, role_api=3, reference="IEC 60068-2-27, half-sine pulse")
 def half_sine(t, par, out):
     """f = sin(pi (t - t_0)/D) while the shock lasts, with its two derivatives."""
     turning, since = pi / par.duration, t - par.start

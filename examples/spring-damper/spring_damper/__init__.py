@@ -11,7 +11,7 @@ class Support(Parameters):
     damping: Annotated[float, Quantity("damping")] = parameter("0 N s/m", "of the damper", status="assumed", ge=0.0)
 
 
-@law("force_element", "spring-damper", Support, role_api=2, reference="Duffing's spring k r + k_3 r^3, Kelvin-Voigt")
+@law("force_element", "spring-damper", Support, role_api=3, reference="Duffing's spring k r + k_3 r^3, Kelvin-Voigt")
 def spring_damper(t, place, tilt, v_rel, omega_rel, par, out):
     """F = -(k + k_3 r^2) r - c v, against displacement and velocity, without a couple."""
     square = place[0] * place[0] + place[1] * place[1] + place[2] * place[2]

@@ -1,6 +1,5 @@
 """Every contact has a temperature, which its losses raise and the bearing around it takes down; traction reads it."""
 
-from math import exp
 from typing import NamedTuple
 
 from lambda_core.plugins import OK, Context, Parameters, State, built_in, law, parameter
@@ -21,7 +20,7 @@ def oil(parameters: Body, context: Context) -> float:
 WARM = State("contact_temperature", "K", "temperature of each raceway contact", scale=1.0, start=oil)
 
 
-@law("contact_state", "warm", Body, role_api=2, reference="own work: heat of one lump", states=(WARM,))
+@law("contact_state", "warm", Body, role_api=3, reference="own work: heat of one lump", states=(WARM,))
 def warm(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):
     """C dT/dt = P - G (T - T_oil)."""
     out[0] = (power - par.conductance * (par.contact_temperature - T_in)) / par.capacity
@@ -38,9 +37,12 @@ def prepare(parameters: EYRING.parameters, context: Context) -> Film:
     return Film(parameters, context.oil.beta, context.oil.temperature)
 
 
-@law("traction", "warm-eyring", EYRING.parameters, role_api=2, reference=EYRING.reference, prepare=prepare,
+@law("traction", "warm-eyring", EYRING.parameters, role_api=3, reference=EYRING.reference, prepare=prepare,
      reads={"contact_temperature": 350.0})  # fmt: skip
 def warm_eyring(slip, p, T, ln_eta, h, par, tau):
-    """Ree and Eyring's film, its viscosity lower by exp(-beta (T - T_oil)): shear rates count times viscosity."""
-    thinner = exp(par.beta * (par.contact_temperature - par.inlet))
-    return shear(slip, p, T, ln_eta, h * thinner, par.eyring, tau)
+    """Ree and Eyring's film, its viscosity lower by exp(-beta (T - T_oil))."""
+    thinner = par.beta * (par.contact_temperature - par.inlet)
+    for i in range(tau.size):
+        tau[i] = ln_eta[i] - thinner
+    # the law reads ln(eta) of a cell before it writes the stress there
+    return shear(slip, p, T, tau, h, par.eyring, tau)

@@ -1,8 +1,11 @@
-"""Between the solver's flat array and a kernel's named parameters: a few lines of generated Python for each law.
+"""Between the solver's arrays and a kernel's named numbers: a few lines of generated Python for each law.
 
 The solver calls every law with one flat array of parameters, always in the same form, so that laws can be exchanged
 without compiling the solver. What is written here makes a record of that array and hands it to the kernel; compiled, it
 is taken into the kernel, and reading ``par.limit_ratio`` is reading one number.
+
+One call is for all contacts of a raceway. Where a role has numbers that differ between them, what is written here goes
+through the contacts in a loop: compilers take several of them at once where the kernel allows it.
 """
 
 from __future__ import annotations
@@ -14,8 +17,10 @@ from functools import lru_cache
 from types import FunctionType
 from typing import Any
 
+from lambda_core.domain.role import Argument, Role
 from lambda_core.laws.named_numbers import Layout
 
+STRIDE = 8  # from the outputs of one contact to those of the next, in a role without cells: a line of the cache
 FILE = "<parameters by name>"  # stands for the file of generated code in messages
 
 
@@ -27,28 +32,68 @@ class PositionError(TypeError):
         self.index = index
 
 
-def source(arguments: tuple[str, ...], layout: Layout, taken: tuple[str, ...]) -> str:
+def stretch(array: Any, start: int, count: int) -> Any:
+    """Return part of an array, a view; compiled, it is not looked at whether the array goes so far."""
+    return array[start : start + count]
+
+
+def status_of(returned: Any) -> Any:
+    """Return what a kernel returned; compiled, anything but an int64 is refused."""
+    return returned
+
+
+def source(role: Role, layout: Layout, taken: tuple[str, ...], *, alone: bool = False) -> str:
     """Return the generated function as text.
 
     Parameters
     ----------
-    arguments : tuple of str
-        Of the role, in order; one of them is ``par``.
+    role : Role
+        Of the kernel; one of its arguments is ``par``.
     layout : Layout
         Names of the record, in the order of the flat array.
     taken : tuple of str
         Arguments that the kernel has.
+    alone : bool
+        For one contact, whose numbers are numbers. Otherwise those in which contacts differ are arrays, as are cells
+        and outputs of all contacts one after another, and the status is another one than 1 where any contact has one.
     """
     counts: list[str] = []
     record, _ = _record(layout, "0", counts, iter(range(1000)))
-    handed = ", ".join("record" if name == "par" else name for name in taken)
     lines = [
-        f"def flat({', '.join(arguments)}):",
+        f"def flat({', '.join(argument.name for argument in role.arguments)}):",
         *counts,
         f"record = {record}",
-        f"return kernel({handed})",
+    ]
+    if alone or not role.batched:
+        return "\n    ".join([*lines, f"return kernel({', '.join(map(_named, taken))})"]) + "\n"
+    first = next(argument.name for argument in role.arguments if argument.each)
+    if role.elementwise:
+        written = next(argument.name for argument in role.arguments if argument.output)
+        lines.append(f"cells = {written}.size // {first}.size")
+    known = {argument.name: argument for argument in role.arguments}
+    handed = ", ".join(_of_contact(role, known[name]) for name in taken)
+    lines += [
+        "failed = 0",
+        f"for k in range({first}.size):",
+        f"    failed |= status_of(kernel({handed})) ^ 1",
+        "return failed ^ 1",
     ]
     return "\n    ".join(lines) + "\n"
+
+
+def _named(name: str) -> str:
+    return "record" if name == "par" else name
+
+
+def _of_contact(role: Role, argument: Argument) -> str:
+    """Return what the kernel is handed of an argument for contact k."""
+    if argument.each:
+        return f"{argument.name}[k]"
+    if argument.kind == "f" or argument.name == "par":
+        return _named(argument.name)
+    if role.elementwise:
+        return f"stretch({argument.name}, k * cells, cells)"
+    return f"stretch({argument.name}, k * {STRIDE}, {len(role.outputs)})"
 
 
 @lru_cache(maxsize=256)
@@ -59,7 +104,7 @@ def taken_by(kernel: Callable[..., int]) -> tuple[str, ...]:
 
 @lru_cache(maxsize=256)
 def bound(
-    kernel: Callable[..., int], arguments: tuple[str, ...], layout: Layout, *, strict: bool = False
+    kernel: Callable[..., int], role: Role, layout: Layout, *, alone: bool = False, strict: bool = False
 ) -> FunctionType:
     """Return the function that takes the flat array and calls the kernel with the record.
 
@@ -67,16 +112,21 @@ def bound(
     ----------
     kernel : function
         It is called with a record in place of the flat array.
-    arguments, layout
+    role, layout, alone
         As for :func:`source`.
     strict : bool
         For calls in plain Python: a record that refuses to be read by position (:class:`PositionError`).
     """
-    scope: dict[str, Any] = {"__name__": kernel.__module__, "kernel": kernel}
+    scope: dict[str, Any] = {
+        "__name__": kernel.__module__,
+        "kernel": kernel,
+        "stretch": stretch,
+        "status_of": status_of,
+    }
     for place, each in enumerate(_layouts(layout)):
         base: type = namedtuple(each.name, each.names)  # type: ignore[misc]
         scope[f"Record{place}"] = type(each.name, (_Strict, base), {}) if strict else base
-    exec(compile(source(arguments, layout, taken_by(kernel)), FILE, "exec"), scope)
+    exec(compile(source(role, layout, taken_by(kernel), alone=alone), FILE, "exec"), scope)
     made: FunctionType = scope["flat"]
     made.__name__ = made.__qualname__ = kernel.__name__
     return made

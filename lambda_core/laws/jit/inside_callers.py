@@ -55,6 +55,14 @@ class _ApartCompiler(_PartCompiler):
         return super().define_pipelines()
 
 
+class _LawCompiler(Compiler):
+    """A law: what it is handed are arrays apart from each other."""
+
+    def define_pipelines(self) -> Any:
+        self.state.flags.noalias = True
+        return super().define_pipelines()
+
+
 class _LargePart(_Part):
     """A function that stays one of its own: its callers call it, in place of a copy in each of them."""
 
@@ -84,6 +92,8 @@ OPTIONS: dict[str, Any] = {
 }
 # The same for a function none of whose arrays shares memory with another one that is written.
 APART: dict[str, Any] = {**OPTIONS, "pipeline_class": _ApartCompiler}
+# For laws, which are called from elsewhere.
+LAW: dict[str, Any] = {"pipeline_class": _LawCompiler}
 # The same for a large function that several places call: one copy in the code of an entry point. A call costs some ten
 # nanoseconds, and LLVM's work grows faster than the code of one function. A function that takes functions as arguments
 # cannot be one: Numba would write an address of this process into its code.

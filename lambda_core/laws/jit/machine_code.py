@@ -28,7 +28,7 @@ from numba.extending import register_jitable
 
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.role import Role
-from lambda_core.laws.jit import inlined, plain
+from lambda_core.laws.jit import inlined, plain, stretches
 from lambda_core.laws.jit.plain import is_plain
 
 
@@ -65,9 +65,24 @@ def _way() -> ModuleType:
 
 
 def role_signature(role: Role) -> Any:
-    """Return the Numba signature of a role's kernel: ``int64(float64, ..., float64[::1], ...)``."""
-    kinds = {"f": types.float64, "a": types.float64[::1]}
-    return types.int64(*(kinds[argument.kind] for argument in role.arguments))
+    """Return the Numba signature of a role's laws: ``int64(float64, ..., float64[::1], ...)``.
+
+    Numbers in which contacts differ are arrays (:mod:`lambda_core.laws.jit.binding`).
+    """
+    words = (stretches.ROW if argument.each or argument.kind == "a" else types.float64 for argument in role.arguments)
+    return types.int64(*words)
+
+
+def alone_arguments(role: Role) -> tuple[Any, ...]:
+    """Return the types of the arguments of a role's kernel for one contact."""
+    return tuple(stretches.ROW if argument.kind == "a" else types.float64 for argument in role.arguments)
+
+
+def return_type(function: FunctionType, arguments: Any) -> Any:
+    """Return the type that Numba infers for the result of a function; it is compiled and thrown away."""
+    dispatcher = njit(**OPTIONS)(function)
+    dispatcher.compile(arguments)
+    return returned_type(dispatcher)
 
 
 def make_callable(helpers: tuple[FunctionType, ...], **options: Any) -> None:
@@ -98,7 +113,10 @@ def environment_key() -> str:
     words += _way().processor()
     words += [str(config.OPT), config.BOUNDSCHECK, config.DEBUGINFO_DEFAULT]
     words += [OPTIONS["error_model"], sorted(OPTIONS["fastmath"]), is_plain()]
-    words += [Path(__file__).with_name(f"{name}.py").read_bytes() for name in ("inside_callers", "references", "words")]
+    words += [
+        Path(__file__).with_name(f"{name}.py").read_bytes()
+        for name in ("inside_callers", "references", "stretches", "words")
+    ]
     return hashlib.sha256(repr(words).encode()).hexdigest()[:16]
 
 

@@ -92,13 +92,11 @@ class Grid(NamedTuple):
 
 
 class Cells(NamedTuple):
-    """What the cells of one contact hold, each an array with one entry per cell.
+    """What the cells of contacts hold, each an array with one entry per cell, contact by contact.
 
     Pressure and what follows depends on the kinematics alone.
     """
 
-    guard: Any  # (_RESULTS + 1, GUARD): what stands behind the rows that laws write
-    results: Any  # these rows with their guards, but for that of the density
     ln_eta_inlet: Any  # logarithm of the viscosity at the inlet's temperature [ln(Pa s)]
     shear_inlet: Any  # shear stress there; in the end the film's share of it [Pa]
     temperature: Any  # of the film [K]
@@ -107,6 +105,7 @@ class Cells(NamedTuple):
     friction: Any  # coefficient of the asperities; in the end their share of the shear stress [Pa]
     density: Any  # [kg/m3]
     inlet: Any  # inlet's temperature [K]
+    film: Any  # film of the contact [m]
     pressure: Any  # [Pa]
     slip: Any  # speed, with its spread inside the cell [m/s]
     inverse_slip: Any  # [s/m]
@@ -114,11 +113,10 @@ class Cells(NamedTuple):
     slip_s: Any  # and across
 
 
-CELL_ROWS = len(Cells._fields) - 2
+CELL_ROWS = len(Cells._fields)
 LINE_ROWS, SLICE_ROWS = 4, 16
 GUARD = 8  # cells behind each row, which nobody writes, a line of cache: what stands first there shows an index too far
-_RESULTS = 6  # rows that laws write
-KINEMATIC_ROWS = Cells._fields.index("pressure") - 2  # the first row that depends on the kinematics alone
+RESULTS = 6  # rows that laws write
 
 
 @by_reference(
@@ -142,7 +140,7 @@ KINEMATIC_ROWS = Cells._fields.index("pressure") - 2  # the first row that depen
     active=INTEGERS,
     inputs=Array(R.INPUTS),
     signals=Array(R.SIGNAL),
-    cells=ARRAY3,
+    cells=ARRAY2,
     scratch=Array(R.SCRATCH),
     bodies_now=Array(R.BODY_STATE),
     ground=Array(R.BODY_STATE),
@@ -187,7 +185,7 @@ class Bundle(NamedTuple):
     active: Any  # int64 (n_active,): free entries of the shared state
     inputs: Any  # INPUTS (bodies,)
     signals: Any  # SIGNAL (12 bodies,): the same memory
-    cells: Any  # (2, CELL_ROWS, cells + GUARD): rows of Cells
+    cells: Any  # (CELL_ROWS, cells of contacts + GUARD): rows of Cells
     scratch: Any  # SCRATCH (1,)
     shared: Any  # (12 bodies,) the whole shared state
     bodies_now: Any  # BODY_STATE (bodies,): the same memory
@@ -220,11 +218,10 @@ def named_balls(y: Any, row: Any) -> Any:
     return y[row.first_state : row.first_state + NB * row.balls].view(R.BALL)
 
 
-def named_cells(block: Any) -> Cells:
-    """Return the rows of one block of Bundle.cells by name."""
-    n = block.shape[1] - GUARD
+def named_cells(block: Any, first: int, count: int, width: int) -> Cells:
+    """Return the rows of Bundle.cells by name, of contacts from the first-th on, with `width` cells each."""
+    a, b = first * width, (first + count) * width
     return Cells(
-        block[: _RESULTS + 1, n:], block[:_RESULTS], block[0][:n], block[1][:n], block[2][:n], block[3][:n],
-        block[4][:n], block[5][:n], block[6][:n], block[7][:n], block[8][:n], block[9][:n], block[10][:n],
-        block[11][:n], block[12][:n],
+        block[0][a:b], block[1][a:b], block[2][a:b], block[3][a:b], block[4][a:b], block[5][a:b], block[6][a:b],
+        block[7][a:b], block[8][a:b], block[9][a:b], block[10][a:b], block[11][a:b], block[12][a:b], block[13][a:b],
     )  # fmt: skip

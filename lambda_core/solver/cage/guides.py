@@ -16,6 +16,7 @@ from lambda_core.solver.vec import (
     combine,
     combine_onto,
     components,
+    cosine_sine,
     cross,
     decrease,
     dot,
@@ -51,7 +52,7 @@ def write_frame(axis, phi, g):
     c1 = 1.0 + ax
     y0, y1, y2 = -ay, 1.0 - ay * ay / c1, -ay * az / c1
     z0, z1, z2 = -az, -ay * az / c1, 1.0 - az * az / c1
-    c, s = math.cos(phi), math.sin(phi)
+    c, s = cosine_sine(phi)
     store(g.axial, axis)
     store(g.radial, (c * y0 + s * z0, c * y1 + s * z1, c * y2 + s * z2))
     store(g.tangential, (-s * y0 + c * z0, -s * y1 + c * z1, -s * y2 + c * z2))
@@ -68,7 +69,7 @@ def pocket_state(ball, cage, j, row, bundle, g):
     """Write position and velocity of the row's ball j relative to its pocket, in the pocket's frame."""
     axis, omega = turning_body(cage)
     write_frame(axis, cage.angle + row.pocket_phase + 2.0 * math.pi * (j - row.first_ball) / row.balls, g)
-    c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
+    c, s = cosine_sine(ball.azimuth)
     # Ball from the cage's centre.
     d = subtract((ball.x, ball.radius * c, ball.radius * s), cage.position)
     store(g.origin, add(scale(row.pocket_circle, g.radial), scale(row.pocket_offset, axis)))
@@ -105,8 +106,8 @@ def neighbour_state(ball, other, g):
     store(g.radial, (0.0, 1.0, 0.0))
     store(g.tangential, (0.0, 0.0, 1.0))
     store(g.origin, (0.0, 0.0, 0.0))
-    c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
-    d, e = math.cos(other.azimuth), math.sin(other.azimuth)
+    c, s = cosine_sine(ball.azimuth)
+    d, e = cosine_sine(other.azimuth)
     apart = (
         ball.x - other.x,
         ball.radius * c - other.radius * d,
@@ -200,7 +201,7 @@ def force_and_point(g, out):
 @helper
 def pocket_apply(ball, cage, g, out, on_ball, on_cage):
     """Add the force of a pocket to ball (axes x, r, t) and cage (inertial), equal and opposite."""
-    c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
+    c, s = cosine_sine(ball.azimuth)
     f, p = force_and_point(g, out)
     centre = subtract((ball.x, ball.radius * c, ball.radius * s), cage.position)
     increase(on_ball.force, turning(f, c, s))
@@ -222,7 +223,7 @@ def land_apply(cage, ring, g, out, on_cage, on_ring):
 @helper
 def neighbour_apply(azimuth, arm, out, sign, on_ball):
     """Add a ball-ball force (inertial, times sign) acting at `arm` from the ball's centre."""
-    c, s = math.cos(azimuth), math.sin(azimuth)
+    c, s = cosine_sine(azimuth)
     f = scale(sign, out)
     increase(on_ball.force, turning(f, c, s))
     increase(on_ball.moment, turning(cross(arm, f), c, s))

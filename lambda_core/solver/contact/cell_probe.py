@@ -19,7 +19,7 @@ def probe(balls, rings, k, bundle, losses):
     k : int
         Row of the table of raceways.
     bundle : Bundle
-        Cells, kinematics and scalars are left in bundle.cells[0] and bundle.scratch.
+        Cells, kinematics and scalars are left in bundle.cells and bundle.scratch.
     losses : float64[:], shape (6 raceways,)
         Power dissipated by mechanism is added here [W].
 
@@ -32,8 +32,9 @@ def probe(balls, rings, k, bundle, losses):
     kin, contact, ball, ring = scratch.kinematics[0], scratch.contact[0], balls[0], rings[0]
     if not touch(ball, ring, raceway, bundle, kin) > 0.0:
         return -1
-    ok = contact_wrench(raceway, bundle)
+    ok = contact_wrench(raceway, 0, bundle)
     if ok == 1:
-        cells, grid, named = cells_of(bundle.cells[0]), grid_of(bundle.grid), losses_of(losses, bundle.raceways.size)
+        cells, grid = cells_of(bundle.cells, 0, 1, bundle.grid.shape[1]), grid_of(bundle.grid)
+        named = losses_of(losses, bundle.raceways.size)
         raceway_losses(raceway, kin, system, grid, contact, cells, named)
     return ok

@@ -16,7 +16,7 @@ _gap_capacitance = helper(gap_capacitance)
 @helper
 def bulk_permittivity(raceway, laws, bundle):
     """Return the relative permittivity of the oil at no pressure and the oil's temperature."""
-    par, where, cells = bundle.par, raceway.parameters, cells_of(bundle.cells[0])
+    par, where, cells = bundle.par, raceway.parameters, cells_of(bundle.cells, 0, 1, bundle.grid.shape[1])
     p, temp, rho, eps = cells.pressure[:1], cells.temperature[:1], cells.density[:1], cells.friction[:1]
     p[0], temp[0] = 0.0, raceway.oil.temperature
     laws.rheology(p, temp, part(par, where.rheology), cells.ln_eta[:1], rho)
@@ -30,7 +30,7 @@ def contact_capacitance(raceway, kin, laws, bundle, shorted, touching, sample):
     scratch, par, where = bundle.scratch[0], bundle.par, raceway.parameters
     contact, cells, grid, out, oil = (
         scratch.contact[0],
-        cells_of(bundle.cells[0]),
+        cells_of(bundle.cells, 0, 1, bundle.grid.shape[1]),
         grid_of(bundle.grid),
         scratch.out[:],
         raceway.oil,
@@ -74,7 +74,7 @@ def touching_film(raceway, kin, bundle):
     """
     contact, penetration, velocity = bundle.scratch[0].contact[0], kin.penetration, kin.normal_velocity
     kin.penetration, kin.normal_velocity = raceway.roughness, 0.0
-    found = contact_wrench(raceway, bundle)
+    found = contact_wrench(raceway, 0, bundle)
     film = contact.film_central
     kin.penetration, kin.normal_velocity = penetration, velocity
     return film if found == 1 else -1.0

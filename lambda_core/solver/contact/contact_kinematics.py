@@ -18,6 +18,7 @@ from lambda_core.solver.vec import (
     add,
     combine,
     components,
+    cosine_sine,
     cross,
     dot,
     dot_onto,
@@ -65,7 +66,7 @@ def surface_lift(ball, ring, raceway, bundle, kin):
     textured, bends = raceway.surface_on == 1 and bundle.system[0].guides_on == 1, raceway.waves[1] > raceway.waves[0]
     if not (textured or bends):
         return
-    c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
+    c, s = cosine_sine(ball.azimuth)
     ay, az = ring.tilt[0], ring.tilt[1]
     _, _, along, across = _from_axis(ball, ring, c, s)
     axial = along - raceway.axial_offset
@@ -118,7 +119,7 @@ def contact_kinematics(ball, ring, raceway, kin):
         Penetration [m], negative a gap; velocities are written only within the reach of the film. NaN when the surface
         law refused.
     """
-    c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
+    c, s = cosine_sine(ball.azimuth)
     axis, centre, along, across = _from_axis(ball, ring, c, s)
     rho = math.sqrt(across[1] * across[1] + across[0] * across[0] + across[2] * across[2])
     p = across[0] / rho, across[1] / rho, across[2] / rho
@@ -192,14 +193,35 @@ def touch(ball, ring, raceway, bundle, kin):
 
 
 @helper
-def contact_wrench(raceway, bundle):
-    """Run the laws of the contact in scratch, into its first contact, cells and wrench; returns 1, or 0 on a fault."""
-    scratch = bundle.scratch[0]
-    laws = raceway_laws(bundle.laws.raceways, raceway.laws)
+def _wrenches(raceway, first, count, bundle):
     return bundle.wrench(
-        raceway, scratch.kinematics[0], laws, bundle.par, bundle.system[0], bundle.grid, bundle.cells[0], scratch,
-        scratch.contact[0], scratch.wrench[0],
+        raceway, first, count, raceway_laws(bundle.laws.raceways, raceway.laws), bundle.par, bundle.system[0],
+        bundle.grid, bundle.cells, bundle.scratch[0],
     )  # fmt: skip
+
+
+@helper
+def contact_wrench(raceway, place, bundle):
+    """Run the laws of the contact at a place of scratch, into contact and wrench there; returns 1, or 0 on a fault."""
+    return _wrenches(raceway, place, 1, bundle)
+
+
+@helper
+def contact_wrenches(raceway, first, count, bundle):
+    """Run the laws of contacts together, into contacts and wrenches at their places of scratch.
+
+    Returns 1, or 0 on a fault: scratch.fault names the first contact that has one when it is alone.
+    """
+    if _wrenches(raceway, first, count, bundle) == 1:
+        return 1
+    scratch = bundle.scratch[0]
+    fault, role = scratch.fault, scratch.fault.role
+    for k in range(first, first + count):
+        fault.role, fault.ball = -1, scratch.ball[k]
+        if count > 1 and _wrenches(raceway, k, 1, bundle) != 1:
+            return 0
+    fault.role, fault.ball = role, scratch.ball[first]
+    return 0
 
 
 @helper

@@ -1,4 +1,4 @@
-"""The contact pipeline of one ball-raceway contact: from its kinematics to the wrench on the ball.
+"""The contact pipeline of ball-raceway contacts: from their kinematics to the wrenches on the balls.
 
 Stages, each a kernel of the model: normal force, damping, film with thermal correction, asperity
 share, shear in every cell (rheology, traction, temperature), rolling resistance, hysteresis.
@@ -12,45 +12,60 @@ from lambda_core.solver.contact.shear import shear_stage, slip_field
 from lambda_core.solver.layout import cells_of, grid_of, helper
 from lambda_core.solver.vec import clear
 
+ENLARGED = 1e-5  # by how much of itself the slip of the last contact is enlarged, for derivatives; laws are smooth
+
 
 @helper
-def pipeline(raceway, kin, laws, par, system, grid, cells, scratch, contact, wrench):
-    """Run the whole pipeline of one contact, or of a film that nothing presses yet; see raceway_wrench."""
-    out, fault = scratch.out[:], scratch.fault
-    contact.wet = 0
-    if normal_stage(raceway, kin, laws, par, system, contact, out, fault) != 1:
+def pipeline(raceway, first, count, enlarged, laws, par, system, grid_table, block, scratch):
+    """Run the whole pipeline of contacts, or of films that nothing presses yet; see raceway_wrenches.
+
+    With `enlarged` = 1 the slip in every cell of the last contact is larger by ENLARGED of itself.
+    """
+    if normal_stage(raceway, first, count, laws, par, system, scratch) != 1:
         return 0
-    if system.friction_on == 0 or kin.penetration <= 0.0:
-        clear(wrench)
-        wrench.force[2] = -(contact.load + contact.damping_force)
+    if system.friction_on == 0 or scratch.kinematics[first].penetration <= 0.0:
+        for k in range(first, first + count):
+            clear(scratch.wrench[k])
+            scratch.wrench[k].force[2] = -(scratch.contact[k].load + scratch.contact[k].damping_force)
         return 1
-    if film_stage(raceway, kin, laws, par, contact, out, fault) != 1:
+    if film_stage(raceway, first, count, laws, par, scratch) != 1:
         return 0
-    slip_field(raceway, kin, system, grid, contact, cells)
-    if shear_stage(raceway, laws, par, grid, contact, cells, fault) != 1:
+    grid, width = grid_of(grid_table), grid_table.shape[1]
+    for k in range(count):
+        slip_field(
+            raceway, scratch.kinematics[first + k], system, grid, scratch.contact[first + k],
+            cells_of(block, k, 1, width),
+        )  # fmt: skip
+    if enlarged == 1:
+        slip = cells_of(block, count - 1, 1, width).slip
+        for i in range(width):
+            slip[i] *= 1.0 + ENLARGED
+    if shear_stage(raceway, first, count, laws, par, grid, block, scratch) != 1:
         return 0
-    sum_wrench(raceway, kin, system, grid, contact, cells, wrench)
+    for k in range(count):
+        sum_wrench(
+            raceway, scratch.kinematics[first + k], system, grid, scratch.contact[first + k],
+            cells_of(block, k, 1, width), scratch.wrench[first + k],
+        )  # fmt: skip
     return 1
 
 
-def raceway_wrench(raceway, kin, laws, par, system, grid, cells, scratch, contact, wrench):
-    """Run the whole pipeline of one contact; an entry point of its own, called by pointer.
+def raceway_wrenches(raceway, first, count, laws, par, system, grid, cells, scratch):
+    """Run the whole pipeline of contacts of one raceway; an entry point of its own, called by pointer.
 
     Parameters
     ----------
     raceway : records.RACEWAY
-    kin : records.KINEMATICS
+    first, count : int
+        Places of the contacts in scratch, where their kinematics are. Either all of them carry load or none does.
     laws : layout.RacewayLaws
     par, system, grid, cells, scratch
-        See layout.Bundle; `cells` is one of its two blocks.
-    contact : records.CONTACT
-        Result: scalars of the contact.
-    wrench : records.WRENCH
-        Result: force and couple on the ball at the contact's centre, axes t, s, n.
+        See layout.Bundle; contact `first` has the first cells. Scalars of the contacts are left in scratch.contact,
+        force and couple on the balls at the centres of the contacts in scratch.wrench, axes t, s, n.
 
     Returns
     -------
     int
-        1 when every kernel was well; otherwise 0 and scratch.fault says which was not.
+        1 when every kernel was well; otherwise 0 and scratch.fault says which was not, with what it takes of the first.
     """
-    return pipeline(raceway, kin, laws, par, system, grid_of(grid), cells_of(cells), scratch, contact, wrench)
+    return pipeline(raceway, first, count, 0, laws, par, system, grid, cells, scratch)

@@ -141,7 +141,7 @@ def raceway_columns(ball, j, row, bundle, bl):
         hand_states(raceway, j, bundle)
         laws = raceway_laws(bundle.laws.raceways, raceway.laws)
         ok = bundle.tangent(
-            raceway, kin, laws, bundle.par, bundle.system[0], bundle.grid, bundle.cells, scratch, bl.slope[0]
+            raceway, laws, bundle.par, bundle.system[0], bundle.grid, bundle.cells, scratch, bl.slope[0]
         )
         if ok != 1:
             scratch.fault.ball = j

@@ -11,16 +11,15 @@ does on w. Tangential displacements of the raceway, w/n of a wave, and tractions
 
 from __future__ import annotations
 
-import math
-
 from lambda_core.solver.arrays.bundle import NS, SSIGMA, SVY, SVZ
 from lambda_core.solver.layout import helper
+from lambda_core.solver.vec import cosine_sine
 
 
 @helper
 def widen(raceway, azimuth, bundle, kin):
     """Write the radial displacement of an elastic raceway, its slope and rate, at an azimuth in its material [rad]."""
-    first_c, first_s = math.cos(azimuth), math.sin(azimuth)
+    first_c, first_s = cosine_sine(azimuth)
     kin.wave_cosine, kin.wave_sine = first_c, first_s
     cosine, sine = first_c, first_s
     for i in range(raceway.waves[0], raceway.waves[1]):
@@ -46,11 +45,11 @@ def wave_pushes(raceway, kin, wrench, pushes):
 
 
 @helper
-def push_waves(raceway, bundle):
-    """Add the raceway contact in scratch to the forces on the waves of its ring."""
+def push_waves(raceway, place, bundle):
+    """Add the raceway contact at a place of scratch to the forces on the waves of its ring."""
     scratch = bundle.scratch[0]
     pushes = scratch.out[:]
-    wave_pushes(raceway, scratch.kinematics[0], scratch.wrench[0], pushes)
+    wave_pushes(raceway, scratch.kinematics[place], scratch.wrench[place], pushes)
     add_pushes(raceway.waves[0], raceway.waves[1], pushes, bundle)
 
 

@@ -1,4 +1,8 @@
-"""Stages of a raceway contact whose laws are scalar: load, damping, film, rolling losses."""
+"""Stages of raceway contacts whose laws take no cells: load, damping, film, rolling losses.
+
+A law is called once for all contacts from place `first` on, `count` of them, which lie in scratch. It takes what it
+needs from scratch.lanes and leaves its results in scratch.out, layout.STRIDE numbers apart.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +22,10 @@ from lambda_core.solver.arrays.fault_roles import (
     THERMAL_CORRECTION,
 )
 from lambda_core.solver.faults import report
-from lambda_core.solver.layout import helper, part, vector_helper
+from lambda_core.solver.layout import helper, of, part, vector_helper
+from lambda_core.solver.records import STRIDE
+
+_VECTOR = 8  # contacts that compiled laws take at once
 
 
 @vector_helper
@@ -29,94 +36,270 @@ def finite(values):
     return total < np.inf
 
 
-@helper
-def damping_force(raceway, kin, velocity, laws, par, contact, out):
-    """Call the damping law of a contact at a penetration velocity: out[0]; returns its status."""
-    oil, rx, ry, e = raceway.oil, raceway.radius_x, raceway.radius_y, raceway.modulus
-    u = math.sqrt(kin.entrainment_t * kin.entrainment_t + kin.entrainment_s * kin.entrainment_s)
-    return laws.damping(
-        kin.penetration, velocity, contact.load, u, contact.semi_axis_a, contact.semi_axis_b, rx, ry, e,
-        oil.viscosity, oil.alpha_p, part(par, raceway.parameters.damping), out,
-    )  # fmt: skip
+@vector_helper
+def _well(out, n, results):
+    """Return whether the first results of n contacts are finite."""
+    total = 0.0
+    for k in range(n):
+        for i in range(results):
+            total += abs(out[STRIDE * k + i])
+    return total < np.inf
 
 
 @helper
-def normal_stage(raceway, kin, laws, par, system, contact, out, fault):
-    """Elastic load, contact ellipse and damping force."""
-    delta, ring, where = kin.penetration, raceway.number, raceway.parameters
+def _blank(out, n, results):
+    """Fill the first results of n contacts with NaN, so that those that a law leaves out are seen."""
+    for k in range(n):
+        for i in range(results):
+            out[STRIDE * k + i] = np.nan
+
+
+@helper
+def _full(count):
+    """Return how many contacts a law is called for: half a vector and more costs what a full one does."""
+    rest = count % _VECTOR
+    return count + _VECTOR - rest if 2 * rest >= _VECTOR else count
+
+
+@helper
+def _repeat(lane, first, count, n):
+    """Fill a lane up with copies of its first number."""
+    for k in range(first + count, first + n):
+        lane[k] = lane[first]
+
+
+@helper
+def _motion(first, count, n, scratch):
+    """Write penetration and mean surface velocity of contacts into their lanes."""
+    lanes = scratch.lanes
+    for k in range(first, first + count):
+        kin = scratch.kinematics[k]
+        lanes.delta[k], lanes.velocity[k] = kin.penetration, kin.normal_velocity
+        lanes.u_mean[k] = math.sqrt(kin.entrainment_t * kin.entrainment_t + kin.entrainment_s * kin.entrainment_s)
+    _repeat(lanes.delta, first, count, n)
+    _repeat(lanes.velocity, first, count, n)
+    _repeat(lanes.u_mean, first, count, n)
+
+
+@helper
+def _loads(raceway, first, count, n, laws, par, scratch):
+    """Call the law of the load for contacts of which the first is closed, as the others are; 0 on a fault."""
+    lanes, out, ring = scratch.lanes, scratch.out[:], raceway.number
     rx, ry, e = raceway.radius_x, raceway.radius_y, raceway.modulus
-    out[:4] = 0.0
-    if delta > 0.0:
-        out[:4] = np.nan
-        status = laws.normal_contact(delta, rx, ry, e, part(par, where.normal_contact), out)
-        if status != 1 or not finite(out[:4]):
-            return report(fault, NORMAL_CONTACT, status, ring, delta, rx, ry, e)
-    load = out[0]
-    contact.load, contact.semi_axis_a, contact.semi_axis_b, contact.max_pressure = load, out[1], out[2], out[3]
-    if system.guides_on == 0:  # quasi-static: nothing moves along the normal
-        contact.damping_force = 0.0
-        return 1
-    out[0] = np.nan
-    status = damping_force(raceway, kin, kin.normal_velocity, laws, par, contact, out)
-    if status != 1 or not abs(out[0]) < np.inf:
-        return report(fault, DAMPING, status, ring, delta, kin.normal_velocity, load, 0.0)
-    # A contact never pulls: the damping force cannot exceed the elastic one.
-    contact.damping_force = max(out[0], -load)
+    if scratch.kinematics[first].penetration > 0.0:
+        _blank(out, n, 4)
+        status = laws.normal_contact(
+            of(lanes.delta, first, n), rx, ry, e, part(par, raceway.parameters.normal_contact), of(out, 0, STRIDE * n)
+        )
+        if status != 1 or not _well(out, n, 4):
+            return report(scratch.fault, NORMAL_CONTACT, status, ring, lanes.delta[first], rx, ry, e)
+    else:
+        for i in range(STRIDE * n):
+            out[i] = 0.0
+    for k in range(n):
+        i = STRIDE * k
+        lanes.load[first + k], lanes.semi_a[first + k] = out[i], out[i + 1]
+        lanes.semi_b[first + k], lanes.p_max[first + k] = out[i + 2], out[i + 3]
+    for k in range(first, first + count):
+        contact = scratch.contact[k]
+        contact.load, contact.semi_axis_a, contact.semi_axis_b = lanes.load[k], lanes.semi_a[k], lanes.semi_b[k]
+        contact.max_pressure, contact.wet = lanes.p_max[k], 0
     return 1
 
 
 @helper
-def film_stage(raceway, kin, laws, par, contact, out, fault):
-    """Film thickness, asperity share, rolling resistance and hysteresis (scalar laws)."""
+def _damping(raceway, first, count, n, laws, par, scratch):
+    """Write damping forces of contacts whose lanes are full; 0 on a fault."""
+    lanes, out, oil = scratch.lanes, scratch.out[:], raceway.oil
+    rx, ry, e = raceway.radius_x, raceway.radius_y, raceway.modulus
+    _blank(out, n, 1)
+    status = laws.damping(
+        of(lanes.delta, first, n), of(lanes.velocity, first, n), of(lanes.load, first, n), of(lanes.u_mean, first, n),
+        of(lanes.semi_a, first, n), of(lanes.semi_b, first, n), rx, ry, e, oil.viscosity, oil.alpha_p,
+        part(par, raceway.parameters.damping), of(out, 0, STRIDE * n),
+    )  # fmt: skip
+    if status != 1 or not _well(out, n, 1):
+        return report(
+            scratch.fault, DAMPING, status, raceway.number,
+            lanes.delta[first], lanes.velocity[first], lanes.load[first], 0.0,
+        )  # fmt: skip
+    for k in range(count):
+        # A contact never pulls: the damping force cannot exceed the elastic one.
+        scratch.contact[first + k].damping_force = max(out[STRIDE * k], -lanes.load[first + k])
+    return 1
+
+
+@helper
+def normal_stage(raceway, first, count, laws, par, system, scratch):
+    """Elastic load, contact ellipse and damping force."""
+    n = _full(count)
+    _motion(first, count, n, scratch)
+    if _loads(raceway, first, count, n, laws, par, scratch) != 1:
+        return 0
+    if system.guides_on == 0:  # quasi-static: nothing moves along the normal
+        for k in range(first, first + count):
+            scratch.contact[k].damping_force = 0.0
+        return 1
+    return _damping(raceway, first, count, n, laws, par, scratch)
+
+
+@helper
+def line_damping(raceway, place, laws, par, scratch):
+    """Write the damping force of a line contact, whose loads are those of its slices; 0 on a fault."""
+    lanes, contact = scratch.lanes, scratch.contact[place]
+    _motion(place, 1, 1, scratch)
+    lanes.load[place], lanes.semi_a[place], lanes.semi_b[place] = contact.load, contact.semi_axis_a, contact.semi_axis_b
+    return _damping(raceway, place, 1, 1, laws, par, scratch)
+
+
+@helper
+def _rolling(first, count, n, scratch):
+    """Write what the stages of the film take of loads and motion into lanes."""
+    lanes = scratch.lanes
+    for k in range(first, first + count):
+        kin, contact = scratch.kinematics[k], scratch.contact[k]
+        ut, us = kin.entrainment_t, kin.entrainment_s
+        square = ut * ut + us * us
+        lanes.u_mean[k], lanes.cos2[k] = math.sqrt(square), ut * ut / square if square > 0.0 else 1.0
+        lanes.u_slide[k] = math.sqrt(kin.slip_t * kin.slip_t + kin.slip_s * kin.slip_s)
+        lanes.load[k], lanes.semi_a[k], lanes.semi_b[k] = contact.load, contact.semi_axis_a, contact.semi_axis_b
+        lanes.p_max[k] = contact.max_pressure
+    _repeat(lanes.u_mean, first, count, n)
+    _repeat(lanes.cos2, first, count, n)
+    _repeat(lanes.u_slide, first, count, n)
+    _repeat(lanes.load, first, count, n)
+    _repeat(lanes.semi_a, first, count, n)
+    _repeat(lanes.semi_b, first, count, n)
+    _repeat(lanes.p_max, first, count, n)
+
+
+@helper
+def _films(raceway, first, count, n, laws, par, scratch):
+    """Write films: isothermal, as heat in the inlet and missing oil leave them; 0 on a fault."""
     ring, where, oil = raceway.number, raceway.parameters, raceway.oil
-    load, a, b, pmax = contact.load, contact.semi_axis_a, contact.semi_axis_b, contact.max_pressure
+    lanes, out, fault = scratch.lanes, scratch.out[:], scratch.fault
     rx, ry, e = raceway.radius_x, raceway.radius_y, raceway.modulus
     eta0, alpha, beta, k_oil = oil.viscosity, oil.alpha_p, oil.beta, oil.conductivity
-    ut, us = kin.entrainment_t, kin.entrainment_s
-    u = math.sqrt(ut * ut + us * us)
-    theta = math.atan2(abs(us), abs(ut)) if u > 0.0 else 0.0
-    contact.entrainment = u
-    out[:2] = np.nan
-    status = laws.film_thickness(u, theta, load, rx, ry, e, eta0, alpha, part(par, where.film_thickness), out)
-    if status != 1 or not finite(out[:2]):
-        return report(fault, FILM_THICKNESS, status, ring, u, theta, load, eta0)
-    h_cen, h_min = out[0], out[1]
-    slide = math.sqrt(kin.slip_t**2 + kin.slip_s**2)
-    out[0] = np.nan
-    status = laws.thermal_correction(u, slide, pmax, e, eta0, beta, k_oil, part(par, where.thermal_correction), out)
-    if status != 1 or not abs(out[0]) < np.inf:
-        return report(fault, THERMAL_CORRECTION, status, ring, u, slide, pmax, eta0)
-    heated = out[0]
-    out[:2] = np.nan
-    status = laws.supply(u, load, a, b, rx, h_cen * heated, h_min * heated, part(par, where.supply), out)
-    if status != 1 or not finite(out[:2]):
-        return report(fault, SUPPLY, status, ring, u, load, h_cen, heated)
-    factor, inlet = heated * out[0], out[1]
-    contact.film_isothermal = h_cen
-    contact.film_central = h_cen * factor
-    contact.film_minimum = h_min * factor
-    contact.film_parameter = contact.film_central / raceway.roughness
-    out[0] = np.nan
-    status = laws.asperity_load(contact.film_parameter, part(par, where.asperity_load), out)
-    if status != 1 or not abs(out[0]) < np.inf:
-        return report(fault, ASPERITY_LOAD, status, ring, contact.film_parameter, load, 0.0, 0.0)
-    contact.asperity_share = psi = out[0]
-    out[:2] = np.nan
-    status = laws.mixing(psi, contact.film_parameter, load, contact.max_pressure, a, b, part(par, where.mixing), out)
-    if status != 1 or not abs(out[0]) + abs(out[1]) < np.inf:
-        return report(fault, MIXING, status, ring, psi, contact.film_parameter, load, contact.max_pressure)
-    contact.film_stress, contact.solid_stress = out[0], out[1]
-    out[0] = np.nan
-    status = laws.rolling_resistance(
-        u, load, a, b, rx, ry, e, eta0, alpha, beta, k_oil, part(par, where.rolling_resistance), out
+    u, load, results = of(lanes.u_mean, first, n), of(lanes.load, first, n), of(out, 0, STRIDE * n)
+    _blank(out, n, 2)
+    status = laws.film_thickness(
+        u, of(lanes.cos2, first, n), load, rx, ry, e, eta0, alpha, part(par, where.film_thickness), results
     )
-    if status != 1 or not abs(out[0]) < np.inf:
-        return report(fault, ROLLING_RESISTANCE, status, ring, u, load, a, b)
-    contact.rolling_force = inlet * out[0]
-    out[0] = np.nan
-    status = laws.elastic_hysteresis(load, a, b, rx, ry, raceway.ball_radius, part(par, where.elastic_hysteresis), out)
-    if status != 1 or not abs(out[0]) < np.inf:
-        return report(fault, ELASTIC_HYSTERESIS, status, ring, load, a, b, rx)
-    contact.hysteresis_moment = out[0]
-    contact.wet = 1
+    if status != 1 or not _well(out, n, 2):
+        return report(
+            fault, FILM_THICKNESS, status, ring, lanes.u_mean[first], lanes.cos2[first], lanes.load[first], eta0
+        )
+    for k in range(n):
+        lanes.h_cen[first + k], lanes.h_min[first + k] = out[STRIDE * k], out[STRIDE * k + 1]
+    _blank(out, n, 1)
+    status = laws.thermal_correction(
+        u, of(lanes.u_slide, first, n), of(lanes.p_max, first, n), e, eta0, beta, k_oil,
+        part(par, where.thermal_correction), results,
+    )  # fmt: skip
+    if status != 1 or not _well(out, n, 1):
+        return report(
+            fault, THERMAL_CORRECTION, status, ring,
+            lanes.u_mean[first], lanes.u_slide[first], lanes.p_max[first], eta0,
+        )  # fmt: skip
+    for k in range(count):
+        scratch.contact[first + k].film_isothermal = lanes.h_cen[first + k]
+    for k in range(n):
+        heated = out[STRIDE * k]
+        lanes.h_cen[first + k] *= heated
+        lanes.h_min[first + k] *= heated
+    _blank(out, n, 2)
+    status = laws.supply(
+        u, load, of(lanes.semi_a, first, n), of(lanes.semi_b, first, n), rx, of(lanes.h_cen, first, n),
+        of(lanes.h_min, first, n), part(par, where.supply), results,
+    )  # fmt: skip
+    if status != 1 or not _well(out, n, 2):
+        return report(
+            fault, SUPPLY, status, ring, lanes.u_mean[first], lanes.load[first], lanes.h_cen[first], lanes.h_min[first]
+        )
+    for k in range(n):
+        lanes.h[first + k] = lanes.h_cen[first + k] * out[STRIDE * k]
+        lanes.film_parameter[first + k] = lanes.h[first + k] / raceway.roughness
+    for k in range(count):
+        contact = scratch.contact[first + k]
+        contact.film_central, contact.film_parameter = lanes.h[first + k], lanes.film_parameter[first + k]
+        contact.film_minimum = lanes.h_min[first + k] * out[STRIDE * k]
+        contact.rolling_force = out[STRIDE * k + 1]  # the share that is left of it
     return 1
+
+
+@helper
+def _asperities(raceway, first, count, n, laws, par, scratch):
+    """Write the share of asperities in the load, and of film and asperities in the shear stress; 0 on a fault."""
+    ring, where = raceway.number, raceway.parameters
+    lanes, out, fault = scratch.lanes, scratch.out[:], scratch.fault
+    ratio, results = of(lanes.film_parameter, first, n), of(out, 0, STRIDE * n)
+    _blank(out, n, 1)
+    status = laws.asperity_load(ratio, part(par, where.asperity_load), results)
+    if status != 1 or not _well(out, n, 1):
+        return report(
+            fault, ASPERITY_LOAD, status, ring, lanes.film_parameter[first], lanes.load[first], 0.0, 0.0
+        )  # fmt: skip
+    for k in range(n):
+        lanes.psi[first + k] = out[STRIDE * k]
+    _blank(out, n, 2)
+    status = laws.mixing(
+        of(lanes.psi, first, n), ratio, of(lanes.load, first, n), of(lanes.p_max, first, n),
+        of(lanes.semi_a, first, n), of(lanes.semi_b, first, n), part(par, where.mixing), results,
+    )  # fmt: skip
+    if status != 1 or not _well(out, n, 2):
+        return report(
+            fault, MIXING, status, ring,
+            lanes.psi[first], lanes.film_parameter[first], lanes.load[first], lanes.p_max[first],
+        )  # fmt: skip
+    for k in range(count):
+        contact = scratch.contact[first + k]
+        contact.asperity_share = lanes.psi[first + k]
+        contact.film_stress, contact.solid_stress = out[STRIDE * k], out[STRIDE * k + 1]
+    return 1
+
+
+@helper
+def _losses(raceway, first, count, n, laws, par, scratch):
+    """Write rolling resistance and hysteresis; 0 on a fault."""
+    ring, where, oil = raceway.number, raceway.parameters, raceway.oil
+    lanes, out, fault = scratch.lanes, scratch.out[:], scratch.fault
+    rx, ry, e = raceway.radius_x, raceway.radius_y, raceway.modulus
+    load, a, b = of(lanes.load, first, n), of(lanes.semi_a, first, n), of(lanes.semi_b, first, n)
+    results = of(out, 0, STRIDE * n)
+    _blank(out, n, 1)
+    status = laws.rolling_resistance(
+        of(lanes.u_mean, first, n), load, a, b, rx, ry, e, oil.viscosity, oil.alpha_p, oil.beta, oil.conductivity,
+        part(par, where.rolling_resistance), results,
+    )  # fmt: skip
+    if status != 1 or not _well(out, n, 1):
+        return report(
+            fault, ROLLING_RESISTANCE, status, ring,
+            lanes.u_mean[first], lanes.load[first], lanes.semi_a[first], lanes.semi_b[first],
+        )  # fmt: skip
+    for k in range(count):
+        scratch.contact[first + k].rolling_force *= out[STRIDE * k]
+    _blank(out, n, 1)
+    status = laws.elastic_hysteresis(
+        load, a, b, rx, ry, raceway.ball_radius, part(par, where.elastic_hysteresis), results
+    )
+    if status != 1 or not _well(out, n, 1):
+        return report(
+            fault, ELASTIC_HYSTERESIS, status, ring,
+            lanes.load[first], lanes.semi_a[first], lanes.semi_b[first], rx,
+        )  # fmt: skip
+    for k in range(count):
+        contact = scratch.contact[first + k]
+        contact.hysteresis_moment, contact.entrainment, contact.wet = out[STRIDE * k], lanes.u_mean[first + k], 1
+    return 1
+
+
+@helper
+def film_stage(raceway, first, count, laws, par, scratch):
+    """Film thickness, asperity share, rolling resistance and hysteresis."""
+    n = _full(count)
+    _rolling(first, count, n, scratch)
+    if _films(raceway, first, count, n, laws, par, scratch) != 1:
+        return 0
+    if _asperities(raceway, first, count, n, laws, par, scratch) != 1:
+        return 0
+    return _losses(raceway, first, count, n, laws, par, scratch)

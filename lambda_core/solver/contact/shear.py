@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 
+from lambda_core.solver.arrays.bundle import RESULTS
 from lambda_core.solver.arrays.fault_roles import BOUNDARY_FRICTION, CONTACT_TEMPERATURE, OUTSIDE, RHEOLOGY, TRACTION
 from lambda_core.solver.contact.scalar_stages import finite
 from lambda_core.solver.faults import report
-from lambda_core.solver.layout import helper, part, rows_helper, vector_helper
+from lambda_core.solver.layout import cells_of, helper, of, part, rows_helper, vector_helper
 from lambda_core.solver.vec import inverse_root
 
 # Variance of a uniform distribution over a cell of unit width: the slip's own spread in a cell.
@@ -79,9 +80,10 @@ def _finite_rows(a, b, c, d, e, f):
 
 
 @helper
-def _shear_fault(raceway, contact, cells, fault):
+def _shear_fault(raceway, first, cells, scratch):
     """Report the first kernel of shear_stage, in the order of their calls, whose result is not finite."""
-    slip, p, hot, ring = cells.slip, cells.pressure, cells.temperature, raceway.number
+    slip, p, hot, ring, fault = cells.slip, cells.pressure, cells.temperature, raceway.number, scratch.fault
+    contact = scratch.contact[first]
     pmax, h = contact.max_pressure, contact.film_central
     if not finite(cells.ln_eta_inlet):
         return report(fault, RHEOLOGY, 1, ring, pmax, raceway.oil.temperature, 0.0, 0.0)
@@ -99,30 +101,74 @@ def _shear_fault(raceway, contact, cells, fault):
 
 
 @helper
-def _outside(raceway, contact, cells, fault):
+def _begin(block, end):
+    """Fill rows that laws write, and what stands behind them, with NaN; the density is written over and over."""
+    for row in range(RESULTS):
+        for i in range(end + 1):
+            block[row, i] = np.nan
+    block[RESULTS, end] = 0.0
+
+
+@helper
+def _outside(raceway, first, block, end, scratch):
     """Report the first law, in the order of their calls, that wrote behind the end of its output; returns whether."""
-    guard, roles = cells.guard, (RHEOLOGY, TRACTION, CONTACT_TEMPERATURE, RHEOLOGY, TRACTION, BOUNDARY_FRICTION)
-    found = guard[len(roles), 0] != 0.0  # of the density, which is written over and over: never NaN
+    roles = (RHEOLOGY, TRACTION, CONTACT_TEMPERATURE, RHEOLOGY, TRACTION, BOUNDARY_FRICTION)
+    found = block[RESULTS, end] != 0.0
     for row in range(len(roles)):
-        found = found or guard[row, 0] == guard[row, 0]
+        found = found or block[row, end] == block[row, end]
     if not found:
         return False
     role = RHEOLOGY
     for row in range(len(roles)):
-        if guard[row, 0] == guard[row, 0]:
+        if block[row, end] == block[row, end]:
             role = roles[row]
             break
-    guard[len(roles), 0] = 0.0
+    contact = scratch.contact[first]
     report(
-        fault, role, OUTSIDE, raceway.number,
+        scratch.fault, role, OUTSIDE, raceway.number,
         contact.max_pressure, contact.film_central, contact.entrainment, contact.film_parameter,
     )  # fmt: skip
     return True
 
 
 @helper
-def shear_stage(raceway, laws, par, grid, contact, cells, fault):
-    """Shear stress of film and asperities in every cell.
+def _sweeps(raceway, first, count, laws, par, cells, scratch):
+    """Call the laws of the film's shear and of the asperities' friction for all cells of contacts; 0 on a fault."""
+    slip, p, temp, rho, film = cells.slip, cells.pressure, cells.inlet, cells.density, cells.film
+    cold, ln_eta = cells.ln_eta_inlet, cells.ln_eta
+    tau, tau0, hot, mu = cells.shear, cells.shear_inlet, cells.temperature, cells.friction
+    lanes, fault, inlet, ring, where = (
+        scratch.lanes, scratch.fault, raceway.oil.temperature, raceway.number, raceway.parameters
+    )  # fmt: skip
+    u, pmax, h, b = lanes.u_mean[first], lanes.p_max[first], lanes.h[first], lanes.semi_b[first]
+    oil, shear = part(par, where.rheology), part(par, where.traction)
+    status = laws.rheology(p, temp, oil, cold, rho)
+    if status != 1:
+        return report(fault, RHEOLOGY, status, ring, pmax, inlet, 0.0, 0.0)
+    status = laws.traction(slip, p, temp, cold, film, shear, tau0)
+    if status != 1:
+        return report(fault, TRACTION, status, ring, pmax, h, slip[0], cold[0])
+    status = laws.contact_temperature(
+        inlet, of(lanes.u_mean, first, count), of(lanes.h, first, count), of(lanes.semi_b, first, count), tau0, slip,
+        part(par, where.contact_temperature), hot,
+    )  # fmt: skip
+    if status != 1:
+        return report(fault, CONTACT_TEMPERATURE, status, ring, u, h, b, tau0[0])
+    status = laws.rheology(p, hot, oil, ln_eta, rho)
+    if status != 1:
+        return report(fault, RHEOLOGY, status, ring, pmax, hot[0], 0.0, 0.0)
+    status = laws.traction(slip, p, hot, ln_eta, film, shear, tau)
+    if status != 1:
+        return report(fault, TRACTION, status, ring, pmax, h, slip[0], ln_eta[0])
+    status = laws.boundary_friction(slip, p, of(lanes.u_mean, first, count), part(par, where.boundary_friction), mu)
+    if status != 1:
+        return report(fault, BOUNDARY_FRICTION, status, ring, slip[0], p[0], 0.0, 0.0)
+    return 1
+
+
+@helper
+def shear_stage(raceway, first, count, laws, par, grid, block, scratch):
+    """Shear stress of film and asperities in every cell of contacts, of which contact `first` has the first cells.
 
     Temperature and traction form a loop (T -> eta -> tau -> T). Two sweeps: at the inlet temperature,
     and at the temperature that this shear would cause; between them the shear stress is
@@ -130,41 +176,30 @@ def shear_stage(raceway, laws, par, grid, contact, cells, fault):
     the mean shear stress from the second sweep to the result is kept in contact.shear_change.
 
     Each kernel writes into a row of its own, filled with NaN before; all rows are looked at together after the last,
-    and so is the guard behind each, which has to be NaN still.
+    and so is what stands behind each, which has to be NaN still.
     """
-    slip, p, temp, rho = cells.slip, cells.pressure, cells.inlet, cells.density
-    cold, ln_eta = cells.ln_eta_inlet, cells.ln_eta
-    tau, tau0, hot, mu = cells.shear, cells.shear_inlet, cells.temperature, cells.friction
-    h, b, u, inlet = contact.film_central, contact.semi_axis_b, contact.entrainment, raceway.oil.temperature
-    ring, where = raceway.number, raceway.parameters
-    cells.results[:, :] = np.nan
-    temp[:] = inlet
-    oil, shear = part(par, where.rheology), part(par, where.traction)
-    status = laws.rheology(p, temp, oil, cold, rho)
-    if status != 1:
-        return report(fault, RHEOLOGY, status, ring, contact.max_pressure, inlet, 0.0, 0.0)
-    status = laws.traction(slip, p, temp, cold, h, shear, tau0)
-    if status != 1:
-        return report(fault, TRACTION, status, ring, contact.max_pressure, h, slip[0], cold[0])
-    status = laws.contact_temperature(inlet, u, h, b, tau0, slip, part(par, where.contact_temperature), hot)
-    if status != 1:
-        return report(fault, CONTACT_TEMPERATURE, status, ring, u, h, b, tau0[0])
-    status = laws.rheology(p, hot, oil, ln_eta, rho)
-    if status != 1:
-        return report(fault, RHEOLOGY, status, ring, contact.max_pressure, hot[0], 0.0, 0.0)
-    status = laws.traction(slip, p, hot, ln_eta, h, shear, tau)
-    if status != 1:
-        return report(fault, TRACTION, status, ring, contact.max_pressure, h, slip[0], ln_eta[0])
-    status = laws.boundary_friction(slip, p, u, part(par, where.boundary_friction), mu)
-    if status != 1:
-        return report(fault, BOUNDARY_FRICTION, status, ring, slip[0], p[0], 0.0, 0.0)
-    if not _finite_rows(cold, tau0, hot, ln_eta, tau, mu):
-        return _shear_fault(raceway, contact, cells, fault)
-    if _outside(raceway, contact, cells, fault):
+    width, inlet = grid.area.size, raceway.oil.temperature
+    cells = cells_of(block, 0, count, width)
+    _begin(block, count * width)
+    temp, film = cells.inlet, cells.film
+    for k in range(count):
+        h = scratch.lanes.h[first + k]
+        for i in range(k * width, (k + 1) * width):
+            temp[i], film[i] = inlet, h
+    if _sweeps(raceway, first, count, laws, par, cells, scratch) != 1:
         return 0
-    first, second, heat = _close_loop(
-        contact.film_stress, contact.solid_stress, inlet, grid.area, p, tau0, tau, hot, mu
-    )
-    contact.shear_change = abs(first - second) / (first + 1e-30)
-    contact.film_temperature = heat / math.pi
+    if not _finite_rows(
+        cells.ln_eta_inlet, cells.shear_inlet, cells.temperature, cells.ln_eta, cells.shear, cells.friction
+    ):
+        return _shear_fault(raceway, first, cells, scratch)
+    if _outside(raceway, first, block, count * width, scratch):
+        return 0
+    for k in range(count):
+        contact, its = scratch.contact[first + k], cells_of(block, k, 1, width)
+        mean, second, heat = _close_loop(
+            contact.film_stress, contact.solid_stress, inlet, grid.area, its.pressure, its.shear_inlet, its.shear,
+            its.temperature, its.friction,
+        )  # fmt: skip
+        contact.shear_change = abs(mean - second) / (mean + 1e-30)
+        contact.film_temperature = heat / math.pi
     return 1

@@ -1,21 +1,18 @@
 """Derivative of one raceway contact's wrench with respect to its kinematics.
 
-Stage by stage: shear along the slip costs one extra evaluation of the cells for all five
-slip kinematics together, penetration and entrainment one each. Kernels are elementwise, so a
-plugin needs no derivative of its own.
+Shear along the slip costs one extra evaluation of the cells for all five slip kinematics together, penetration and
+entrainment one each; laws are called once for all of them. Kernels are elementwise, so a plugin needs no derivative of
+its own.
 """
 
 from __future__ import annotations
 
-from lambda_core.solver.arrays.bundle import KINEMATIC_ROWS
-from lambda_core.solver.contact.raceway import pipeline
-from lambda_core.solver.contact.resultant import rolling_speeds, sum_wrench
-from lambda_core.solver.contact.scalar_stages import damping_force, film_stage
-from lambda_core.solver.contact.shear import CELL_VARIANCE, shear_stage
+from lambda_core.solver.contact.raceway import ENLARGED, pipeline
+from lambda_core.solver.contact.resultant import rolling_speeds
+from lambda_core.solver.contact.shear import CELL_VARIANCE
 from lambda_core.solver.layout import cells_of, grid_of, helper, vector_helper
+from lambda_core.solver.records import SWEEPS
 from lambda_core.solver.vec import clear, store
-
-_RELATIVE = 1e-5  # relative step of the small differences; the laws are smooth at this scale
 
 
 @vector_helper
@@ -88,15 +85,6 @@ def _rolling_columns(raceway, kin, system, contact, slope):
 
 
 @helper
-def _damping_column(raceway, kin, laws, par, contact, out, slope):
-    """Write d(wrench)/d(normal velocity), which the damping law alone depends on."""
-    step = 1e-4 * abs(kin.normal_velocity) + 1e-6
-    out[0] = 0.0
-    damping_force(raceway, kin, kin.normal_velocity + step, laws, par, contact, out)
-    slope.normal_velocity.force[2] = -(max(out[0], -contact.load) - contact.damping_force) / step
-
-
-@helper
 def _quotient(changed, base, step, column):
     """Write the difference of two wrenches over a step."""
     for i in range(3):
@@ -105,55 +93,38 @@ def _quotient(changed, base, step, column):
 
 
 @helper
-def _penetration_column(raceway, kin, laws, par, system, grid, cells2, scratch, slope):
-    """Write d(wrench)/d(penetration) from the whole pipeline at a slightly larger one."""
-    delta, changed = kin.penetration, scratch.wrench[1]
-    step = _RELATIVE * abs(delta) + 1e-13
-    kin.penetration = delta + step
-    ok = pipeline(raceway, kin, laws, par, system, grid, cells2, scratch, scratch.contact[1], changed)
-    kin.penetration = delta
-    if ok != 1:
-        return 0
-    _quotient(changed, scratch.wrench[0], step, slope.penetration)
-    return 1
+def _change_velocity(kin):
+    """Enlarge the normal velocity; returns the step."""
+    step = 1e-4 * abs(kin.normal_velocity) + 1e-6
+    kin.normal_velocity += step
+    return step
 
 
 @helper
-def _film_wrench(raceway, kin, laws, par, system, grid, blocks, scratch):
-    """Run what depends on entrainment into the second contact, cells and wrench."""
-    contact2, cells2, fault = scratch.contact[1], cells_of(blocks[1]), scratch.fault
-    scratch.contact[1] = scratch.contact[0]
-    for row in range(KINEMATIC_ROWS, blocks.shape[1]):
-        for i in range(blocks.shape[2]):
-            blocks[1, row, i] = blocks[0, row, i]
-    if film_stage(raceway, kin, laws, par, contact2, scratch.out[:], fault) != 1:
-        return 0
-    if shear_stage(raceway, laws, par, grid, contact2, cells2, fault) != 1:
-        return 0
-    sum_wrench(raceway, kin, system, grid, contact2, cells2, scratch.wrench[1])
-    return 1
+def _deepen(kin):
+    """Enlarge the penetration; returns the step."""
+    step = ENLARGED * abs(kin.penetration) + 1e-13
+    kin.penetration += step
+    return step
 
 
 @helper
-def _entrainment_column(raceway, kin, laws, par, system, grid, blocks, scratch, slope):
-    """Write d(wrench)/d(entrainment): along rolling, or across it where a ball at rest is pushed sideways."""
-    ut, us = kin.entrainment_t, kin.entrainment_s
-    along = abs(ut) >= abs(us)
-    entrainment = ut if along else us
-    step = (_RELATIVE * abs(entrainment) + 1e-8) * (1.0 if entrainment >= 0.0 else -1.0)
+def _rolls_along(kin):
+    """Return whether entrainment is along rolling, not across it as where a ball at rest is pushed sideways."""
+    return abs(kin.entrainment_t) >= abs(kin.entrainment_s)
+
+
+@helper
+def _hasten(kin):
+    """Enlarge the larger component of entrainment; returns the step."""
+    along = _rolls_along(kin)
+    entrainment = kin.entrainment_t if along else kin.entrainment_s
+    step = (ENLARGED * abs(entrainment) + 1e-8) * (1.0 if entrainment >= 0.0 else -1.0)
     if along:
-        kin.entrainment_t = entrainment + step
+        kin.entrainment_t += step
     else:
-        kin.entrainment_s = entrainment + step
-    ok = _film_wrench(raceway, kin, laws, par, system, grid, blocks, scratch)
-    kin.entrainment_t, kin.entrainment_s = ut, us
-    if ok != 1:
-        return 0
-    if along:
-        _quotient(scratch.wrench[1], scratch.wrench[0], step, slope.entrainment_t)
-    else:
-        _quotient(scratch.wrench[1], scratch.wrench[0], step, slope.entrainment_s)
-    return 1
+        kin.entrainment_s += step
+    return step
 
 
 @helper
@@ -170,34 +141,36 @@ def _clear_all(slope):
     clear(slope.entrainment_s)
 
 
-def contact_tangent(raceway, kin, laws, par, system, grid_table, blocks, scratch, slope):
+def contact_tangent(raceway, laws, par, system, grid_table, block, scratch, slope):
     """Write d(wrench)/d(kinematics), a TANGENT, and the wrench itself; an entry point of its own, called by pointer.
 
-    Runs the pipeline into the first contact, wrench and block of cells of scratch, then at neighbouring kinematics.
+    Runs the pipeline of the contact at place 0 of scratch and of the same contact at neighbouring kinematics together:
+    with a larger penetration, a larger entrainment, and a larger normal velocity and slip.
 
     Left out: the effect of slip on the thermal film factor and of the smaller component of entrainment, both
     small; the integrator's Newton iteration only needs the slope, not its last digit.
     """
-    grid, cells, cells2 = grid_of(grid_table), cells_of(blocks[0]), cells_of(blocks[1])
-    contact = scratch.contact[0]
-    if pipeline(raceway, kin, laws, par, system, grid, cells, scratch, contact, scratch.wrench[0]) != 1:
+    kin, base = scratch.kinematics[0], scratch.wrench[0]
+    for k in range(1, SWEEPS):
+        scratch.kinematics[k] = scratch.kinematics[0]
+    deeper, faster = _deepen(scratch.kinematics[1]), _hasten(scratch.kinematics[2])
+    sooner = _change_velocity(scratch.kinematics[3])
+    if pipeline(raceway, 0, SWEEPS, 1, laws, par, system, grid_table, block, scratch) != 1:
         return 0
     _clear_all(slope)
+    contact = scratch.contact[0]
     if system.guides_on == 1:
-        _damping_column(raceway, kin, laws, par, contact, scratch.out[:], slope)
-    if _penetration_column(raceway, kin, laws, par, system, grid, cells2, scratch, slope) != 1:
-        return 0
+        slope.normal_velocity.force[2] = (contact.damping_force - scratch.contact[3].damping_force) / sooner
+    _quotient(scratch.wrench[1], base, deeper, slope.penetration)
     if contact.wet == 0:
         return 1
-    if _entrainment_column(raceway, kin, laws, par, system, grid, blocks, scratch, slope) != 1:
-        return 0
-    # Slip: the same cells at slightly larger slip.
-    for i in range(cells.slip.size):
-        cells2.slip[i] = cells.slip[i] * (1.0 + _RELATIVE)
-    scratch.contact[1] = scratch.contact[0]
-    if shear_stage(raceway, laws, par, grid, scratch.contact[1], cells2, scratch.fault) != 1:
-        return 0
-    _slip_columns(raceway, kin, grid, contact, cells, cells2.shear, _RELATIVE, slope)
+    if _rolls_along(kin):
+        _quotient(scratch.wrench[2], base, faster, slope.entrainment_t)
+    else:
+        _quotient(scratch.wrench[2], base, faster, slope.entrainment_s)
+    grid, width = grid_of(grid_table), grid_table.shape[1]
+    cells, larger = cells_of(block, 0, 1, width), cells_of(block, SWEEPS - 1, 1, width)
+    _slip_columns(raceway, kin, grid, contact, cells, larger.shear, ENLARGED, slope)
     _rolling_columns(raceway, kin, system, contact, slope)
     return 1
 

@@ -20,7 +20,7 @@ from lambda_core.elements.ball.raceways import raceways
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
-from lambda_core.solver.drivers.contact_grid import cell_blocks, unit_grid
+from lambda_core.solver.drivers.contact_grid import cell_block, contacts_at_once, unit_grid
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.solver_context import SolverContext
 
@@ -119,7 +119,8 @@ def contact_field(
     bundle, kernels, groove = context.bundle, context.kernels, raceways(context.model.geometry)[place]
     raceway: Any = bundle.raceways[place]
     grid = unit_grid(strips, rows)
-    cells, scratch = cell_blocks(grid.shape[1]), np.zeros_like(bundle.scratch)
+    width = grid.shape[1]
+    cells, scratch = cell_block(width, contacts_at_once(width)), np.zeros_like(bundle.scratch)
     losses = np.zeros(L.MECHANISMS * bundle.raceways.size)
     scratch[0].fault.role = -1
     finer = bundle._replace(grid=grid, cells=cells, scratch=scratch)
@@ -129,7 +130,7 @@ def contact_field(
     if status != 1:
         bundle.scratch["fault"] = scratch["fault"]
         raise SolverError(fault_sentence(context))
-    contact, its = scratch[0].contact[0], L.named_cells(cells[0])
+    contact, its = scratch[0].contact[0], L.named_cells(cells, 0, 1, width)
     places, a, b = L.Grid(*grid), float(contact.semi_axis_a), float(contact.semi_axis_b)
 
     def mesh(values: FloatArray) -> FloatArray:

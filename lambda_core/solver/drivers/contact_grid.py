@@ -6,18 +6,25 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.solver.arrays.bundle import CELL_ROWS, GUARD, Grid
+from lambda_core.solver.records import BATCH, SWEEPS
 
 _VECTOR = 16  # cells that vectorised loops take at once
 _LINE = 8  # numbers in a line of the processor's cache
+_FEW = 512  # cells whose rows a processor keeps at hand
 
 
-def cell_blocks(cells: int) -> FloatArray:
-    """Return room for two contacts of so many cells, layout.Bundle.cells.
+def contacts_at_once(cells: int) -> int:
+    """Return for how many contacts of so many cells laws are called at once."""
+    return max(SWEEPS, min(BATCH, _FEW // cells))
+
+
+def cell_block(cells: int, contacts: int) -> FloatArray:
+    """Return room for so many contacts of so many cells each, layout.Bundle.cells.
 
     Rows begin with a line of the cache: a vector that lies across two lines is read and written twice.
     """
-    shape = 2, CELL_ROWS, cells + GUARD
-    room = np.zeros(shape[0] * shape[1] * shape[2] + _LINE)
+    shape = CELL_ROWS, contacts * cells + GUARD
+    room = np.zeros(shape[0] * shape[1] + _LINE)
     first = -(room.ctypes.data // room.itemsize) % _LINE
     return room[first : first + room.size - _LINE].reshape(shape)
 

@@ -7,7 +7,7 @@ INPUTS = {
     "normal_contact": ("delta", "R_x", "R_y", "E_eff"),
     "damping": ("delta", "delta_dot", "load"),
     "rheology": ("p", "T"),
-    "film_thickness": ("u_mean", "theta", "load", "eta0"),
+    "film_thickness": ("u_mean", "cos2", "load", "eta0"),
     "thermal_correction": ("u_mean", "u_slide", "p_max", "eta0"),
     "supply": ("u_mean", "load", "h_cen", "heated"),
     "contact_temperature": ("u_mean", "h", "semi_b", "tau"),

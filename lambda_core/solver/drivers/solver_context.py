@@ -22,7 +22,7 @@ from lambda_core.solver.arrays.jacobian_blocks import make_blocks
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.assembly import AssembledBearing, Assembly, assembly_of
 from lambda_core.solver.drivers.compiled_laws import Kernels
-from lambda_core.solver.drivers.contact_grid import cell_blocks, unit_grid
+from lambda_core.solver.drivers.contact_grid import cell_block, contacts_at_once, unit_grid
 from lambda_core.solver.drivers.contact_memory import state_arrays, state_tail
 from lambda_core.solver.drivers.law_inputs import Oils
 from lambda_core.solver.drivers.roller_tables import lines_of, roller_code
@@ -157,7 +157,7 @@ def context_of(assembly: Assembly) -> SolverContext:
         grid=grid,
         inputs=inputs,
         signals=inputs.view(R.SIGNAL),
-        cells=cell_blocks(grid.shape[1]),
+        cells=cell_block(grid.shape[1], contacts_at_once(grid.shape[1])),
         scratch=np.zeros(1, R.SCRATCH),
         shared=now.view(np.float64),
         bodies_now=now,
@@ -172,7 +172,7 @@ def context_of(assembly: Assembly) -> SolverContext:
         rollers=roller_code(compiled, bool(lines.size))[0],
         lines=lines,
         slices=np.zeros((L.SLICE_ROWS, lines.shape[2])),
-        line_cells=cell_blocks(lines.shape[2])[0],
+        line_cells=cell_block(lines.shape[2], 1),
         **state_arrays(assembly, tables),
     )
     return SolverContext(assembly, bundle, state_scales(assembly, tables.active))

@@ -10,8 +10,6 @@ the energy of the states part by small squares alone. By the trapezium rule they
 
 from __future__ import annotations
 
-import math
-
 from lambda_core.solver.arrays.bundle import (
     BESIDE_LOSSES,
     BPSI,
@@ -27,8 +25,9 @@ from lambda_core.solver.arrays.bundle import (
     SVX,
     SWY,
 )
-from lambda_core.solver.layout import first_of, helper, large_helper, running_of
+from lambda_core.solver.layout import first_of, helper, large_helper, running_of, vector_helper
 from lambda_core.solver.records import PRESCRIBED
+from lambda_core.solver.vec import cosine_sine
 
 # Shares of the energy that flows, over the tolerance, which a step may lose.
 LEAK = 0.4  # for good, twice (scheme and iteration): together a fifth below what a balance may miss
@@ -112,7 +111,7 @@ def _work_of_loads(bundle, mem):
         row = bundle.rows[r]
         for j in range(row.first_ball, row.first_ball + row.balls):
             i = first_of(row, j)
-            c, s = math.cos(mem.new[i + BPSI]), math.sin(mem.new[i + BPSI])
+            c, s = cosine_sine(mem.new[i + BPSI])
             along = gx * since[i + BVX] + (gy * c + gz * s) * since[i + BVR] + (gz * c - gy * s) * since[i + BVT]
             power += row.ball_mass * along
     for i in range(tail, tail + bundle.active.size):
@@ -142,10 +141,29 @@ def _led_speeds(bundle):
     return speed, spin
 
 
-@helper
-def _residual(mem, i):
-    """Return the force or moment of the residual D(y) - f in state i at the last iterate [N, N m]."""
-    return mem.inertia[i] * ((mem.new[i] - mem.base[i]) / mem.control[0].gamma - mem.slope[i])
+@vector_helper
+def _power_of_residual(inertia, new, base, slope, per_gamma):
+    """Return the power of the residual D(y) - f at the last iterate [W]: of positions there is none."""
+    power = 0.0
+    for i in range(new.size):
+        power += new[i] * (inertia[i] * ((new[i] - base[i]) * per_gamma - slope[i]))
+    return power
+
+
+@vector_helper
+def _forces_of_residual(inertia, new, base, slope, per_gamma, first, count, size, per_radius):
+    """Return what the residual has of forces on elements, and of moments over their radius, all counted positive [N].
+
+    The states of `count` elements stand from `first` on, `size` each.
+    """
+    force, moment = 0.0, 0.0
+    for j in range(count):
+        start = first + size * j
+        for i in range(start + BVX, start + BWX):
+            force += abs(inertia[i] * ((new[i] - base[i]) * per_gamma - slope[i]))
+        for i in range(start + BWX, start + BWX + 3):
+            moment += abs(inertia[i] * ((new[i] - base[i]) * per_gamma - slope[i]))
+    return force + moment * per_radius
 
 
 @helper
@@ -157,20 +175,25 @@ def _residual_work(bundle, mem):
     that came from the rings. A ring with prescribed motion whose surface moves at u gave at most (|R| + |M|/r) |u|;
     the rest is an unattributed energy error.
     """
-    power, force = 0.0, 0.0
+    inertia, new, base, slope, per_gamma = mem.inertia, mem.new, mem.base, mem.slope, 1.0 / mem.control[0].gamma
+    power, force = _power_of_residual(inertia, new, base, slope, per_gamma), 0.0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        for i in range(row.first_state, row.first_state + row.size * row.balls):
-            if mem.inertia[i] > 0.0:
-                off = _residual(mem, i)
-                power += mem.new[i] * off
-                force += abs(off) if (i - row.first_state) % row.size < BWX else abs(off) / row.ball_radius
-    for i in range(bundle.system[0].tail, mem.new.size):
-        if mem.inertia[i] > 0.0:
-            power += mem.new[i] * _residual(mem, i)
+        force += _forces_of_residual(
+            inertia, new, base, slope, per_gamma, row.first_state, row.balls, row.size, 1.0 / row.ball_radius
+        )
     speed, spin = _led_speeds(bundle)
     most = force * (speed + spin)
     return power, min(max(power, -most), most), spin / (speed + spin + 1e-300)
+
+
+@vector_helper
+def _twice_energy(inertia, speed):
+    """Return twice the kinetic energy of speeds [J]."""
+    twice = 0.0
+    for i in range(speed.size):
+        twice += inertia[i] * speed[i] * speed[i]
+    return twice
 
 
 @helper
@@ -180,9 +203,7 @@ def floor_of(mem, h):
     By the step, a thousand short ones would lose a thousand times as much: more than a light bearing turns slowly by.
     Never less than rounding leaves of the kinetic energy: no step is short enough for that.
     """
-    twice = 0.0
-    for i in range(mem.new.size):
-        twice += mem.inertia[i] * mem.new[i] * mem.new[i]
+    twice = _twice_energy(mem.inertia, mem.new)
     return max(mem.control[0].leak_floor * h / mem.control[0].longest_step, _ROUNDING * twice)
 
 
@@ -205,6 +226,15 @@ def allowed(mem, h, share, floor):
     return share * control.tolerance * h * flow + floor
 
 
+@vector_helper
+def _work_of_moves(inertia, slope, since):
+    """Return the work of forces on corrections, all counted positive [J]."""
+    total = 0.0
+    for i in range(since.size):
+        total += abs(inertia[i] * slope[i] * since[i])
+    return total
+
+
 @helper
 def leak_of_iterate(bundle, mem, h):
     """Return the energy that the Newton iteration leaves unaccounted for, over what a step may lose.
@@ -213,9 +243,7 @@ def leak_of_iterate(bundle, mem, h):
     on the corrections since at most, and by what of the residual's work is unattributed.
     """
     power, led, _ = _residual_work(bundle, mem)
-    off = abs(power - led)
-    for i in range(mem.new.size):
-        off += abs(mem.inertia[i] * mem.slope[i] * mem.since[i])
+    off = abs(power - led) + _work_of_moves(mem.inertia, mem.slope, mem.since)
     return h * off / allowed(mem, h, LEAK, _CLOSER * floor_of(mem, h))
 
 
@@ -239,6 +267,16 @@ def finalise_step(bundle, mem):
     running.input_abs = abs(running.input)
 
 
+@vector_helper
+def _energy_of_bends(inertia, new, now, before, per_w):
+    """Return twice the kinetic energy of e = d_1/w - (u_1 - u_2) [J]."""
+    total = 0.0
+    for i in range(new.size):
+        e = (new[i] - now[i]) * per_w - (now[i] - before[i])
+        total += inertia[i] * e * e
+    return total
+
+
 @helper
 def _dissipated(mem, h):
     """Return the kinetic energy that the scheme itself dissipates in this step [J].
@@ -248,10 +286,7 @@ def _dissipated(mem, h):
     steps together lose that over 1 - a (equal steps: Hairer and Wanner 1996, Solving ODEs II, V.6).
     """
     w, back = h / mem.control[0].last_step, mem.control[0].back
-    total = 0.0
-    for i in range(mem.new.size):
-        e = (mem.new[i] - mem.y[i]) / w - (mem.y[i] - mem.y1[i])
-        total += mem.inertia[i] * e * e
+    total = _energy_of_bends(mem.inertia, mem.new, mem.y, mem.y1, 1.0 / w)
     return 0.5 * w * back / (1.0 - back) * total
 
 

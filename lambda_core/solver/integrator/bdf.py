@@ -63,9 +63,10 @@ def _predict(mem, h):
     gamma, back = h * (1.0 + w) / (1.0 + 2.0 * w), w * w / (1.0 + 2.0 * w)
     control.gamma, control.back = gamma, back
     _base_of_shared(mem)
+    per_1, per_2, per_both = 1.0 / h1, 1.0 / h2, 1.0 / (h1 + h2)
     for i in range(y.size):
-        d1 = (y[i] - y1[i]) / h1
-        d2 = (d1 - (y1[i] - y2[i]) / h2) / (h1 + h2)
+        d1 = (y[i] - y1[i]) * per_1
+        d2 = (d1 - (y1[i] - y2[i]) * per_2) * per_both
         predicted[i] = y[i] + h * (d1 + (h + h1) * d2)
         base[i] = y[i] + back * (y[i] - y1[i])
     own = h * h * h * (1.0 + w) * (1.0 + w) / (w * (1.0 + 2.0 * w))

@@ -7,12 +7,12 @@ import math
 from lambda_core.solver.integrator.arrow import REFACTOR, arrow_factor, arrow_solve
 from lambda_core.solver.integrator.resting import follow
 from lambda_core.solver.integrator.state_blocks import solve_states
-from lambda_core.solver.layout import helper
+from lambda_core.solver.layout import helper, vector_helper
 from lambda_core.solver.motion.bearing_sums import AGAIN
 from lambda_core.solver.status import Status
 
 
-@helper
+@vector_helper
 def norm(v, weight):
     """Return the root mean square of v times weight."""
     total = 0.0

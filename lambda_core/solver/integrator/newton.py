@@ -33,6 +33,12 @@ def _move(mem, first, last, relax, again):
     """
     change, before, moved = mem.change, mem.last_change, mem.last_move
     swing, size, difference, along = 0.0, 0.0, 0.0, 0.0
+    if not again:
+        for i in range(first, last):
+            change[i] *= relax
+            before[i], moved[i] = change[i], change[i]
+            mem.new[i] += change[i]
+        return False
     for i in range(first, last):
         change[i] *= relax
         w2 = mem.weight[i] * mem.weight[i]
@@ -41,7 +47,7 @@ def _move(mem, first, last, relax, again):
         size += w2 * before[i] * before[i]
         difference += w2 * d * d
         along += w2 * change[i] * d
-    theta = along / difference if again and swing < -_SWING * size else 0.0
+    theta = along / difference if swing < -_SWING * size else 0.0
     for i in range(first, last):
         move = change[i] - theta * (moved[i] + change[i] - before[i])
         before[i], moved[i] = change[i], move

@@ -13,10 +13,10 @@ from lambda_core.solver.cage.guides import (
     pocket_state,
 )
 from lambda_core.solver.contact.contact_kinematics import axis_x, touch
-from lambda_core.solver.layout import balls_of, guide_law, helper, part, raceway_laws
+from lambda_core.solver.layout import balls_of, guide_law, helper, of, part, raceway_laws
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.structures import structure_energy
-from lambda_core.solver.records import ROLLERS
+from lambda_core.solver.records import ROLLERS, STRIDE
 from lambda_core.solver.row_code import roller_code
 from lambda_core.solver.vec import length
 
@@ -27,14 +27,16 @@ def contact_energy(raceway, delta, bundle):
 
     With delta u^2 for the penetration, eight points are exact for a power law of exponent 3/2.
     """
-    out = bundle.scratch[0].out[:]
-    law = raceway_laws(bundle.laws.raceways, raceway.laws).normal_contact
-    par = part(bundle.par, raceway.parameters.normal_contact)
-    total = 0.0
-    for i in range(GAUSS_NODES.size):
-        u = GAUSS_NODES[i]
-        law(delta * u * u, raceway.radius_x, raceway.radius_y, raceway.modulus, par, out)
-        total += GAUSS_WEIGHTS[i] * out[0] * 2.0 * delta * u
+    scratch, n, total = bundle.scratch[0], GAUSS_NODES.size, 0.0
+    out, law = scratch.out[:], raceway_laws(bundle.laws.raceways, raceway.laws).normal_contact
+    for i in range(n):
+        scratch.lanes.delta[i] = delta * GAUSS_NODES[i] * GAUSS_NODES[i]
+    law(
+        of(scratch.lanes.delta, 0, n), raceway.radius_x, raceway.radius_y, raceway.modulus,
+        part(bundle.par, raceway.parameters.normal_contact), of(out, 0, STRIDE * n),
+    )  # fmt: skip
+    for i in range(n):
+        total += GAUSS_WEIGHTS[i] * out[STRIDE * i] * 2.0 * delta * GAUSS_NODES[i]
     return total
 
 

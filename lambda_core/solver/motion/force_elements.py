@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from lambda_core.solver.arrays.bundle import GUARD
 from lambda_core.solver.arrays.fault_roles import FLUID_DRAG
 from lambda_core.solver.cage.cage_waves import push_cage
 from lambda_core.solver.cage.guides import (
@@ -19,13 +20,14 @@ from lambda_core.solver.cage.guides import (
     pocket_apply,
     pocket_state,
 )
-from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_wrench, near, touch
+from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_wrenches, near, touch
 from lambda_core.solver.contact.contact_states import hand_states, lost_in, state_rates
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.contact.ring_waves import push_waves
 from lambda_core.solver.faults import report
 from lambda_core.solver.layout import cells_of, drag_law, grid_of, guide_law, helper, part
 from lambda_core.solver.motion.bearing_sums import powers_of_bearing, rests
+from lambda_core.solver.records import BATCH
 from lambda_core.solver.vec import clear, increase
 
 _SPIN_FLOOR = 1e-3  # [rad/s] below which a ball's churning moment fades out
@@ -41,46 +43,92 @@ def clear_forces(bundle):
 
 
 @helper
-def add_contact(raceway, j, bundle):
-    """Add the wrench of a raceway contact in scratch to the forces on ball j and on the raceway's body."""
+def add_contact(raceway, place, j, bundle):
+    """Add the wrench of the raceway contact at a place of scratch to the forces on ball j and on the raceway's body."""
     scratch, on_body = bundle.scratch[0], bundle.body_wrenches[raceway.body]
-    apply_wrench(scratch.kinematics[0], scratch.wrench[0], bundle.ball_wrenches[j], scratch.on_ring)
+    apply_wrench(scratch.kinematics[place], scratch.wrench[place], bundle.ball_wrenches[j], scratch.on_ring)
     increase(on_body.force, scratch.on_ring.force)
     increase(on_body.moment, scratch.on_ring.moment)
     if raceway.waves[1] > raceway.waves[0]:
-        push_waves(raceway, bundle)
+        push_waves(raceway, place, bundle)
 
 
 @helper
-def raceway_forces(t, ball, j, row, bundle, losses, want):
-    """Add the raceway contacts of ball j; with `want`, add what they dissipate to losses (layout.Losses).
+def _room(raceway, bundle):
+    """Return for how many contacts of a raceway laws are called at once: for one where they read what it keeps."""
+    if raceway.states > 0 or raceway.slots[1] > raceway.slots[0]:
+        return 1
+    return (bundle.cells.shape[1] - GUARD) // bundle.grid.shape[1]
 
-    Where contacts keep states, their rates are written.
+
+@helper
+def _gather(t, balls, i, row, raceway, keeps, bundle):
+    """Identify contacts of a raceway from ball i of a row on, until no more are taken at once.
+
+    Returns the next ball, or -1 on a fault, and how many contacts carry load and do not yet (records.BATCH).
     """
-    scratch, system = bundle.scratch[0], bundle.system[0]
-    kin, contact = scratch.kinematics[0], scratch.contact[0]
-    for k in range(row.first_raceway, row.first_raceway + row.raceways):
-        raceway = bundle.raceways[k]
-        ring = bundle.bodies_now[raceway.body]
-        delta = touch(ball, ring, raceway, bundle, kin)
-        keeps = raceway.states > 0 and system.friction_on == 1
-        hand_states(raceway, j, bundle)
+    scratch, ring = bundle.scratch[0], bundle.bodies_now[raceway.body]
+    room, apart, closed, opened = _room(raceway, bundle), -near(raceway, bundle.system[0]), 0, 0
+    while i < row.balls and closed + opened < room:
+        j, kin = row.first_ball + i, scratch.kinematics[closed]
+        delta = touch(balls[i], ring, raceway, bundle, kin)
+        if room == 1:
+            hand_states(raceway, j, bundle)
         if delta <= 0.0 and keeps and state_rates(t, raceway, j, -1.0, bundle) != 1:
-            return 0
-        if delta <= -near(raceway, system):
+            return -1, 0, 0
+        i += 1
+        if delta <= apart:
             continue
         if not delta < np.inf:
             scratch.fault.ball = j
-            return 0
-        if contact_wrench(raceway, bundle) != 1:
-            scratch.fault.ball = j
-            return 0
-        add_contact(raceway, j, bundle)
-        before = lost_in(losses, k) if keeps else 0.0
-        if keeps or (want == 1 and system.friction_on == 1):
-            raceway_losses(raceway, kin, system, grid_of(bundle.grid), contact, cells_of(bundle.cells[0]), losses)
-        if keeps and delta > 0.0 and state_rates(t, raceway, j, max(lost_in(losses, k) - before, 0.0), bundle) != 1:
-            return 0
+            return -1, 0, 0
+        place = closed if delta > 0.0 else BATCH + opened
+        scratch.order[closed + opened], scratch.ball[place] = place, j
+        if delta > 0.0:
+            closed += 1
+        else:
+            scratch.kinematics[place] = scratch.kinematics[closed]
+            opened += 1
+    return i, closed, opened
+
+
+@helper
+def _add(t, place, raceway, bundle, losses, keeps, counts):
+    """Add a contact to the forces, and where it counts what it dissipates to the losses; returns 0 on a fault."""
+    scratch, k = bundle.scratch[0], raceway.number
+    j, kin, contact = scratch.ball[place], scratch.kinematics[place], scratch.contact[place]
+    add_contact(raceway, place, j, bundle)
+    before = lost_in(losses, k) if keeps else 0.0
+    if keeps or counts:
+        cells = cells_of(bundle.cells, place % BATCH, 1, bundle.grid.shape[1])
+        raceway_losses(raceway, kin, bundle.system[0], grid_of(bundle.grid), contact, cells, losses)
+    if keeps and place < BATCH:
+        return state_rates(t, raceway, j, max(lost_in(losses, k) - before, 0.0), bundle)
+    return 1
+
+
+@helper
+def raceway_forces(t, balls, row, bundle, losses, want):
+    """Add the raceway contacts of a row; with `want`, add what they dissipate to losses (layout.Losses).
+
+    Where contacts keep states, their rates are written.
+    """
+    friction = bundle.system[0].friction_on == 1
+    for k in range(row.first_raceway, row.first_raceway + row.raceways):
+        raceway, i = bundle.raceways[k], 0
+        keeps = raceway.states > 0 and friction
+        while i < row.balls:
+            i, closed, opened = _gather(t, balls, i, row, raceway, keeps, bundle)
+            if i < 0:
+                return 0
+            if closed > 0 and contact_wrenches(raceway, 0, closed, bundle) != 1:
+                return 0
+            if opened > 0 and contact_wrenches(raceway, BATCH, opened, bundle) != 1:
+                return 0
+            for m in range(closed + opened):
+                place = bundle.scratch[0].order[m]
+                if _add(t, place, raceway, bundle, losses, keeps, want == 1 and friction) != 1:
+                    return 0
     return 1
 
 

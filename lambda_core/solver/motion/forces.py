@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from lambda_core.solver.contact.ring_waves import turn_waves
 from lambda_core.solver.layout import balls_of, helper, losses_of, running_of
 from lambda_core.solver.motion.bearing_sums import (
@@ -22,7 +20,7 @@ from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.structures import structure_forces
 from lambda_core.solver.records import ROLLERS
 from lambda_core.solver.row_code import CONTACTS, GUIDES, MOTION, roller_code
-from lambda_core.solver.vec import dot, increase, turning
+from lambda_core.solver.vec import cosine_sine, dot, increase, turning
 
 
 @helper
@@ -35,7 +33,7 @@ def _move_ball(ball, j, row, bundle, running, want, rate):
             bundle.scratch[0].fault.ball = j
             return 0
         running.drag += lost
-    c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
+    c, s = cosine_sine(ball.azimuth)
     m, g = row.ball_mass, turning(system.gravity, c, s)
     weight = m * g[0], m * g[1], m * g[2]
     increase(wrench.force, weight)
@@ -84,10 +82,8 @@ def _raceways(t, y, bundle, dydt, rates, want):
             if roller_code(bundle.rollers, 0).evaluate(CONTACTS, t, y, r, bundle, dydt, rates, want) != 1:
                 return 0
             continue
-        balls = balls_of(y, row)
-        for i in range(row.balls):
-            if raceway_forces(t, balls[i], row.first_ball + i, row, bundle, losses, min(want, 1)) != 1:
-                return 0
+        if raceway_forces(t, balls_of(y, row), row, bundle, losses, min(want, 1)) != 1:
+            return 0
     return 1
 
 

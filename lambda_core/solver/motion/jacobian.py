@@ -15,8 +15,6 @@ costly and taken once (:mod:`.tangent`), their slopes with the states and the ch
 
 from __future__ import annotations
 
-import math
-
 from lambda_core.solver.arrays.bundle import BPSI, NB, NS
 from lambda_core.solver.arrays.jacobian_blocks import AFTER, BEFORE
 from lambda_core.solver.cage.guide_columns import land_columns, neighbour_columns, pocket_columns
@@ -39,7 +37,7 @@ from lambda_core.solver.motion.steps import add_slope, ball_step
 from lambda_core.solver.motion.structures import structure_columns
 from lambda_core.solver.records import BALL, ROLLERS
 from lambda_core.solver.row_code import roller_code
-from lambda_core.solver.vec import clear
+from lambda_core.solver.vec import clear, cosine_sine
 
 
 @helper
@@ -99,7 +97,7 @@ def _force_columns(balls, j, row, bundle, bl):
             return 0
         if row.drag_on == 1 and _drag_columns(ball, row, bundle, bl) != 1:
             return 0
-    c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
+    c, s = cosine_sine(ball.azimuth)
     gy, gz = row.ball_mass * system.gravity[1], row.ball_mass * system.gravity[2]
     bl.own[1, BPSI] += -gy * s + gz * c
     bl.own[2, BPSI] += -gy * c - gz * s

@@ -78,7 +78,7 @@ def _tangent(raceway, bundle, bl):
     """Write the wrench of the contact in scratch and its slopes with the drivers; returns 0 on a fault."""
     scratch = bundle.scratch[0]
     kin, near_kin, base, changed = scratch.kinematics[0], scratch.kinematics[1], scratch.wrench[0], scratch.wrench[1]
-    if roller_wrench(raceway, bundle, kin, scratch.contact[0], base) != 1:
+    if roller_wrench(raceway, 0, bundle) != 1:
         return 0
     values = _drivers(kin)
     for i in range(bl.drivers.shape[0]):
@@ -88,7 +88,7 @@ def _tangent(raceway, bundle, bl):
         step = _RELATIVE * abs(values[i]) + _LEAST_STEPS[i]
         scratch.kinematics[1] = scratch.kinematics[0]
         _shift(near_kin, i, step)
-        if roller_wrench(raceway, bundle, near_kin, scratch.contact[1], changed) != 1:
+        if roller_wrench(raceway, 1, bundle) != 1:
             return 0
         for k in range(3):
             bl.drivers[i, k] = (changed.force[k] - base.force[k]) / step

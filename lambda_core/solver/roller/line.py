@@ -12,14 +12,15 @@ import math
 
 import numpy as np
 
-from lambda_core.solver.arrays.fault_roles import DAMPING, NORMAL_CONTACT
+from lambda_core.solver.arrays.fault_roles import NORMAL_CONTACT
 from lambda_core.solver.cage.guides import GAUSS_NODES, GAUSS_WEIGHTS
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.contact.resultant import sum_wrench
-from lambda_core.solver.contact.scalar_stages import damping_force, film_stage
+from lambda_core.solver.contact.scalar_stages import film_stage, line_damping
 from lambda_core.solver.contact.shear import shear_stage, slip_field
 from lambda_core.solver.faults import report
-from lambda_core.solver.layout import cells_of, grid_of, helper, part, raceway_laws
+from lambda_core.solver.layout import cells_of, grid_of, helper, of, part, raceway_laws
+from lambda_core.solver.records import STRIDE
 from lambda_core.solver.vec import clear
 
 PLACE, WIDTH, DROP, RADIUS = range(4)  # rows of Bundle.lines
@@ -42,7 +43,8 @@ def _slice_loads(raceway, kin, law, bundle, contact, fault):
 
     `contact` takes the load of all, the largest half width and pressure.
     """
-    line, slices, out = bundle.lines[raceway.line], bundle.slices, bundle.scratch[0].out[:]
+    line, slices, scratch = bundle.lines[raceway.line], bundle.slices, bundle.scratch[0]
+    out, one = scratch.out[:], of(scratch.lanes.delta, 0, 1)
     par = part(bundle.par, raceway.parameters.normal_contact)
     total, moment, widest, highest, half = 0.0, 0.0, 0.0, 0.0, 0.5 * raceway.radius_y
     for k in range(line.shape[1]):
@@ -50,8 +52,8 @@ def _slice_loads(raceway, kin, law, bundle, contact, fault):
         delta = kin.penetration + x * kin.line_tilt - line[DROP, k]
         load, b, p = 0.0, 0.0, 0.0
         if delta > 0.0:
-            out[:4] = np.nan
-            status = law(delta, line[RADIUS, k], raceway.radius_y, raceway.modulus, par, out)
+            out[:4], one[0] = np.nan, delta
+            status = law(one, line[RADIUS, k], raceway.radius_y, raceway.modulus, par, of(out, 0, STRIDE))
             if status != 1 or not abs(out[0]) + abs(out[2]) + abs(out[3]) < np.inf:
                 report(
                     fault, NORMAL_CONTACT, status, raceway.number, delta, line[RADIUS, k], raceway.radius_y,
@@ -96,11 +98,11 @@ def _carrying_length(contact, slices):
 
 
 @helper
-def _films(raceway, kin, laws, par, contact, slices, out, fault):
+def _films(raceway, place, laws, par, slices, scratch):
     """Run the scalar laws with the carrying length for R_y; 0 on a fault."""
     full = raceway.radius_y
-    raceway.radius_y = _carrying_length(contact, slices)
-    status = film_stage(raceway, kin, laws, par, contact, out, fault)
+    raceway.radius_y = _carrying_length(scratch.contact[place], slices)
+    status = film_stage(raceway, place, 1, laws, par, scratch)
     raceway.radius_y = full
     return status
 
@@ -122,37 +124,31 @@ def _lean_on(kin, moment, wrench):
 
 
 @helper
-def line_wrench(raceway, bundle, kin, contact, wrench):
-    """Write the wrench of a line contact on the roller, about the contact's middle, axes t, s, n.
+def line_wrench(raceway, place, bundle):
+    """Write the wrench of the line contact at a place of scratch on the roller, about its middle, axes t, s, n.
 
     Returns 1 when every kernel was well; otherwise 0 and scratch.fault says which was not.
     """
-    scratch, system, par = bundle.scratch[0], bundle.system[0], bundle.par
-    out, fault, slices = scratch.out[:], scratch.fault, bundle.slices
+    scratch, system, par, slices = bundle.scratch[0], bundle.system[0], bundle.par, bundle.slices
+    kin, contact, wrench = scratch.kinematics[place], scratch.contact[place], scratch.wrench[place]
     laws = raceway_laws(bundle.laws.raceways, raceway.laws)
     contact.wet, contact.damping_force = 0, 0.0
-    moment = _slice_loads(raceway, kin, laws.normal_contact, bundle, contact, fault)
+    moment = _slice_loads(raceway, kin, laws.normal_contact, bundle, contact, scratch.fault)
     if not abs(moment) < np.inf:
         return 0
-    if system.guides_on == 1:
-        out[0] = np.nan
-        status = damping_force(raceway, kin, kin.normal_velocity, laws, par, contact, out)
-        if status != 1 or not abs(out[0]) < np.inf:
-            return report(
-                fault, DAMPING, status, raceway.number, kin.penetration, kin.normal_velocity, contact.load, 0.0
-            )
-        contact.damping_force = max(out[0], -contact.load)
+    if system.guides_on == 1 and line_damping(raceway, place, laws, par, scratch) != 1:
+        return 0
     if system.friction_on == 0 or contact.load <= 0.0:
         clear(wrench)
         wrench.force[2] = -(contact.load + contact.damping_force)
         _lean_on(kin, moment, wrench)
         return 1
     area = _scale_slices(contact, slices)
-    if _films(raceway, kin, laws, par, contact, slices, out, fault) != 1:
+    if _films(raceway, place, laws, par, slices, scratch) != 1:
         return 0
-    grid, cells = grid_of(slices), cells_of(bundle.line_cells)
+    grid, cells = grid_of(slices), cells_of(bundle.line_cells, 0, 1, slices.shape[1])
     slip_field(raceway, kin, system, grid, contact, cells)
-    if shear_stage(raceway, laws, par, grid, contact, cells, fault) != 1:
+    if shear_stage(raceway, place, 1, laws, par, grid, bundle.line_cells, scratch) != 1:
         return 0
     contact.film_temperature *= math.pi / area
     sum_wrench(raceway, kin, system, grid, contact, cells, wrench)
@@ -166,14 +162,15 @@ def line_losses(raceway, bundle, losses):
     scratch = bundle.scratch[0]
     raceway_losses(
         raceway, scratch.kinematics[0], bundle.system[0], grid_of(bundle.slices), scratch.contact[0],
-        cells_of(bundle.line_cells), losses,
+        cells_of(bundle.line_cells, 0, 1, bundle.slices.shape[1]), losses,
     )  # fmt: skip
 
 
 @helper
 def line_energy(raceway, kin, bundle):
     """Return the elastic energy of a line contact [J]: the work of its slices' loads as they close."""
-    line, out, total = bundle.lines[raceway.line], bundle.scratch[0].out[:], 0.0
+    line, scratch, n, total = bundle.lines[raceway.line], bundle.scratch[0], GAUSS_NODES.size, 0.0
+    out, lane = scratch.out[:], of(scratch.lanes.delta, 0, n)
     law = raceway_laws(bundle.laws.raceways, raceway.laws).normal_contact
     par = part(bundle.par, raceway.parameters.normal_contact)
     for k in range(line.shape[1]):
@@ -181,7 +178,9 @@ def line_energy(raceway, kin, bundle):
         if delta <= 0.0:
             continue
         share = line[WIDTH, k] / raceway.radius_y
-        for i in range(GAUSS_NODES.size):
-            law(delta * GAUSS_NODES[i], line[RADIUS, k], raceway.radius_y, raceway.modulus, par, out)
-            total += GAUSS_WEIGHTS[i] * delta * out[0] * share
+        for i in range(n):
+            lane[i] = delta * GAUSS_NODES[i]
+        law(lane, line[RADIUS, k], raceway.radius_y, raceway.modulus, par, of(out, 0, STRIDE * n))
+        for i in range(n):
+            total += GAUSS_WEIGHTS[i] * delta * out[STRIDE * i] * share
     return total

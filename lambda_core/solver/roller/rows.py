@@ -8,9 +8,9 @@ import numba
 import numpy as np
 
 from lambda_core.solver.arrays.bundle import MECHANISMS, NR
-from lambda_core.solver.contact.contact_kinematics import contact_angle, near
+from lambda_core.solver.contact.contact_kinematics import contact_angle, contact_wrench, near
 from lambda_core.solver.contact.dissipation import raceway_losses
-from lambda_core.solver.layout import cells_of, grid_of, helper, losses_of, raceway_laws, running_of
+from lambda_core.solver.layout import cells_of, grid_of, helper, losses_of, running_of
 from lambda_core.solver.motion.bearing_sums import powers_of_bearing
 from lambda_core.solver.motion.energy import contact_energy
 from lambda_core.solver.motion.force_elements import drag_force
@@ -39,23 +39,18 @@ def touch_roller(roller, ring, row, raceway, bundle, kin):
 
 
 @helper
-def roller_wrench(raceway, bundle, kin, contact, wrench):
-    """Run the laws of a contact; returns 1, or 0 on a fault."""
+def roller_wrench(raceway, place, bundle):
+    """Run the laws of the contact at a place of scratch; returns 1, or 0 on a fault."""
     if raceway.kind == LINE:
-        return line_wrench(raceway, bundle, kin, contact, wrench)
-    laws = raceway_laws(bundle.laws.raceways, raceway.laws)
-    return bundle.wrench(
-        raceway, kin, laws, bundle.par, bundle.system[0], bundle.grid, bundle.cells[0], bundle.scratch[0], contact,
-        wrench,
-    )  # fmt: skip
+        return line_wrench(raceway, place, bundle)
+    return contact_wrench(raceway, place, bundle)
 
 
 @helper
 def _wrench_here(raceway, j, bundle):
     """Run the laws of the contact in scratch."""
-    scratch = bundle.scratch[0]
-    if roller_wrench(raceway, bundle, scratch.kinematics[0], scratch.contact[0], scratch.wrench[0]) != 1:
-        scratch.fault.ball = j
+    if roller_wrench(raceway, 0, bundle) != 1:
+        bundle.scratch[0].fault.ball = j
         return 0
     return 1
 
@@ -80,7 +75,7 @@ def _add_losses(raceway, bundle, losses):
     scratch = bundle.scratch[0]
     raceway_losses(
         raceway, scratch.kinematics[0], bundle.system[0], grid_of(bundle.grid), scratch.contact[0],
-        cells_of(bundle.cells[0]), losses,
+        cells_of(bundle.cells, 0, 1, bundle.grid.shape[1]), losses,
     )  # fmt: skip
 
 

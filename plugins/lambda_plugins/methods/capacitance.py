@@ -63,7 +63,7 @@ def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, in
     growth = (load / float(ellipse[0])) ** (1.0 / 3.0)  # semi-axes and pressure grow with Q^(1/3)
     semi_a, semi_b = float(ellipse[1]) * growth, float(ellipse[2]) * growth
     p_max, oil, floors = float(ellipse[3]) * growth, inputs.oil, FilmFloors(0.0, 0.0, 0.0, 0.0)
-    chittenden(speed, 0.0, load, radius_x, radius_y, e_eff, oil.viscosity, oil.alpha_p, floors, film)
+    chittenden(speed, 1.0, load, radius_x, radius_y, e_eff, oil.viscosity, oil.alpha_p, floors, film)
     central, area, permittivity = float(film[0]), math.pi * semi_a * semi_b, inputs.permittivity(p_max)
     hertz = VACUUM_PERMITTIVITY * permittivity * area / central
     parameters = (

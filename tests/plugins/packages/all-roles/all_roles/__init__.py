@@ -18,7 +18,7 @@ class Moment(Parameters):
     moment: float = parameter(2e-4, "rolling moment [N m]")
 
 
-@law("normal_contact", "own", role_api=2, reference="own work")
+@law("normal_contact", "own", role_api=3, reference="own work")
 def normal_contact(delta, R_x, R_y, E_eff, par, out):
     out[0] = 1e8 * delta
     out[1] = 1e-6
@@ -27,14 +27,14 @@ def normal_contact(delta, R_x, R_y, E_eff, par, out):
     return OK
 
 
-@law("damping", "own", role_api=2, reference="own work")
+@law("damping", "own", role_api=3, reference="own work")
 def damping(delta, delta_dot, load, par, out):
     force = 100.0 * delta_dot
     out[0] = force if force > -load else -load
     return OK
 
 
-@law("rheology", "own", role_api=2, reference="own work")
+@law("rheology", "own", role_api=3, reference="own work")
 def rheology(p, T, par, ln_eta, rho):
     for i in range(p.size):
         ln_eta[i] = math.log(0.05) + 2e-8 * min(p[i], 1e9) - 0.03 * (T[i] - 313.15)
@@ -42,66 +42,66 @@ def rheology(p, T, par, ln_eta, rho):
     return OK
 
 
-@law("film_thickness", "own", role_api=2, reference="own work")
-def film_thickness(u_mean, theta, load, R_x, R_y, E_eff, eta0, alpha_p, par, out):
+@law("film_thickness", "own", role_api=3, reference="own work")
+def film_thickness(u_mean, cos2, load, R_x, R_y, E_eff, eta0, alpha_p, par, out):
     out[0] = 1e-6
     out[1] = 5e-7
     return OK
 
 
-@law("thermal_correction", "own", role_api=2, reference="own work")
+@law("thermal_correction", "own", role_api=3, reference="own work")
 def thermal_correction(u_mean, u_slide, p_max, E_eff, eta0, beta, k_oil, par, out):
     out[0] = 1.0
     return OK
 
 
-@law("contact_temperature", "own", role_api=2, reference="own work")
+@law("contact_temperature", "own", role_api=3, reference="own work")
 def contact_temperature(T_in, u_mean, h, semi_b, tau, slip, par, T):
     for i in range(T.size):
         T[i] = T_in
     return OK
 
 
-@law("traction", "own", role_api=2, reference="own work")
+@law("traction", "own", role_api=3, reference="own work")
 def traction(slip, p, T, ln_eta, h, par, tau):
     for i in range(tau.size):
         tau[i] = 1e15 * slip[i]
     return OK
 
 
-@law("rolling_resistance", "own", role_api=2, reference="own work")
+@law("rolling_resistance", "own", role_api=3, reference="own work")
 def rolling_resistance(u_mean, load, semi_a, semi_b, R_x, R_y, E_eff, eta0, alpha_p, beta, k_oil, par, out):
     out[0] = 0.0
     return OK
 
 
-@law("elastic_hysteresis", "own", Moment, role_api=2, reference="own work")
+@law("elastic_hysteresis", "own", Moment, role_api=3, reference="own work")
 def elastic_hysteresis(load, semi_a, semi_b, R_x, R_y, R_ball, par, out):
     out[0] = par.moment
     return OK
 
 
-@law("asperity_load", "own", role_api=2, reference="own work")
+@law("asperity_load", "own", role_api=3, reference="own work")
 def asperity_load(Lambda, par, out):
     out[0] = 0.0
     return OK
 
 
-@law("mixing", "own", role_api=2, reference="own work")
+@law("mixing", "own", role_api=3, reference="own work")
 def mixing(psi, Lambda, load, p_max, semi_a, semi_b, par, out):
     out[0] = 1.0
     out[1] = 0.0
     return OK
 
 
-@law("supply", "own", role_api=2, reference="own work")
+@law("supply", "own", role_api=3, reference="own work")
 def supply(u_mean, load, semi_a, semi_b, R_x, h_cen, h_min, par, out):
     out[0] = 1.0
     out[1] = 1.0
     return OK
 
 
-@law("boundary_friction", "own", role_api=2, reference="own work")
+@law("boundary_friction", "own", role_api=3, reference="own work")
 def boundary_friction(slip, p, u_mean, par, mu):
     for i in range(mu.size):
         mu[i] = 0.0
@@ -111,40 +111,40 @@ def boundary_friction(slip, p, u_mean, par, mu):
 AGE = State("age", "s", "how long the run goes on", scale=1.0)
 
 
-@law("contact_state", "own", role_api=2, reference="own work", states=(AGE,))
+@law("contact_state", "own", role_api=3, reference="own work", states=(AGE,))
 def contact_state(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):
     out[0] = 1.0
     return OK
 
 
-@law("cage_contact", "own", role_api=2, reference="own work")
+@law("cage_contact", "own", role_api=3, reference="own work")
 def cage_contact(r, v_rel, omega_rel, eta0, par, out):
     for i in range(6):
         out[i] = 0.0
     return OK
 
 
-@law("fluid_drag", "own", role_api=2, reference="own work")
+@law("fluid_drag", "own", role_api=3, reference="own work")
 def fluid_drag(v_orbit, omega_spin, azimuth, nu, rho, par, out):
     out[0] = 0.0
     out[1] = 0.0
     return OK
 
 
-@law("permittivity", "own", role_api=2, reference="own work")
+@law("permittivity", "own", role_api=3, reference="own work")
 def permittivity(p, T, rho, par, eps_r):
     for i in range(p.size):
         eps_r[i] = 2.0
     return OK
 
 
-@law("capacitance", "own", role_api=2, reference="own work")
+@law("capacitance", "own", role_api=3, reference="own work")
 def capacitance(C_hertz, h, semi_a, semi_b, R_x, R_y, U, G, W, eps_r0, par, out):
     out[0] = C_hertz
     return OK
 
 
-@law("surface", "own", role_api=2, reference="own work")
+@law("surface", "own", role_api=3, reference="own work")
 def surface(azimuth, contact_angle, par, out):
     """Both raceways a micrometre higher all around: another clearance."""
     out[0] = 1e-6
@@ -153,14 +153,14 @@ def surface(azimuth, contact_angle, par, out):
     return OK
 
 
-@law("breakdown", "own", role_api=2, reference="own work")
+@law("breakdown", "own", role_api=3, reference="own work")
 def breakdown(h, h_min, sigma, area, u_1, u_2, par, out):
     """Every film stands 4 V."""
     out[0] = 4.0
     return OK
 
 
-@law("discharge", "own", role_api=2, reference="own work")
+@law("discharge", "own", role_api=3, reference="own work")
 def discharge(V, h, area, par, out):
     """Arcs of 7 Ohm times the voltage that they begin at, in volts."""
     out[0] = 7.0 * V
