@@ -18,6 +18,7 @@ from pydantic import Field
 from lambda_core.analysis.band.quantities import Condition, Measured, Vocabulary
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError, UsageError
+from lambda_core.domain.roles import ROLES
 from lambda_core.domain.units import parse
 from lambda_core.fitting.measurements import Measurements, read_measurements
 from lambda_core.formulas.hertz import hertz_contact, load_at_pressure
@@ -30,6 +31,7 @@ _BEARING = "SKF 6208"  # brings steel, and the laws of the oil; its geometry cou
 _ELEMENT = "ball_inner"
 RATIOS = tuple(np.concatenate([[0.0], np.geomspace(1e-4, 0.5, 60)]).tolist())
 _RINGS = 24  # of the contact, by Gauss' rule over the square of the radius
+_RESULTS = 8  # room for the results of a law without cells
 _ROUNDS, _CLOSED = 60, 1e-6  # of the loop of temperature and traction
 _RATIO, _TRACTION = "slide-roll ratio", "traction coefficient"
 COLUMNS = Vocabulary(
@@ -280,8 +282,13 @@ class _Contact:
         )
         pars = {role: prepare(law, context) for role, law in model.laws[_ELEMENT].items()}
 
-        def call(role: str, *arguments: Any, outputs: int = 1, cells: int = 2) -> FloatArray:
+        def call(role: str, *values: Any, outputs: int = 1, cells: int = _RESULTS) -> FloatArray:
             found = np.full((outputs, cells), math.nan)
+            # A batch of one contact: what differs from contact to contact stands in an array.
+            arguments = [
+                np.array([value]) if argument.each else value
+                for argument, value in zip(ROLES[role].arguments, values, strict=False)
+            ]
             status = kernels.compiled[_ELEMENT, role].dispatcher(*arguments, pars[role], *found)
             if status != 1:
                 law = model.laws[_ELEMENT][role].model
@@ -298,7 +305,7 @@ class _Contact:
         """Return the central film with the heating of its inlet [m]."""
         r, oil = 0.5 * BALL, self.oil
         thickness = self.law(
-            "film_thickness", self.speed, 0.0, self.load, r, r, self.modulus, oil.viscosity, oil.alpha_p
+            "film_thickness", self.speed, 1.0, self.load, r, r, self.modulus, oil.viscosity, oil.alpha_p
         )[0, 0]
         heat = self.law(
             "thermal_correction", self.speed, slide, float(self.pressure.max()), self.modulus, oil.viscosity, oil.beta,
@@ -330,7 +337,9 @@ class _Contact:
     def _stress(self, temperature: FloatArray, slip: FloatArray, film: float) -> FloatArray:
         cells = slip.size
         logs = self.law("rheology", self.pressure, temperature, outputs=2, cells=cells)[0]
-        found: FloatArray = self.law("traction", slip, self.pressure, temperature, logs, film, cells=cells)[0]
+        found: FloatArray = self.law(
+            "traction", slip, self.pressure, temperature, logs, np.full(cells, film), cells=cells
+        )[0]
         return found
 
     def _heated(self, stress: FloatArray, slip: FloatArray, film: float) -> FloatArray:
