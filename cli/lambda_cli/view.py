@@ -136,6 +136,14 @@ def _pairs(texts: list[str]) -> Iterable[tuple[str, str]]:
         yield name.strip(), value.strip()
 
 
+_HEADINGS = {
+    "of a result": "result",
+    "of several results": "results",
+    "of a study": "study",
+    "of an operating point, drawn by quasistatic and modes with --draw, in Python by plot()": "machine",
+}
+
+
 def _list(as_json: bool) -> None:
     from lambda_core import api
 
@@ -143,7 +151,7 @@ def _list(as_json: bool) -> None:
     if as_json:
         typer.echo(json.dumps({"version": 1, "views": [card.model_dump(mode="json") for card in cards]}, indent=2))
         return
-    for heading, subject in (("of a result", "result"), ("of several results", "results"), ("of a study", "study")):
+    for heading, subject in _HEADINGS.items():
         typer.echo(f"{heading}:")
         for card in cards:
             if card.subject == subject:
