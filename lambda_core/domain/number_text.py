@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 NONE = "-"  # stands where there is no number
+_LEAST_BAND = 1e-2  # of a number: no model knows more than four digits of it
 _LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
 
 
@@ -41,12 +42,14 @@ def interval(values: Sequence[float], digits: int) -> str:
     return f"{number(values[0], digits)}..{number(values[1], digits)}"
 
 
-def digits_of_band(half_width: float) -> int:
-    """Return the decimals of a number that its band leaves a meaning: two digits of the half-width."""
-    return 1 - math.floor(math.log10(half_width)) if half_width > 0.0 and math.isfinite(half_width) else 3
+def digits_of_band(half_width: float, value: float) -> int:
+    """Return the decimals of a number that its band leaves a meaning: two digits of the half-width, four in all."""
+    if not half_width > 0.0 or not math.isfinite(half_width):
+        return 3
+    return 1 - math.floor(math.log10(max(half_width, _LEAST_BAND * abs(value))))
 
 
 def rounded(value: float, half_width: float) -> str:
     """Write a number to the digits that its band leaves a meaning."""
-    digits = digits_of_band(half_width)
+    digits = digits_of_band(half_width, value)
     return number(round(value, digits), max(digits, 0))

@@ -193,3 +193,10 @@ def test_a_report_sets_band_and_scatter_apart(tmp_path: Path) -> None:
     (table,) = model_bands(found.summary())
     assert table.head[1:3] == ("model band (90 %)", "scatter (95 %)")
     assert [row[0] for row in table.rows] == list(FIELDS)
+
+
+def test_a_narrow_band_prints_four_digits() -> None:
+    """An axial load alone sets the pressure: its band of 1e-7 once printed nine digits."""
+    assert rounded(1.6176779, 1.2e-7) == "1.618"
+    assert rounded(18_359.46, 0.1) == "18 360"
+    assert rounded(1250.3, 195.0) == "1 250"

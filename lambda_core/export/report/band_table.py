@@ -23,7 +23,7 @@ def model_bands(summary: Any, units: UnitSystem = SI) -> tuple[Table, ...]:
         if not ends:
             continue
         low, high = (units.value(end, one.unit) for end in ends)
-        digits = max(digits_of_band(0.5 * abs(high - low)), 0)
+        digits = max(digits_of_band(0.5 * abs(high - low), low), 0)
         width = getattr(summary, _SCATTER.get(one.quantity, ""), None)
         scatter = "-" if width is None else f"± {units.value(width, one.unit):.2g}"
         shown = f"{number(round(low, digits), digits)} .. {number(round(high, digits), digits)}"
