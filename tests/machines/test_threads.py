@@ -18,6 +18,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from lambda_core import api
 from lambda_core.formulas.elastic import whirl
 from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.solver.drivers import equilibrium
 
 CASE = "6208-axial-1300"
 TIMED = """
@@ -57,7 +58,8 @@ def seen(monkeypatch: pytest.MonkeyPatch) -> set[int]:
 
         return call
 
-    for owner, names in ((np.linalg, ("solve", "eig", "eigvals", "eigvalsh", "eigh")), (whirl, ("eig", "eigh"))):
+    of_numpy = ("solve", "eig", "eigvals", "eigvalsh", "eigh")
+    for owner, names in ((np.linalg, of_numpy), (whirl, ("eig", "eigh")), (equilibrium, ("continue_static",))):
         for name in names:
             monkeypatch.setattr(owner, name, watched(getattr(owner, name)))
     return found
