@@ -8,7 +8,6 @@ from typing import Any
 
 from numba.core import types
 from numba.extending import lower_builtin, type_callable
-from numba.np.arrayobj import populate_array
 
 from lambda_core.laws.jit.binding import status_of, stretch
 
@@ -26,6 +25,9 @@ def _type_of_stretch(_: Any) -> Any:
 
 @lower_builtin(stretch, ROW, types.Integer, types.Integer)
 def _lower_stretch(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    # Needed by what compiles; its import would take a tenth of a second from every start.
+    from numba.np.arrayobj import populate_array
+
     start, count = (
         context.cast(builder, value, kind, types.intp)
         for value, kind in zip(arguments[1:], signature.args[1:], strict=True)
