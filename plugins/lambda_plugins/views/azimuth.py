@@ -26,7 +26,7 @@ def _series(run: RunData, span: Span, channel: str, scale: float, loaded: bool =
 
 def notes(span: Span) -> tuple[str, ...]:
     """Return what lines, bands and azimuths mean."""
-    return (f"lines: mean over {span.words}, band: smallest to largest; points: every ball at the end state", _FRAME)
+    return (f"lines: mean over {span.words}, band: smallest to largest; points: end state", _FRAME)
 
 
 def load_distribution(run: RunData, options: Options) -> ViewData:
@@ -73,7 +73,7 @@ def film(run: RunData, options: Options) -> ViewData:
 
 
 VIEWS = (
-    View("load-distribution", "load of every ball around the bearing", "result", load_distribution, view_api=1),
+    View("load-distribution", "load of every element around the bearing", "result", load_distribution, view_api=1),
     View("contact-angle", "contact angles over azimuth", "result", contact_angle, view_api=1),
     View("pressure", "maximum contact pressure over azimuth", "result", pressure, view_api=1),
     View("film", "film thickness and Lambda over azimuth", "result", film, view_api=1),
