@@ -61,6 +61,7 @@ def init(
 
     given = {"loads.radial": radial, "loads.axial": axial, "operation.speed": speed, "lubricant.name": oil}
     changes = [f"{path}={value}" for path, value in given.items() if value is not None]
+    name = name.removesuffix(".toml")  # whoever names the file means the case in it
     target = api.init_case(name, start, out, overwrite=force, bearing=bearing, template=template, changes=changes)
     remember(target)
     typer.echo(f"wrote {target}; next: lambda-bearing check {target}", err=True)

@@ -95,6 +95,15 @@ def test_the_ending_of_a_file_left_out_is_said(call: Call, tmp_path: Path, monke
     assert err.strip() == '"fan" is neither a file nor a built-in case; the file is fan.toml'
 
 
+def test_the_name_of_a_file_is_taken_as_that_of_its_case(
+    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert call("init", "pump.toml", "--bearing", "SKF 6208")[0] == 0
+    assert [file.name for file in tmp_path.iterdir()] == ["pump.toml"]
+    assert load_case(tmp_path / "pump.toml").name == "pump"
+
+
 def test_version(call: Call) -> None:
     code, out, _ = call("--version")
     assert (code, out.split()[0]) == (0, "lambda-bearing")
