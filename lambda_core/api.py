@@ -48,9 +48,9 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.case.case_io import is_machine
     from lambda_core.case.case_writer import save_text
     from lambda_core.case.draft import Draft
+    from lambda_core.case.machine import MachineCase
     from lambda_core.case.modelling import Models
     from lambda_core.case.parts import InlineMaterial
-    from lambda_core.case.shaft import ShaftCase
     from lambda_core.case.signals import SIGNAL_KINDS
     from lambda_core.catalogue.designation import Designation, read_designation
     from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue, LubricantRow, MaterialRow

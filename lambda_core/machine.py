@@ -15,7 +15,7 @@ from lambda_core.domain.errors import UsageError
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
 
 
 class Machine:
@@ -93,7 +93,7 @@ class Machine:
         return machine
 
     @classmethod
-    def from_case(cls, source: str | Path | Mapping[str, Any] | Case | ShaftCase) -> Machine:
+    def from_case(cls, source: str | Path | Mapping[str, Any] | Case | MachineCase) -> Machine:
         """Take a case file, the name of a built-in case, plain tables or a case.
 
         Raises
@@ -183,7 +183,7 @@ class Machine:
         return copy.deepcopy(self._tables)
 
     @property
-    def case(self) -> Case | ShaftCase:
+    def case(self) -> Case | MachineCase:
         """The case, validated.
 
         Raises

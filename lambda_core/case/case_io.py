@@ -16,10 +16,10 @@ from pydantic import BaseModel, ValidationError
 
 from lambda_core.case.builtin import builtin_cases, builtin_text, is_builtin
 from lambda_core.case.case import Case, Written, merged
+from lambda_core.case.machine import NAMED, TAKEN, MachineCase
+from lambda_core.case.machine_parts import length_in
 from lambda_core.case.option import NAME_PATTERN
 from lambda_core.case.salvage import ONE_BEARING, SHARED_STAND_INS, InvalidCase, StandIns, invalid_case
-from lambda_core.case.shaft import NAMED, TAKEN, ShaftCase
-from lambda_core.case.shaft_parts import length_in
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
 from lambda_core.domain.handed_laws import named
@@ -81,9 +81,9 @@ class Tables:
     folder: Path | None
 
     @property
-    def root(self) -> type[Case] | type[ShaftCase]:
+    def root(self) -> type[Case] | type[MachineCase]:
         """Which kind of case it is: of one bearing, or a machine."""
-        return ShaftCase if is_shaft(self.data) else Case
+        return MachineCase if is_machine_case(self.data) else Case
 
     def changed(self, overrides: Iterable[str]) -> Tables:
         """Return the tables with ``path=value`` texts applied in order, as ``--set`` does; UsageError without ``=``."""
@@ -147,7 +147,7 @@ def _instead_of(path: Path) -> str:
     )
 
 
-def read_case(source: Source, overrides: Iterable[str] = (), folder: Path | None = None) -> Case | ShaftCase:
+def read_case(source: Source, overrides: Iterable[str] = (), folder: Path | None = None) -> Case | MachineCase:
     """Read a case, of one bearing or of a machine, whichever the source is.
 
     Parameters
@@ -167,7 +167,7 @@ def read_case(source: Source, overrides: Iterable[str] = (), folder: Path | None
         With every problem of the case.
     """
     changes = list(overrides)
-    if isinstance(source, Case | ShaftCase) and not changes:
+    if isinstance(source, Case | MachineCase) and not changes:
         return source
     tables = read_tables(source, folder).changed(changes)
     return validate(tables.root, tables.data, _changed_name(tables.name, changes), tables.folder)
@@ -229,11 +229,11 @@ def validate(root: type[C], data: Mapping[str, Any], source: str = "case", folde
     if _is_deep(data):
         raise CaseError(source, [Problem("", "is nested too deeply")])
     data = {key: named(value) if key in _LAWS_IN else value for key, value in data.items()}
-    found = _names(data) if root is ShaftCase else []
+    found = _names(data) if root is MachineCase else []
     try:
         case = root.model_validate(data, context={"folder": folder})
     except ValidationError as error:
-        wrong = invalid_case(source, error, data, folder, root, _OF_A_MACHINE if root is ShaftCase else ONE_BEARING)
+        wrong = invalid_case(source, error, data, folder, root, _OF_A_MACHINE if root is MachineCase else ONE_BEARING)
         raise InvalidCase(source, [*wrong.problems, *found], wrong.remainder) from None
     if found:
         raise InvalidCase(source, found, case)
@@ -242,7 +242,7 @@ def validate(root: type[C], data: Mapping[str, Any], source: str = "case", folde
 
 def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> Case:
     """Check plain tables as the case of one bearing; CaseError with every problem at once."""
-    if is_shaft(data):
+    if is_machine_case(data):
         raise CaseError(source, [Problem("", "is a machine of several bearings; this question is about one bearing")])
     return validate(Case, data, source, folder)
 
@@ -275,12 +275,14 @@ def is_machine(source: Any) -> bool:
     bool
     """
     if isinstance(source, Mapping):
-        return is_shaft(source)
+        return is_machine_case(source)
     if not isinstance(source, str | Path):
         written = source.written() if hasattr(source, "written") and not hasattr(source, "bearings") else {}
-        return hasattr(source, "bearings") or is_shaft(written)  # a case or a model, or a machine built in Python
+        return hasattr(source, "bearings") or is_machine_case(
+            written
+        )  # a case or a model, or a machine built in Python
     try:
-        return is_shaft(read_tables(source).data)
+        return is_machine_case(read_tables(source).data)
     except LambdaError:
         return False
 
@@ -291,7 +293,7 @@ def refuse_bearing(name: str | None) -> None:
         raise UsageError(f'this case has one bearing: leave out --bearing "{name}"')
 
 
-def is_shaft(data: Mapping[str, Any]) -> bool:
+def is_machine_case(data: Mapping[str, Any]) -> bool:
     """Tell whether plain tables are those of a shaft in bearings, not of one bearing."""
     return "bearing" not in data and ("shaft" in data or "bearings" in data)
 

@@ -33,7 +33,7 @@ def case_toml(case: Written, original: str | None = None) -> str:
 
     Parameters
     ----------
-    case : Case or ShaftCase
+    case : Case or MachineCase
         What to write.
     original : str, optional
         Text of the file it came from; its comments, order and the spelling of unchanged

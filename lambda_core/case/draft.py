@@ -13,10 +13,10 @@ from pydantic import BaseModel
 
 from lambda_core.case.builtin import builtin_cases, builtin_text
 from lambda_core.case.case import Case
-from lambda_core.case.case_io import is_shaft, load_case, syntax_problem, validate_case
+from lambda_core.case.case_io import is_machine_case, load_case, syntax_problem, validate_case
 from lambda_core.case.case_writer import save_text, tables_toml
 from lambda_core.case.holding import Dof
-from lambda_core.case.shaft import ShaftCase
+from lambda_core.case.machine import MachineCase
 from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.domain.files import read_text
 from lambda_core.domain.option_tree import model_at
@@ -51,7 +51,7 @@ class Draft:
     tables : dict
         What the file would say now.
     root : type of BaseModel
-        What the file is to be: the case of one bearing (`Case`), or of a shaft in several (`ShaftCase`).
+        What the file is to be: the case of one bearing (`Case`), or of a shaft in several (`MachineCase`).
     """
 
     path: Path | None
@@ -163,9 +163,9 @@ class Draft:
     # -- what it means --
 
     @property
-    def is_shaft(self) -> bool:
-        """Whether it is the case of a shaft in several bearings."""
-        return self.root is ShaftCase
+    def is_machine_case(self) -> bool:
+        """Whether it is the case of a machine."""
+        return self.root is MachineCase
 
     def case(self) -> Case:
         """Return the case of one bearing; CaseError with every mistake of the file itself."""
@@ -234,7 +234,7 @@ def new_draft(name: str = "untitled", *, shaft: bool = False) -> Draft:
     tables: dict[str, Any] = {"name": name}
     if not shaft:
         tables["bodies"] = {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}}
-    return Draft(None, "", tables, Path.cwd(), ShaftCase if shaft else Case)
+    return Draft(None, "", tables, Path.cwd(), MachineCase if shaft else Case)
 
 
 def open_draft(source: str | Path) -> Draft:
@@ -262,7 +262,7 @@ def draft_of(text: str, path: Path | None) -> Draft:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise CaseError(path.name if path else "case", [syntax_problem(str(error), text)]) from None
-    root = ShaftCase if is_shaft(tables) else Case
+    root = MachineCase if is_machine_case(tables) else Case
     return Draft(path, text, tables, path.resolve().parent if path else Path.cwd(), root)
 
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from lambda_core.case.case import Case
+from lambda_core.case.machine import OWN, SHARED
 from lambda_core.case.motion import RingBody
-from lambda_core.case.shaft import OWN, SHARED
 from lambda_core.domain.units import show
 
 NAME = "bearing"  # of the one bearing

@@ -12,14 +12,14 @@ if TYPE_CHECKING:
 
     from lambda_core.case.case import Case
     from lambda_core.case.draft import Draft
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.catalogue.protocol import Catalogue
 
 
 GEARED_SHAFT = "geared-shaft"  # template of a shaft in two bearings
 
 
-def case(source: str | Path | Mapping[str, Any], overrides: Iterable[str] = ()) -> Case | ShaftCase:
+def case(source: str | Path | Mapping[str, Any], overrides: Iterable[str] = ()) -> Case | MachineCase:
     """Read a case, of one bearing or of a machine, from a TOML file, plain tables or by the name of a built-in one.
 
     Parameters
@@ -31,7 +31,7 @@ def case(source: str | Path | Mapping[str, Any], overrides: Iterable[str] = ()) 
 
     Returns
     -------
-    Case or ShaftCase
+    Case or MachineCase
         Of one bearing, or of a machine. Values in SI; what the file leaves open has its default.
 
     Raises
@@ -58,12 +58,12 @@ def builtin_cases() -> dict[str, str]:
     return builtin_cases()
 
 
-def save(case: Case | ShaftCase, path: str | Path) -> None:
+def save(case: Case | MachineCase, path: str | Path) -> None:
     """Write a case as TOML; comments of the file that stands there are kept.
 
     Parameters
     ----------
-    case : Case or ShaftCase
+    case : Case or MachineCase
         What to write: options at their default are left out.
     path : path-like
         The file.
@@ -139,10 +139,10 @@ def init_case(
 
         from lambda_core.case.case_io import validate
         from lambda_core.case.case_writer import save_text
-        from lambda_core.case.shaft import ShaftCase
+        from lambda_core.case.machine import MachineCase
         from lambda_core.domain.files import check_new
 
-        validate(ShaftCase, tomllib.loads(text), f'new machine "{name}"')
+        validate(MachineCase, tomllib.loads(text), f'new machine "{name}"')
         save_text(text, check_new(target, overwrite))
         return target
     from lambda_core.case.case_io import apply_overrides, parse_case
@@ -202,10 +202,10 @@ def schema() -> dict[str, Any]:
     from pydantic.json_schema import models_json_schema
 
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
 
-    kinds, parts = models_json_schema([(Case, "validation"), (ShaftCase, "validation")], title="lambda-bearing case")
-    one, several = kinds[Case, "validation"], kinds[ShaftCase, "validation"]
+    kinds, parts = models_json_schema([(Case, "validation"), (MachineCase, "validation")], title="lambda-bearing case")
+    one, several = kinds[Case, "validation"], kinds[MachineCase, "validation"]
     head = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
     return {**head, "if": {"required": ["bearing"]}, "then": one, "else": several, **parts}
 

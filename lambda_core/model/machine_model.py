@@ -82,7 +82,7 @@ class Place:
 
 
 @dataclass(frozen=True)
-class ShaftSpring:
+class MachineSpring:
     """Spring and damper between two bodies, or a body and the ground, at one point."""
 
     name: str
@@ -167,7 +167,7 @@ class MachineModel:
         Of the discs; they count in motion.
     speed_over_time : TimeFunction
         Of the shaft [rad/s].
-    springs : tuple of ShaftSpring
+    springs : tuple of MachineSpring
         Between shaft, bodies and ground.
     links : tuple of MachineLink
         Connections by laws.
@@ -207,7 +207,7 @@ class MachineModel:
     varying: tuple[tuple[int, TimeFunction], ...] = ()  # row of `loads` and its value over time
     twists: bool = False  # in motion
     torque: TimeFunction | None = None  # of the coupling, in motion; None: it prescribes the speed
-    springs: tuple[ShaftSpring, ...] = ()
+    springs: tuple[MachineSpring, ...] = ()
     links: tuple[MachineLink, ...] = ()
     hold: ShaftHold | None = None
     bodies: tuple[RigidBody, ...] = ()

@@ -1,4 +1,4 @@
-"""From the case of a shaft to its model: every bearing resolved as its own case, every mistake at once."""
+"""From the case of a machine to its model: every bearing resolved as its own case, every mistake at once."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ import numpy as np
 from lambda_core.case.case import Case, merged
 from lambda_core.case.case_io import Source, read_tables, validate
 from lambda_core.case.case_writer import tables_toml
+from lambda_core.case.machine import MachineCase, bearing_tables, place_in_machine
 from lambda_core.case.salvage import InvalidCase, related
-from lambda_core.case.shaft import ShaftCase, bearing_tables, place_in_machine
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread
@@ -67,11 +67,11 @@ def resolve_machine(
     folder: Path | None = None,
     catalogue: Catalogue | None = None,
 ) -> MachineModel:
-    """Read and resolve the case of a shaft in bearings without solving it.
+    """Read and resolve the case of a machine without solving it.
 
     Parameters
     ----------
-    source : str, Path, mapping or ShaftCase
+    source : str, Path, mapping or MachineCase
         File, plain tables as they stand in one, or a case.
     overrides : iterable of str
         Changes ``path=value``.
@@ -95,12 +95,12 @@ def resolve_machine(
 
     read = read_tables(source, folder).changed(overrides)
     tables, name, folder = merged({}, read.data), read.name, read.folder
-    if read.root is not ShaftCase:
+    if read.root is not MachineCase:
         raise CaseError(name, [Problem("bearing", "is one bearing; this question is about a machine with a shaft")])
     found: list[Problem] = []
-    case: ShaftCase | None = None
+    case: MachineCase | None = None
     try:
-        case = validate(ShaftCase, tables, name, folder)
+        case = validate(MachineCase, tables, name, folder)
     except InvalidCase as error:
         found += error.problems
         case = error.remainder
@@ -150,7 +150,11 @@ def _bearings(
 
 
 def _shaft(
-    case: ShaftCase, models: Mapping[str, BearingModel], catalogue: Catalogue, ledger: Ledger, found: Sequence[Problem]
+    case: MachineCase,
+    models: Mapping[str, BearingModel],
+    catalogue: Catalogue,
+    ledger: Ledger,
+    found: Sequence[Problem],
 ) -> MachineModel | None:
     """Return the machine; None where something is wrong, here or as `found` before."""
     from lambda_core.discovery.manager import registry
@@ -255,7 +259,7 @@ def _shaft(
     return resolved if ledger.problems else with_settings(case, resolved, ledger)
 
 
-def _unbalances(case: ShaftCase, bearings: Iterable[MountedBearing]) -> tuple[Unbalance, ...]:
+def _unbalances(case: MachineCase, bearings: Iterable[MountedBearing]) -> tuple[Unbalance, ...]:
     """Return what is unbalanced on the shaft: discs and inner rings."""
     discs = [Unbalance(disc.place, disc.unbalance, disc.unbalance_angle) for disc in case.discs.values()]
     rings = [Unbalance(one.position, one.model.inner_ring.unbalance, 0.0) for one in bearings]
@@ -267,7 +271,7 @@ def _with_laws(mounted: MountedBearing, laws: Mapping[str, Mapping[str, ChosenLa
     return replace(mounted, model=replace(mounted.model, laws={**mounted.model.laws, **laws})) if laws else mounted
 
 
-def _in_place(case: ShaftCase, stand: Places) -> ShaftCase:
+def _in_place(case: MachineCase, stand: Places) -> MachineCase:
     """Return the case with the place of every part."""
     tables = {}
     for table in ("bearings", "discs", "gears", "loads", "connections"):
@@ -277,7 +281,7 @@ def _in_place(case: ShaftCase, stand: Places) -> ShaftCase:
     return case.model_copy(update=tables)
 
 
-def _check_on_shaft(case: ShaftCase, stand: Places, outside: ElasticBody | None, ledger: Ledger) -> None:
+def _check_on_shaft(case: MachineCase, stand: Places, outside: ElasticBody | None, ledger: Ledger) -> None:
     """Note everything that stands beyond the ends of the shaft, or off the nodes of one from outside."""
     parts = {f"{path}.at": place.point[0] for path, place in stand.of.items() if place.body == SHAFT}
     parts |= {f"markers.{name}.x": marker.x for name, marker in case.markers.items() if marker.body == "shaft"}
@@ -301,7 +305,7 @@ def _check_on_shaft(case: ShaftCase, stand: Places, outside: ElasticBody | None,
             ledger.problem(where, f"there is no node at {at}; nodes of the shaft stand at {nodes} mm")
 
 
-def _check_one_place(case: ShaftCase, stand: Places, ledger: Ledger) -> None:
+def _check_one_place(case: MachineCase, stand: Places, ledger: Ledger) -> None:
     """Note bearings in one place."""
     seen: dict[float, str] = {}
     for name, bearing in ((name, one) for name, one in case.bearings.items() if f"bearings.{name}" in stand.of):
@@ -323,7 +327,7 @@ def _check_cells(bearings: Sequence[MountedBearing], ledger: Ledger) -> None:
                 )
 
 
-def _check_torque(case: ShaftCase, ledger: Ledger) -> None:
+def _check_torque(case: MachineCase, ledger: Ledger) -> None:
     """Note what contradicts a torque that drives the shaft."""
     if case.operation.torque is None:
         return
@@ -334,7 +338,7 @@ def _check_torque(case: ShaftCase, ledger: Ledger) -> None:
             ledger.problem(f"gears.{name}.power", "a torque drives the shaft: write the torque of the gear, too")
 
 
-def _gears(case: ShaftCase, ledger: Ledger) -> dict[str, GearForces]:
+def _gears(case: MachineCase, ledger: Ledger) -> dict[str, GearForces]:
     """Return the forces of every gear; a power needs a speed."""
     found = {}
     for name, gear in case.gears.items():
@@ -354,12 +358,12 @@ def _gears(case: ShaftCase, ledger: Ledger) -> dict[str, GearForces]:
     return found
 
 
-def _outline(case: ShaftCase) -> tuple[tuple[float, float, float, float], ...]:
+def _outline(case: MachineCase) -> tuple[tuple[float, float, float, float], ...]:
     ends = np.cumsum([0.0, *(section.length for section in case.shaft.sections)]).tolist()
     return tuple((ends[i], ends[i + 1], s.diameter, s.bore) for i, s in enumerate(case.shaft.sections))
 
 
-def _discs(case: ShaftCase, catalogue: Catalogue, ledger: Ledger) -> list[Disc]:
+def _discs(case: MachineCase, catalogue: Catalogue, ledger: Ledger) -> list[Disc]:
     """Return the rigid bodies on the shaft, their masses given or from their shapes."""
     found = []
     for name, given in case.discs.items():
@@ -385,7 +389,7 @@ def _drawn(body: ElasticBody, bearings: Iterable[MountedBearing]) -> tuple[tuple
 
 
 def _body(
-    case: ShaftCase, stand: Places, material: BodyMaterial, links: Sequence[MachineLink], discs: list[Disc],
+    case: MachineCase, stand: Places, material: BodyMaterial, links: Sequence[MachineLink], discs: list[Disc],
     ledger: Ledger,
 ) -> ElasticBody | None:  # fmt: skip
     """Return the shaft as a beam; None where its mesh would be too large, which the ledger says then."""
@@ -412,7 +416,7 @@ def _body(
     return shaft_body(sections, places=places, discs=discs)
 
 
-def _growth(case: ShaftCase, body: ElasticBody, material: BodyMaterial) -> FloatArray:
+def _growth(case: MachineCase, body: ElasticBody, material: BodyMaterial) -> FloatArray:
     """Return the nodal forces that stretch the shaft as its temperature does: those that would hold it stretched."""
     stretched = np.zeros(body.mass.shape[0])
     along = case.shaft.temperatures

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.citation import Citation
@@ -123,7 +123,7 @@ def cite(path: str | PathLike[str]) -> Citation:
 
 @answers
 def compare(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     methods: Sequence[str] = (),

@@ -10,14 +10,14 @@ from lambda_core.domain.blas_threads import one_blas_thread
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
 
 
 def ready(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     announce: Callable[[str], None] | None = None,
 ) -> BearingModel | MachineModel:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.quasistatic import QuasiStatic
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 @answers
 @one_blas_thread()
 def quasistatic(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     band: bool = False,
@@ -106,7 +106,7 @@ def _roller_answer(source: Any, overrides: Iterable[str]) -> RollerQuasiStatic |
 @answers
 @one_blas_thread()
 def estimate(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     announce: Callable[[str], None] | None = None,
@@ -143,7 +143,7 @@ def estimate(
 
 @one_blas_thread()
 def run(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     out: str | Path | None = None,
@@ -188,7 +188,7 @@ def run(
 
 @one_blas_thread()
 def iterate(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     interval: float | None = None,
@@ -293,7 +293,7 @@ def _stored_model(found: Result, overrides: Iterable[str]) -> BearingModel | Mac
 @answers
 @one_blas_thread()
 def cross_check(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     free_cage: bool = False,

@@ -28,7 +28,7 @@ from lambda_core.studies.store import Manifest, readable
 if TYPE_CHECKING:
     from lambda_core.analysis.electric.risk_map import RiskMap
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.studies.scheduler import StudyProgress
     from lambda_core.views.table import StudyTable
 
@@ -42,7 +42,7 @@ _ZERO_CELSIUS = 273.15
 
 
 def electric_map(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase,
     overrides: Iterable[str] = (),
     *,
     speed: str | None = None,
@@ -144,13 +144,13 @@ def _folder(folder: str | Path | None) -> Iterator[Path]:
 
 
 def _study(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase,
     overrides: Iterable[str],
     bearing: str | None,
     speed: str | None,
     temperature: str,
     points: str,
-) -> tuple[Case | ShaftCase, Study]:
+) -> tuple[Case | MachineCase, Study]:
     """Return the case of a map, and the study that it is."""
     from lambda_core.case.case import Case
     from lambda_core.case.case_io import read_case

@@ -21,9 +21,9 @@ from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import apply_overrides, read_case, syntax_problem
+from lambda_core.case.machine import MachineCase
 from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.problems import problems
-from lambda_core.case.shaft import ShaftCase
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, Problem, SolverError, UsageError
@@ -212,7 +212,7 @@ def _sum(values: Sequence[float | None]) -> float | None:
     return None if None in values else sum(value for value in values if value is not None)
 
 
-def _read(source: str | Path | Mapping[str, Any]) -> tuple[Cycle, Case | ShaftCase, list[_Step]]:
+def _read(source: str | Path | Mapping[str, Any]) -> tuple[Cycle, Case | MachineCase, list[_Step]]:
     """Return the cycle, its case and its phases; every mistake of the file at once."""
     if isinstance(source, Mapping):
         name, data, folder = "duty cycle", dict(source), Path()
@@ -253,7 +253,7 @@ def _steps(cycle: Cycle, folder: Path) -> list[_Step]:
     ]  # fmt: skip
 
 
-def _refuse_mistakes(steps: Sequence[_Step], case: Case | ShaftCase) -> None:
+def _refuse_mistakes(steps: Sequence[_Step], case: Case | MachineCase) -> None:
     """Refuse a cycle in which a change has no place in the case, with every such phase, before any is solved."""
     found: list[Problem] = []
     for step in steps:

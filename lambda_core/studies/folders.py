@@ -27,7 +27,7 @@ from lambda_core.views.table import StudyTable
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
 
 Where = str | Executor
 _BAND = "model_band"  # name in the manifest
@@ -93,7 +93,7 @@ def prepare(
     source: str | Path | Mapping[str, Any] | Study,
     workers: int | None,
     announce: Announce = None,
-    case: Case | ShaftCase | None = None,
+    case: Case | MachineCase | None = None,
 ) -> Ready:
     """Read and check a study; errors as in :func:`lambda_core.studies.study_check.check`, `case` as there."""
     folder: Path | None = None

@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.studies.scheduler import StudyProgress
     from lambda_core.views.table import StudyTable
 
 
 def study(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase,
     varies: Mapping[str, Sequence[Any]],
     asks: Iterable[str] = (),
     *,

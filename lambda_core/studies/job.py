@@ -136,10 +136,10 @@ def resolve_point(case_toml: str, changes: tuple[str, ...]) -> BearingModel:
 @lru_cache(maxsize=4)
 def _machine_tables(case_toml: str) -> dict[str, Any] | None:
     """Return the tables of a machine's case, None for that of one bearing."""
-    from lambda_core.case.case_io import is_shaft, toml_tables
+    from lambda_core.case.case_io import is_machine_case, toml_tables
 
     tables = toml_tables(case_toml, "the case of the study")
-    return tables if is_shaft(tables) else None
+    return tables if is_machine_case(tables) else None
 
 
 def with_temperatures(model: _Model) -> _Model:

@@ -11,7 +11,7 @@ from pydantic import Field
 
 from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium, equilibrium_of
 from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
-from lambda_core.case.shaft import ShaftCase
+from lambda_core.case.machine import MachineCase
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.life import system_life
@@ -80,7 +80,7 @@ class MachinePhases:
     def __post_init__(self) -> None:
         self.kernels = SharedKernels(self.announce)
 
-    def solved_case(self, case: ShaftCase, changes: Sequence[str]) -> MachineEquilibrium:
+    def solved_case(self, case: MachineCase, changes: Sequence[str]) -> MachineEquilibrium:
         """Return the equilibrium of one phase; SolverError where there is none."""
         model = ready_machine_of(case, changes, self.announce)
         return equilibrium_of(model, solve_shaft(model, self.announce, self.kernels))

@@ -25,7 +25,7 @@ from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
 
@@ -76,7 +76,7 @@ class SpeedCurve(Answer):
 @answers
 @one_blas_thread()
 def stribeck(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | MachineModel,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase | MachineModel,
     overrides: Iterable[str] = (),
     *,
     bearing: str | None = None,

@@ -36,7 +36,7 @@ from lambda_core.studies.store import Heading, parameter_headings
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
 
@@ -91,7 +91,7 @@ class Ready:
 
 
 def check(
-    study: Study, folder: Path | None, workers: int, announce: Announce = None, case: Case | ShaftCase | None = None
+    study: Study, folder: Path | None, workers: int, announce: Announce = None, case: Case | MachineCase | None = None
 ) -> Ready:
     """Check a study: counts, case, paths, units, responses, cost; its kernels are compiled afterwards.
 
@@ -143,7 +143,7 @@ def check(
     return Ready(study, plan, case_toml, names, headings, estimate, first)
 
 
-def _case_toml(study: Study, folder: Path | None, case: Case | ShaftCase | None) -> str:
+def _case_toml(study: Study, folder: Path | None, case: Case | MachineCase | None) -> str:
     """Return the study's case with its fixed changes, complete."""
     from lambda_core.case.case import Case
     from lambda_core.case.case_io import apply_overrides, is_machine, load_case

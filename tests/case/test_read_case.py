@@ -23,7 +23,7 @@ def box(tmp_path: Path) -> Path:
 
 def test_a_file_tables_and_a_name_are_read_alike(box: Path) -> None:
     for source in (box, str(box), tomllib.loads(box.read_text())):
-        assert isinstance(read_case(source), api.ShaftCase)
+        assert isinstance(read_case(source), api.MachineCase)
     assert isinstance(read_case("6208-axial-1300"), api.Case)
     one = read_case("6208-axial-1300", ["operation.speed=900 rpm"])
     assert isinstance(one, api.Case)
@@ -58,7 +58,7 @@ def test_one_schema_says_which_of_both_a_file_is() -> None:
     schema = api.schema()
     assert schema["if"] == {"required": ["bearing"]}
     names = [schema[key]["$ref"].rpartition("/")[2] for key in ("then", "else")]
-    assert names == ["Case", "ShaftCase"]
+    assert names == ["Case", "MachineCase"]
     assert set(names) < set(schema["$defs"])
 
 

@@ -25,7 +25,7 @@ from textual.theme import Theme
 
 from lambda_core import api
 from lambda_core.case.case import Case
-from lambda_core.case.shaft import ShaftCase
+from lambda_core.case.machine import MachineCase
 from lambda_core.elements.ball.raceways import row_places
 
 _PAINT = {"background": "#000000", "secondary": "#0000ff", "accent": "#ff0000", "foreground": "#00ff00"}
@@ -35,7 +35,7 @@ _NAMES = {"shaft.sections": ("0",)} | dict.fromkeys(_SECTIONS, ("n",))
 
 def _fields(root: type[BaseModel]) -> list[tuple[str, ...]]:
     """Return the places of all options that have a row."""
-    names = {name: known for name, known in _NAMES.items() if root is ShaftCase or name == "markers"}
+    names = {name: known for name, known in _NAMES.items() if root is MachineCase or name == "markers"}
     nodes = (node for top in outline(root, names) for node in top.walk())
     return [keys for node in nodes for group in node.groups for keys in group.fields]
 
@@ -109,8 +109,8 @@ def test_labels_are_words() -> None:
     assert label_of(("bearings", "left", "outer"), "outer") == "outer ring sits in"
     assert label_of(("materials", "outer"), "outer") == "outer ring"
     assert label_of(("lubricant", "temperature"), "temperature") == "temperature"
-    places = {".".join(keys[-2:]) for root in (Case, ShaftCase) for keys in _fields(root)}
-    places |= {f"{keys[0]}.{keys[2]}" for keys in _fields(ShaftCase) if len(keys) == 3}
+    places = {".".join(keys[-2:]) for root in (Case, MachineCase) for keys in _fields(root)}
+    places |= {f"{keys[0]}.{keys[2]}" for keys in _fields(MachineCase) if len(keys) == 3}
     assert [place for place in _LABELS if place not in places | {place.split(".")[-1] for place in places}] == []
 
 

@@ -21,7 +21,7 @@ from textual.pilot import Pilot
 
 from lambda_core import api
 from lambda_core.case.draft import draft_of
-from lambda_core.case.shaft import ShaftCase
+from lambda_core.case.machine import MachineCase
 from lambda_core.domain.option_tree import option_paths
 from lambda_core.domain.roles import ROLES
 from lambda_core.model.machine_templates import geared_shaft
@@ -82,7 +82,7 @@ def answered(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def nodes() -> list[Node]:
-    return [node for top in outline(ShaftCase, NAMES) for node in top.walk()]
+    return [node for top in outline(MachineCase, NAMES) for node in top.walk()]
 
 
 def test_every_option_of_a_shaft_has_exactly_one_place() -> None:
@@ -93,13 +93,13 @@ def test_every_option_of_a_shaft_has_exactly_one_place() -> None:
     shown |= {".".join(keys) for node in nodes() for keys in node.in_file}
     shown |= {".".join(node.table) for node in nodes() if node.kind == "named"}
     named = {name for name in NAMES if "." not in name}
-    for path in option_paths(ShaftCase):
+    for path in option_paths(MachineCase):
         if path in (*named, "parameters"):
             continue
         path = path.replace("sections.", "sections.0.")
         assert path in shown or path.rpartition(".")[0] in shown, path
     for section, (name,) in NAMES.items():
-        table = ShaftCase.model_fields[section].annotation.__args__[1] if section in named else None  # type: ignore
+        table = MachineCase.model_fields[section].annotation.__args__[1] if section in named else None  # type: ignore
         for path in option_paths(table) if table is not None else ():
             if path.startswith("forces.") and (path.endswith("parameters") or not has_role(path)):
                 continue  # parameters stand under their role
@@ -242,7 +242,7 @@ def test_pieces_of_a_list_come_and_go_with_their_comments() -> None:
     from lambda_core.case.draft import draft_of
 
     draft = draft_of(text, None)
-    assert draft.is_shaft
+    assert draft.is_machine_case
     one, two = draft.get("shaft", "sections")
     draft.set("shaft", "sections", value=[one, {"length": "3 mm"}, two])
     draft.set("shaft", "sections", "2", "length", value="4 mm")
@@ -258,7 +258,7 @@ def test_pieces_of_a_list_come_and_go_with_their_comments() -> None:
 
 
 def test_the_schema_of_shafts_knows_every_table() -> None:
-    assert set(api.schema()["$defs"]["ShaftCase"]["properties"]) == set(ShaftCase.model_fields)
+    assert set(api.schema()["$defs"]["MachineCase"]["properties"]) == set(MachineCase.model_fields)
 
 
 HOUSED = """

@@ -16,7 +16,7 @@ from lambda_gui.checking import Checker
 from lambda_core import api
 from lambda_core.case.case import merged
 from lambda_core.case.case_writer import tables_toml
-from lambda_core.case.shaft import ShaftCase
+from lambda_core.case.machine import MachineCase
 from lambda_core.domain.errors import Problem
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine
@@ -95,7 +95,7 @@ def test_it_is_said_everywhere(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert json.loads(capsys.readouterr().out)["warnings"] == [sentence]
     assert main(["check", str(case)]) == 0
     assert f"WARNING          {sentence}" in " ".join(capsys.readouterr().out.split("\n"))
-    checker = Checker(ShaftCase)
+    checker = Checker(MachineCase)
     assert checker.check(changed, None).warnings == (sentence,)
     checker.close()
 

@@ -25,7 +25,7 @@ from lambda_core.solver.drivers.equilibrium import Equilibrium, solve, solve_nea
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
     from lambda_core.case.fitted import FitOrigin
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 
@@ -67,7 +67,7 @@ class Effect:
 
 @one_blas_thread()
 def model_band(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     quantities: Sequence[str] = QUANTITIES,

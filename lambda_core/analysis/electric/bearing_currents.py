@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from lambda_core.analysis.electric.inversion import FilmOutcome
     from lambda_core.analysis.electric.simulation import CircuitSimulation, Simulation
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
 
-    Source = str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel
+    Source = str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel
 
 
 @answers

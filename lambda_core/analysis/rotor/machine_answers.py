@@ -53,7 +53,7 @@ def modes(
 
     Parameters
     ----------
-    source : str, Path, mapping, ShaftCase or MachineModel
+    source : str, Path, mapping, MachineCase or MachineModel
         File, plain tables as they stand in one, a case, or what :func:`check` returned.
     overrides : iterable of str
         Changes ``path=value``.

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from lambda_core.analysis.thermal.machine_temperatures import MachineLoop
     from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.views.chart import ViewData
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 @answers
 @one_blas_thread()
 def thermal(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     announce: Callable[[str], None] | None = None,
@@ -35,7 +35,7 @@ def thermal(
 
     Parameters
     ----------
-    source : str, Path, mapping, Case, ShaftCase, BearingModel or MachineModel
+    source : str, Path, mapping, Case, MachineCase, BearingModel or MachineModel
         A case as for :func:`check`: the losses are those of its quasi-static point at t = 0, without a cage, which
         follows the temperatures. Or the result file of a run: the losses are its averages, the cage's among them.
     overrides : iterable of str
@@ -78,7 +78,7 @@ def thermal(
 @answers
 @one_blas_thread()
 def warm_up(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | MachineModel,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
     duration: float,
     overrides: Iterable[str] = (),
     *,

@@ -152,7 +152,7 @@ def ready_machine_of(
 
     Parameters
     ----------
-    source : str, Path, mapping, ShaftCase or MachineModel
+    source : str, Path, mapping, MachineCase or MachineModel
         As for :func:`check`, or what it returned.
     overrides : iterable of str
         Changes ``path=value``.

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.given import Coupling
@@ -42,7 +42,7 @@ _FIXED_TIME = (1980, 1, 1, 0, 0, 0)  # of files in the archive: the same case ma
 
 
 def export_fmu(
-    source: str | Path | Mapping[str, Any] | Case | ShaftCase,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase,
     overrides: Iterable[str] = (),
     *,
     out: str | Path | None = None,
@@ -164,7 +164,7 @@ def _write(task: Mapping[str, Any], announce: Callable[[str], None] | None) -> N
     case = read_case(toml_tables(text, "case"))
     options = {option.path: option for option in varied(task["vary"], case)}
 
-    def ready(case: Case | ShaftCase, announce: Callable[[str], None] | None = None) -> BearingModel | MachineModel:
+    def ready(case: Case | MachineCase, announce: Callable[[str], None] | None = None) -> BearingModel | MachineModel:
         if isinstance(case, Case):
             return ready_model(case, (), announce)
         return ready_machine_of(case, (), announce)

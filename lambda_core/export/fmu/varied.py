@@ -12,7 +12,7 @@ from lambda_core.domain.units import UNITS, parse
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
 
 _NUMBER = re.compile(r"\s*[+-]?[\d.]+(e[+-]?\d+)?\s*", re.IGNORECASE)
 _SI = {"temperature": "K"}
@@ -55,7 +55,7 @@ class Varied:
         return f"{self.path}={value!r} {self.unit}" if self.quantity else f"{self.path}={value!r}"
 
 
-def varied(texts: Iterable[str], case: Case | ShaftCase) -> tuple[Varied, ...]:
+def varied(texts: Iterable[str], case: Case | MachineCase) -> tuple[Varied, ...]:
     """Read ``path=low..high`` with the case's own value as the start.
 
     Raises
@@ -72,7 +72,7 @@ def varied(texts: Iterable[str], case: Case | ShaftCase) -> tuple[Varied, ...]:
     return found
 
 
-def _read(text: str, written: Mapping[str, Any], case: Case | ShaftCase) -> Varied:
+def _read(text: str, written: Mapping[str, Any], case: Case | MachineCase) -> Varied:
     path, equals, span = text.partition("=")
     low, dots, high = span.partition("..")
     path, low, high = path.strip(), low.strip(), high.strip()
@@ -99,7 +99,7 @@ def _read(text: str, written: Mapping[str, Any], case: Case | ShaftCase) -> Vari
     return Varied(path, quantity, lowest, start, highest)
 
 
-def _check_known(path: str, value: str, case: Case | ShaftCase) -> None:
+def _check_known(path: str, value: str, case: Case | MachineCase) -> None:
     """Raise UsageError when no case says such an option, or none such a value."""
     from lambda_core.case.case_io import apply_overrides
 

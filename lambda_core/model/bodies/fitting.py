@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from lambda_core.case.shaft import ShaftBearing, ShaftCase
+from lambda_core.case.machine import MachineBearing, MachineCase
 from lambda_core.domain.units import show
 from lambda_core.model.machine_model import MountedBearing
 
@@ -34,7 +34,7 @@ class _Span:
         return f"{self.name} ({_mm(self.begin)} to {_mm(self.end)})"
 
 
-def fitting_warnings(case: ShaftCase, bearings: Sequence[MountedBearing], outline: Outline) -> tuple[str, ...]:
+def fitting_warnings(case: MachineCase, bearings: Sequence[MountedBearing], outline: Outline) -> tuple[str, ...]:
     """Return a sentence for everything on a shaft that cannot stand there as it is drawn.
 
     Nothing of it changes the equilibrium, which knows bearings by their places alone; so it is no mistake of the case:
@@ -42,7 +42,7 @@ def fitting_warnings(case: ShaftCase, bearings: Sequence[MountedBearing], outlin
 
     Parameters
     ----------
-    case : ShaftCase
+    case : MachineCase
         With positions in place of markers.
     outline : sequence of (float, float, float, float)
         Begin, end, diameter and bore of each section [m]; empty for a shaft from outside, whose shape nobody knows.
@@ -66,7 +66,7 @@ def _span(bearing: MountedBearing) -> _Span:
     return _Span(bearing.name, bearing.position - half, bearing.position + half)
 
 
-def _on_seat(bearing: MountedBearing, given: ShaftBearing, span: _Span, outline: Outline) -> Iterator[str]:
+def _on_seat(bearing: MountedBearing, given: MachineBearing, span: _Span, outline: Outline) -> Iterator[str]:
     """Compare the bore with the pieces of the shaft under the ring; the one that is farthest off is named."""
     bore, width = bearing.model.geometry.bore_diameter, span.end - span.begin
     fit = max(_SEAT, _SEAT_SHARE * bore)
@@ -103,7 +103,7 @@ def _on_shaft(span: _Span, left: float, right: float) -> Iterator[str]:
             yield f"{span} stands out {_mm(beyond)} beyond the {side} end of the shaft, {_mm(right - left)} long"
 
 
-def _wheels(case: ShaftCase, spans: Sequence[_Span], outline: Outline) -> Iterator[str]:
+def _wheels(case: MachineCase, spans: Sequence[_Span], outline: Outline) -> Iterator[str]:
     """Compare gears, of which only the middle is known, and discs that have a shape with bearings and shaft."""
     for name, gear in case.gears.items():
         for span in spans:

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lambda_core.case.machine import MachineCase
+from lambda_core.case.machine_parts import Placed
 from lambda_core.case.motion import Marker
-from lambda_core.case.shaft import ShaftCase
-from lambda_core.case.shaft_parts import Placed
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.units import show
@@ -54,7 +54,7 @@ class Places:
         return self.markers[name].body if name in self.markers else GROUND
 
 
-def places(case: ShaftCase, outside: ElasticBody | None, ledger: Ledger) -> Places:
+def places(case: MachineCase, outside: ElasticBody | None, ledger: Ledger) -> Places:
     """Return where everything stands; what is wrong with it is noted.
 
     Where the shaft comes from a file that cannot be read, names that nobody knows may be those of its nodes.
@@ -95,7 +95,7 @@ def places(case: ShaftCase, outside: ElasticBody | None, ledger: Ledger) -> Plac
     return Places(found, carriers, markers)
 
 
-def _placed(case: ShaftCase) -> Iterator[tuple[str, str, Placed]]:
+def _placed(case: MachineCase) -> Iterator[tuple[str, str, Placed]]:
     """Yield table, path and part of everything that stands somewhere."""
     for table in _PLACED:
         yield from ((table, f"{table}.{name}", part) for name, part in getattr(case, table).items())
@@ -103,7 +103,7 @@ def _placed(case: ShaftCase) -> Iterator[tuple[str, str, Placed]]:
         yield "shaft", SUPPORT, case.shaft.support
 
 
-def _coupling(case: ShaftCase, outside: ElasticBody | None) -> float:
+def _coupling(case: MachineCase, outside: ElasticBody | None) -> float:
     """Return where the coupling stands [m]."""
     if case.shaft.drive is not None:
         return case.shaft.drive
@@ -135,7 +135,7 @@ def _fits(table: str, where: str, marker: str, place: Place, ledger: Ledger) -> 
 
 
 def _ends(
-    case: ShaftCase, carriers: Mapping[str, int], markers: Mapping[str, Place], found: Mapping[str, Place],
+    case: MachineCase, carriers: Mapping[str, int], markers: Mapping[str, Place], found: Mapping[str, Place],
     ledger: Ledger,
 ) -> None:  # fmt: skip
     """Check what carries outer rings, and the other ends of springs."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from lambda_core.case.holding import Dof
-from lambda_core.case.shaft import ShaftBearing
+from lambda_core.case.machine import MachineBearing
 from lambda_core.domain.elements import POSE
 from lambda_core.formulas.ratings import dynamic_rating, fatigue_load_limit, static_rating
 from lambda_core.model.bearing_model import BearingModel, TimeFunction
@@ -19,7 +19,7 @@ _SIGN = {"+x": 1, "-x": -1, None: 0}
 
 
 def mounted(
-    name: str, given: ShaftBearing, model: BearingModel, carrier: int, growth: float, ledger: Ledger
+    name: str, given: MachineBearing, model: BearingModel, carrier: int, growth: float, ledger: Ledger
 ) -> MountedBearing:
     """Return a bearing at its place, its outer ring where preload and the housing's growth put it.
 
@@ -68,7 +68,7 @@ def mounted(
     )
 
 
-def refuse_motion(name: str, given: ShaftBearing, is_carried: bool, ledger: Ledger) -> None:
+def refuse_motion(name: str, given: MachineBearing, is_carried: bool, ledger: Ledger) -> None:
     """Note motions of a ring that something else decides; `is_carried`: by a body or an elastic housing."""
     for dof in POSE:
         where, motion = f"bearings.{name}.support.{dof}.motion", getattr(given.support, dof).motion
@@ -84,7 +84,7 @@ def refuse_motion(name: str, given: ShaftBearing, is_carried: bool, ledger: Ledg
             ledger.problem(where, "`preload_force` makes the ring slide along x; give either it or this motion")
 
 
-def axial_play(given: ShaftBearing, model: BearingModel) -> float:
+def axial_play(given: MachineBearing, model: BearingModel) -> float:
     """Return how far the inner ring moves from the middle until balls touch, as bought, without load [m].
 
     A sin(alpha_0) with cos(alpha_0) = 1 - G_r/(2 A), A = r_i + r_o - D_w (Harris and Kotzalas 2006, eq. 2.9). What fits
@@ -97,7 +97,7 @@ def axial_play(given: ShaftBearing, model: BearingModel) -> float:
     return distance * math.sqrt(max(0.0, 1.0 - cosine**2))
 
 
-def _seat(name: str, given: ShaftBearing, model: BearingModel, carrier: int, ledger: Ledger) -> tuple[float, ...]:
+def _seat(name: str, given: MachineBearing, model: BearingModel, carrier: int, ledger: Ledger) -> tuple[float, ...]:
     """Return the stiffness of the seat; one that is locked in a body that moves is very stiff, tilts at its radius."""
     found = [_stiffness(given, dof) for dof in POSE]
     if carrier == GROUND or not any(map(math.isinf, found)):
@@ -110,7 +110,7 @@ def _seat(name: str, given: ShaftBearing, model: BearingModel, carrier: int, led
     )
 
 
-def _stiffness(given: ShaftBearing, dof: str) -> float:
+def _stiffness(given: MachineBearing, dof: str) -> float:
     """Return the housing's stiffness in a degree of freedom; inf where locked, 0 where free."""
     held: Dof = getattr(given.support, dof)
     return 0.0 if dof == "x" and given.preload_force is not None and held.mode == "locked" else held.hold

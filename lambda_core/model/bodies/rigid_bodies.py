@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from lambda_core.case.holding import Dof
-from lambda_core.case.shaft import ShaftCase
-from lambda_core.case.shaft_parts import PointLoad, ShaftBody
+from lambda_core.case.machine import MachineCase
+from lambda_core.case.machine_parts import MachineBody, PointLoad
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE
@@ -30,11 +30,11 @@ from lambda_core.model.machine_model import (
     PLACES,
     SHAFT,
     MachineLink,
+    MachineSpring,
     MountedBearing,
     Place,
     RigidBody,
     ShaftHold,
-    ShaftSpring,
 )
 
 FORCE_ELEMENT = "force_element"
@@ -46,12 +46,12 @@ _FARTHEST = 0.1  # [m, rad] that anything is led: seats and housings move by mic
 _FAR_BEYOND = 1000.0  # times the static ratings: pressures ten times those that dent it
 
 
-def rigid_bodies(case: ShaftCase, catalogue: Catalogue, ledger: Ledger) -> tuple[RigidBody, ...]:
+def rigid_bodies(case: MachineCase, catalogue: Catalogue, ledger: Ledger) -> tuple[RigidBody, ...]:
     """Return the bodies other than the shaft, masses given or from their shapes."""
     return tuple(_rigid(name, given, catalogue, ledger) for name, given in case.bodies.items())
 
 
-def _rigid(name: str, given: ShaftBody, catalogue: Catalogue, ledger: Ledger) -> RigidBody:
+def _rigid(name: str, given: MachineBody, catalogue: Catalogue, ledger: Ledger) -> RigidBody:
     mass, polar, transverse, extent = 0.0, 0.0, 0.0, (0.0, 0.0, 0.0)
     if given.length is not None:
         material = body_material(given.material, f"bodies.{name}.material", catalogue, ledger)
@@ -92,7 +92,7 @@ def refuse_far(where: str, dof: str, motion: TimeFunction, ledger: Ledger) -> No
         ledger.problem(where, f"goes to {far}, at most {most}: is the unit right?")
 
 
-def connections(case: ShaftCase, stand: Places, ledger: Ledger) -> tuple[ShaftSpring, ...]:
+def connections(case: MachineCase, stand: Places, ledger: Ledger) -> tuple[MachineSpring, ...]:
     """Return springs, dampers and bushings, along the axes of the case."""
     found = []
     for name, given in case.connections.items():
@@ -105,11 +105,11 @@ def connections(case: ShaftCase, stand: Places, ledger: Ledger) -> tuple[ShaftSp
             matrices.append(_along(place).T @ own @ _along(place))
         if SHAFT in (place.body, to) and max(np.abs(matrix[3]).max() for matrix in matrices) > _ROUNDING:
             ledger.problem(f"connections.{name}.tilt_x", "would prevent rotation of the shaft; remove it")
-        found.append(ShaftSpring(name, place, to, *matrices))
+        found.append(MachineSpring(name, place, to, *matrices))
     return (*found, *_elastic_support(case, stand))
 
 
-def _elastic_support(case: ShaftCase, stand: Places) -> list[ShaftSpring]:
+def _elastic_support(case: MachineCase, stand: Places) -> list[MachineSpring]:
     """Return springs and dampers of the support of the shaft."""
     support = case.shaft.support
     held = [getattr(support, dof) for dof in POSE]
@@ -120,10 +120,10 @@ def _elastic_support(case: ShaftCase, stand: Places) -> list[ShaftSpring]:
         own = np.zeros(NODE)
         own[list(PLACES)] = [getattr(one, kind) for one in held]
         matrices.append(np.diag(own))
-    return [ShaftSpring("shaft support", stand.of[SUPPORT], GROUND, *matrices)]
+    return [MachineSpring("shaft support", stand.of[SUPPORT], GROUND, *matrices)]
 
 
-def shaft_hold(case: ShaftCase, stand: Places, ledger: Ledger) -> ShaftHold | None:
+def shaft_hold(case: MachineCase, stand: Places, ledger: Ledger) -> ShaftHold | None:
     """Return where the ground holds the shaft without giving way; None where it is free."""
     lead: list[TimeFunction | None] = []
     for dof in POSE:
@@ -137,7 +137,7 @@ def shaft_hold(case: ShaftCase, stand: Places, ledger: Ledger) -> ShaftHold | No
 
 
 def resolve_links(
-    case: ShaftCase, stand: Places, registry: ModelSource, ledger: Ledger
+    case: MachineCase, stand: Places, registry: ModelSource, ledger: Ledger
 ) -> tuple[tuple[MachineLink, ...], dict[str, dict[str, ChosenLaw]]]:
     """Return connections by laws, and the laws as a model names them."""
     links, laws = [], {}
@@ -168,7 +168,7 @@ def _along(place: Place) -> FloatArray:
 
 
 def all_loads(
-    case: ShaftCase, stand: Places, body: ElasticBody, bodies: Sequence[RigidBody], gears: Mapping[str, GearForces]
+    case: MachineCase, stand: Places, body: ElasticBody, bodies: Sequence[RigidBody], gears: Mapping[str, GearForces]
 ) -> tuple[FloatArray, tuple[tuple[int, TimeFunction], ...]]:
     """Return forces and moments at t = 0 on shaft nodes and bodies, and those that change with their rows."""
     size = body.mass.shape[0]
@@ -206,7 +206,7 @@ def _components(load: PointLoad) -> list[TimeFunction]:
 
 
 def refuse_far_beyond(
-    case: ShaftCase, gears: Mapping[str, GearForces], bearings: Sequence[MountedBearing], ledger: Ledger
+    case: MachineCase, gears: Mapping[str, GearForces], bearings: Sequence[MountedBearing], ledger: Ledger
 ) -> None:
     """Note gears and loads that no contact law was made for, before balls are pressed through rings."""
     static = sum(bearing.static_rating for bearing in bearings)

@@ -21,10 +21,10 @@ from lambda_core.model.ledger import Ledger
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
-    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.machine import MachineCase
     from lambda_core.model.laws.resolve_laws import ModelSource
 
-    C = TypeVar("C", Case, ShaftCase)
+    C = TypeVar("C", Case, MachineCase)
 
 ROLE = "time_function"
 _USUAL, _LOOKS = 1.0, 4001  # time that is looked at where the case has no end [s]; how often

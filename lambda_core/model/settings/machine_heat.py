@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from lambda_core.case.shaft import ShaftCase
+from lambda_core.case.machine import MachineCase
 from lambda_core.case.thermal import MachineThermal, Thermal, ThermalNode
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import unknown_name
@@ -62,7 +62,7 @@ class MachineHeat:
     housing: BodyMaterial
 
 
-def check_heat(case: ShaftCase, ledger: Ledger) -> None:
+def check_heat(case: MachineCase, ledger: Ledger) -> None:
     """Note what is wrong with temperatures and surroundings, whatever the shaft is."""
     section = case.thermal
     check_surroundings(section, ledger)
@@ -84,7 +84,7 @@ def check_heat(case: ShaftCase, ledger: Ledger) -> None:
 
 
 def resolve_heat(
-    case: ShaftCase,
+    case: MachineCase,
     bearings: Sequence[str],
     body: ElasticBody,
     materials: tuple[BodyMaterial, BodyMaterial],
@@ -94,7 +94,7 @@ def resolve_heat(
 
     Parameters
     ----------
-    case : ShaftCase
+    case : MachineCase
         With positions in place of markers.
     bearings : sequence of str
         Names, from left to right.
@@ -174,19 +174,19 @@ def heat_assumptions(section: MachineThermal) -> list[str]:
     return found
 
 
-def _effective(section: MachineThermal, case: ShaftCase, name: str) -> Thermal:
+def _effective(section: MachineThermal, case: MachineCase, name: str) -> Thermal:
     own = case.bearings[name].thermal
     names = ("inlet", "seat_conductance", "oil_volume", "oil_flow", "oil_supply")
     return section.model_copy(update={key: value for key in names if (value := getattr(own, key)) is not None})
 
 
-def _own_nodes(case: ShaftCase) -> dict[str, ThermalNode]:
+def _own_nodes(case: MachineCase) -> dict[str, ThermalNode]:
     return {
         f"{name}.{key}": node for name, bearing in case.bearings.items() for key, node in bearing.thermal.nodes.items()
     }
 
 
-def _shaft_nodes(case: ShaftCase, body: ElasticBody) -> tuple[str, ...]:
+def _shaft_nodes(case: MachineCase, body: ElasticBody) -> tuple[str, ...]:
     """Return the names of the shaft's nodes: of a bearing, gear, disc or marker, of the ends, otherwise numbers."""
     named = [(name, gear.place) for name, gear in case.gears.items()]
     named += [(name, disc.place) for name, disc in case.discs.items()]
@@ -219,7 +219,7 @@ def _pairs(bearings: Mapping[str, Thermal], section: MachineThermal, shaft: Sequ
     return found
 
 
-def _check_computed(case: ShaftCase, ledger: Ledger) -> None:
+def _check_computed(case: MachineCase, ledger: Ledger) -> None:
     """Refuse temperatures that are given and to be found at once."""
     found = 'is found where operation.temperatures = "computed"'
     for where, section in (("shaft", case.shaft), ("housing", case.housing)):

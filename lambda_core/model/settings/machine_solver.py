@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 from typing import Any
 
-from lambda_core.case.shaft import ShaftCase
+from lambda_core.case.machine import MachineCase
 from lambda_core.domain.elements import POSE
 from lambda_core.model.bodies.rigid_bodies import LOADS
 from lambda_core.model.laws.time_functions import highest_frequency, peak, time_function
@@ -23,7 +23,7 @@ from lambda_core.model.settings.resolve_solver import (
 )
 
 
-def changing(case: ShaftCase) -> list[tuple[str, Any]]:
+def changing(case: MachineCase) -> list[tuple[str, Any]]:
     """Return the path of everything that loads or leads the shaft, and its value or course."""
     found: list[tuple[str, Any]] = [
         ("operation.speed", case.operation.speed),
@@ -39,7 +39,7 @@ def changing(case: ShaftCase) -> list[tuple[str, Any]]:
     return found
 
 
-def refuse_settings(case: ShaftCase, ledger: Ledger) -> None:
+def refuse_settings(case: MachineCase, ledger: Ledger) -> None:
     """Note settings that cannot be, whatever the shaft and its bearings are."""
     given = case.solver
     resolution(given, _excitation(case), "", ledger, is_silent=True)
@@ -48,12 +48,12 @@ def refuse_settings(case: ShaftCase, ledger: Ledger) -> None:
         end_in_sight(given, None, end, math.inf, ledger)
 
 
-def with_settings(case: ShaftCase, model: MachineModel, ledger: Ledger) -> MachineModel:
+def with_settings(case: MachineCase, model: MachineModel, ledger: Ledger) -> MachineModel:
     """Return the machine with bearings that are all followed alike: vibrations where one of them asks for that.
 
     Parameters
     ----------
-    case : ShaftCase
+    case : MachineCase
         What the engineer wrote, without mistakes.
     model : MachineModel
         Whose bearings were resolved each by itself.
@@ -78,7 +78,7 @@ def with_settings(case: ShaftCase, model: MachineModel, ledger: Ledger) -> Machi
     return replace(model, bearings=bearings, assumptions=tuple(ledger.assumptions))
 
 
-def _excitation(case: ShaftCase) -> float:
+def _excitation(case: MachineCase) -> float:
     """Return the highest frequency at which the shaft is loaded or moved [Hz]; 0 where it is not."""
     return highest_frequency(*(time_function(signal) for _, signal in changing(case)))
 

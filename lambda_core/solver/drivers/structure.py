@@ -12,7 +12,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bodies.locations import carried
-from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel, ShaftSpring
+from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel, MachineSpring
 
 _RING = np.array(PLACES)
 
@@ -69,7 +69,7 @@ def ring_in(model: MachineModel, rows: Rows, index: int) -> FloatArray:
     return found
 
 
-def stretch(model: MachineModel, rows: Rows, spring: ShaftSpring) -> FloatArray:
+def stretch(model: MachineModel, rows: Rows, spring: MachineSpring) -> FloatArray:
     """Return how the body of a spring moves and turns against the other one at its place, shape (6, size)."""
     found: FloatArray = np.zeros((NODE, rows.size))
     for sign, body in ((1.0, spring.place.body), (-1.0, spring.to)):

@@ -108,7 +108,7 @@ class BodySupport(Section):
     tilt_z: Tilt = option("free", "rotation about z, likewise")
 
 
-class ShaftBody(Section):
+class MachineBody(Section):
     """A rigid body such as a housing: mass and inertia, or a shape, and the supports of its centre of mass."""
 
     INSTEAD: ClassVar[Mapping[str, str]] = {
@@ -133,7 +133,7 @@ class ShaftBody(Section):
     support: BodySupport = option({}, "how the ground holds its centre")
 
     @model_validator(mode="after")
-    def _has_a_mass(self) -> ShaftBody:
+    def _has_a_mass(self) -> MachineBody:
         round_, box = self.diameter is not None, self.width is not None or self.height is not None
         if round_ and box:
             raise ValueError("give either `diameter` (cylinder) or `width` and `height` (box), not both")

@@ -1,4 +1,4 @@
-"""The case of a shaft in several bearings: its sections, what stands on it, how it is held and loaded."""
+"""The case of a machine: a shaft in several bearings, what stands on it, how it is held and loaded."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from lambda_core.case.elastic import Elastic
 from lambda_core.case.electric import MachineElectric
 from lambda_core.case.fitted import FitOrigin
 from lambda_core.case.holding import SeatTilt, SeatTranslation
+from lambda_core.case.machine_parts import (
+    Connection,
+    Gear,
+    MachineBody,
+    Placed,
+    PointLoad,
+    ShaftDisc,
+    ShaftSupport,
+)
 from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters, Solver
 from lambda_core.case.motion import CageBody, Gravity, Marker, RingBody, TurningRing
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, OwnLubricant, Surface
 from lambda_core.case.requirements import Life, Requirements
-from lambda_core.case.shaft_parts import (
-    Connection,
-    Gear,
-    Placed,
-    PointLoad,
-    ShaftBody,
-    ShaftDisc,
-    ShaftSupport,
-)
 from lambda_core.case.signals import MomentSignal, SpeedSignal
 from lambda_core.case.thermal import BearingThermal, MachineThermal, PlaceTemperature, rising
 from lambda_core.domain.elements import POSE
@@ -152,7 +152,7 @@ class Support(Section):
     tilt_z: SeatTilt = option("locked", "rotation about z, likewise")
 
 
-class ShaftBearing(Bearing, Placed):
+class MachineBearing(Bearing, Placed):
     """A bearing on the shaft: which one it is, as in the case of one bearing, and how it sits."""
 
     INSTEAD: ClassVar[Mapping[str, str]] = {
@@ -188,7 +188,7 @@ class ShaftBearing(Bearing, Placed):
     parameters: Parameters = option({}, "what differs from [parameters], role by role")
 
     @model_validator(mode="after")
-    def _sits(self) -> ShaftBearing:
+    def _sits(self) -> MachineBearing:
         preloaded = self.preload is not None or self.preload_force is not None
         if preloaded and self.takes is None:
             raise ValueError('a preload needs takes = "+x" or "-x": the force on the shaft that it makes it carry')
@@ -199,7 +199,7 @@ class ShaftBearing(Bearing, Placed):
         return self
 
 
-class ShaftOperation(Section):
+class MachineOperation(Section):
     """What turns the shaft."""
 
     speed: SpeedSignal = option(
@@ -214,7 +214,7 @@ class ShaftOperation(Section):
     )
 
 
-class ShaftCase(Written):
+class MachineCase(Written):
     """What the file of a shaft says; values in SI, written as unit strings."""
 
     INSTEAD: ClassVar[Mapping[str, str]] = {
@@ -222,9 +222,9 @@ class ShaftCase(Written):
     }
 
     shaft: Shaft = option(description="the shaft")
-    bearings: dict[str, ShaftBearing] = option(description="its bearings, by name", min_length=1)
+    bearings: dict[str, MachineBearing] = option(description="its bearings, by name", min_length=1)
     markers: dict[str, Marker] = option({}, "named places on the shaft, on bodies and on the ground, by name")
-    bodies: dict[str, ShaftBody] = option({}, "other rigid bodies, such as flexibly mounted housings, by name")
+    bodies: dict[str, MachineBody] = option({}, "other rigid bodies, such as flexibly mounted housings, by name")
     discs: dict[str, ShaftDisc] = option({}, "rigid bodies on the shaft, by name")
     loads: dict[str, PointLoad] = option({}, "forces and moments on the shaft and on bodies, by name")
     gears: dict[str, Gear] = option({}, "gears on the shaft, by name")
@@ -232,7 +232,7 @@ class ShaftCase(Written):
         {}, "springs, dampers and laws of forces between shaft, bodies and ground, by name"
     )
     housing: Housing = option({}, "the housing")
-    operation: ShaftOperation = option(description="what turns the shaft")
+    operation: MachineOperation = option(description="what turns the shaft")
     lubricant: Lubricant = option(description="the oil")
     materials: Materials = option({}, "materials of the bearings' parts")
     surface: Surface = option({}, "surfaces")
