@@ -245,7 +245,7 @@ class Machine:
         return self
 
     def _merge(self, changes: Mapping[str, Any]) -> None:
-        from lambda_core.case.case import merged
+        from lambda_core.case.written import merged
 
         self._tables = merged(self._tables, changes)
 

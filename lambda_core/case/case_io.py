@@ -10,38 +10,25 @@ from dataclasses import dataclass, replace
 from functools import cache
 from os import PathLike
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Any, Protocol
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel
 
 from lambda_core.case.builtin import builtin_cases, builtin_text, is_builtin
-from lambda_core.case.case import Case, Written, merged
-from lambda_core.case.machine import NAMED, TAKEN, MachineCase
-from lambda_core.case.machine_parts import length_in
-from lambda_core.case.option import NAME_PATTERN
-from lambda_core.case.salvage import ONE_BEARING, SHARED_STAND_INS, InvalidCase, StandIns, invalid_case
+from lambda_core.case.case import Case
+from lambda_core.case.machine import MachineCase
+from lambda_core.case.written import C, merged, validate
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
-from lambda_core.domain.handed_laws import named
 from lambda_core.domain.option_tree import field_at
 
 log = logging.getLogger("lambda_core")
 # As ISO 5753-1 names the classes; normal clearance, CN, is not written.
 _CLEARANCE_CLASS = re.compile(r"(?<=[/ ])C[1-5](?=[LHMP]?\b)")
-_DEEPEST = 20  # levels of tables and lists
 _LOCATION = re.compile(r"\(at (?:line (\d+), column (\d+)|end of document)\)")
 _BARE_UNIT = re.compile(r"^(\s*[\w.\"-]+\s*=\s*)([+-]?[\d.,]+\s*[A-Za-z/][^#\"]*?)\s*(#.*)?$")
-_LAWS_IN = ("models", "forces", "electric")  # where a program may hand over a law in place of its name
 _SOURCES = "give a file, the name of a built-in case, tables, a case or a machine"
 _FILES = 8  # most names that an error lists
-STAND_IN = "stand-in"  # a bearing where no other is left
-_PIECES = [{"length": "1 m", "diameter": "40 mm"}]
-_OF_A_MACHINE: StandIns = {
-    **SHARED_STAND_INS,
-    ("shaft",): {"sections": _PIECES},
-    ("shaft", "sections"): _PIECES,
-    ("bearings",): {STAND_IN: {"at": "0 mm"}},
-}
 
 
 class CaseWriter(Protocol):
@@ -219,47 +206,11 @@ def toml_tables(text: str, source: str) -> dict[str, Any]:
         raise CaseError(source, [Problem("", "is nested too deeply")]) from None
 
 
-C = TypeVar("C", bound=Written)
-
-
-def validate(root: type[C], data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> C:
-    """Check plain tables as a case of a class; InvalidCase with every mistake at once, and what is left without."""
-    if isinstance(data.get("parameters"), list) and "bearing" not in data:
-        raise CaseError(source, [Problem("", f"is a study, not a case: lambda-bearing study run {source}")])
-    if _is_deep(data):
-        raise CaseError(source, [Problem("", "is nested too deeply")])
-    data = {key: named(value) if key in _LAWS_IN else value for key, value in data.items()}
-    found = _names(data) if root is MachineCase else []
-    try:
-        case = root.model_validate(data, context={"folder": folder})
-    except ValidationError as error:
-        wrong = invalid_case(source, error, data, folder, root, _OF_A_MACHINE if root is MachineCase else ONE_BEARING)
-        raise InvalidCase(source, [*wrong.problems, *found], wrong.remainder) from None
-    if found:
-        raise InvalidCase(source, found, case)
-    return case
-
-
 def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> Case:
     """Check plain tables as the case of one bearing; CaseError with every problem at once."""
     if is_machine_case(data):
         raise CaseError(source, [Problem("", "is a machine of several bearings; this question is about one bearing")])
     return validate(Case, data, source, folder)
-
-
-def _names(data: Mapping[str, Any]) -> list[Problem]:
-    """Return what is wrong with the names of named parts of a machine, each at its own path."""
-    found = []
-    for table in NAMED:
-        parts = data.get(table)
-        for name in parts if isinstance(parts, Mapping) else ():
-            if not re.match(NAME_PATTERN, str(name)):
-                found.append(Problem(f"{table}.{name}", "use letters, digits, dot, dash and underscore in names"))
-            elif table == "markers" and length_in(str(name)) is not None:
-                found.append(Problem(f"{table}.{name}", "reads as a length: choose a name that does not"))
-            elif name in TAKEN.get(table, ()):
-                found.append(Problem(f"{table}.{name}", f'"{name}" is there already: choose another name'))
-    return found
 
 
 def is_machine(source: Any) -> bool:
@@ -296,19 +247,6 @@ def refuse_bearing(name: str | None) -> None:
 def is_machine_case(data: Mapping[str, Any]) -> bool:
     """Tell whether plain tables are those of a shaft in bearings, not of one bearing."""
     return "bearing" not in data and ("shaft" in data or "bearings" in data)
-
-
-def _is_deep(data: Any) -> bool:
-    """Tell whether tables and lists are nested beyond what any case needs, without a call for each level."""
-    level = [data]
-    for _ in range(_DEEPEST):
-        level = [
-            item for part in level if isinstance(part, (Mapping, list))
-            for item in (part.values() if isinstance(part, Mapping) else part)
-        ]  # fmt: skip
-        if not level:
-            return False
-    return True
 
 
 def syntax_problem(message: str, text: str) -> Problem:

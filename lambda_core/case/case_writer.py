@@ -17,10 +17,10 @@ from tomlkit.items import AoT, Array, Table, Trivia
 from tomlkit.toml_document import TOMLDocument
 
 from lambda_core.case.builtin import builtin_cases, builtin_text
-from lambda_core.case.case import Written
-from lambda_core.case.case_io import read_case, toml_tables, validate
+from lambda_core.case.case_io import read_case, toml_tables
 from lambda_core.case.electric import Series
 from lambda_core.case.signals import Table as TimeTableFile
+from lambda_core.case.written import Written, validate
 from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.domain.files import check_new, check_target
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any, ClassVar, Literal
 
 from pydantic import ValidationInfo, field_validator, model_validator
 
-from lambda_core.case.case import Written
 from lambda_core.case.elastic import Elastic
 from lambda_core.case.electric import MachineElectric
 from lambda_core.case.fitted import FitOrigin
@@ -20,15 +20,19 @@ from lambda_core.case.machine_parts import (
     PointLoad,
     ShaftDisc,
     ShaftSupport,
+    length_in,
 )
 from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters, Solver
 from lambda_core.case.motion import CageBody, Gravity, Marker, RingBody, TurningRing
-from lambda_core.case.option import Section, option
+from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, OwnLubricant, Surface
 from lambda_core.case.requirements import Life, Requirements
+from lambda_core.case.salvage import SHARED_STAND_INS, StandIns
 from lambda_core.case.signals import MomentSignal, SpeedSignal
 from lambda_core.case.thermal import BearingThermal, MachineThermal, PlaceTemperature, rising
+from lambda_core.case.written import Written
 from lambda_core.domain.elements import POSE
+from lambda_core.domain.errors import Problem
 from lambda_core.domain.units import Force, Length, SmallLength, Temperature
 
 # tables of the case of every bearing
@@ -65,6 +69,9 @@ _AROUND = (  # options of [thermal] that each bearing has as it stands there
 NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "connections")  # tables of named parts
 # Names that are there already; a bearing's result stands beside that of the whole, shaft.h5
 TAKEN = {"bearings": ("shaft",), "markers": ("shaft", "ground"), "bodies": ("shaft", "ground")}
+
+STAND_IN = "stand-in"  # a bearing where no other is left
+_PIECES = [{"length": "1 m", "diameter": "40 mm"}]
 
 
 class ShaftSection(Section):
@@ -220,6 +227,12 @@ class MachineCase(Written):
     INSTEAD: ClassVar[Mapping[str, str]] = {
         **dict.fromkeys(("springs", "elements"), "write [connections.NAME]"),
     }
+    STAND_INS: ClassVar[StandIns] = {
+        **SHARED_STAND_INS,
+        ("shaft",): {"sections": _PIECES},
+        ("shaft", "sections"): _PIECES,
+        ("bearings",): {STAND_IN: {"at": "0 mm"}},
+    }
 
     shaft: Shaft = option(description="the shaft")
     bearings: dict[str, MachineBearing] = option(description="its bearings, by name", min_length=1)
@@ -251,6 +264,21 @@ class MachineCase(Written):
     observers: Parameters = option({}, "channels that plugins add to every bearing: a table per observer")
     events: Parameters = option({}, "what plugins look out for in every bearing: a table per event")
     fit: FitOrigin | None = option(None, "where fitted values come from; written by the command fit")
+
+    @classmethod
+    def name_problems(cls, data: Mapping[str, Any]) -> list[Problem]:
+        """Return what is wrong with the names of named parts of a machine, each at its own path."""
+        found = []
+        for table in NAMED:
+            parts = data.get(table)
+            for name in parts if isinstance(parts, Mapping) else ():
+                if not re.match(NAME_PATTERN, str(name)):
+                    found.append(Problem(f"{table}.{name}", "use letters, digits, dot, dash and underscore in names"))
+                elif table == "markers" and length_in(str(name)) is not None:
+                    found.append(Problem(f"{table}.{name}", "reads as a length: choose a name that does not"))
+                elif name in TAKEN.get(table, ()):
+                    found.append(Problem(f"{table}.{name}", f'"{name}" is there already: choose another name'))
+        return found
 
 
 def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:

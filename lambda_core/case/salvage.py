@@ -12,7 +12,6 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from lambda_core.case.case import Case
 from lambda_core.case.problems import problems
 from lambda_core.domain.errors import CaseError, Problem
 
@@ -28,7 +27,6 @@ SHARED_STAND_INS: StandIns = {
     ("operation",): {"speed": "1000 rpm"},
     ("operation", "speed"): "1000 rpm",
 }
-ONE_BEARING: StandIns = {**SHARED_STAND_INS, ("bearing",): {}}
 
 
 class InvalidCase(CaseError):
@@ -55,8 +53,8 @@ def invalid_case(
     error: ValidationError,
     data: Mapping[str, Any],
     folder: Path | None,
-    root: type[BaseModel] = Case,
-    stand_ins: StandIns = ONE_BEARING,
+    root: type[BaseModel],
+    stand_ins: StandIns,
 ) -> InvalidCase:
     """Return the error that names every mistake in `data`, with what is left of the case, of one bearing or a shaft."""
     return InvalidCase(source, problems(error, root, data), _remainder(error, data, folder, root, stand_ins))

@@ -137,9 +137,9 @@ def init_case(
     if template == GEARED_SHAFT:
         import tomllib
 
-        from lambda_core.case.case_io import validate
         from lambda_core.case.case_writer import save_text
         from lambda_core.case.machine import MachineCase
+        from lambda_core.case.written import validate
         from lambda_core.domain.files import check_new
 
         validate(MachineCase, tomllib.loads(text), f'new machine "{name}"')

@@ -12,11 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from lambda_core.case.case import Case, merged
-from lambda_core.case.case_io import Source, read_tables, validate
+from lambda_core.case.case import Case
+from lambda_core.case.case_io import Source, read_tables
 from lambda_core.case.case_writer import tables_toml
 from lambda_core.case.machine import MachineCase, bearing_tables, place_in_machine
 from lambda_core.case.salvage import InvalidCase, related
+from lambda_core.case.written import merged, validate
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread

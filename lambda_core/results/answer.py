@@ -92,8 +92,7 @@ def _ask_again(
     question: Callable[..., Any], first: str, case: Tables, rest: Mapping[str, Any], changes: Mapping[str, Any]
 ) -> Any:
     """Ask about the changed case."""
-    from lambda_core.case.case import merged
-    from lambda_core.case.case_io import validate
+    from lambda_core.case.written import merged, validate
 
     return question(**{first: validate(case.root, merged(case.data, changes), case.name, case.folder), **rest})
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from lambda_core import api
-from lambda_core.case.case import merged
+from lambda_core.case.written import merged
 
 # Tests import the helpers of this folder by name.
 sys.path.insert(0, str(Path(__file__).parent))

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from lambda_core import api
-from lambda_core.case.case import merged
+from lambda_core.case.written import merged
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.machine_templates import geared_shaft
 

@@ -338,7 +338,7 @@ def test_any_value_anywhere_is_accepted_or_a_sentence(path: str, value: Any) -> 
     change: Any = value
     for part in reversed(path.split(".")):
         change = {part: change}
-    from lambda_core.case.case import merged
+    from lambda_core.case.written import merged
 
     for problem in api.problems(merged(VALID, change)):
         assert problem.where

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.case.case import merged
 from lambda_core.case.draft import draft_of
+from lambda_core.case.written import merged
 from lambda_core.model.checking import check_bearing
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.machine_model import MachineModel

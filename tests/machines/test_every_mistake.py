@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from lambda_core import api
-from lambda_core.case.case import merged
+from lambda_core.case.written import merged
 from lambda_core.model.machine_templates import geared_shaft
 
 

@@ -14,9 +14,9 @@ from lambda_cli.main import main
 from lambda_gui.checking import Checker
 
 from lambda_core import api
-from lambda_core.case.case import merged
 from lambda_core.case.case_writer import tables_toml
 from lambda_core.case.machine import MachineCase
+from lambda_core.case.written import merged
 from lambda_core.domain.errors import Problem
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.case.case import merged
+from lambda_core.case.written import merged
 from lambda_core.domain.elements import OUTER
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine

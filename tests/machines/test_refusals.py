@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.case.case import merged
+from lambda_core.case.written import merged
 from lambda_core.formulas.elastic.body import ElasticBody
 from lambda_core.formulas.elastic.reduced import write_reduced
 from lambda_core.formulas.elastic.whirl import craig_bampton

@@ -87,7 +87,7 @@ CIRCLES = {
         "bibtex citation",
     },
     "analysis/electric": {"outcome simulation"},
-    "case": {"case case_io salvage shaft"},
+    "case": set(),
 }
 
 

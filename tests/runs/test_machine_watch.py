@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.case.case import merged
+from lambda_core.case.written import merged
 from lambda_core.domain.channels import Channel
 from lambda_core.laws.parameter import NoParameters
 from lambda_core.model.bearing_model import ChosenEvent, ChosenObserver

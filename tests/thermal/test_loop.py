@@ -12,7 +12,7 @@ from warm_bearings import preloaded
 from lambda_core import api
 from lambda_core.analysis.thermal.feedback import BearingLoop, Runaway
 from lambda_core.analysis.thermal.losses import LossMap
-from lambda_core.case.case import merged
+from lambda_core.case.written import merged
 from lambda_core.domain.errors import CaseError, SolverError
 
 

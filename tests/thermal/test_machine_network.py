@@ -17,7 +17,7 @@ from lambda_core.analysis.thermal.conductances import rod
 from lambda_core.analysis.thermal.machine_temperature_report import MachineTemperatures, MachineTemperaturesOverTime
 from lambda_core.analysis.thermal.network import Network
 from lambda_core.analysis.thermal.surroundings import long_fin
-from lambda_core.case.case import merged
+from lambda_core.case.written import merged
 from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.formulas.elastic.sections import BodyMaterial
 from lambda_core.model.settings.machine_heat import stretch

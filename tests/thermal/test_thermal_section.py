@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from lambda_core import api
-from lambda_core.case.case import merged
+from lambda_core.case.written import merged
 
 LINK = {"between": ["housing", "flange"], "conductance": "2 W/K"}
 AIR = {"between": ["flange", "ambient"], "conductance": "1 W/K"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from lambda_core.case.case import merged
+from lambda_core.case.written import merged
 
 # Oil that is kept at one temperature, a cooled housing, a shaft that takes little heat: the classic way into preload.
 PRELOADED: dict[str, Any] = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from lambda_core.case.case import merged
+from lambda_core.case.written import merged
 
 # A smooth shaft in two equal bearings, its load in the middle.
 PAIR: dict[str, Any] = {

@@ -14,8 +14,8 @@ from lambda_core.analysis.thermal.feedback import INLET_STEP, LENGTH_STEP, Loop,
 from lambda_core.analysis.thermal.losses import Announce, Point, point_of
 from lambda_core.analysis.thermal.operating import averaged_losses
 from lambda_core.analysis.thermal.shaft_and_housing import network_of
-from lambda_core.case.case import merged
 from lambda_core.case.case_io import Source, toml_tables
+from lambda_core.case.written import merged
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.geometry.resolve_geometry import with_clearance

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from lambda_core.case.case_io import STAND_IN
+from lambda_core.case.machine import STAND_IN
 from lambda_core.case.salvage import related
 from lambda_core.domain.errors import Problem
 
