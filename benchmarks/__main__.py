@@ -24,7 +24,7 @@ NAMES = {
     "integrators": "CVODE and SciPy on the same right-hand side",
     "scaling": "number of balls, cells of a contact",
     "bearings": "number of bearings on a shaft",
-    "whole": "a shaft in motion over the sum of its bearings run alone",
+    "shaft_cost": "a shaft in motion over the sum of its bearings run alone",
     "operating_point": "quasi-static points",
     "foreign_law": "a traction law from another distribution",
     "startup": "cold and warm start of the command line; what each command costs, warm",

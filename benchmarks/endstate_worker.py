@@ -62,7 +62,7 @@ def shaft_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
     found = {}
     for bearing, own in result.bearings.items():
         found |= {f"{bearing}/{name}": value for name, value in _result(own).items()}
-    machine = result.whole()
+    machine = result.of_machine()
     found |= {f"shaft/{channel.name}": _hash(machine[channel.name]) for channel in machine.channels}
     seats = result.machine["bearings"]
     found["shaft/bearing_positions"] = _hash([seats[name]["position"] for name in result.bearings])

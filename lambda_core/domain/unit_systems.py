@@ -100,8 +100,8 @@ class UnitSystem:
     def _converted(self, match: re.Match[str]) -> str:
         first, joint, second, unit = match.groups()
         slope = UnitSystem(self.name, {unit: (self.unit(unit), self.shown[unit][1], 0.0)})
-        beside = (slope if joint == " ± " else self)._plain(second, unit) if second else ""
-        return f"{self._plain(first, unit)}{joint or ''}{beside} {self.unit(unit)}"
+        half_width = (slope if joint == " ± " else self)._plain(second, unit) if second else ""
+        return f"{self._plain(first, unit)}{joint or ''}{half_width} {self.unit(unit)}"
 
     def _plain(self, written: str, unit: str) -> str:
         """Convert a number as it is written, to as many digits as it has, at least three."""

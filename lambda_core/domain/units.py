@@ -129,11 +129,11 @@ def misread(text: str, unit: str = "") -> str:
     grouped = _GROUPED.match(text)
     if grouped:
         head, groups, fraction, rest = grouped[1], grouped[2], grouped[3] or "", grouped[4] or unit
-        whole = f"{head}{re.sub(r'[^0-9]', '', groups)}{fraction} {rest}".rstrip()
+        joined = f"{head}{re.sub(r'[^0-9]', '', groups)}{fraction} {rest}".rstrip()
         if groups.count(",") == 1 and not fraction:
             point = f"{head}.{groups[1:]} {rest}".rstrip()
-            return f'"{text}" can be read two ways: write "{whole}" or "{point}", without a comma'
-        return f'"{text}": write the digits together: "{whole}"'
+            return f'"{text}" can be read two ways: write "{joined}" or "{point}", without a comma'
+        return f'"{text}": write the digits together: "{joined}"'
     comma = _COMMA.match(text)
     if comma:
         point = f"{comma[1]}.{comma[2]} {comma[3] or unit}".rstrip()

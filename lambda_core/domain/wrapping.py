@@ -15,7 +15,7 @@ def wrapped(lines: Sequence[str], width: int | None) -> list[str]:
     if width is None:
         return list(lines)
     found: list[str] = []
-    for text in (part for whole in lines for part in whole.splitlines() or [""]):
+    for text in (part for line in lines for part in line.splitlines() or [""]):
         if len(text) <= width:
             found.append(text)
             continue

@@ -92,9 +92,9 @@ def _piece(ross: Any, body: ElasticBody, node: int) -> Any:
 
 def _stiffness(stiffness: FloatArray) -> FloatArray:
     """Return the matrix of a bearing in their order, shape (6, 6)."""
-    whole = np.zeros((NODE, NODE))
-    whole[np.ix_(_THEIRS, _THEIRS)] = 0.5 * (stiffness + stiffness.T)
-    return whole
+    matrix = np.zeros((NODE, NODE))
+    matrix[np.ix_(_THEIRS, _THEIRS)] = 0.5 * (stiffness + stiffness.T)
+    return matrix
 
 
 def _rest(matrix: FloatArray) -> FloatArray:

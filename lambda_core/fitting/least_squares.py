@@ -403,13 +403,13 @@ class _Search:
         low, high = (side[free] for side in bounds(self._parameters))
         errors = self._errors * self._scale
 
-        def whole(part: FloatArray) -> FloatArray:
+        def all_parameters(part: FloatArray) -> FloatArray:
             point = self._point.copy()
             point[free] = part
             return point
 
         def residuals(part: FloatArray) -> FloatArray:
-            point = whole(part)
+            point = all_parameters(part)
             own = (self._recorder.values(point) - self._data.values) / errors
             priors = [(point[i] - p.start) / p.spread for i, p in enumerate(self._parameters) if p.is_prior]
             found = np.concatenate([own, priors])
@@ -419,7 +419,7 @@ class _Search:
             return found
 
         def slopes(part: FloatArray) -> FloatArray:
-            point = whole(part)
+            point = all_parameters(part)
             own = self._recorder.near_slopes(point, spread) if self._costly else self._recorder.slopes(point)
             rows = [own / errors[:, None]]
             rows += [
@@ -439,4 +439,4 @@ class _Search:
             loss="huber" if robust else "linear", f_scale=self._limit if robust else 1.0,
             xtol=1e-12, gtol=1e-14, ftol=_COSTLY_TOLERANCE if self._costly else 1e-8 if robust else 1e-14,
         )  # fmt: skip
-        return whole(solved.x)
+        return all_parameters(solved.x)

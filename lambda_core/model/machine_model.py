@@ -31,7 +31,7 @@ class Seating:
         Of a spring on the outer ring along x [N].
     damping : tuple of 5 floats
         Of the seat [N s/m, N m s/rad].
-    lead : tuple of 5 TimeFunction
+    prescribed : tuple of 5 TimeFunction
         `shift` over time, which is its value at t = 0.
     """
 
@@ -39,7 +39,7 @@ class Seating:
     shift: tuple[float, ...]
     force: float = 0.0
     damping: tuple[float, ...] = (0.0,) * 5
-    lead: tuple[TimeFunction, ...] = (ZERO,) * 5
+    prescribed: tuple[TimeFunction, ...] = (ZERO,) * 5
 
 
 @dataclass(frozen=True)
@@ -107,17 +107,17 @@ class ShaftHold:
     """Where the ground holds the shaft without giving way."""
 
     position: float  # [m]
-    lead: tuple[TimeFunction | None, ...]  # in the order of POSE [m, rad]; None where it does not hold
+    prescribed: tuple[TimeFunction | None, ...]  # in the order of POSE [m, rad]; None where it does not hold
 
     @property
     def held(self) -> tuple[int, ...]:
         """Places in POSE that are held."""
-        return tuple(i for i, lead in enumerate(self.lead) if lead is not None)
+        return tuple(i for i, lead in enumerate(self.prescribed) if lead is not None)
 
     @property
     def shift(self) -> tuple[float, ...]:
         """Where it is held at t = 0, 0 where it is free [m, rad]."""
-        return tuple(0.0 if lead is None else initial(lead) for lead in self.lead)
+        return tuple(0.0 if lead is None else initial(lead) for lead in self.prescribed)
 
 
 @dataclass(frozen=True)
@@ -131,13 +131,13 @@ class RigidBody:
     transverse_inertia: float  # about y and about z [kg m2]
     hold: tuple[float, ...]  # stiffness of what holds the centre, six; inf where locked, 0 where free [N/m, N m/rad]
     extent: tuple[float, float, float]  # length, width, height of its shape, zeros where there is none [m]
-    lead: tuple[TimeFunction, ...] = (ZERO,) * 6  # where it is led, what is locked of it [m, rad]
+    prescribed: tuple[TimeFunction, ...] = (ZERO,) * 6  # motion of its locked directions [m, rad]
     damping: tuple[float, ...] = (0.0,) * 6  # of what holds the centre [N s/m, N m s/rad]
 
     @property
     def shift(self) -> tuple[float, ...]:
         """Its prescribed pose at t = 0 [m, rad]."""
-        return tuple(map(initial, self.lead))
+        return tuple(map(initial, self.prescribed))
 
 
 @dataclass(frozen=True)
@@ -219,13 +219,13 @@ class MachineModel:
     case_toml: str = ""  # the case, complete: it runs again as it stands
 
     @property
-    def led(self) -> list[TimeFunction]:
-        """Everything that leads shaft, seats and bodies over time."""
-        seats = [lead for mounted in self.bearings for lead in mounted.seating.lead]
-        shaft = [lead for lead in self.hold.lead if lead is not None] if self.hold else []
+    def prescribed_motions(self) -> list[TimeFunction]:
+        """Prescribed motions of shaft, seats and bodies."""
+        seats = [lead for mounted in self.bearings for lead in mounted.seating.prescribed]
+        shaft = [lead for lead in self.hold.prescribed if lead is not None] if self.hold else []
         parts = [body for mounted in self.bearings for body in (mounted.model.outer_ring, mounted.model.cage_body)]
         own = [dof.motion for part in parts for dof in part.dofs.values() if dof.mode == "prescribed"]
-        return [self.speed_over_time, *seats, *(lead for body in self.bodies for lead in body.lead), *shaft, *own]
+        return [self.speed_over_time, *seats, *(lead for body in self.bodies for lead in body.prescribed), *shaft, *own]
 
     @property
     def solver(self) -> Solver:

@@ -200,8 +200,10 @@ def _shaft(
         refuse_far_beyond(case, gears, bearings, ledger)
     housing, housing_damping = None, None
     if case.housing.reduced is not None:
-        is_whole = len(bearings) == len(case.bearings) and not ledger.problems
-        housing, housing_damping = elastic_housing(folder / case.housing.reduced, bearings if is_whole else (), ledger)
+        is_complete = len(bearings) == len(case.bearings) and not ledger.problems
+        housing, housing_damping = elastic_housing(
+            folder / case.housing.reduced, bearings if is_complete else (), ledger
+        )
     if case.housing.reduced is None or housing is not None:
         refuse_idle_dampers(bearings, housing, ledger)
     if found or ledger.problems or material is None or around is None or len(bearings) < len(case.bearings):

@@ -53,8 +53,8 @@ class Checkpoint:
 
 def latest(slots: Iterable[bytes]) -> Checkpoint | None:
     """Return the newest whole checkpoint of `slots`, None when no slot holds one."""
-    whole = [_read(body) for body in map(_body, slots) if body is not None]
-    return max(whole, key=lambda checkpoint: checkpoint.position.sequence, default=None)
+    intact = [_read(body) for body in map(_body, slots) if body is not None]
+    return max(intact, key=lambda checkpoint: checkpoint.position.sequence, default=None)
 
 
 def _read(body: bytes) -> Checkpoint:
@@ -72,8 +72,8 @@ def _body(slot: bytes) -> bytes | None:
         return None
     magic, length, checksum = _HEADER.unpack_from(slot)
     body = slot[_HEADER.size : _HEADER.size + length]
-    whole = magic == _MAGIC and len(body) == length and _checksum(body) == checksum
-    return body if whole else None
+    intact = magic == _MAGIC and len(body) == length and _checksum(body) == checksum
+    return body if intact else None
 
 
 def _checksum(body: bytes) -> int:

@@ -262,9 +262,9 @@ def read_table(group: h5py.Group) -> list[dict[str, str]]:
 def rows_of(path: str, rows: Rows) -> int:
     """Return how many rows of a growing dataset (its path in the file, as of :func:`objects`) count."""
     place = path.strip("/").rpartition("/")[0]
-    whole = {CIRCUIT_GROUP: rows.circuit, DISCHARGES_GROUP: rows.discharges}
+    counts = {CIRCUIT_GROUP: rows.circuit, DISCHARGES_GROUP: rows.discharges}
     if not place.startswith(f"{BEARINGS}/"):
-        return whole.get(place, rows.samples)
+        return counts.get(place, rows.samples)
     name, _, group = place.removeprefix(f"{BEARINGS}/").partition("/")
     if group == INTEGRALS_GROUP:
         return rows.records

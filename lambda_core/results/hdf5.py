@@ -66,14 +66,14 @@ def reserve(file: h5py.File, growth: int) -> None:
         raise OSError(28, os.strerror(28))
 
 
-def beside(path: Path) -> Path:
+def sibling_path(path: Path) -> Path:
     """Return a hidden name in the same folder, of this process; sweep away those of dead ones."""
     sweep(path.absolute().parent, glob.escape(path.name))
     return path.with_name(f".{path.name}.{os.getpid()}")
 
 
 def sweep(folder: Path, name: str = "*.h5") -> None:
-    """Remove what killed processes left half made in a folder: the names of :func:`beside`, and no others."""
+    """Remove what killed processes left half made in a folder: the names of :func:`sibling_path`, and no others."""
     for old in folder.glob(f".{name}.*"):
         number = old.name.rpartition(".")[2]
         if number.isdecimal() and not exists(int(number)) and not old.is_dir():
@@ -94,7 +94,7 @@ def copy(path: Path, rows: Rows, *, compress: bool, stop: layout.Stop = layout.n
     UsageError
         When the copy cannot be written, or `stop` said so.
     """
-    made = beside(path)
+    made = sibling_path(path)
     try:
         with open_for_reading(path) as source:
             # SWMR needs the newest file format; for keeping, the oldest one is read by most programs.

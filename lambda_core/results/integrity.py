@@ -30,7 +30,7 @@ _WORDS = ("series", "arrangement", "ribs")  # what a geometry says in words
 _LOOKED_AT = 64 << 20  # [byte] from the beginning: a run writes its texts before its samples
 
 
-def heaps_are_whole(path: Path) -> bool:
+def heaps_are_intact(path: Path) -> bool:
     """Tell whether each heap of texts near the beginning of a file can be stepped through to its end."""
     with path.open("rb") as stream:
         if not stream.seek(0, 2):

@@ -52,12 +52,12 @@ def said_once(reasons: Mapping[str, list[str]]) -> list[str]:
 def machine_warnings(result: Result, bearings: Mapping[str, BearingSummary]) -> list[str]:
     """Return what holds for the machine as it is drawn, then for its bearings."""
     own = {name: one.warnings for name, one in bearings.items()}
-    return [*result.whole().case_warnings, *said_once(own)]
+    return [*result.of_machine().case_warnings, *said_once(own)]
 
 
 def machine_numbers(result: Result, bearings: Mapping[str, BearingSummary], start: float) -> dict[str, Any]:
     """Return the numbers of shaft and bodies of a machine, averaged from time `start` [s]."""
-    machine, numbers = result.whole(), result.machine_numbers
+    machine, numbers = result.of_machine(), result.machine_numbers
     friction = total(one.friction_torque_Nmm for one in bearings.values())
     speed = float(result.machine["speed"])
     lives = [one.rating.reference_life_h for one in bearings.values() if one.rating is not None]
@@ -117,7 +117,7 @@ def element_numbers(result: Result, start: float) -> dict[str, ElementForce]:
 
 def reactions(result: Result, start: float) -> dict[str, list[float]]:
     """Return force and moment of a machine's bearing on the shaft from time `start` [s]."""
-    machine, i = result.whole(), result.bearing_names.index(result.bearing)
+    machine, i = result.of_machine(), result.bearing_names.index(result.bearing)
     force, swing = _means(machine, "reaction_force", start)[i]
     moment, _ = _means(machine, "reaction_moment", start)[i]
     return {"force_N": force.tolist(), "force_swing_N": swing.tolist(), "moment_Nm": moment[1:].tolist()}

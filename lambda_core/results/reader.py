@@ -22,7 +22,7 @@ from lambda_core.results import checkpoint
 from lambda_core.results import file_format as layout
 from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP
 from lambda_core.results.event_rows import EVENTS_GROUP
-from lambda_core.results.integrity import check_machine, check_model, heaps_are_whole
+from lambda_core.results.integrity import check_machine, check_model, heaps_are_intact
 from lambda_core.results.opening import (
     ResultError,
     channels_of,
@@ -84,7 +84,7 @@ class Result:
     def __init__(self, path: str | PathLike[str], bearing: str | None = None) -> None:
         self.path = Path(path)
         with opened(self.path) as file:
-            if not heaps_are_whole(self.path):
+            if not heaps_are_intact(self.path):
                 raise ResultError(f"{self.path} is damaged: its texts cannot be read")
             check_alone(file)
             self.title, self.headline, self.case, self.created = (
@@ -114,7 +114,7 @@ class Result:
         """Results of the bearings by name: each is used like that of a bearing alone."""
         return {name: self if name == self.bearing else Result(self.path, name) for name in self.bearing_names}
 
-    def whole(self) -> Result:
+    def of_machine(self) -> Result:
         """Return the result of the machine: motion of shaft and bodies, forces of the bearings."""
         return self if not self.bearing else Result(self.path, "")
 

@@ -189,8 +189,8 @@ def summarise(result: Result) -> Summary:
     first = next(iter(each.values()))
     alone = next(iter(bearings.values()))
     integrals = first.integrals()
-    whole = Interval(integrals[0], integrals[-1])  # energy is balanced for the machine
-    time = whole.change("time")
+    run_interval = Interval(integrals[0], integrals[-1])  # energy is balanced for the machine
+    time = run_interval.change("time")
     known = list(bearings.values())
     shortfalls = [*shortfalls_together(windows), *said_once({name: one.reasons for name, one in bearings.items()})]
     reasons = _reasons(status.state, status.message, shortfalls if of_machine else alone.reasons)
@@ -209,17 +209,17 @@ def summarise(result: Result) -> Summary:
         friction_torque_Nmm_band=sum_of_bands([one.friction_torque_Nmm_band for one in known]),
         power_loss_W_band=sum_of_bands([one.power_loss_W_band for one in known]),
         bearings=bearings,
-        elements=element_numbers(result.whole() if of_machine and result.is_machine else first, start),
+        elements=element_numbers(result.of_machine() if of_machine and result.is_machine else first, start),
         plugin_faults=list(status.faults),
         warnings=alone.warnings if not of_machine else machine_warnings(result, bearings),
-        energy_residual=finite(whole.energy_residual()),
-        iteration_residual=_iteration_residual(status.statistics, whole),
+        energy_residual=finite(run_interval.energy_residual()),
+        iteration_residual=_iteration_residual(status.statistics, run_interval),
         simulated_s=time,
         wall_s=status.wall,
         wall_per_simulated_second=finite(_quotient(status.wall, time)),
         vibrations=followed(settings_of(first), status, time),
         solver_statistics={name: count for name, count in status.statistics.items() if name not in _NO_COUNTS},
-        assumptions=list(result.whole().assumptions) if of_machine else alone.assumptions,
+        assumptions=list(result.of_machine().assumptions) if of_machine else alone.assumptions,
         **(machine_numbers(result, bearings, start) if of_machine else {}),
     )
 
@@ -228,8 +228,8 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
     """Return the summary of one bearing; `together` is that of :func:`.convergence.shortfalls`."""
     integrals = result.integrals()
     settings, last = settings_of(result), integrals[-1]
-    whole, chosen = Interval(integrals[0], last), window_of(result)
-    reasons = shortfalls(settings, chosen, whole.energy_residual(), together)
+    run_interval, chosen = Interval(integrals[0], last), window_of(result)
+    reasons = shortfalls(settings, chosen, run_interval.energy_residual(), together)
     start = float(chosen.interval.first[0])
     extremes = _Span.of(result, start)
     epicyclic = extremes.rolling
@@ -237,7 +237,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
     end = _sample(result, -1)
     edges = _edges(result)
     carrying = end["load"] > CARRYING * end["load"].max()
-    revolutions = whole.change("relative_angle") / (2.0 * math.pi)
+    revolutions = run_interval.change("relative_angle") / (2.0 * math.pi)
     of_machine: dict[str, Any] = reactions(result, start) if result.is_machine else {}
     found = BearingSummary(
         title=result.title,
@@ -314,9 +314,9 @@ def _of_rollers(found: BearingSummary, result: Result) -> BearingSummary:
     return found.model_copy(update=changes).with_band(band)
 
 
-def _iteration_residual(statistics: Mapping[str, float], whole: Interval) -> float | None:
+def _iteration_residual(statistics: Mapping[str, float], run_interval: Interval) -> float | None:
     """Return the work that early ends of the iteration put in or took, over the energy that flowed."""
-    work, flow = statistics.get(ITERATION_WORK), whole.change("input_abs")
+    work, flow = statistics.get(ITERATION_WORK), run_interval.change("input_abs")
     return None if work is None or not flow > 0.0 else work / flow
 
 

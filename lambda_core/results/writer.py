@@ -91,7 +91,7 @@ class ResultWriter:
         UsageError
             When the file exists and `force` is not set, or cannot be written.
         """
-        made = hdf5.beside(check_target(path))
+        made = hdf5.sibling_path(check_target(path))
         try:
             with h5py.File(made, "w", libver="latest") as file:
                 hdf5.reserve(file, 0)

@@ -177,13 +177,13 @@ def duty(
         solver = MachinePhases(announce)
         found = [_at(step, case.name, partial(solver.solved_case, case, step.changes)) for step in steps]
         return added_machine(cycle.name, case.name, [(step.name, step.time) for step in steps], found, _ADDED)
-    whole = sum(step.time for step in steps)
-    alone = [_at(step, case.name, partial(_solved, step, case, step.time / whole, announce)) for step in steps]
-    return summed_phases(cycle.name, case.name, whole, alone, _ADDED)
+    total_time = sum(step.time for step in steps)
+    alone = [_at(step, case.name, partial(_solved, step, case, step.time / total_time, announce)) for step in steps]
+    return summed_phases(cycle.name, case.name, total_time, alone, _ADDED)
 
 
 def summed_phases(
-    name: str, case: str, whole: float, alone: Sequence[PhaseResult], assumptions: Sequence[str]
+    name: str, case: str, total_time: float, alone: Sequence[PhaseResult], assumptions: Sequence[str]
 ) -> DutyCycle:
     """Add up the phases of one bearing; `whole` is the time of all of them [s]."""
     lives = {kind: _added(alone, kind) for kind in ("basic_life_h", "reference_life_h")}
@@ -194,7 +194,7 @@ def summed_phases(
     return DutyCycle(
         name=name,
         case=case,
-        cycle_h=whole / 3600.0,
+        cycle_h=total_time / 3600.0,
         phases=phases,
         basic_life_h=finite(lives["basic_life_h"]),
         reference_life_h=finite(total),
@@ -224,8 +224,8 @@ def _read(source: str | Path | Mapping[str, Any]) -> tuple[Cycle, Case | Machine
         cycle = Cycle.model_validate(data)
     except ValidationError as error:
         raise CaseError(name, problems(error, Cycle, data)) from None
-    beside = folder / cycle.case
-    case = read_case(beside if beside.is_file() else cycle.case)
+    sibling = folder / cycle.case
+    case = read_case(sibling if sibling.is_file() else cycle.case)
     steps = _steps(cycle, folder)
     _refuse_mistakes(steps, case)
     return cycle, case, steps

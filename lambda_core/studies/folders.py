@@ -259,8 +259,8 @@ def _work(
 def _tasks(manifest: Manifest, todo: list[tuple[int, tuple[str, ...]]], names: tuple[str, ...]) -> Iterator[Task]:
     from lambda_core.discovery.local_files import guests
 
-    study, case_toml, folder, beside = manifest.study, manifest.case_toml, str(manifest.folder.resolve()), guests()
-    return (Task(number, case_toml, changes, study.mode, names, folder, beside) for number, changes in todo)
+    study, case_toml, folder, plugins = manifest.study, manifest.case_toml, str(manifest.folder.resolve()), guests()
+    return (Task(number, case_toml, changes, study.mode, names, folder, plugins) for number, changes in todo)
 
 
 def _optimise(manifest: Manifest, plan: Plan, names: tuple[str, ...], director: Director[Task, Outcome]) -> None:

@@ -223,9 +223,9 @@ def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) ->
     if isinstance(model, MachineModel):
         from lambda_core.studies.machine_responses import machine_point
 
-        whole = machine_point(model, _shared_kernels())
-        rows = {name: value for name, (value, _, _) in machine_columns(model, whole.equilibria, names).items()}
-        return evaluate(names, whole, rows, known)
+        solved = machine_point(model, _shared_kernels())
+        rows = {name: value for name, (value, _, _) in machine_columns(model, solved.equilibria, names).items()}
+        return evaluate(names, solved, rows, known)
     found = _equilibrium(model)
     point = StaticPoint(found, quasistatic_of(found), kernels_of(model))
     return evaluate(names, point, method_rows(found, names), known)

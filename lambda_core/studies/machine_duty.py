@@ -99,14 +99,14 @@ def added_machine(
     found : sequence of MachineEquilibrium
         Of each phase.
     """
-    whole = sum(time for _, time in phases)
+    total_time = sum(time for _, time in phases)
     bearings = {}
     for number_, first in enumerate(found[0].bearings):
         own = [
-            _phase(phase, time, time / whole, state, state.bearings[number_])
+            _phase(phase, time, time / total_time, state, state.bearings[number_])
             for (phase, time), state in zip(phases, found, strict=True)
         ]
-        bearings[first.name] = summed_phases(name, f"{case}, {first.name}", whole, own, assumptions)
+        bearings[first.name] = summed_phases(name, f"{case}, {first.name}", total_time, own, assumptions)
     lives = [one.reference_life_h for one in bearings.values()]
     damaging = [one for one in bearings.values() if one.mean_speed_rpm > 0.0]
     known = [one.reference_life_h for one in damaging if one.reference_life_h is not None]
@@ -114,7 +114,7 @@ def added_machine(
     return MachineDutyCycle(
         name=name,
         case=case,
-        cycle_h=whole / 3600.0,
+        cycle_h=total_time / 3600.0,
         bearings=bearings,
         system_life_h=finite(system_life(known)) if any(lives) and len(known) == len(damaging) else None,
         mean_power_loss_W=loss,

@@ -89,14 +89,14 @@ def machine_responses(bearings: tuple[str, ...]) -> Mapping[str, Response]:
 def usual_responses(bearings: tuple[str, ...], mode: str) -> tuple[str, ...]:
     """Return what a study of a machine asks where it names nothing."""
     if mode == "quasi-static":
-        whole = ["system_life_h", "friction_torque_Nmm"]
+        of_machine = ["system_life_h", "friction_torque_Nmm"]
         each = [
             "radial_load_N", "reference_rating_life_h", "friction_torque_Nmm", "max_pressure_GPa", "min_film_parameter",
         ]  # fmt: skip
     else:
-        whole = ["friction_torque_Nmm", "energy_residual", "converged"]
+        of_machine = ["friction_torque_Nmm", "energy_residual", "converged"]
         each = ["friction_torque_Nmm", "friction_torque_ci_Nmm", "max_pressure_GPa", "min_film_um"]
-    return (*whole, *(f"{name}.{one}" for name in bearings for one in each))
+    return (*of_machine, *(f"{name}.{one}" for name in bearings for one in each))
 
 
 def _of_machine() -> list[Response]:

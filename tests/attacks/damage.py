@@ -59,7 +59,7 @@ def line(arguments: tuple[str, ...] | list[str]) -> str:
 
 
 def made_once(folder: Path, name: str, make: Callable[[Path], object]) -> Path:
-    """Return a folder beside those of the trials of a part, made once by each process: the program may have changed."""
+    """Return a folder next to those of the trials of a part, made once by each process: the program may change."""
     place = folder.parent / f"{_part(folder)}.{os.getpid()}.{name}"
     if not (place / "done").is_file():
         shutil.rmtree(place, ignore_errors=True)
@@ -82,7 +82,7 @@ def command(folder: Path) -> tuple[str, ...]:
     return ("run", str(made / "box.toml"), *RUN[2:4], "--set", f"solver.duration={_MACHINE_DURATION}", *RUN[6:])
 
 
-def whole(folder: Path) -> Path:
+def undisturbed_result(folder: Path) -> Path:
     """Return the result of the run that nobody disturbed."""
     return made_once(folder, "whole", lambda place: _must(command(folder), place)) / "out.h5"
 
@@ -91,7 +91,7 @@ def half(folder: Path) -> Path:
     """Return the result of the same run, killed in the middle."""
 
     def make(place: Path) -> None:
-        open_s = float((whole(folder).parent / "open").read_text(encoding="utf-8"))
+        open_s = float((undisturbed_result(folder).parent / "open").read_text(encoding="utf-8"))
         for share in _SHARES:
             (place / "out.h5").unlink(missing_ok=True)
             if _kill(place, share * open_s) and _is_midway(place / "out.h5"):
@@ -116,7 +116,7 @@ def _must(arguments: tuple[str, ...], place: Path) -> None:
 
 def killed_run(seed: int, number: int, folder: Path) -> Said:
     """Kill a run while its file is open, go on, and compare every number with the run that nobody killed."""
-    undisturbed = whole(folder)
+    undisturbed = undisturbed_result(folder)
     pick = random.Random(seed * 1_000_003 + number)
     file = folder / "out.h5"
     longest = _WRITING * float((undisturbed.parent / "open").read_text(encoding="utf-8"))
@@ -208,7 +208,7 @@ def corrupted(seed: int, number: int, folder: Path) -> Said:
     """Damage a result and ask for what it says: the same as before, or a word about the damage."""
     pick = random.Random(seed * 1_000_003 + number)
     arguments = pick.choice(_READS)
-    source = half(folder) if arguments[0] == "resume" or pick.random() < 0.3 else whole(folder)
+    source = half(folder) if arguments[0] == "resume" or pick.random() < 0.3 else undisturbed_result(folder)
     before = _answers(source, folder, arguments)
     data = bytearray(source.read_bytes())
     _damage(data, pick)

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from tests.attacks.damage import CASE, RUN, Said, differences, half, hidden, line, whole
+from tests.attacks.damage import CASE, RUN, Said, differences, half, hidden, line, undisturbed_result
 from tests.attacks.trial import Outcome, attempt
 
 _LIMIT = 60.0  # [s] of wall time
@@ -68,7 +68,7 @@ def _inputs(arguments: tuple[str, ...], folder: Path) -> dict[str, bytes]:
         return {"study.toml": _STUDY.encode()}
     if arguments[0] == "resume":
         return {"out.h5": half(folder).read_bytes()}
-    return {"out.h5": whole(folder).read_bytes()} if arguments[0] in ("view", "report") else {}
+    return {"out.h5": undisturbed_result(folder).read_bytes()} if arguments[0] in ("view", "report") else {}
 
 
 @contextmanager
@@ -116,6 +116,6 @@ def _gone_on_with(outcome: Outcome, folder: Path, arguments: tuple[str, ...]) ->
     over = longer.verdict == "usage" and "is finished: nothing is left to do" in longer.said
     if longer.verdict not in ("fine", "partial") and not over:
         return longer.but("lost", "could not be gone on with") if longer.good else longer
-    if wrong := differences(whole(folder), file):
+    if wrong := differences(undisturbed_result(folder), file):
         return longer.but("different", f"not bit for bit: {', '.join(wrong)}")
     return outcome

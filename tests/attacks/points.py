@@ -13,13 +13,13 @@ from typing import Any
 
 from lambda_core.results import hdf5
 from lambda_core.results.writer import ResultWriter
-from tests.attacks.damage import LIMIT, Said, command, gone_on_with, line, made_once, whole
+from tests.attacks.damage import LIMIT, Said, command, gone_on_with, line, made_once, undisturbed_result
 from tests.attacks.trial import Trial, attempt
 
 
 def killed_at_a_point(seed: int, number: int, folder: Path) -> Said:
     """Kill a run before or after one of its writes to the file, go on, and compare."""
-    undisturbed, counts = whole(folder), _counts(folder)
+    undisturbed, counts = undisturbed_result(folder), _counts(folder)
     pick = random.Random(seed * 1_000_003 + number)
     name = pick.choice(sorted(counts))
     call, behind = pick.randrange(counts[name]), pick.random() < 0.5

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from benchmarks import whole
+from benchmarks import shaft_cost
 from benchmarks.__main__ import main
 from benchmarks.accuracy import Outcome, trajectory_totals
 from benchmarks.cases import BALLS, MIDDLE, with_balls, without_samples
@@ -83,14 +83,14 @@ def test_the_command_answers_in_json(capsys: pytest.CaptureFixture[str]) -> None
 def test_a_shaft_is_compared_with_its_bearings(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(whole, "_MILLISECONDS_QUICK", 10)
-    assert main(["--quick", "--json", "whole"]) == 0
+    monkeypatch.setattr(shaft_cost, "_MILLISECONDS_QUICK", 10)
+    assert main(["--quick", "--json", "shaft_cost"]) == 0
     (section,) = json.loads(capsys.readouterr().out)["sections"]
     (table,), (target,) = section["tables"], section["targets"]
     rows = {row[0]: dict(zip(table["columns"], row, strict=True)) for row in table["rows"]}
-    assert list(rows) == ["whole", "left", "right"]
+    assert list(rows) == ["machine", "left", "right"]
     for name, row in rows.items():
-        of_all = (2 if name == "whole" else 1) * row["Newton iterations"]
+        of_all = (2 if name == "machine" else 1) * row["Newton iterations"]
         assert row["bearings evaluated"] == of_all - row["rests"] >= row["steps"] > 0
-    assert rows["whole"]["rests"] > 0 == rows["left"]["rests"]
-    assert target["reached"] == pytest.approx(rows["whole"]["ms"] / (rows["left"]["ms"] + rows["right"]["ms"]))
+    assert rows["machine"]["rests"] > 0 == rows["left"]["rests"]
+    assert target["reached"] == pytest.approx(rows["machine"]["ms"] / (rows["left"]["ms"] + rows["right"]["ms"]))

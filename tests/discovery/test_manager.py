@@ -147,7 +147,7 @@ def test_a_broken_plugin_is_named_and_the_rest_works(broken: Any, words: list[st
     assert registry.names("asperity_load") == ("good-law",)
 
 
-def test_a_plugin_is_taken_whole_or_not_at_all() -> None:
+def test_a_plugin_is_taken_completely_or_not_at_all() -> None:
     registry = discover([GOOD, source("broken", plugin(law("fine"), law("Not a name")))])
     assert registry.names("asperity_load") == ("good-law",)
 

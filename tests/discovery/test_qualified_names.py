@@ -1,4 +1,4 @@
-"""Laws of one name: each is known by its package, no package takes a name from another, and a case is told."""
+"""Laws of one name: each is known by its package, no package takes a name from another, and a case gets a message."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def law(name: str) -> Law:
 
 @pytest.fixture
 def crowded(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """The program beside two packages that have a law of one name, and one of a built-in's name."""
+    """The program with two packages that have a law of one name, and one of a built-in's name."""
     sources = [
         *installed(PLUGINS),
         package("carreau-traction", lambda_laws=law("carreau")),

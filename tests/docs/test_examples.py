@@ -45,7 +45,7 @@ def test_the_page_is_right(name: str, programs: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "name", [n for n, p in zip(NAMES, PAGES, strict=True) if any(s.slow for s in examples.steps(p))]
 )
-def test_the_whole_page_is_right(name: str, programs: Path, tmp_path: Path) -> None:
+def test_every_slow_step_is_right(name: str, programs: Path, tmp_path: Path) -> None:
     differences = examples.follow(DOCS / name, tmp_path, True, programs)
     assert not differences, "\n\n".join(map(str, differences))
 

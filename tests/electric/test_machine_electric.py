@@ -109,7 +109,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> api.Result:
 def test_circuit_during_a_run_of_a_machine(run: api.Result) -> None:
     """What was written while it ran is what the command finds afterwards, bearing by bearing, bit for bit."""
     found = api.electric(run.path)
-    both = run.whole().circuit()
+    both = run.of_machine().circuit()
     assert both["bearing_voltage_least"].shape[1] == 2
     assert both["shaft_voltage_largest"].max() >= both["bearing_voltage_largest"][:, 0].max()
     counted = 0
@@ -127,7 +127,7 @@ def test_circuit_during_a_run_of_a_machine(run: api.Result) -> None:
         least = one.circuit()["bearing_voltage_least"][inside]
         assert least.tobytes() == simulation.solution.extremes[:, 0].tobytes()
         counted += written["time"].size
-    every = run.whole().discharges()
+    every = run.of_machine().discharges()
     assert counted == every["time"].size > 0
     assert (every["discharge"][1:] >= every["discharge"][:-1]).all()
 
@@ -136,8 +136,8 @@ def test_a_longer_run_goes_on_with_its_circuit(run: api.Result, tmp_path: Path) 
     api.run(MOTOR, [*SOFT, "solver.duration=0.006 s"], out=tmp_path / "short.h5")
     longer = api.resume(tmp_path / "short.h5", ["solver.duration=0.012 s"])
     for one, other in (
-        (longer.whole().circuit(), run.whole().circuit()),
-        (longer.whole().discharges(), run.whole().discharges()),
+        (longer.of_machine().circuit(), run.of_machine().circuit()),
+        (longer.of_machine().discharges(), run.of_machine().discharges()),
     ):
         assert one.keys() == other.keys()
         for name, values in other.items():

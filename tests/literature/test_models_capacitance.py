@@ -111,7 +111,7 @@ def test_constant_factor() -> None:
 
 
 @pytest.mark.parametrize(("axial", "inner"), HERTZ)
-def test_gap_integral_beside_schneider(axial: int, inner: bool) -> None:
+def test_gap_integral_against_schneider(axial: int, inner: bool) -> None:
     """Two independent routes to the surroundings: the plain gap lies 8 to 20 % below Schneider's fit to full solutions.
 
     The difference is the oil's constriction and the outer edge: taken at 1.2 instead of 1 ball radius it is 5 to 17 %.

@@ -52,16 +52,16 @@ LONG = {
 
 def frequencies(model: MachineModel, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
     """Return natural frequencies of the lumps and of the beam on the same springs."""
-    lumped, whole = shaft.stiffness.copy(), model.body.stiffness.copy()
+    lumped, beam = shaft.stiffness.copy(), model.body.stiffness.copy()
     places = np.array(PLACES)
     for bearing in model.bearings:
         rows, first = model.body.rows(bearing.position).start + places, 6 * shaft.at(bearing.position) + places
         lumped[first, first] += STIFF
-        whole[rows, rows] += STIFF
+        beam[rows, rows] += STIFF
     each = zip(shaft.mass, shaft.polar_inertia, shaft.transverse_inertia, strict=True)
     mass = np.diag([*np.ravel([[m, m, m, p, j, j] for m, p, j in each]), *[1.0] * (lumped.shape[0] % 6)])
-    led = 6 * shaft.driven + 3 if shaft.driven < shaft.mass.size else lumped.shape[0] - 1
-    return natural_frequencies(lumped, mass, [led])[0], natural_frequencies(whole, model.body.mass, [model.drive])[0]
+    driven = 6 * shaft.driven + 3 if shaft.driven < shaft.mass.size else lumped.shape[0] - 1
+    return natural_frequencies(lumped, mass, [driven])[0], natural_frequencies(beam, model.body.mass, [model.drive])[0]
 
 
 @pytest.mark.parametrize("changes", [{}, LONG], ids=["gearbox", "ten diameters"])
@@ -109,7 +109,7 @@ def test_the_motion_begins_in_equilibrium(engine: MachineEngine) -> None:
         assert np.abs(left).max() < 6.0  # of 700 N: rings 2 N, unbalance 50 g mm at 314 rad/s 4.9 N over all lumps
 
 
-def test_a_bearing_of_the_whole_moves_as_it_does_alone(engine: MachineEngine) -> None:
+def test_a_bearing_of_a_machine_moves_as_it_does_alone(engine: MachineEngine) -> None:
     """The balls of each bearing feel the same bits as in a model of that bearing alone."""
     y = engine._memory.y
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(engine.context.bundle))

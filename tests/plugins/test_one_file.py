@@ -174,15 +174,15 @@ def test_workers_get_the_files_and_laws_of_the_director(file: Path) -> None:
     """What a task carries makes the registry of another process the same, also when the file is gone by then."""
     api.use_plugin(file)
     case = api.case("6319-cp10-1500").with_(models={"traction": by_hand})
-    beside = local_files.guests()
+    guests = local_files.guests()
     file.unlink()
     local_files._texts.clear()
     handed_laws._laws.clear()
     manager.registry.cache_clear()
-    manager.as_guests_of(beside)
+    manager.as_guests_of(guests)
     assert traction("6319-cp10-1500").distribution.startswith("short.py ")
     assert traction(case, []).kernel.__code__.co_code == by_hand.__code__.co_code
-    assert local_files.guests() == beside or pickle.loads(beside)[0] == pickle.loads(local_files.guests())[0]
+    assert local_files.guests() == guests or pickle.loads(guests)[0] == pickle.loads(local_files.guests())[0]
 
 
 @pytest.mark.full

@@ -105,15 +105,15 @@ def test_losses_and_states_find_each_other() -> None:
 
 def test_resumed_and_paused_runs_are_the_same_bits() -> None:
     laws = {"contact_state": warmth, "traction": thinner}
-    whole, first, second = engine(laws), engine(laws), engine(laws)
-    whole.advance(3e-3)
+    undisturbed, first, second = engine(laws), engine(laws), engine(laws)
+    undisturbed.advance(3e-3)
     first.advance(1.1e-3)
     second.restore(first.state())
     second.advance(3e-3)
-    ours, theirs = whole.now(), second.now()
+    ours, theirs = undisturbed.now(), second.now()
     assert all(np.array_equal(ours[name], theirs[name], equal_nan=True) for name in ours)
     early = first.samples()
-    assert np.array_equal(whole.samples()["warmth"][: len(early["time"])], early["warmth"])
+    assert np.array_equal(undisturbed.samples()["warmth"][: len(early["time"])], early["warmth"])
 
 
 def test_slopes_of_the_rates() -> None:

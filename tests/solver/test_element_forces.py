@@ -74,4 +74,4 @@ def test_a_machine_writes_force_and_power_of_a_connection(tmp_path: Path) -> Non
     # the seal brakes the turning shaft: -c omega^2
     assert summary.elements["seal"].power_W == pytest.approx(-1e-3 * turning**2, rel=1e-3)
     assert "element seal" in summary.text()
-    assert np.asarray(result.whole()["connection_force"]).shape[1:] == (1, 3)
+    assert np.asarray(result.of_machine()["connection_force"]).shape[1:] == (1, 3)

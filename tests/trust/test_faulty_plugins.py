@@ -120,8 +120,8 @@ def package(name: str = "guest", **hooks: Any) -> Source:
 
 
 @pytest.fixture
-def beside(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Install packages and commands beside what is there, for one test."""
+def install_also(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Install packages and commands in addition to the present ones, for one test."""
 
     def install(*sources: Source, of: tuple[Source, ...] = ()) -> None:
         known = {PLUGINS: [*installed(PLUGINS), *sources], COMMANDS: [*in_use(COMMANDS), *of]}
@@ -140,8 +140,8 @@ def printing(*_: Any) -> MethodTable:
     return MethodTable(())
 
 
-def test_a4_compare_goes_on_without_a_method_that_fails(beside: Any, capsys: pytest.CaptureFixture[str]) -> None:
-    beside(
+def test_a4_compare_goes_on_without_a_method_that_fails(install_also: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    install_also(
         package("one", lambda_methods=Method("failing", "", "none", fail, method_api=1)),
         package("two", lambda_methods=Method("talking", "", "none", printing, method_api=1)),
     )
@@ -156,8 +156,8 @@ def test_a4_compare_goes_on_without_a_method_that_fails(beside: Any, capsys: pyt
     assert "words of a method" in said.err
 
 
-def test_a4_a_study_keeps_the_torque_of_a_point_at_which_a_method_fails(beside: Any) -> None:
-    beside(package(lambda_methods=Method("failing", "", "none", fail, method_api=1)))
+def test_a4_a_study_keeps_the_torque_of_a_point_at_which_a_method_fails(install_also: Any) -> None:
+    install_also(package(lambda_methods=Method("failing", "", "none", fail, method_api=1)))
     names = ("friction_torque_Nmm", "failing/friction/total")
     case = api.check("6208-axial-1300").case_toml
     outcome = job.work(job.Task(0, case, (), "quasi-static", names, ""))
@@ -184,10 +184,10 @@ def nothing(subject: Any, options: Options) -> ViewData:
     [(fail, "KeyError: 'rows'"), (number, 'a int, which has no "savefig"'), (lambda _: Unsaved(), "KeyError: 'axes'")],
 )
 def test_a4_a_drawing_that_fails_is_named_and_the_others_are_drawn(
-    beside: Any, figure: Any, words: str, radial_run: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str],
+    install_also: Any, figure: Any, words: str, radial_run: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
-    beside(package(lambda_views=View("guest", "a guest", "result", nothing, figure=figure, view_api=1)))
+    install_also(package(lambda_views=View("guest", "a guest", "result", nothing, figure=figure, view_api=1)))
     kept = {name: view for name, view in registry().views.items() if name in ("guest", "pressure")}
     monkeypatch.setattr(registry(), "views", kept)
     assert main(["view", str(radial_run.path), "--out", str(tmp_path), "--format", "svg"]) == 3
@@ -201,9 +201,9 @@ def test_a4_a_drawing_that_fails_is_named_and_the_others_are_drawn(
 
 
 def test_a4_a_catalogue_or_drawing_that_fails_leaves_it_to_the_next(
-    beside: Any, caplog: pytest.LogCaptureFixture
+    install_also: Any, caplog: pytest.LogCaptureFixture
 ) -> None:
-    beside(package(lambda_catalogue=lambda seed_folders: fail(), lambda_figure=lambda data: number()))
+    install_also(package(lambda_catalogue=lambda seed_folders: fail(), lambda_figure=lambda data: number()))
     before = len(failures_so_far())
     with caplog.at_level(logging.WARNING, "lambda_core"):
         model = api.check("6208-axial-1300")
@@ -214,12 +214,12 @@ def test_a4_a_catalogue_or_drawing_that_fails_leaves_it_to_the_next(
     assert any("lambda_figure of guest returns a int" in told for told in failures_so_far()[before:])
 
 
-def test_a4_frames_that_fail_are_named(beside: Any) -> None:
+def test_a4_frames_that_fail_are_named(install_also: Any) -> None:
     def frames(scene: Any) -> Any:
         yield 1
         raise KeyError("frame")
 
-    beside(package(lambda_frames=frames))
+    install_also(package(lambda_frames=frames))
     found = registry().frames(None)  # type: ignore[arg-type]
     assert next(found) == 1  # type: ignore[comparison-overlap]
     with pytest.raises(PluginError, match="lambda_frames fails: KeyError: 'frame'"):
@@ -251,23 +251,25 @@ def leaving() -> None:
     ],
 )
 def test_a4_a_command_that_fails_is_named(
-    beside: Any, found: Any, code: int, words: str, capsys: pytest.CaptureFixture[str]
+    install_also: Any, found: Any, code: int, words: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    beside(of=(command("guest", "guest", found),))
+    install_also(of=(command("guest", "guest", found),))
     assert main(["guest"]) == code
     said = capsys.readouterr()
     assert (said.out, words in said.err) == ("", True)
     assert "bug" not in said.err
 
 
-def test_a4_two_commands_of_one_name_are_told(beside: Any, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a4_two_commands_of_one_name_are_told(install_also: Any, capsys: pytest.CaptureFixture[str]) -> None:
     def one() -> None:
         typer.echo("one")
 
     def two() -> None:
         typer.echo("two")
 
-    beside(of=(command("salt", "a-package", one), command("salt", "b-package", two), command("run", "b-package", two)))
+    install_also(
+        of=(command("salt", "a-package", one), command("salt", "b-package", two), command("run", "b-package", two))
+    )
     assert {"salt", "b-package:salt", "b-package:run", "run"} <= set(commands.entries())
     assert main(["salt"]) == 0
     assert main(["b-package:salt"]) == 0

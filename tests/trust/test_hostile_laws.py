@@ -144,7 +144,7 @@ def test_a4_a_law_is_refused_wherever_it_goes_wrong(name: str) -> None:
     assert re.search(FOUND[name], fault), fault
 
 
-def test_a4_a_sound_law_beside_them_is_not() -> None:
+def test_a4_a_sound_law_among_them_is_not() -> None:
     assert check.check_model(law("sound")).ok
 
 

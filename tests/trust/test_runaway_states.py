@@ -101,7 +101,7 @@ def test_a_run_ends_with_the_state_that_ran_away(capsys: pytest.CaptureFixture[s
 
 @pytest.mark.timeout(900)
 def test_a_machine_ends_with_the_bearing_whose_state_ran_away() -> None:
-    """The bearing is named, too; the other one keeps the state as well, but its contacts were told first."""
+    """The bearing is named, too; the other one keeps the state as well, but its contacts came first."""
     machine = resolve_machine(tomllib.loads(geared_shaft("box")), ["models.contact_state=feeding"])
     found = BlamingMachineEngine(machine_start(machine)).advance(3e-3)
     assert not found.ok

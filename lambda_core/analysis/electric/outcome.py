@@ -166,8 +166,8 @@ def energy_residual(total: FloatArray) -> float:
     flows = total[[L.T_SOURCE, L.T_MOTION, L.T_OHMIC, L.T_ARC]]
     stored = total[L.T_STORED] - total[L.T_STORED_0]
     rest = flows[0] + flows[1] - flows[2] - flows[3] - stored
-    whole = float(np.abs(flows).sum() + abs(stored))
-    return float(rest) / whole if whole > 0.0 else 0.0
+    scale = float(np.abs(flows).sum() + abs(stored))
+    return float(rest) / scale if scale > 0.0 else 0.0
 
 
 def charge_residual(simulation: Simulation) -> float:
@@ -177,8 +177,8 @@ def charge_residual(simulation: Simulation) -> float:
     winding = simulation.circuit.winding
     rest = winding * (end - begin) - total[L.T_LEAK] - total[L.T_ARC_CHARGE]
     rest -= total[L.T_CHARGE] - total[L.T_CHARGE_0]
-    whole = winding * float(np.abs(np.diff(volts)).sum() + abs(volts[0]))
-    return float(rest) / whole if whole > 0.0 else 0.0
+    scale = winding * float(np.abs(np.diff(volts)).sum() + abs(volts[0]))
+    return float(rest) / scale if scale > 0.0 else 0.0
 
 
 def source_words(options: Electric) -> str:

@@ -142,7 +142,7 @@ def modes_of(model: MachineModel, state: ShaftState) -> MachineModes:
         critical_speeds=[
             CriticalSpeed(
                 speed_rpm=30.0 / math.pi * mode.frequency, direction=mode.direction, kind=mode.kind,
-                bodies_share=mode.beside,
+                bodies_share=mode.bodies_share,
             )
             for mode in critical
         ],
@@ -172,7 +172,7 @@ def _modes(found: list[Mode]) -> list[ModeAtSpeed]:
     return [
         ModeAtSpeed(
             frequency_Hz=mode.frequency / (2.0 * math.pi), direction=mode.direction, kind=mode.kind,
-            bodies_share=mode.beside, damping_ratio=mode.damping,
+            bodies_share=mode.bodies_share, damping_ratio=mode.damping,
         )
         for mode in found[:_SHOWN]
     ]  # fmt: skip

@@ -35,7 +35,7 @@ class Mode:
     direction: float
     kind: str  # bending, axial, torsion; body: of the bodies beside the shaft alone
     damping: float = 0.0  # share of critical
-    beside: float = 0.0  # share of the kinetic energy in the bodies beside the shaft
+    bodies_share: float = 0.0  # share of the kinetic energy in the bodies beside the shaft
     lateral: float = 0.0  # share of the shaft's motion squared that is across its axis
 
 
@@ -73,17 +73,17 @@ def housed_damping(model: MachineModel, state: ShaftState, dampings: FloatArray)
     return found
 
 
-def _of_each(whole: FloatArray) -> FloatArray:
+def _of_each(matrix: FloatArray) -> FloatArray:
     """Return the blocks of the bearings, shape (bearings, 5, 5)."""
     size = len(PLACES)
-    return np.array([whole[i : i + size, i : i + size] for i in range(0, whole.shape[0], size)])
+    return np.array([matrix[i : i + size, i : i + size] for i in range(0, matrix.shape[0], size)])
 
 
 def _damping_in_series(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
     """Return the damping that the shaft feels at all bearings together, shape (5 bearings, 5 bearings)."""
     speed = abs(model.speed) or 1.0
-    whole = _joined(model, state, springs=False) + 1j * speed * _resisting(model, state, dampings, springs=False)
-    return np.asarray(_seen_by_shaft(model, whole).imag / speed)
+    matrix = _joined(model, state, springs=False) + 1j * speed * _resisting(model, state, dampings, springs=False)
+    return np.asarray(_seen_by_shaft(model, matrix).imag / speed)
 
 
 def _in_series(model: MachineModel, state: ShaftState) -> FloatArray:
@@ -157,13 +157,13 @@ def _moving(model: MachineModel, rows: Rows) -> tuple[list[int], list[int]]:
     return rings, [rows.bodies + i for i, k in enumerate(holds) if math.isfinite(k)]
 
 
-def _seen(whole: Any, kept: Any, others: list[int]) -> Any:
+def _seen(matrix: Any, kept: Any, others: list[int]) -> Any:
     """Return what is felt at the rows `kept` of a stiffness, the others following: K_kk - K_ko K_oo^-1 K_ok."""
-    found = np.array(whole[np.ix_(kept, kept)])
-    others = [row for row in others if abs(whole[row, row]) > 0.0]
+    found = np.array(matrix[np.ix_(kept, kept)])
+    others = [row for row in others if abs(matrix[row, row]) > 0.0]
     if others:  # a motion that nothing holds moves nothing: the shortest solution leaves it out
-        inner = whole[np.ix_(others, others)]
-        found -= whole[np.ix_(kept, others)] @ np.linalg.lstsq(inner, whole[np.ix_(others, kept)], rcond=1e-13)[0]
+        inner = matrix[np.ix_(others, others)]
+        found -= matrix[np.ix_(kept, others)] @ np.linalg.lstsq(inner, matrix[np.ix_(others, kept)], rcond=1e-13)[0]
     return found
 
 
@@ -178,24 +178,24 @@ def supported(model: MachineModel, state: ShaftState) -> FloatArray:
     return np.asarray(0.5 * (found + found.T))
 
 
-def _seen_by_masses(model: MachineModel, whole: Any) -> Any:
+def _seen_by_masses(model: MachineModel, matrix: Any) -> Any:
     """Return what is felt by the shaft and by the free motions of bodies, outer rings following."""
     rings, bodies = _moving(model, static_rows(model))
-    return _seen(whole, [*range(model.body.mass.shape[0]), *bodies], rings)
+    return _seen(matrix, [*range(model.body.mass.shape[0]), *bodies], rings)
 
 
-def _seen_by_shaft(model: MachineModel, whole: Any) -> Any:
+def _seen_by_shaft(model: MachineModel, matrix: Any) -> Any:
     """Return what the shaft feels at its bearings, outer rings and bodies following."""
     rings, bodies = _moving(model, static_rows(model))
     kept = np.concatenate([model.body.rows(b.position).start + np.array(PLACES) for b in model.bearings])
-    return _seen(whole, kept, [*rings, *bodies])
+    return _seen(matrix, kept, [*rings, *bodies])
 
 
 def damped(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
     """Return the damping of the shaft by its bearings, and of springs and seats, in the rows of :func:`supported`."""
     speed = abs(model.speed) or 1.0
-    whole = _joined(model, state) + 1j * speed * _resisting(model, state, dampings)
-    found: FloatArray = _seen_by_masses(model, whole).imag / speed
+    matrix = _joined(model, state) + 1j * speed * _resisting(model, state, dampings)
+    found: FloatArray = _seen_by_masses(model, matrix).imag / speed
     for bearing, own in zip(model.bearings, dampings, strict=True):
         turning = model.body.rows(bearing.position).start + _ABOUT_X
         found[turning, turning] += own[_ABOUT_X, _ABOUT_X]
@@ -206,8 +206,8 @@ def masses(model: MachineModel) -> tuple[FloatArray, FloatArray]:
     """Return mass and gyroscopic matrix in the rows of :func:`supported`."""
     rows = static_rows(model)
     own = [m for body in model.bodies for m in (*[body.mass] * 3, body.polar_inertia, *[body.transverse_inertia] * 2)]
-    beside = np.diag([own[row - rows.bodies] for row in _moving(model, rows)[1]])
-    return block_diag(model.body.mass, beside), block_diag(model.body.gyroscopic, np.zeros_like(beside))
+    bodies_share = np.diag([own[row - rows.bodies] for row in _moving(model, rows)[1]])
+    return block_diag(model.body.mass, bodies_share), block_diag(model.body.gyroscopic, np.zeros_like(bodies_share))
 
 
 def modes_at(model: MachineModel, stiffness: FloatArray, spin: float, damping: FloatArray | None = None) -> list[Mode]:
@@ -228,12 +228,12 @@ def criticals(model: MachineModel, stiffness: FloatArray) -> list[Mode]:
 def _mode(model: MachineModel, one: Whirl, mass: FloatArray) -> Mode:
     size = model.body.mass.shape[0]
     energy = np.real(np.conj(one.shape) * (mass @ one.shape))
-    beside = float(energy[size:].sum() / energy.sum())
-    if beside > 1.0 - _FELT:
-        return Mode(one.frequency, one.direction, "body", one.damping, beside)
+    bodies_share = float(energy[size:].sum() / energy.sum())
+    if bodies_share > 1.0 - _FELT:
+        return Mode(one.frequency, one.direction, "body", one.damping, bodies_share)
     square = np.abs(one.shape[: NODE * model.body.positions.size].reshape(-1, NODE)) ** 2
     lateral, axial = square[:, 1:3].sum(), square[:, 0].sum()
     turning = square[:, 3].sum() * 1e-4  # at a radius of a centimetre
     share = float(lateral / (lateral + axial + turning))
     kind = "bending" if share > _LATERAL else "axial" if axial > turning else "torsion"
-    return Mode(one.frequency, one.direction, kind, one.damping, beside, share)
+    return Mode(one.frequency, one.direction, kind, one.damping, bodies_share, share)

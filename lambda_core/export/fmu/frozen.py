@@ -16,7 +16,7 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.export.fmu.circuit_image import Circuit, circuit
 from lambda_core.export.fmu.curves import Constant, constants
 from lambda_core.export.fmu.image import Image, host_words
-from lambda_core.export.fmu.led_rings import LedRings, led_rings
+from lambda_core.export.fmu.prescribed_rings import PrescribedRings, prescribed_rings
 from lambda_core.export.fmu.starting import Start, prepare_start
 from lambda_core.export.fmu.varied import Varied
 from lambda_core.laws.jit.portable import REAL, WORD, Entry
@@ -99,7 +99,7 @@ class Frozen:
     losses : int
         How many of the running integrals are losses.
     circuit : Circuit, optional
-    led : LedRings, optional
+    prescribed : PrescribedRings, optional
         For slopes of reactions, where the host leads the rings.
     machine : MachineStart, optional
     """
@@ -121,7 +121,7 @@ class Frozen:
     constants: list[Constant]
     losses: int
     circuit: Circuit | None
-    led: LedRings | None
+    prescribed: PrescribedRings | None
     machine: MachineStart | None
 
     def moves(self, body: str) -> bool:
@@ -180,7 +180,7 @@ def freeze(
     host = host_words(_HOST_WORDS + begun.inputs.size + len(options))
     host[_HOST_WORDS : _HOST_WORDS + begun.inputs.size] = begun.inputs
     host[_HOST_WORDS + begun.inputs.size :] = [option.start for option in options]
-    led, electric, start_ = begun.led, begun.circuit, begun.start
+    prescribed, electric, start_ = begun.prescribed, begun.circuit, begun.start
     now = memory.control.view(np.float64)[:1]  # the field "time" is the first one
     sections = [
         ("evaluate", evaluate_t, core.evaluate_pointer),
@@ -194,12 +194,12 @@ def freeze(
         ("host", T.array1, host),
         *(start_.sections() if start_ else ()),
         *(electric.sections() if electric else ()),
-        *(led.sections() if led else ()),
+        *(prescribed.sections() if prescribed else ()),
     ]
     kinds = observe_sig.args[-len(scratch._fields) :]
     sections += [(name, kind, array) for name, kind, array in zip(scratch._fields, kinds, scratch, strict=True)]
     pointers = [kernel.pointer for bearing in context.assembly.bearings for kernel in bearing.kernels.compiled.values()]
-    image = Image(sections, bundle.laws, pointers, led.workspaces() if led else ())
+    image = Image(sections, bundle.laws, pointers, prescribed.workspaces() if prescribed else ())
     at = image.sections
     advance = core.advance_finely_pointer if memory.stages.size else core.advance_pointer
     steps = tuple(at[name] for name in ("bundle", "blocks", "factors", "memory"))
@@ -213,7 +213,7 @@ def freeze(
         ),
         *((start_.entry(at),) if start_ else ()),
         *((electric.entry(image),) if electric else ()),
-        *((led.entry(at, core),) if led else ()),
+        *((prescribed.entry(at, core),) if prescribed else ()),
     )
     assert list(BODIES)[:2] == ["inner_ring", "outer_ring"]
     followed: list[Constant] = []
@@ -244,7 +244,7 @@ def freeze(
         constants=followed,
         losses=scratch.rates.shape[-1] - L.BESIDE_LOSSES,
         circuit=electric,
-        led=led,
+        prescribed=prescribed,
         machine=begun.machine,
     )
 
@@ -261,7 +261,7 @@ class _OneBearing:
         self.start: Start | None = prepare_start(equilibrium)
         self.engine = BearingEngine(model, announce, equilibrium, given=self.given, capacity=_CAPACITY)
         _, context, _, scratch = self.engine.parts()
-        self.led = led_rings(context, self.given) if couple == "motion" else None
+        self.prescribed = prescribed_rings(context, self.given) if couple == "motion" else None
         self.circuit = circuit(model, scratch.contacts.size // scratch.contacts.shape[-1], announce)
         self.bearings = (FrozenBearing("", model, context.assembly.spans()[0]),)
 
@@ -281,7 +281,7 @@ class _OneBearing:
 class _Machine:
     """A machine at its start."""
 
-    start = led = circuit = None
+    start = prescribed = circuit = None
 
     def __init__(self, machine: MachineModel, couple: Coupling, announce: Announce) -> None:
         check_coupling(machine, couple)

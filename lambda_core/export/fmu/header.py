@@ -263,15 +263,15 @@ def _circuit_numbers(frozen: Frozen) -> dict[str, object]:
 
 def _slope_numbers(frozen: Frozen) -> dict[str, object]:
     """Return the numbers of slopes of reactions by the solver's Jacobian, where the host leads the rings."""
-    led, image = frozen.led, frozen.image
-    if led is None:
+    prescribed, image = frozen.prescribed, frozen.image
+    if prescribed is None:
         return {"SLOPES": 0}
-    kept = led.bundle.states
+    kept = prescribed.bundle.states
     return {
         "SLOPES": 1,
-        "SLOPE_STATE": image.place(led.state),
-        "SLOPE_MATRIX": image.place(led.blocks.shared),
-        "SLOPE_WIDTH": led.blocks.shared.shape[-1],
+        "SLOPE_STATE": image.place(prescribed.state),
+        "SLOPE_MATRIX": image.place(prescribed.blocks.shared),
+        "SLOPE_WIDTH": prescribed.blocks.shared.shape[-1],
         "SHARED": image.place(frozen.scratch.shared),
         "CONTACT_STATES": image.place(frozen.memory.y, frozen.memory.y.size - kept.size),
         "CONTACT_STATES_SIZE": kept.nbytes,
@@ -280,7 +280,7 @@ def _slope_numbers(frozen: Frozen) -> dict[str, object]:
 
 def _slope_table(frozen: Frozen) -> list[str]:
     """Return the shared states that the Jacobian of a bearing with prescribed motion counts as free."""
-    states = ", ".join(map(str, frozen.led.bundle.active)) if frozen.led else ""
+    states = ", ".join(map(str, frozen.prescribed.bundle.active)) if frozen.prescribed else ""
     return [f"static const unsigned lb_slope_states[] = {{{states}}};"] if states else []
 
 

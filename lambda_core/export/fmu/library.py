@@ -123,8 +123,8 @@ def build(parts: Parts, interface: str, folder: Path, name: str, platform: str) 
     ]
     sources += [MEMORY_SOURCE, *(folder / file for file in parts.objects[platform])]
     options = (*_OPTIONS, *(_OWN_MATHEMATICS if own else ()), *(("-DLB_FUSED",) if own and fuses() else ()))
-    whole = [*command, *options, f"-I{folder}", *map(str, sources), "-o", str(library), "-lm"]
-    done = subprocess.run(whole, capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False)
+    arguments = [*command, *options, f"-I{folder}", *map(str, sources), "-o", str(library), "-lm"]
+    done = subprocess.run(arguments, capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False)
     if done.returncode != 0:
         raise UsageError(f"the C compiler {' '.join(command)} fails: {done.stderr.strip()[:2000]}")
     return library

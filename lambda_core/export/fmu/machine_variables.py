@@ -15,7 +15,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, CAGE, DOFS, INNER, OUTER, SPIN
 from lambda_core.elements.ball.raceways import raceways
 from lambda_core.export.fmu.frozen import Frozen, FrozenBearing
-from lambda_core.export.fmu.led_rings import TILT_STATES
+from lambda_core.export.fmu.prescribed_rings import TILT_STATES
 from lambda_core.export.fmu.variables import Kind, Variable, of_contacts, steps
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bodies.locations import carried

@@ -201,16 +201,16 @@ def _write(task: Mapping[str, Any], announce: Callable[[str], None] | None) -> N
 def _zip(parts: Mapping[str, bytes], target: Path) -> None:
     """Write an archive to a temporary name in its folder, and move it to its place."""
     target.parent.mkdir(parents=True, exist_ok=True)
-    beside = target.with_name(f".{target.name}.part")
+    part = target.with_name(f".{target.name}.part")
     try:
-        with zipfile.ZipFile(beside, "w", zipfile.ZIP_DEFLATED) as archive:
+        with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as archive:
             for name, content in parts.items():
                 about = zipfile.ZipInfo(name, _FIXED_TIME)
                 about.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
                 archive.writestr(about, content, zipfile.ZIP_DEFLATED)
-        beside.replace(target)
+        part.replace(target)
     finally:
-        beside.unlink(missing_ok=True)
+        part.unlink(missing_ok=True)
 
 
 def _write_apart(task: Mapping[str, Any], processor: str) -> None:

@@ -14,7 +14,7 @@ from typing import Literal
 from lambda_core.analysis.electric.columns import T_ARC, T_DISCHARGES
 from lambda_core.domain.elements import BODIES, DOFS, SPIN
 from lambda_core.export.fmu.frozen import Frozen
-from lambda_core.export.fmu.led_rings import TILT_STATES, axis_of
+from lambda_core.export.fmu.prescribed_rings import TILT_STATES, axis_of
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.integrator_memory import CONTROL, COUNT

@@ -253,7 +253,7 @@ def run_inputs(result: Result, units: UnitSystem = SI) -> Inputs:
     keys = [(f"code of {name}", key[:16]) for name, key in sorted(hashes.items())]
     return Inputs(
         value_tables(one.values, units),
-        _sentences(result.whole().assumptions if result.is_machine else one.assumptions, units),
+        _sentences(result.of_machine().assumptions if result.is_machine else one.assumptions, units),
         law_table(one.laws),
         citation(one),
         result.case_toml,

@@ -38,9 +38,9 @@ def shapes(spot: float) -> tuple[FloatArray, FloatArray]:
     values, slopes = np.ones(NODES), np.zeros(NODES)
     for i, own in enumerate(SPOTS):
         others = np.delete(SPOTS, i)
-        whole = np.prod(own - others)
-        values[i] = np.prod(spot - others) / whole
-        slopes[i] = sum(np.prod(spot - np.delete(others, k)) for k in range(NODES - 1)) / whole
+        scale = np.prod(own - others)
+        values[i] = np.prod(spot - others) / scale
+        slopes[i] = sum(np.prod(spot - np.delete(others, k)) for k in range(NODES - 1)) / scale
     return values, slopes
 
 

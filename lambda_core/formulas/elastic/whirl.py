@@ -139,8 +139,8 @@ def _direction(shape: np.ndarray, nodes: int, spin: float) -> float:
     """Return how far a motion exp(i w t) circles with the spin: areas of the nodes' orbits over their squares."""
     y, z = shape[1 : 6 * nodes : 6], shape[2 : 6 * nodes : 6]
     square = float(np.sum(np.abs(y) ** 2 + np.abs(z) ** 2))
-    whole = square + float(np.sum(np.abs(shape[0 : 6 * nodes : 6]) ** 2))
-    if square <= 1e-9 * whole:
+    total = square + float(np.sum(np.abs(shape[0 : 6 * nodes : 6]) ** 2))
+    if square <= 1e-9 * total:
         return 0.0
     turn = 2.0 * float(np.sum((y * np.conj(z)).imag)) / square
     return turn if spin >= 0.0 else -turn

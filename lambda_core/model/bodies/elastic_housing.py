@@ -68,14 +68,14 @@ def elastic_housing(
     if stretch[0] < _LOOSE * stretch[-1]:
         file.problem("the housing is held by nothing: fix it to the ground before it is reduced")
         return None, None
-    whole, damping = np.zeros((2, *(len(PLACES) * len(bearings),) * 2))
-    whole[np.ix_(places, places)] = 0.5 * (condensed + condensed.T)
+    stiffness, damping = np.zeros((2, *(len(PLACES) * len(bearings),) * 2))
+    stiffness[np.ix_(places, places)] = 0.5 * (condensed + condensed.T)
     if body.damping is not None:
         moves = np.zeros((k.shape[0], kept.size))
         moves[kept, np.arange(kept.size)] = 1.0
         moves[others] = -follows
         damping[np.ix_(places, places)] = moves.T @ body.damping @ moves
-    return whole, damping
+    return stiffness, damping
 
 
 def _say_left_out(body: ElasticBody, ledger: Ledger) -> None:

@@ -127,10 +127,10 @@ def _unknown(what: str, name: str, known: Iterable[str]) -> str:
 
 def _fits(table: str, where: str, marker: str, place: Place, ledger: Ledger) -> None:
     """Note a marker that this part cannot stand at."""
-    beside = max(abs(place.point[1]), abs(place.point[2])) > _SAME
-    if table in _ON_AXIS and (place.body != SHAFT or beside):
+    is_off_axis = max(abs(place.point[1]), abs(place.point[2])) > _SAME
+    if table in _ON_AXIS and (place.body != SHAFT or is_off_axis):
         ledger.problem(f"{where}.at", f'"{marker}" is not on the axis of the shaft, where this has to stand')
-    elif table == "connections" and place.body == SHAFT and beside:
+    elif table == "connections" and place.body == SHAFT and is_off_axis:
         ledger.problem(f"{where}.at", f'"{marker}" turns with the shaft off its axis, where no spring can be attached')
 
 

@@ -46,7 +46,7 @@ def mounted(
     play = axial_play(given, model) if takes else 0.0
     drawn = TimeFunction.constant(growth - takes * (play + (given.preload or 0.0)))
     motions = [time_function(getattr(given.support, dof).motion) for dof in POSE]
-    lead = (added(drawn, motions[0]), *motions[1:])
+    prescribed = (added(drawn, motions[0]), *motions[1:])
     dynamic, static, fatigue = _ratings(name, angle, model, ledger)
     return MountedBearing(
         name=name,
@@ -55,10 +55,10 @@ def mounted(
         carrier=carrier,
         seating=Seating(
             stiffness=_seat(name, given, model, carrier, ledger),
-            shift=tuple(map(initial, lead)),
+            shift=tuple(map(initial, prescribed)),
             force=-takes * (given.preload_force or 0.0),
             damping=tuple(getattr(given.support, dof).damping for dof in POSE),
-            lead=lead,
+            prescribed=prescribed,
         ),
         takes=takes,
         nominal_angle=angle,

@@ -92,13 +92,13 @@ def _turned(matrix: FloatArray) -> FloatArray:
 
 
 def _check_mass(body: ElasticBody, rigid: FloatArray, file: ReducedFile) -> None:
-    whole = rigid.T @ body.mass @ rigid
-    masses = np.diag(whole)[:3]
+    rigid_mass = rigid.T @ body.mass @ rigid
+    masses = np.diag(rigid_mass)[:3]
     if masses.min() <= 0.0 or np.ptp(masses) > _ALIKE * masses.max():
         told = ", ".join(f"{m:.6g} kg" for m in masses)
         file.problem(f"mass: moved along x, y and z it has {told}: a body has one mass")
         return
-    if whole[3, 3] <= 0.0 or abs(whole[4, 4] - whole[5, 5]) > _ALIKE * whole[5, 5]:
+    if rigid_mass[3, 3] <= 0.0 or abs(rigid_mass[4, 4] - rigid_mass[5, 5]) > _ALIKE * rigid_mass[5, 5]:
         file.problem("mass: needs a moment of inertia about x, and the same about y and z")
         return
     scale = 1.0 / np.sqrt(np.maximum(np.diag(body.mass), np.finfo(float).tiny))

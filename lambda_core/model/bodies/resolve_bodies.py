@@ -73,16 +73,16 @@ def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: f
     if g.kind.on_sphere and ring == "outer":
         return _sphered_ring(g, density)
     volume = math.pi / 4.0 * (large**2 - small**2) * g.width - g.rows * groove
-    whole = hollow_cylinder(density * volume, small / 2.0, large / 2.0, g.width)
+    cylinder = hollow_cylinder(density * volume, small / 2.0, large / 2.0, g.width)
     if not g.kind.one_sided:
-        return whole
+        return cylinder
     if ring == "inner":
         large = g.race_diameter_inner
     else:
         small = g.race_diameter_outer
     low = math.pi / 4.0 * (large**2 - small**2) * g.width
     # half of each: the halves of a cylinder have half of its inertia about its middle
-    return whole.half() + hollow_cylinder(density * low, small / 2.0, large / 2.0, g.width).half()
+    return cylinder.half() + hollow_cylinder(density * low, small / 2.0, large / 2.0, g.width).half()
 
 
 def _sphered_ring(g: Geometry, density: float) -> Inertia:

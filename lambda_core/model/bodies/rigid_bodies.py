@@ -42,7 +42,7 @@ COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z
 LOADS = (*COMPONENTS, "radial")  # what may change over time of a load at a place
 _DOFS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
 _ROUNDING = 1e-9
-_FARTHEST = 0.1  # [m, rad] that anything is led: seats and housings move by micrometres, milliradians
+_FARTHEST = 0.1  # [m, rad] of a prescribed motion: seats and housings move by micrometres, milliradians
 _FAR_BEYOND = 1000.0  # times the static ratings: pressures ten times those that dent it
 
 
@@ -75,11 +75,11 @@ def _rigid(name: str, given: MachineBody, catalogue: Catalogue, ledger: Ledger) 
             f"{show(transverse, 'inertia', 4)}",
         )
     held: list[Dof] = [getattr(given.support, dof) for dof in _DOFS]
-    lead = tuple(time_function(getattr(one, "motion", None)) for one in held)  # nothing is led about x
-    for dof, motion in zip(_DOFS, lead, strict=True):
+    prescribed = tuple(time_function(getattr(one, "motion", None)) for one in held)  # none about x
+    for dof, motion in zip(_DOFS, prescribed, strict=True):
         refuse_far(f"bodies.{name}.support.{dof}.motion", dof, motion, ledger)
     return RigidBody(
-        name, (given.x, given.y, given.z), mass, polar, transverse, tuple(one.hold for one in held), extent, lead,
+        name, (given.x, given.y, given.z), mass, polar, transverse, tuple(one.hold for one in held), extent, prescribed,
         tuple(float(getattr(one, "damping", 0.0)) for one in held),
     )  # fmt: skip
 
@@ -125,15 +125,15 @@ def _elastic_support(case: MachineCase, stand: Places) -> list[MachineSpring]:
 
 def shaft_hold(case: MachineCase, stand: Places, ledger: Ledger) -> ShaftHold | None:
     """Return where the ground holds the shaft without giving way; None where it is free."""
-    lead: list[TimeFunction | None] = []
+    prescribed: list[TimeFunction | None] = []
     for dof in POSE:
         given: Dof = getattr(case.shaft.support, dof)
         motion = time_function(getattr(given, "motion", None))
         refuse_far(f"{SUPPORT}.{dof}.motion", dof, motion, ledger)
-        lead.append(None if given.mode == "free" else motion)
-    if SUPPORT not in stand.of or all(one is None for one in lead):
+        prescribed.append(None if given.mode == "free" else motion)
+    if SUPPORT not in stand.of or all(one is None for one in prescribed):
         return None
-    return ShaftHold(stand.of[SUPPORT].point[0], tuple(lead))
+    return ShaftHold(stand.of[SUPPORT].point[0], tuple(prescribed))
 
 
 def resolve_links(

@@ -75,7 +75,7 @@ def _freed(found: SolverContext) -> SolverContext:
 def _moved(equilibrium: Equilibrium, context: SolverContext) -> FloatArray:
     """Return the equilibrium in the layout of the freed ring, the cage where the motion begins: it touches no ball."""
     old = equilibrium.context
-    shared = old.bundle.shared.copy()  # as the last evaluation left it: led degrees of freedom included
+    shared = old.bundle.shared.copy()  # as the last evaluation left it: prescribed degrees of freedom included
     shared[old.bundle.active] = old.shared_part(initial_state(equilibrium))
     balls = equilibrium.state[: int(old.bundle.system["tail"][0])]
     kept = equilibrium.state[equilibrium.state.size - old.bundle.states.size :]

@@ -202,8 +202,8 @@ def _inertias(body: ElasticBody, places: FloatArray) -> tuple[FloatArray, FloatA
 def _condensed(body: ElasticBody, places: FloatArray, coupling: int | None) -> tuple[FloatArray, FloatArray]:
     """Return how all nodes follow the lumps and one more row, the coupling's, and the stiffness between these."""
     size = body.stiffness.shape[0]
-    beside = [] if coupling is None else [coupling]
-    kept = np.concatenate([*(np.arange(size)[body.rows(float(place))] for place in places), beside]).astype(int)
+    coupling_row = [] if coupling is None else [coupling]
+    kept = np.concatenate([*(np.arange(size)[body.rows(float(place))] for place in places), coupling_row]).astype(int)
     inner = np.setdiff1d(np.arange(size), kept)
     k = body.stiffness
     follow = np.zeros((size, kept.size))

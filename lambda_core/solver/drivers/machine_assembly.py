@@ -47,7 +47,7 @@ class MemberNumbers:
     inner : tuple of ints
         Lump that carries the inner ring of each.
     bodies : int64[:]
-    led : int64[:]
+    driven : int64[:]
         Members that the coupling turns: all lumps, or where the shaft twists one, or the member behind all.
     count : int
     """
@@ -57,7 +57,7 @@ class MemberNumbers:
     outer_rings: tuple[int, ...]
     cages: tuple[int, ...]
     bodies: NDArray[np.int64]
-    led: NDArray[np.int64]
+    driven: NDArray[np.int64]
     count: int
 
 
@@ -66,15 +66,15 @@ def member_numbers(machine: MachineModel, shaft: LumpedShaft) -> MemberNumbers:
     lumps, bearings = shaft.positions.size, len(machine.bearings)
     own = np.array([0, *range(2, lumps + 1)])
     with_mass = lumps + 2 * bearings + len(machine.bodies)
-    led = np.append(own, with_mass)[[shaft.driven]] if machine.twists else own
+    driven = np.append(own, with_mass)[[shaft.driven]] if machine.twists else own
     return MemberNumbers(
         lumps=own,
         inner=tuple(int(own[shaft.at(bearing.position)]) for bearing in machine.bearings),
         outer_rings=(1, *(lumps + 2 * i for i in range(1, bearings))),
         cages=tuple(lumps + 2 * i + 1 for i in range(bearings)),
         bodies=np.arange(with_mass - len(machine.bodies), with_mass),
-        led=led,
-        count=max(with_mass, int(led.max()) + 1),
+        driven=driven,
+        count=max(with_mass, int(driven.max()) + 1),
     )
 
 
@@ -102,7 +102,7 @@ def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Fro
     loads = _loads_on_bodies(machine)
     for k, rigid in enumerate(machine.bodies):
         members[int(numbers.bodies[k])] = Member(rigid.name, _rigid(rigid, loads[k]))
-    for number in numbers.led:  # the member without mass, where there is one
+    for number in numbers.driven:  # the member without mass, where there is one
         members.setdefault(int(number), Member("coupling", Body(0.0, 0.0, 0.0, _turned(machine, _LOCKED))))
     return Assembly(
         tuple(members[number] for number in range(numbers.count)),
@@ -148,12 +148,12 @@ def _lumps(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) ->
                 ring = mounted.model.inner_ring
                 mass, polar = mass + ring.mass, polar + ring.polar_inertia
                 transverse += ring.transverse_inertia
-        dofs = _turned(machine, _FREE) if number in numbers.led else dict.fromkeys(DOFS, _FREE)
+        dofs = _turned(machine, _FREE) if number in numbers.driven else dict.fromkeys(DOFS, _FREE)
         if machine.hold is not None and k == shaft.at(machine.hold.position):
-            held = zip(POSE, machine.hold.lead, strict=True)
-            dofs |= {name: _led(lead) for name, lead in held if lead is not None}
+            held = zip(POSE, machine.hold.prescribed, strict=True)
+            dofs |= {name: _prescribed(lead) for name, lead in held if lead is not None}
         load = loads[k]
-        if machine.torque is not None and number in numbers.led:
+        if machine.torque is not None and number in numbers.driven:
             load = (*load[:_ABOUT_X], added(load[_ABOUT_X], machine.torque), *load[_ABOUT_X + 1 :])
         body = _loaded(Body(mass, transverse, polar, dofs, unbalance=float(unbalances[k])), load)
         found[number] = Member(f"shaft at {1e3 * float(shaft.positions[k]):.4g} mm", body)
@@ -170,20 +170,20 @@ def _outer_ring(machine: MachineModel, i: int, model: BearingModel) -> Body:
     """Return an outer ring in its seat: springs and elastic housings tie it, and it is free between them."""
     seating, dofs = machine.bearings[i].seating, {SPIN: machine.bearings[i].model.outer_ring.dofs[SPIN]}
     is_housed = machine.housing is not None and machine.bearings[i].carrier == GROUND
-    for name, stiffness, lead in zip(POSE, seating.stiffness, seating.lead, strict=True):
-        dofs[name] = _FREE if math.isfinite(stiffness) or is_housed else _led(lead)
+    for name, stiffness, lead in zip(POSE, seating.stiffness, seating.prescribed, strict=True):
+        dofs[name] = _FREE if math.isfinite(stiffness) or is_housed else _prescribed(lead)
     ring = dataclasses.replace(_unloaded(model.outer_ring), dofs=dofs)
     return _loaded(ring, (TimeFunction.constant(seating.force), *[ZERO] * (NODE - 1)))
 
 
-def _led(motion: TimeFunction) -> DofState:
+def _prescribed(motion: TimeFunction) -> DofState:
     return DofState("prescribed", motion) if motion.terms else _LOCKED
 
 
 def _rigid(rigid: RigidBody, load: Load) -> Body:
     dofs: dict[str, DofState] = {}
     for name, place in zip(DOFS, (*PLACES, _ABOUT_X), strict=True):  # the turn about x comes last
-        dofs[name] = _FREE if math.isfinite(rigid.hold[place]) else _led(rigid.lead[place])
+        dofs[name] = _FREE if math.isfinite(rigid.hold[place]) else _prescribed(rigid.prescribed[place])
     return _loaded(Body(rigid.mass, rigid.transverse_inertia, rigid.polar_inertia, dofs), load)
 
 

@@ -115,7 +115,7 @@ def machine_given(machine: MachineModel, shaft: LumpedShaft, context: SolverCont
     names = list(loads)
     if machine.torque is None and all(term.kind == "constant" for term in machine.speed_over_time.terms):
         names.append(SHAFT_SPIN)
-    turned = [PER_BODY * int(member) + MOTION + _SPIN for member in numbers.led]
+    turned = [PER_BODY * int(member) + MOTION + _SPIN for member in numbers.driven]
     of_signal: dict[int, list[tuple[int, float]]] = {}
     for number, name in enumerate(names):
         own = dict.fromkeys(turned, 1.0) if name == SHAFT_SPIN else loads[name]

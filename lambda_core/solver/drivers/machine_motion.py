@@ -112,7 +112,7 @@ def _begun(
     names = [bearing.name for bearing in machine.bearings]
     bearings = tuple(map(ReadBearing, names, alone, context.assembly.spans()))
     given = machine_given(machine, shaft, context) if is_given else None
-    changes = any(term.kind != "constant" for function in machine.led for term in function.terms)
+    changes = any(term.kind != "constant" for function in machine.prescribed_motions for term in function.terms)
     changes = changes or leads_cages or (given is not None and given.turns)
     solvers = [bearing.model.solver for bearing in machine.bearings]
     intervals = [
@@ -316,7 +316,7 @@ class MemberChannels:
         found: FloatArray = angles[:, self._numbers.lumps] - self._azimuths
         if not self._machine.twists:
             return np.zeros_like(found)
-        lead = angles[:, self._numbers.led] - np.append(self._azimuths, 0.0)[[self._shaft.driven]]
+        lead = angles[:, self._numbers.driven] - np.append(self._azimuths, 0.0)[[self._shaft.driven]]
         return np.asarray(found - lead)
 
     def _markers(self, lumps: FloatArray, bodies: FloatArray) -> FloatArray:

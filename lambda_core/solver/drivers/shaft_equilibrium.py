@@ -86,7 +86,7 @@ class ShaftState:
         return np.asarray(self.displacement[rows] - self.outer[index])
 
 
-class _Whole:
+class _System:
     """The unknowns of shaft, outer rings and other bodies in one vector, and the forces on them.
 
     The shaft's are the pose of the node that the coupling holds and, of all others, what they move relative to a rigid
@@ -242,76 +242,76 @@ def solve_shaft(model: MachineModel, announce: Announce = None, kernels: SharedK
     for m, takes in ((bearing.model, bearing.takes) for bearing in model.bearings):
         angle = free_contact_angle(m) if takes else m.geometry.resting_angle
         rings.append(HeldRing(m, angle, 1000.0, shared.of(m), announce))
-    whole = _Whole(model, rings, shared.of(model.bearings[0].model))
-    _refuse_loose(whole)
-    q = _first_guess(whole)
+    system = _System(model, rings, shared.of(model.bearings[0].model))
+    _refuse_loose(system)
+    q = _first_guess(system)
     iterations = 0
     for _ in range(_FRAMES):
-        q, used = _newton(whole, q)
+        q, used = _newton(system, q)
         iterations += used
         if not sum(ring.refresh() for ring in rings):
             break
-    unbalanced, reactions = whole.residual(q)
+    unbalanced, reactions = system.residual(q)
     _check_sides(model, reactions)
     torque = -float(unbalanced[model.drive])
-    moved = whole.moves @ q
+    moved = system.moves @ q
     return ShaftState(
-        displacement=moved[: whole.size],
-        outer=q[whole.outer],
-        bodies=moved[whole.outer.max() + 1 :].reshape(-1, NODE),
+        displacement=moved[: system.size],
+        outer=q[system.outer],
+        bodies=moved[system.outer.max() + 1 :].reshape(-1, NODE),
         reactions=reactions,
         stiffness=np.array([ring.stiffness() for ring in rings]),
         rings=rings,
         drive_torque=torque,
-        residual=whole.merit(unbalanced),
+        residual=system.merit(unbalanced),
         iterations=iterations,
-        links=[link.solved(moved) for link in whole.links],
+        links=[link.solved(moved) for link in system.links],
     )
 
 
-def _first_guess(whole: _Whole) -> FloatArray:
+def _first_guess(system: _System) -> FloatArray:
     """Return a state in which every loaded bearing is in contact: springs first, then the way to touching rings."""
-    model = whole.model
-    springs = np.array([np.diag(_GUESS)] * len(whole.rings))
-    tangent, q = whole.tangent(springs, whole.start), whole.start.copy()
-    offset = np.zeros((len(whole.rings), len(POSE)))
+    model = system.model
+    springs = np.array([np.diag(_GUESS)] * len(system.rings))
+    tangent, q = system.tangent(springs, system.start), system.start.copy()
+    offset = np.zeros((len(system.rings), len(POSE)))
     for i, bearing in enumerate(model.bearings):
         if bearing.takes:
-            offset[i, 0] = -whole.start[whole.outer[i, 0]]
+            offset[i, 0] = -system.start[system.outer[i, 0]]
     for _ in range(2):
-        pull = whole.elastic(whole.start)
+        pull = system.elastic(system.start)
         forces = np.array([k @ o for k, o in zip(springs, offset, strict=True)])
-        for i in range(len(whole.rings)):
-            pull += whole.reach[i].T @ (forces[i] - springs[i] @ whole.reach[i] @ whole.start)
-        q = whole.start + whole.step(tangent, pull)
+        for i in range(len(system.rings)):
+            pull += system.reach[i].T @ (forces[i] - springs[i] @ system.reach[i] @ system.start)
+        q = system.start + system.step(tangent, pull)
         for i, bearing in enumerate(model.bearings):
-            pushed = (whole.poses(q)[i] - offset[i])[1:3]
+            pushed = (system.poses(q)[i] - offset[i])[1:3]
             size = float(np.hypot(*pushed))
             if not bearing.takes and size > 0.0:
                 offset[i, 1:3] = 0.5 * max(bearing.model.geometry.clearance, 0.0) * pushed / size
     return q
 
 
-def _newton(whole: _Whole, q: FloatArray) -> tuple[FloatArray, int]:
+def _newton(system: _System, q: FloatArray) -> tuple[FloatArray, int]:
     """Return the state of balance next to `q`, and the number of iterations."""
-    unbalanced, _ = whole.residual(q)
-    merit = whole.merit(unbalanced)
+    unbalanced, _ = system.residual(q)
+    merit = system.merit(unbalanced)
     for iteration in range(_ITERATIONS):
         if merit < _CONVERGED:
             return q, iteration
         damping = min(_DAMPING, max(_LEAST_DAMPING, _DAMPING * merit))
-        each = np.array([ring.stiffness() for ring in whole.rings])
-        move = whole.step(whole.tangent(each + damping * np.diag(_GUESS), q), unbalanced)
-        longest = float(np.abs(whole.poses(move) * _ARMS).max())
+        each = np.array([ring.stiffness() for ring in system.rings])
+        move = system.step(system.tangent(each + damping * np.diag(_GUESS), q), unbalanced)
+        longest = float(np.abs(system.poses(move) * _ARMS).max())
         move *= min(1.0, _LONGEST / max(longest, 1e-300))
-        q, unbalanced = _along(whole, q, move, unbalanced)
-        before, merit = merit, whole.merit(unbalanced)
+        q, unbalanced = _along(system, q, move, unbalanced)
+        before, merit = merit, system.merit(unbalanced)
         if merit < _ROUNDING and merit > 0.3 * before:
             return q, iteration
-    raise SolverError(_no_balance(whole, unbalanced, merit))
+    raise SolverError(_no_balance(system, unbalanced, merit))
 
 
-def _along(whole: _Whole, q: FloatArray, move: FloatArray, unbalanced: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _along(system: _System, q: FloatArray, move: FloatArray, unbalanced: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the state along a step where the potential no longer falls, to a share of its first slope.
 
     Forces of frictionless contacts have a potential; its slope along the step is the work of what is unbalanced. Where
@@ -319,12 +319,12 @@ def _along(whole: _Whole, q: FloatArray, move: FloatArray, unbalanced: FloatArra
     """
     first = float(unbalanced @ move)
     if first <= 0.0:  # what is left is rounding
-        return q + move, whole.residual(q + move)[0]
+        return q + move, system.residual(q + move)[0]
     low, at_low, high, at_high = 0.0, first, 1.0, math.nan
     share = 1.0
     for _ in range(_TRIES):
         try:
-            trial, _ = whole.residual(q + share * move)
+            trial, _ = system.residual(q + share * move)
         except SolverError:
             high, at_high, share = share, math.nan, 0.5 * (low + share)
             continue
@@ -338,37 +338,39 @@ def _along(whole: _Whole, q: FloatArray, move: FloatArray, unbalanced: FloatArra
         secant = low + (high - low) * at_low / (at_low - at_high) if at_high < 0.0 else 0.5 * (low + high)
         share = min(max(secant, low + 0.1 * (high - low)), high - 0.1 * (high - low))
     else:
-        trial, _ = whole.residual(q + share * move)
+        trial, _ = system.residual(q + share * move)
     return q + share * move, trial
 
 
-def _refuse_loose(whole: _Whole) -> None:
+def _refuse_loose(system: _System) -> None:
     """Refuse a shaft or a body that nothing holds in a direction in which something pulls it."""
-    held = whole.tangent(np.array([np.diag(_GUESS)] * len(whole.rings)), whole.start)
-    held = held[np.ix_(whole.free, whole.free)]
-    pull = whole.elastic(whole.start)[whole.free]
-    way = loose_motion(held, pull, whole.arms[whole.free], whole.scale)
+    held = system.tangent(np.array([np.diag(_GUESS)] * len(system.rings)), system.start)
+    held = held[np.ix_(system.free, system.free)]
+    pull = system.elastic(system.start)[system.free]
+    way = loose_motion(held, pull, system.arms[system.free], system.scale)
     if way is not None:
-        axis, what = _named(whole, int(whole.free[np.flatnonzero(np.abs(way) > 0.99)[0]]))
+        axis, what = _named(system, int(system.free[np.flatnonzero(np.abs(way) > 0.99)[0]]))
         turned = f"against turning about {axis[-1]}" if axis.startswith("tilt") else f"along {axis}"
-        raise SolverError(f"{whole.model.name}: no equilibrium of the shaft: nothing holds it {turned} ({what})")
+        raise SolverError(f"{system.model.name}: no equilibrium of the shaft: nothing holds it {turned} ({what})")
 
 
-def _no_balance(whole: _Whole, unbalanced: FloatArray, merit: float) -> str:
-    sizes = np.abs(unbalanced / whole.arms)
-    of_rings = set(whole.outer.ravel().tolist())
-    axis, what = _named(whole, int(max((row for row in whole.free if row not in of_rings), key=lambda row: sizes[row])))
+def _no_balance(system: _System, unbalanced: FloatArray, merit: float) -> str:
+    sizes = np.abs(unbalanced / system.arms)
+    of_rings = set(system.outer.ravel().tolist())
+    axis, what = _named(
+        system, int(max((row for row in system.free if row not in of_rings), key=lambda row: sizes[row]))
+    )
     return (
-        f"{whole.model.name}: no equilibrium of the shaft: {merit:.1e} of the loads stay unbalanced, most along {axis} "
-        f"{what}: is the shaft held in every direction, and does each bearing take what comes to it?"
+        f"{system.model.name}: no equilibrium of the shaft: {merit:.1e} of the loads stay unbalanced, most "
+        f"along {axis} {what}: is the shaft held in every direction, and does each bearing take what comes to it?"
     )
 
 
-def _named(whole: _Whole, row: int) -> tuple[str, str]:
+def _named(system: _System, row: int) -> tuple[str, str]:
     """Return the axis of an unknown, and where it is."""
-    model, beyond = whole.model, row - whole.size
-    if beyond >= whole.outer.size:
-        body, axis = divmod(beyond - whole.outer.size, NODE)
+    model, beyond = system.model, row - system.size
+    if beyond >= system.outer.size:
+        body, axis = divmod(beyond - system.outer.size, NODE)
         return _AXES[axis], f"of {model.bodies[body].name}"
     if beyond >= 0:
         bearing, place = divmod(beyond, len(POSE))

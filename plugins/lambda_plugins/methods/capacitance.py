@@ -26,7 +26,7 @@ class PlateContact:
     p_max: float  # [Pa]
     relative_permittivity: float  # at p_max
     hertz: float  # C_Hertz [F]
-    whole: float  # C_Con = k_c C_Hertz [F]
+    corrected: float  # C_Con = k_c C_Hertz [F]
 
 
 def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, inner: bool) -> PlateContact:
@@ -58,7 +58,7 @@ def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, in
     speed = entrainment_speed(
         inputs.inner_speed, inputs.outer_speed, inputs.ball_diameter, inputs.pitch_diameter, contact_angle
     )
-    ellipse, film, whole = np.empty(4), np.empty(2), np.empty(1)
+    ellipse, film, corrected = np.empty(4), np.empty(2), np.empty(1)
     hamrock_brewe(1e-6, radius_x, radius_y, e_eff, known((radius_x, radius_y), fitted), ellipse)
     growth = (load / float(ellipse[0])) ** (1.0 / 3.0)  # semi-axes and pressure grow with Q^(1/3)
     semi_a, semi_b = float(ellipse[1]) * growth, float(ellipse[2]) * growth
@@ -72,8 +72,10 @@ def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, in
         load / (e_eff * radius_x**2),
         inputs.permittivity(0.0),
     )
-    schneider(hertz, central, semi_a, semi_b, radius_x, radius_y, *parameters, Ball(0.5 * inputs.ball_diameter), whole)
-    return PlateContact(area, central, p_max, permittivity, hertz, float(whole[0]))
+    schneider(
+        hertz, central, semi_a, semi_b, radius_x, radius_y, *parameters, Ball(0.5 * inputs.ball_diameter), corrected
+    )
+    return PlateContact(area, central, p_max, permittivity, hertz, float(corrected[0]))
 
 
 def _series(first: float, second: float) -> float:
@@ -85,8 +87,8 @@ def _rows(inner: PlateContact, outer: PlateContact) -> list[MethodRow]:
     for ring, plate in (("inner", inner), ("outer", outer)):
         rows += [
             MethodRow("capacitance", f"{ring} Hertzian area", plate.hertz * 1e12, "pF", "C_Hertz of one contact"),
-            MethodRow("capacitance", f"{ring} contact", plate.whole * 1e12, "pF", "C_Con = k_c C_Hertz"),
-            MethodRow("capacitance", f"{ring} factor", plate.whole / plate.hertz, "-", "k_c"),
+            MethodRow("capacitance", f"{ring} contact", plate.corrected * 1e12, "pF", "C_Con = k_c C_Hertz"),
+            MethodRow("capacitance", f"{ring} factor", plate.corrected / plate.hertz, "-", "k_c"),
             MethodRow("capacitance", f"{ring} film", plate.film * 1e6, "um", "h_cen"),
             MethodRow("capacitance", f"{ring} area", plate.area * 1e6, "mm2", "pi a b"),
             MethodRow("capacitance", f"{ring} maximum pressure", plate.p_max * 1e-9, "GPa", "p_0"),
@@ -116,9 +118,9 @@ def evaluate(inputs: MethodInputs) -> MethodTable:
     rows = _rows(*plates[most])
     meaning = f"{len(loaded)} of {len(inputs.state.contacts)} balls loaded, the others left out"
     hertz = sum(_series(inner.hertz, outer.hertz) for inner, outer in plates)
-    whole = sum(_series(inner.whole, outer.whole) for inner, outer in plates)
+    corrected = sum(_series(inner.corrected, outer.corrected) for inner, outer in plates)
     rows.append(MethodRow("capacitance", "bearing, Hertzian areas", hertz * 1e12, "pF", meaning))
-    rows.append(MethodRow("capacitance", "bearing", whole * 1e12, "pF", meaning))
+    rows.append(MethodRow("capacitance", "bearing", corrected * 1e12, "pF", meaning))
     return MethodTable(tuple(rows), ("speeds from geometry without slip", "isothermal film", "fully flooded inlet"))
 
 

@@ -53,7 +53,7 @@ def _machine(run: Any) -> Any:
     """Return the result of the whole machine; NotApplicable for one bearing alone."""
     if not _is_machine(run):
         raise NotApplicable("the case is one bearing alone, not a machine with a shaft")
-    return run.whole()
+    return run.of_machine()
 
 
 def _thinned(values: np.ndarray) -> np.ndarray:

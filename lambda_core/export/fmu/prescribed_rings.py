@@ -1,7 +1,7 @@
 """Prepare the reaction slopes for rings with prescribed motion.
 
-The solver's Jacobian holds the slopes of the forces on all bodies with their free states. Rings that a host leads have
-none; so a second set of blocks is made, for the same tables, in which all that a host leads counts as free.
+The solver's Jacobian holds the slopes of the forces on all bodies with their free states. Rings that a host moves have
+none; so a second set of blocks is made, for the same tables, in which every motion of the host counts as free.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ _FIRST: dict[str, int] = {body: L.NS * b for b, body in enumerate(BODIES)}
 
 
 @dataclasses.dataclass(frozen=True)
-class LedRings:
+class PrescribedRings:
     """Arrays for the slopes of reactions.
 
     Attributes
     ----------
     bundle : layout.Bundle
-        The tables of the model, with the free states and those that the host leads as `active`.
+        The tables of the model, with the free states and those that the host prescribes as `active`.
     blocks : Blocks
         For it.
     state : float64[:]
@@ -48,9 +48,9 @@ class LedRings:
     def sections(self) -> list[tuple[str, Any, Any]]:
         """Return what belongs into the image."""
         return [
-            ("led_bundle", T.bundle_t, self.bundle),
-            ("led_blocks", blocks_t, self.blocks),
-            ("led_state", T.array1, self.state),
+            ("prescribed_bundle", T.bundle_t, self.bundle),
+            ("prescribed_blocks", blocks_t, self.blocks),
+            ("prescribed_state", T.array1, self.state),
         ]
 
     def workspaces(self) -> list[Any]:
@@ -59,17 +59,21 @@ class LedRings:
 
     def entry(self, at: dict[str, int], core: Core) -> Entry:
         """Return the function of the library that fills the blocks."""
-        return Entry("lb_jacobian", core.jacobian_pointer, (REAL, at["led_state"], at["led_bundle"], at["led_blocks"]))
+        return Entry(
+            "lb_jacobian",
+            core.jacobian_pointer,
+            (REAL, at["prescribed_state"], at["prescribed_bundle"], at["prescribed_blocks"]),
+        )
 
 
-def led_rings(context: SolverContext, given: Sequence[str]) -> LedRings:
-    """Return what slopes with the motions among `given` need."""
+def prescribed_rings(context: SolverContext, given: Sequence[str]) -> PrescribedRings:
+    """Return the arrays for slopes with the motions among `given`."""
     bundle = context.bundle
-    led = [column for name in given for field in ("value", "rate") if (column := axis_of(name, field)[0]) >= 0]
-    active = np.union1d(bundle.active, led).astype(np.int64)
+    columns = [column for name in given for field in ("value", "rate") if (column := axis_of(name, field)[0]) >= 0]
+    active = np.union1d(bundle.active, columns).astype(np.int64)
     free = bundle._replace(active=active)
     tail = int(bundle.system["tail"][0])
-    return LedRings(free, make_blocks(free), np.zeros(tail + active.size + bundle.states.size))
+    return PrescribedRings(free, make_blocks(free), np.zeros(tail + active.size + bundle.states.size))
 
 
 def axis_of(name: str, field: str) -> tuple[int, float]:

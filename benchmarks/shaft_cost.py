@@ -22,16 +22,16 @@ _PIECES = 100  # short ones: of each a repeat is found that nothing else on the 
 _MILLISECONDS, _MILLISECONDS_QUICK = 200, 40
 _REPEATS = 5
 _COUNTED = ("steps", "newton_iterations", "rests", "jacobians", "ball_jacobians", "factorisations")
-WHOLE = "whole"
+MACHINE = "machine"
 Engine = MachineEngine | BearingEngine
 Passage = tuple[tuple[float, ...], Mapping[str, float]]  # time of each piece [s], counters
 
 
 def starts(changes: tuple[str, ...] = CHANGES) -> dict[str, Callable[[], Engine]]:
     """Return how the machine and each of its bearings alone are started, by name."""
-    model = resolve_machine(tomllib.loads(geared_shaft("whole")), changes)
+    model = resolve_machine(tomllib.loads(geared_shaft("machine")), changes)
     first = machine_engine(model)
-    found: dict[str, Callable[[], Engine]] = {WHOLE: lambda: machine_engine(model)}
+    found: dict[str, Callable[[], Engine]] = {MACHINE: lambda: machine_engine(model)}
     for i, part in enumerate(first.bearings):
         alone = alone_under_load(model, first.start.state, i)
         found[part.name] = lambda alone=alone: BearingEngine(alone)  # type: ignore[misc]
@@ -62,7 +62,7 @@ def measure(effort: Effort) -> Section:
     bearings, rows = len(ways) - 1, []
     for name, passages in found.items():
         counts = [int(passages[0][1].get(key, 0)) for key in _COUNTED]
-        evaluated = counts[1] * (bearings if name == WHOLE else 1) - counts[2]
+        evaluated = counts[1] * (bearings if name == MACHINE else 1) - counts[2]
         cells: tuple[Cell, ...] = (name, *counts, evaluated, 1e3 * seconds[name], 1e6 * seconds[name] / evaluated)
         rows.append(cells)
     table = Table(
@@ -74,5 +74,5 @@ def measure(effort: Effort) -> Section:
         tuple(rows),
         ("The template geared-shaft with 50 g mm at its wheel; alone under the loads of the machine's equilibrium.",),
     )  # fmt: skip
-    ratio = seconds[WHOLE] / sum(value for name, value in seconds.items() if name != WHOLE)
-    return Section("whole", (table,), (Target("a whole over the sum of its bearings", "-", ratio, MOST),))
+    ratio = seconds[MACHINE] / sum(value for name, value in seconds.items() if name != MACHINE)
+    return Section("shaft_cost", (table,), (Target("a machine over the sum of its bearings", "-", ratio, MOST),))
