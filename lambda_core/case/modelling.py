@@ -105,7 +105,7 @@ class Solver(Section):
         gt=0.0,
     )
     max_wall: Time | None = option(
-        None, "wall time after which a run stops with what it has, resume goes on without it; absent: none", gt=0.0
+        None, "wall time with preparation after which a run stops, resume goes on without it; absent: none", gt=0.0
     )
 
 

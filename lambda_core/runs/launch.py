@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -67,12 +68,13 @@ def launch(
     report, announce : callable, optional
         Called with the progress of the run; with a sentence before what takes a while.
     """
+    began = time.perf_counter()
     path = destination(model, out, force)
     _check_end(model)
     engine, provenance, attached = prepared(model, announce)
     if band:
         provenance = _with_bands(model, provenance, announce)
-    return run(engine, provenance, path, force=force, report=report, attached=attached)
+    return run(engine, provenance, path, force=force, report=report, attached=attached, began=began)
 
 
 def relaunch(path: Path, model: Runnable, *, report: Report | None = None, announce: Announce | None = None) -> Result:
@@ -83,6 +85,7 @@ def relaunch(path: Path, model: Runnable, *, report: Report | None = None, annou
     ResultError
         When the catalogue, the models or the code have changed, so that it would not be the same run.
     """
+    began = time.perf_counter()
     result = Result(path)
     _check_end(model)
     _check_same(result, model)
@@ -95,7 +98,7 @@ def relaunch(path: Path, model: Runnable, *, report: Report | None = None, annou
         other = sorted(part for part, key in origin.kernel_keys.items() if keys[name].get(part) != key)
         if other:
             raise ResultError(f"{path} cannot go on: the code has changed since: {_some(other)}")
-    return resume(engine, provenance, path, report=report, attached=attached)
+    return resume(engine, provenance, path, report=report, attached=attached, began=began)
 
 
 def _check_same(result: Result, model: Runnable) -> None:

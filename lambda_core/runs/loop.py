@@ -44,6 +44,7 @@ def run(
     force: bool = False,
     report: Report | None = None,
     attached: Attachments | None = None,
+    began: float | None = None,
 ) -> Result:
     """Simulate from the start until the end, into a new result file.
 
@@ -59,6 +60,8 @@ def run(
         Called with a :class:`Progress` some ten times a second.
     attached : Attachments, optional
         The electric circuit, observers and events of the run.
+    began : float, optional
+        When its preparation began, which the limit of wall time counts from, of ``time.perf_counter``; default: now.
 
     Returns
     -------
@@ -75,18 +78,23 @@ def run(
     attached = attached or Attachments.of(provenance, None)
     channels = attached.channels(engine)
     writer = ResultWriter.create(path, provenance, channels, Status(process=this_process()), force=force)
-    return _begun(engine, provenance, writer, report, attached).drive()
+    return _begun(engine, provenance, writer, report, attached, began).drive()
 
 
 def _begun(
-    engine: RunEngine, provenance: Provenance, writer: ResultWriter, report: Report | None, attached: Attachments
+    engine: RunEngine,
+    provenance: Provenance,
+    writer: ResultWriter,
+    report: Report | None,
+    attached: Attachments,
+    began: float | None,
 ) -> Session:
     """Return the first stretch of a run."""
     start = records_of(engine)
     known = {name: [row] for name, row in start.items()}
     writer.add_record(start, known)
     position = Position(0, Rows(), 0.0)
-    return Session(engine, _models(provenance), writer, known, start, position, report, attached)
+    return Session(engine, _models(provenance), writer, known, start, position, report, attached, began)
 
 
 def resume(
@@ -96,6 +104,7 @@ def resume(
     *,
     report: Report | None = None,
     attached: Attachments | None = None,
+    began: float | None = None,
 ) -> Result:
     """Continue a run that was killed, stopped or finished, from its last checkpoint.
 
@@ -112,7 +121,7 @@ def resume(
         When the disk has no room to go on.
     """
     with locked(_lock_of(path)):  # of two that resume one file at the same moment, the second finds the first at work
-        session = _reopened(engine, provenance, path, report, attached)
+        session = _reopened(engine, provenance, path, report, attached, began)
     return session.drive()
 
 
@@ -122,7 +131,12 @@ def _lock_of(path: Path) -> Path:
 
 
 def _reopened(
-    engine: RunEngine, provenance: Provenance, path: Path, report: Report | None, attached: Attachments | None
+    engine: RunEngine,
+    provenance: Provenance,
+    path: Path,
+    report: Report | None,
+    attached: Attachments | None,
+    began: float | None,
 ) -> Session:
     """Return the next stretch of a run, its file open for this process."""
     result = Result(path)
@@ -134,7 +148,7 @@ def _reopened(
     attached = attached or Attachments.of(provenance, None)
     if checkpoint is None:  # killed before the first one: the beginning is as good
         writer = ResultWriter.continued(path, Status(process=this_process()), Rows())
-        return _begun(engine, provenance, writer, report, attached)
+        return _begun(engine, provenance, writer, report, attached, began)
     position = checkpoint.position
     check_rows(path, position)
     engine.restore(checkpoint.state)
@@ -148,7 +162,7 @@ def _reopened(
     status = replace(status, state="running", message="", rows=position.rows, process=this_process())
     attached.catch_up(result, position.rows)
     writer = ResultWriter.continued(path, status, position.summed)
-    session = Session(engine, _models(provenance), writer, known, last, position, report, attached)
+    session = Session(engine, _models(provenance), writer, known, last, position, report, attached, began)
     # Convergence is looked at where a revolution ends: a run that was killed right behind that has nothing left to do.
     if any(len(rows) > 1 and known[name][-1][0] > rows[-2][0] for name, rows in records.items()):
         session.judge()

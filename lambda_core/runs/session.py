@@ -101,6 +101,7 @@ class Session:
         position: Position,
         report: Report | None,
         attached: Attachments,
+        began: float | None = None,
     ) -> None:
         self._live, self._attached = attached.live, attached
         self._engine = engine
@@ -125,6 +126,7 @@ class Session:
         self._epicyclic = math.nan
         self._from = engine.time
         self._started = time.perf_counter()
+        self._late_at = (self._started if began is None else began) + self._solver.max_wall
         self._flushed = self._saved = self._reported = self._started
 
     def drive(self) -> Result:
@@ -186,7 +188,7 @@ class Session:
         return "finished", ""
 
     def _late(self) -> bool:
-        return time.perf_counter() - self._started >= self._solver.max_wall
+        return time.perf_counter() >= self._late_at
 
     def _advance(self, pause: Callable[[], bool]) -> Advance:
         """Take the engine past the next record, or to where it has to pause, and keep what it brings."""

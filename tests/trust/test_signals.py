@@ -9,7 +9,7 @@ import subprocess
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
@@ -23,6 +23,7 @@ from lambda_core.discovery.apart import check_apart
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import CaseError
 from lambda_core.results import file_format
+from lambda_core.runs import launch
 
 if TYPE_CHECKING:
     from warm import Started, Warm
@@ -114,6 +115,24 @@ def test_c2_4_a_limit_of_wall_time_holds_within_a_record_and_the_run_goes_on(tmp
     assert result.status().state == "stopped"
     # 1/40 of a cage turn of 1/(0.4 x 0.01 rpm)
     assert 0.0 < result.summary().simulated_s < 60.0 / (0.4 * 0.01) / 40.0
+
+
+def test_b10_the_limit_of_wall_time_includes_the_preparation(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Equilibrium and compiling came on top of it."""
+    clock, late, prepared = time.perf_counter, [0.0], launch.prepared
+
+    def slowly(*arguments: Any) -> Any:
+        late[0] += 1000.0
+        return prepared(*arguments)
+
+    monkeypatch.setattr(time, "perf_counter", lambda: clock() + late[0])
+    monkeypatch.setattr(launch, "prepared", slowly)
+    path = tmp_path / "r.h5"
+    result = api.run(CASE, ["solver.duration=20 ms", "solver.max_wall=900 s"], out=path)
+    assert result.status().state == "stopped"
+    assert result.status().wall < 900.0  # what the steps took
+    assert api.resume(path, ["solver.max_wall=900 s"]).status().state == "stopped"
+    assert api.resume(path).status().state == "finished"
 
 
 def test_d1_samples_closer_than_the_longest_step_over_the_buffer_are_written(tmp_path: Path) -> None:
