@@ -15,6 +15,7 @@ from lambda_core.model.checks.operating_limits import (
     LARGEST_LIFE_LOAD,
     MINIMUM_LOAD,
     OIL_TEMPERATURES,
+    is_preloaded,
     known_value,
     permissible_tilt,
     ratings,
@@ -78,7 +79,9 @@ class Limits(Record):
 
     speed_rpm: float = Field(description="largest relative speed of the rings")
     limiting_speed_rpm: float | None = Field(description="of the catalogue")
-    minimum_load_N: float | None = Field(description="0.01 C of ball bearings; null at rest and of rollers")
+    minimum_load_N: float | None = Field(
+        description="0.01 C of ball bearings; null at rest, preloaded, of rollers"
+    )
     largest_load_N: float | None = Field(description="C/2 of ISO 281; null at rest")
     pressure_GPa: float = Field(description="where steel yields (ISO 76)")
     tilt_mrad: float = Field(description="that bearings of this kind take")
@@ -115,7 +118,7 @@ def limits_of(model: BearingModel) -> Limits:
     return Limits(
         speed_rpm=speed,
         limiting_speed_rpm=None if most is None else 30.0 / math.pi * most,
-        minimum_load_N=MINIMUM_LOAD * dynamic if speed and not rollers else None,
+        minimum_load_N=MINIMUM_LOAD * dynamic if speed and not rollers and not is_preloaded(model) else None,
         largest_load_N=LARGEST_LIFE_LOAD * dynamic if speed else None,
         pressure_GPa=1e-9 * (HIGHEST_ROLLER_PRESSURE if rollers else highest_pressure(kind)),
         tilt_mrad=1e3 * (ROLLER_TILT if rollers else permissible_tilt(kind)),

@@ -15,6 +15,7 @@ from lambda_cli.main import main
 from lambda_core import api
 from lambda_core.case.case_io import builtin_cases
 from lambda_core.model.checks.operating_limits import applied_load, heating_factor, operating_warnings
+from lambda_core.results.verdict import limits_of
 
 MOTOR = """\
 name = "motor"
@@ -71,6 +72,23 @@ def test_loads_that_motion_decides_are_not_judged(motor: Path) -> None:
     pressed = ["loads.axial=0 N", 'bodies.inner_ring.x={ mode = "prescribed", motion = "20 um" }']
     assert applied_load(api.check(motor, pressed)) is None
     assert operating_warnings(api.check(motor, [*pressed, "loads.radial=30 kN"])) == []
+
+
+@pytest.mark.parametrize(
+    "held",
+    [["bearing.clearance=-5 um"], ["bodies.inner_ring.y=locked", "bodies.inner_ring.z=locked"]],
+    ids=["preloaded", "locked"],
+)
+def test_balls_that_preload_presses_need_no_minimum_load(motor: Path, held: list[str]) -> None:
+    """The weight of the ring was taken for the load: "P = 1.05 N is below the minimum load"."""
+    unloaded = api.check(motor, ["loads.radial=0 N", "loads.axial=0 N", *held])
+    assert operating_warnings(unloaded) == []
+
+
+def test_the_verdict_asks_a_preloaded_bearing_for_no_minimum_load(motor: Path) -> None:
+    unloaded = api.check(motor, ["loads.radial=0 N", "loads.axial=0 N"])
+    assert limits_of(unloaded).minimum_load_N == pytest.approx(423.0)
+    assert limits_of(api.check(motor, ["bearing.clearance=-5 um"])).minimum_load_N is None
 
 
 def test_the_heating_factor_is_that_of_the_law_at_epicyclic_rolling(motor: Path) -> None:

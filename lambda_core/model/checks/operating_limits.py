@@ -101,13 +101,13 @@ def _speed(model: BearingModel) -> Iterator[str]:
 
 
 def applied_load(model: BearingModel) -> tuple[float, float] | None:
-    """Return the largest radial and axial load on the inner ring [N]; None where motion decides them.
+    """Return the largest radial and axial load on the inner ring [N]; None where its place decides them.
 
     The weight of inner ring and shaft counts, as far as gravity is across or along the axis.
     """
     inner, outer = model.inner_ring, model.outer_ring
-    held = any(_mode(outer, dof) != "locked" for dof in "xyz")
-    if held or any(_mode(inner, dof) == "prescribed" for dof in "xyz"):
+    moves = any(_mode(outer, dof) != "locked" for dof in "xyz")
+    if moves or _mode(inner, "x") == "prescribed" or any(_mode(inner, dof) != "free" for dof in "yz"):
         return None
     x, y, z = (peak(force) + inner.mass * abs(g) for force, g in zip(inner.force, model.gravity, strict=True))
     return math.hypot(y, z), x
@@ -135,6 +135,11 @@ def ratings(model: BearingModel) -> tuple[float, float]:
         dynamic or dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows, on_sphere=g.kind.on_sphere),
         static or static_rating(*size, contact_angle=angle, rows=g.rated_rows, on_sphere=g.kind.on_sphere),
     )
+
+
+def is_preloaded(model: BearingModel) -> bool:
+    """Return whether a negative clearance presses every ball, which then needs no load to roll."""
+    return model.geometry.clearance < 0.0
 
 
 def _unbacked(model: BearingModel, load: float, rating: float) -> Iterator[str]:
@@ -169,7 +174,7 @@ def load_warnings(model: BearingModel, radial: float, axial: float) -> Iterator[
         )
     if equivalent > HEAVY_LOAD * dynamic:
         yield from _unbacked(model, equivalent, dynamic)
-    if turns and equivalent < MINIMUM_LOAD * dynamic:
+    if turns and not is_preloaded(model) and equivalent < MINIMUM_LOAD * dynamic:
         yield (
             f"the load P = {_force(equivalent)} is below the minimum load of ball bearings, {MINIMUM_LOAD:g} C = "
             f"{_force(MINIMUM_LOAD * dynamic)}: balls may skid"
