@@ -31,9 +31,9 @@ PLACED = frozenset({
     "energy_residual", "film_parameter", "film_um", "friction_torque_Nmm", "inner_ring_displacement_um",
     "inner_ring_tilt_mrad", "loaded_balls", "max_load_N", "max_pressure_GPa", "min_film_um", "power_loss_W",
     # of a bearing in the equilibrium of a machine
-    "axial_load_N", "basic_rating_life_h", "clearance_um", "contact_angle_deg", "displacement_um", "force_N",
-    "misalignment_mrad", "modified_basic_life_h", "modified_rating_life_h", "moment_Nm", "position_mm",
-    "radial_load_N", "reference_rating_life_h", "static_safety", "viscosity_ratio",
+    "axial_load_N", "basic_life_h", "clearance_um", "contact_angle_deg", "displacement_um", "force_N",
+    "misalignment_mrad", "modified_life_h", "modified_reference_life_h", "moment_Nm", "position_mm",
+    "radial_load_N", "reference_life_h", "static_safety", "viscosity_ratio",
 })  # fmt: skip
 _WIDTH = 100  # of sentences where no width is given
 

@@ -79,9 +79,7 @@ class Limits(Record):
 
     speed_rpm: float = Field(description="largest relative speed of the rings")
     limiting_speed_rpm: float | None = Field(description="of the catalogue")
-    minimum_load_N: float | None = Field(
-        description="0.01 C of ball bearings; null at rest, preloaded, of rollers"
-    )
+    minimum_load_N: float | None = Field(description="0.01 C of ball bearings; null at rest, preloaded, of rollers")
     largest_load_N: float | None = Field(description="C/2 of ISO 281; null at rest")
     pressure_GPa: float = Field(description="where steel yields (ISO 76)")
     tilt_mrad: float = Field(description="that bearings of this kind take")

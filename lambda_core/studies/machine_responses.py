@@ -19,7 +19,7 @@ from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.quantity import quantities
 from lambda_core.results.summary import Summary
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
-from lambda_core.studies.responses import RESPONSES, DynamicPoint, Number, Response, StaticPoint, of_fields
+from lambda_core.studies.responses import RATED, RESPONSES, DynamicPoint, Number, Response, StaticPoint, of_fields
 
 if TYPE_CHECKING:
     from lambda_core.analysis.rotor.machine_modes import MachineModes
@@ -91,7 +91,7 @@ def usual_responses(bearings: tuple[str, ...], mode: str) -> tuple[str, ...]:
     if mode == "quasi-static":
         of_machine = ["system_life_h", "friction_torque_Nmm"]
         each = [
-            "radial_load_N", "reference_rating_life_h", "friction_torque_Nmm", "max_pressure_GPa", "min_film_parameter",
+            "radial_load_N", "reference_life_h", "friction_torque_Nmm", "max_pressure_GPa", "min_film_parameter",
         ]  # fmt: skip
     else:
         of_machine = ["friction_torque_Nmm", "energy_residual", "converged"]
@@ -140,9 +140,16 @@ _OF_MACHINE = {"converged", *quantities(Summary)} - set(quantities(BearingSummar
 
 
 def _of_bearing(name: str) -> list[Response]:
-    fields = (key for key in quantities(BearingEquilibrium) if key not in RESPONSES)
+    rated = {key: _dynamic(name, read) for key in RATED if (read := RESPONSES[key].dynamic) is not None}
+    fields = (key for key in quantities(BearingEquilibrium) if key not in RESPONSES or key in RATED)
     own = [
-        Response(f"{name}.{one.name}", one.unit, f"{name}: {one.meaning}", _field(name, one.name))
+        Response(
+            f"{name}.{one.name}",
+            one.unit,
+            f"{name}: {one.meaning}",
+            _field(name, one.name),
+            rated.get(one.name),
+        )
         for one in of_fields(BearingEquilibrium, fields)
     ]
     currents = [
@@ -156,7 +163,7 @@ def _of_bearing(name: str) -> list[Response]:
             None if one.dynamic is None else _dynamic(name, one.dynamic),
         )
         for one in RESPONSES.values()
-        if one.name not in UNITS and one.name not in _OF_MACHINE
+        if one.name not in {*UNITS, *_OF_MACHINE, *RATED}
     ]  # fmt: skip
 
 

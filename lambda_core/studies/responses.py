@@ -27,6 +27,7 @@ from lambda_core.domain.errors import CaseError, Problem, nearest, unknown_name
 from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.quantity import quantities
 from lambda_core.results.quasistatic import QuasiStatic
+from lambda_core.results.rating import Rating
 from lambda_core.results.record import Record
 from lambda_core.results.summary import Summary
 from lambda_core.studies import measures
@@ -41,6 +42,10 @@ if TYPE_CHECKING:
 
 Number = float | None
 BREAKDOWN = "friction_breakdown_Nmm"
+RATED = (
+    "equivalent_load_N", "basic_life_h", "reference_life_h", "modified_life_h", "modified_reference_life_h",
+    "viscosity_ratio", "static_safety",
+)  # fmt: skip
 
 
 @dataclass
@@ -56,6 +61,14 @@ class StaticPoint:
         """Bearing currents on quasi-static films."""
         return static_numbers(self.equilibrium, self.kernels)
 
+    @cached_property
+    def rating(self) -> Rating:
+        """Lives and safety."""
+        from lambda_core.analysis.rating.engineering import rating_of
+        from lambda_core.discovery.manager import registry
+
+        return rating_of(self.equilibrium, registry().methods)
+
 
 @dataclass
 class DynamicPoint:
@@ -63,6 +76,12 @@ class DynamicPoint:
 
     result: Result
     summary: Summary
+
+    @property
+    def rating(self) -> Rating | None:
+        """Lives and safety at the start."""
+        found: Rating | None = self.summary.rating
+        return found
 
     @cached_property
     def currents(self) -> CurrentNumbers:
@@ -158,6 +177,18 @@ def _current(name: str) -> Callable[[Any], Number]:
     return read
 
 
+def _rated(name: str) -> Callable[[Any], Number]:
+    def read(point: Any) -> Number:
+        return None if point.rating is None else getattr(point.rating, name)
+
+    return read
+
+
+def _ratings() -> list[Response]:
+    """Return lives and safety, which need no time; the rows of comparison methods have the rest."""
+    return [replace(one, static=_rated(one.name), dynamic=_rated(one.name)) for one in of_fields(Rating, RATED)]
+
+
 def _currents() -> list[Response]:
     return [Response(name, unit, meaning(name), _current(name), _current(name)) for name, unit in UNITS.items()]
 
@@ -166,6 +197,7 @@ def _catalogue() -> dict[str, Response]:
     found = [
         *_fields(),
         *_parts(),
+        *_ratings(),
         Response(
             "min_film_parameter", "", "smallest Lambda under load", measures.static_lambda, measures.dynamic_lambda
         ),

@@ -18,7 +18,7 @@ def test_a_study_of_a_machine_says_what_its_points_say(box: Path, tmp_path: Path
     """Two gear powers: every response equals the number of the equilibrium, of modes or of compare at that power."""
     names = [
         "system_life_h", "max_deflection_um", "first_critical_speed_rpm", "power_loss_W", "left.radial_load_N",
-        "right.reference_rating_life_h", "right.friction_torque_Nmm", "left.min_film_parameter",
+        "right.reference_life_h", "right.friction_torque_Nmm", "left.min_film_parameter",
         "left.friction_breakdown_Nmm", "left.skf/friction/total",
     ]  # fmt: skip
     study = {
@@ -31,7 +31,7 @@ def test_a_study_of_a_machine_says_what_its_points_say(box: Path, tmp_path: Path
     at = api.quasistatic(box, ["gears.wheel.power=5 kW"])
     assert first["system_life_h"] == pytest.approx(at.system_life_h, rel=1e-9)
     assert first["left.radial_load_N"] == pytest.approx(at.bearing("left").radial_load_N, rel=1e-9)
-    assert first["right.reference_rating_life_h"] == pytest.approx(at.bearing("right").reference_rating_life_h)
+    assert first["right.reference_life_h"] == pytest.approx(at.bearing("right").reference_life_h)
     assert first["right.friction_torque_Nmm"] == pytest.approx(at.bearing("right").friction_torque_Nmm, rel=1e-9)
     assert first["power_loss_W"] == pytest.approx(sum(one.power_loss_W for one in at.bearings), rel=1e-9)
     parts = [value for name, value in first.items() if name.startswith("left.friction_breakdown_Nmm.")]
@@ -42,6 +42,26 @@ def test_a_study_of_a_machine_says_what_its_points_say(box: Path, tmp_path: Path
     assert first["left.skf/friction/total"] == pytest.approx(skf.value("skf", "friction", "total"), rel=1e-9)
     assert second["system_life_h"] < first["system_life_h"]
     assert api.study_resume(tmp_path / "power", executor="here").done == 2
+
+
+@pytest.mark.parametrize("mode", ["quasi-static", "dynamic"])
+def test_a_life_has_one_name_for_a_bearing_alone_and_in_a_machine(box: Path, mode: str, tmp_path: Path) -> None:
+    """`reference_rating_life_h` of a machine was `rating.reference_life_h` of a bearing."""
+    asked = ["reference_life_h", "basic_life_h", "static_safety"]
+    for case, before in (("6208-axial-700", ""), (str(box), "left.")):
+        study = {
+            "name": "life", "case": case, "mode": mode, "responses": [before + name for name in asked],
+            "parameters": [{"path": "operation.speed", "values": ["1500 rpm"]}],
+            "set": {"solver.duration": "0.2 ms"},
+        }  # fmt: skip
+        folder = tmp_path / f"of{before}"
+        api.study_run(study, folder, executor="here")
+        (row,) = api.study_table(folder).rows()
+        at = api.quasistatic(case, ["operation.speed=1500 rpm"])
+        rating = at.bearing("left") if before else at.rating
+        assert {name: row[before + name] for name in asked} == {
+            name: pytest.approx(getattr(rating, name)) for name in asked
+        }
 
 
 def test_mistakes_of_a_study_of_a_machine_are_named(box: Path) -> None:

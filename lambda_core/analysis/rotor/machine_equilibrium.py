@@ -93,14 +93,10 @@ class BearingEquilibrium(Banded):
         decimals=FLOATING, digits=3, group="contact",
     )  # fmt: skip
     equivalent_load_N: float | None = same_as(Rating, "equivalent_load_N")
-    basic_rating_life_h: float | None = same_as(
-        Rating, "basic_life_h", "L_10h of ISO 281; null at rest or without load"
-    )
-    reference_rating_life_h: float | None = same_as(Rating, "reference_life_h")
-    modified_basic_life_h: float | None = same_as(
-        Rating, "modified_life_h", "L_nmh of ISO 281; needs life.contamination"
-    )
-    modified_rating_life_h: float | None = same_as(
+    basic_life_h: float | None = same_as(Rating, "basic_life_h", "L_10h of ISO 281; null at rest or without load")
+    reference_life_h: float | None = same_as(Rating, "reference_life_h")
+    modified_life_h: float | None = same_as(Rating, "modified_life_h", "L_nmh of ISO 281; needs life.contamination")
+    modified_reference_life_h: float | None = same_as(
         Rating, "modified_reference_life_h", "L_nmrh; needs life.contamination"
     )
     viscosity_ratio: float | None = same_as(Rating, "viscosity_ratio", "kappa")
@@ -251,7 +247,7 @@ def equilibrium_of(
     bearings = [_bearing(model, state, i, found) for i, found in enumerate(solved)]
     moved = state.displacement[: NODE * model.body.positions.size].reshape(-1, NODE)
     cuts, forces = internal_forces(model.body, state.displacement, model.gravity)
-    lives = [b.reference_rating_life_h for b in bearings if b.reference_rating_life_h is not None]
+    lives = [b.reference_life_h for b in bearings if b.reference_life_h is not None]
     torques = [b.friction_torque_Nmm for b in bearings]
     rpm, rows = 30.0 / math.pi * model.speed, static_rows(model)
     found = MachineEquilibrium(
@@ -327,10 +323,10 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
         max_pressure_GPa=alone.max_pressure_GPa,
         contact_angle_deg=_angles(alone),
         equivalent_load_N=rating.equivalent_load_N,
-        basic_rating_life_h=rating.basic_life_h,
-        reference_rating_life_h=rating.reference_life_h,
-        modified_basic_life_h=rating.modified_life_h if rating.contamination_given else None,
-        modified_rating_life_h=rating.modified_reference_life_h if rating.contamination_given else None,
+        basic_life_h=rating.basic_life_h,
+        reference_life_h=rating.reference_life_h,
+        modified_life_h=rating.modified_life_h if rating.contamination_given else None,
+        modified_reference_life_h=rating.modified_reference_life_h if rating.contamination_given else None,
         viscosity_ratio=rating.viscosity_ratio,
         static_safety=rating.static_safety,
         friction_torque_Nmm=alone.friction_torque_Nmm if found.converged else None,

@@ -100,18 +100,10 @@ def _band(found: Any, field: str, unit: str, name: str, units: UnitSystem) -> li
 
 def _every_life(found: Any) -> list[tuple[str, str, str, float | None]]:
     """Return the rating lives: meaning, symbol, standard, hours."""
-    rating = getattr(found, "rating", None)
-    if rating is not None:
-        lives_h = (
-            rating.basic_life_h, rating.modified_life_h, rating.reference_life_h, rating.modified_reference_life_h,
-        )  # fmt: skip
-    elif hasattr(found, "basic_rating_life_h"):
-        lives_h = (
-            found.basic_rating_life_h, found.modified_basic_life_h, found.reference_rating_life_h,
-            found.modified_rating_life_h,
-        )  # fmt: skip
-    else:
+    rating = getattr(found, "rating", None) or found
+    if not hasattr(rating, "basic_life_h"):
         return []
+    lives_h = (rating.basic_life_h, rating.modified_life_h, rating.reference_life_h, rating.modified_reference_life_h)
     names = (
         ("rating life", "L10h", "ISO 281"),
         ("modified life", "Lnmh", "ISO 281"),
