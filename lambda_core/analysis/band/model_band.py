@@ -202,6 +202,9 @@ class Effects:
         self._base = solve(model, self._kernels, phase=POSITIONS[0])
         self.names = tuple(name for name in quantities if self._has(name))
         self._values = self._read(self._base)
+        # Balls that no ring loads have several steady motions, and a search leaves one for another: the results of
+        # searches from the equilibrium are held against those of one that changes nothing.
+        self._near = self._read(solve_near(model, self._base, self._kernels))
         self._fit = parse_case(model.case_toml, model.name).fit
         fitted = [row.path for row in self._fit.parameters] if self._fit is not None else []
         self._without = {*without, *fitted}
@@ -343,7 +346,7 @@ class Effects:
         kernels = Kernels(model) if other else self._kernels
         found = solve_near(model, self._base, kernels) if near else solve(model, kernels, phase=POSITIONS[0])
         with np.errstate(divide="ignore", invalid="ignore"):
-            ratio = np.log(self._read(found) / self._values)
+            ratio = np.log(self._read(found) / (self._near if near else self._values))
         return np.where(np.isfinite(ratio), ratio, 0.0)
 
 
@@ -353,6 +356,12 @@ def _ends(row: Any) -> str:
 
 
 def _band(name: str, unit: str, index: int, value: float, effects: Sequence[Effect]) -> Band:
+    """Return the band of a printed value: it reaches as far as the value, which is none of its corrections.
+
+    Alternatives that lie mostly on one side shift the band, and the case keeps its value. The band of a value that is
+    not corrected for a known shift ends at the value where it would otherwise leave it out; it then holds at least the
+    coverage (Phillips, Eberhardt and Parry 1997, J. Res. NIST 102, 577).
+    """
     means = np.array([effect.mean[index] for effect in effects])
     variances = np.array([effect.variance[index] for effect in effects])
     total, shift = float(variances.sum()), float(means.sum())
@@ -373,8 +382,8 @@ def _band(name: str, unit: str, index: int, value: float, effects: Sequence[Effe
         quantity=name,
         unit=unit,
         value=value,
-        low=value * math.exp(shift - half),
-        high=value * math.exp(shift + half),
+        low=value * math.exp(min(shift - half, 0.0)),
+        high=value * math.exp(max(shift + half, 0.0)),
         contributors=contributors,
     )
 
