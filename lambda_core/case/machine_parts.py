@@ -35,7 +35,8 @@ class Placed(Section):
     INSTEAD: ClassVar[Mapping[str, str]] = {"position": _AT, "marker": _AT}
 
     at: str = option(
-        description='where: a place along the shaft from its left end ("85 mm"), one of [markers], or a bearing',
+        description='where: a place along the shaft from its left end ("85 mm"), one of [markers], or a bearing; of '
+        'loads and connections also "NAME.outer_ring" and "NAME.cage" of a bearing',
         quantity="length",
         min_length=1,
     )
@@ -187,7 +188,10 @@ class Connection(Placed):
 
     law: str = option(BUSHING, "springs and dampers, or a law of the role force_element", min_length=1)
     to: str = option(
-        "ground", "what it holds its place to: ground, shaft, one of [bodies], or a marker there", min_length=1
+        "ground",
+        'what it holds its place to: ground, shaft, one of [bodies], "NAME.outer_ring" or "NAME.cage" of a bearing, or '
+        "a marker there",
+        min_length=1,
     )
     x: TranslationSpring = option("free", 'along the shaft: a stiffness ("1 N/um"), or stiffness and damping')
     y: TranslationSpring = option("free", "horizontal, likewise")

@@ -152,8 +152,8 @@ class Marker(Section):
 
     body: str = option(
         "shaft",
-        'body that carries it: "shaft", of one bearing "inner_ring", "outer_ring" or "cage", of a machine "ground" or '
-        "one of [bodies]",
+        'body that carries it: "shaft", of one bearing "inner_ring", "outer_ring" or "cage", of a machine "ground", '
+        'one of [bodies], "NAME.outer_ring" or "NAME.cage" of a bearing',
         min_length=1,
     )
     x: Length = option("0 mm", "along the shaft: from the bearing's centre, in a machine from the shaft's left end")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from lambda_core.case.case import Case
-from lambda_core.case.machine import OWN, SHARED
+from lambda_core.case.machine import OWN, PARTS, SHARED
 from lambda_core.case.motion import RingBody
 from lambda_core.domain.units import show
 
@@ -31,8 +31,6 @@ _LOADS = {  # on the inner ring, and as loads at a place
 }
 _OF_A_RING = tuple(RingBody.model_fields)
 _NO_PLACE = {
-    "loads.outer_ring": "loads on the outer ring: load the body that carries it",
-    "loads.cage": "loads on the cage",
     "thermal": "the network of temperatures",
     "electric": "the circuit",
     "operation.temperatures": "temperatures computed by the network of one bearing",
@@ -104,11 +102,11 @@ def expand(case: Case, *, bore: float, width: float, takes: Literal["+x", "-x"] 
     tables |= {"loads": loads} if loads else {}
     support = {dof: inner[dof] for dof in _FREEDOMS if dof in inner}
     tables["shaft"] |= {"support": {"at": NAME, **support}} if support else {}
-    connections = _connections(written.get("elements", {}), differences)
+    connections = _connections(written.get("elements", {}), case, differences)
     tables |= {"connections": connections} if connections else {}
     tables |= _disc(inner, middle)
     tables |= {"fit": written["fit"]} if "fit" in written else {}
-    markers = _markers(written.get("markers", {}), width, case, differences)
+    markers = _markers(written.get("markers", {}), width, case)
     tables |= {"markers": markers} if markers else {}
     return LongForm(tables, tuple(differences))
 
@@ -131,25 +129,42 @@ def _operation(written: Mapping[str, Any], spin: Any, differences: list[str]) ->
 
 
 def _loads(written: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the loads on the inner ring."""
+    """Return the loads on rings and cage."""
     loads: dict[str, Any] = {}
     own = {new: written[old] for old, new in _LOADS.items() if old in written}
     if own:
         loads["inner-ring"] = {"at": NAME, **own}
     if "inner_ring" in written:
         loads["further"] = {"at": NAME, **written["inner_ring"]}
+    for part in PARTS:
+        if part in written:
+            loads[part] = {"at": f"{NAME}.{part}", **written[part]}
     return loads
 
 
-def _connections(written: Mapping[str, Any], differences: list[str]) -> dict[str, Any]:
-    """Return the force elements between the ground and the inner ring."""
+def _body(name: str) -> str:
+    """Return what carries a place of the bearing in the machine."""
+    return f"{NAME}.{name}" if name in PARTS else "ground" if name == "ground" else "shaft"
+
+
+def _connections(written: Mapping[str, Any], case: Case, differences: list[str]) -> dict[str, Any]:
+    """Return the force elements between bodies and the ground."""
     found = {}
     for name, element in written.items():
-        if element.get("first", "ground") != "ground" or element["second"] != "inner_ring":
-            differences.append(f"elements.{name}: its ends are others than the ground and the inner ring's centre")
+        first, second = element.get("first", "ground"), element["second"]
+        if any(_turns_off_axis(case, end) for end in (first, second)):
+            differences.append(f"elements.{name}: acts at a place that turns with the shaft off its axis")
             continue
-        found[name] = {"at": NAME, **{key: element[key] for key in ("law", "parameters") if key in element}}
+        at = second if second in case.markers else NAME if _body(second) == "shaft" else _body(second)
+        to = first if first in case.markers else _body(first)
+        found[name] = {"at": at, "to": to, **{key: element[key] for key in ("law", "parameters") if key in element}}
     return found
+
+
+def _turns_off_axis(case: Case, end: str) -> bool:
+    """Tell whether an end is a marker on the shaft or the inner ring, off the axis."""
+    marker = case.markers.get(end)
+    return marker is not None and _body(marker.body) == "shaft" and bool(marker.y or marker.z)
 
 
 def _disc(written: Mapping[str, Any], middle: str) -> dict[str, Any]:
@@ -161,13 +176,12 @@ def _disc(written: Mapping[str, Any], middle: str) -> dict[str, Any]:
     return {"discs": {"shaft": disc | {new: written[old] for old, new in names.items() if old in written}}}
 
 
-def _markers(written: Mapping[str, Any], width: float, case: Case, differences: list[str]) -> dict[str, Any]:
-    """Return the markers of the inner ring, on the shaft."""
+def _markers(written: Mapping[str, Any], width: float, case: Case) -> dict[str, Any]:
+    """Return the markers of rings and cage."""
     found = {}
     for name, marker in written.items():
-        if marker.get("body", "shaft") not in ("inner_ring", "shaft"):
-            differences.append(f"markers.{name}: markers of a machine are on the shaft, on its bodies and the ground")
-            continue
+        body = _body(marker.get("body", "shaft"))
         x = show(0.5 * width + case.markers[name].x, "length", 9)
         found[name] = {"x": x, **{axis: marker[axis] for axis in ("y", "z") if axis in marker}}
+        found[name] |= {} if body == "shaft" else {"body": body}
     return found

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal, NamedTuple
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.formulas.elastic.body import ElasticBody
@@ -72,13 +74,28 @@ class Unbalance:
     angle: float  # azimuth at t = 0, from +y to +z [rad]
 
 
+class BearingPart(NamedTuple):
+    """An outer ring or a cage of a bearing, as a body that carries a place."""
+
+    bearing: str
+    part: Literal["outer_ring", "cage"]
+
+
+Carrier = int | BearingPart  # the number of a body, or a part of a bearing
+
+
 @dataclass(frozen=True)
 class Place:
     """A point of a body, and axes there."""
 
-    body: int
+    body: Carrier
     point: tuple[float, float, float]  # where it is drawn, from the left end of the shaft's axis [m]
     axes: FloatArray  # as columns, shape (3, 3)
+
+
+def is_on_cage(place: Place) -> bool:
+    """Tell whether a place is on a cage, which the equilibrium of a shaft does not know."""
+    return isinstance(place.body, BearingPart) and place.body.part == "cage"
 
 
 @dataclass(frozen=True)
@@ -87,7 +104,7 @@ class MachineSpring:
 
     name: str
     place: Place  # of the one body
-    to: int  # the other one
+    to: Carrier  # the other one
     stiffness: FloatArray  # against the motions and turns of one against the other there, shape (6, 6)
     damping: FloatArray
 
@@ -177,6 +194,8 @@ class MachineModel:
         In addition to the shaft.
     markers : tuple of (str, Place)
         Named places.
+    part_loads : dict of BearingPart to six TimeFunction
+        Forces and moments on outer rings and cages about their centres [N, N m].
     heat : MachineHeat
         The thermal network.
     awaits_temperatures : bool
@@ -212,6 +231,7 @@ class MachineModel:
     hold: ShaftHold | None = None
     bodies: tuple[RigidBody, ...] = ()
     markers: tuple[tuple[str, Place], ...] = ()
+    part_loads: Mapping[BearingPart, tuple[TimeFunction, ...]] = field(default_factory=dict)
     housing_damping: FloatArray | None = None
     awaits_temperatures: bool = False
     warnings: tuple[str, ...] = ()
@@ -244,6 +264,14 @@ class MachineModel:
     def has_changing_torque(self) -> bool:
         """Whether torques on the shaft change over time."""
         return any(row < 6 * self.body.positions.size and row % 6 == 3 for row, _ in self.varying)
+
+    def index(self, part: BearingPart) -> int:
+        """Return the number of the bearing that a part belongs to."""
+        return next(i for i, bearing in enumerate(self.bearings) if bearing.name == part.bearing)
+
+    def load_on(self, part: BearingPart) -> tuple[TimeFunction, ...]:
+        """Return force and moment on an outer ring or a cage [N, N m]."""
+        return self.part_loads.get(part, (ZERO,) * 6)
 
     @property
     def names(self) -> dict[str, list[str]]:

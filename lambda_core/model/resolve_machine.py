@@ -39,10 +39,12 @@ from lambda_core.model.bodies.resolve_materials import body_material
 from lambda_core.model.bodies.rigid_bodies import (
     all_loads,
     connections,
+    loads_on_parts,
     refuse_far_beyond,
     refuse_idle_dampers,
     resolve_links,
     rigid_bodies,
+    say_idle_loads,
     shaft_hold,
 )
 from lambda_core.model.checking import resolve
@@ -170,7 +172,7 @@ def _shaft(
         _check_on_shaft(case, stand, outside, ledger)
     _check_one_place(case, stand, ledger)
     for key, bearing in case.bearings.items():
-        refuse_motion(key, bearing, case.housing.reduced is not None or stand.carrier(bearing.outer) != GROUND, ledger)
+        refuse_motion(key, bearing, case.housing.reduced is not None or stand.seat(bearing.outer) != GROUND, ledger)
     case, laws = resolve_time_laws(case, changing, registry(), ledger)
     say_overshoot(changing(case), ledger)
     refuse_settings(case, ledger)
@@ -189,7 +191,7 @@ def _shaft(
     strain = around.thermal_expansion * (case.housing.temperature - REFERENCE_TEMPERATURE) if around else 0.0
     bearings = sorted(
         (
-            mounted(name, given, models[name], stand.carrier(given.outer), strain * given.place, ledger)
+            mounted(name, given, models[name], stand.seat(given.outer), strain * given.place, ledger)
             for name, given in case.bearings.items()
             if name in models
         ),
@@ -226,6 +228,8 @@ def _shaft(
     acting += [(name, gear.place) for name, gear in case.gears.items()]
     pulled = np.concatenate([body.weight(gravity), *(one.mass * np.array([*gravity, 0.0, 0.0, 0.0]) for one in bodies)])
     loads, varying = all_loads(case, stand, body, bodies, gears)
+    part_loads = loads_on_parts(case, stand)
+    say_idle_loads(part_loads, bearings, housing, ledger)
     resolved = MachineModel(
         name=case.name,
         body=body,
@@ -249,6 +253,7 @@ def _shaft(
         hold=hold,
         bodies=bodies,
         markers=tuple(stand.markers.items()),
+        part_loads=part_loads,
         electric=electric,
         gears=gears,
         assumptions=tuple(ledger.assumptions),

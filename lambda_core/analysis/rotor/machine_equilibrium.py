@@ -19,7 +19,7 @@ from lambda_core.formulas.elastic.body import internal_forces
 from lambda_core.formulas.life import system_life
 from lambda_core.formulas.loading import Ring
 from lambda_core.model.checks.operating_limits import load_warnings, operating_warnings
-from lambda_core.model.machine_model import MachineModel, MountedBearing, Place
+from lambda_core.model.machine_model import MachineModel, MountedBearing, Place, is_on_cage
 from lambda_core.results.answer import Answer, dataset, declared_numbers, drawn
 from lambda_core.results.averages import finite
 from lambda_core.results.bearing_summary import BearingSummary, Contact
@@ -260,7 +260,7 @@ def equilibrium_of(
             **{link.name: _listed(link.wrench[:3]) for link in state.links},
         },
         bodies={body.name: _moved(moves) for body, moves in zip(model.bodies, state.bodies, strict=True)},
-        markers={name: _moved(_at(model, state, place)) for name, place in model.markers},
+        markers={name: _moved(_at(model, state, place)) for name, place in model.markers if not is_on_cage(place)},
         system_life_h=finite(system_life(lives)) if lives else None,
         friction_torque_Nmm=None if None in torques else sum(t for t in torques if t is not None),
         drive_torque_Nm=state.drive_torque,

@@ -19,7 +19,7 @@ from lambda_core.export.fmu.prescribed_rings import TILT_STATES
 from lambda_core.export.fmu.variables import Kind, Variable, of_contacts, steps
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bodies.locations import carried
-from lambda_core.model.machine_model import SHAFT, MachineModel, Place
+from lambda_core.model.machine_model import SHAFT, BearingPart, MachineModel, Place
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.machine_assembly import member_numbers
@@ -27,6 +27,7 @@ from lambda_core.solver.drivers.machine_given import SHAFT_SPIN, load_places
 from lambda_core.solver.drivers.machine_motion import MachineStart
 
 _UNITS = {"force": "N", "moment": "N m"}
+_TURN_ABOUT_X = 3  # row of a node
 _TITLES = {"x": "along the shaft", "y": "horizontal", "z": "vertical"}
 _POSE = tuple(dof for dof in DOFS if dof != SPIN)
 # State of a body that each row of a node moves, its sign there, and the state of its rate; no turn about x.
@@ -94,8 +95,11 @@ def _point(machine: _Machine, name: str, place: Place) -> Iterator[Variable]:
         members = lumps.tolist()
     else:
         numbers = member_numbers(machine.model, machine.start.shaft)
-        moved = carried(np.subtract(place.point, machine.model.bodies[place.body - 1].centre))
-        members = [int(numbers.bodies[place.body - 1])]
+        member, centre = numbers.carrier(machine.model, place.body)
+        moved = carried(np.subtract(place.point, centre))
+        if isinstance(place.body, BearingPart):
+            moved[:, _TURN_ABOUT_X] = 0.0  # its rotation moves no marker, as that of the shaft
+        members = [member]
     for axis, word in enumerate("xyz"):
         for suffix, unit, rate in (("", "m", False), ("_rate", "m/s", True)):
             text = f"{word} of {name} ({_TITLES[word]})"

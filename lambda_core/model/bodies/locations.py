@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lambda_core.case.machine import MachineCase
+from lambda_core.case.machine import PARTS, MachineCase
 from lambda_core.case.machine_parts import Placed
 from lambda_core.case.motion import Marker
 from lambda_core.domain.arrays import FloatArray
@@ -17,11 +17,12 @@ from lambda_core.domain.units import show
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.formulas.elastic.body import ElasticBody
 from lambda_core.model.ledger import Ledger
-from lambda_core.model.machine_model import GROUND, SHAFT, Place
+from lambda_core.model.machine_model import GROUND, SHAFT, BearingPart, Carrier, Place
 
 _PLACED = ("bearings", "discs", "gears", "loads", "connections")
 _ON_AXIS = ("bearings", "discs", "gears", "shaft")  # stand on the shaft itself
 SUPPORT = "shaft.support"
+_ON_PARTS = ("loads", "connections")  # may act on outer rings and cages
 _SAME = 1e-6  # [m]
 
 
@@ -33,25 +34,30 @@ class Places:
     ----------
     of : dict of str to Place
         By path: "loads.belt".
-    carriers : dict of str to int
-        Number of every body by its name.
+    carriers : dict of str to int or BearingPart
+        Every body by its name: ground, shaft, [bodies], and "left.outer_ring", "left.cage" of the bearing "left".
     markers : dict of str to Place
         Those of the case, and the nodes of a reduced shaft by their names.
     """
 
     of: Mapping[str, Place]
-    carriers: Mapping[str, int]
+    carriers: Mapping[str, Carrier]
     markers: Mapping[str, Place]
 
     def on_shaft(self, table: str, name: str) -> bool:
         """Tell whether a part stands on the shaft."""
         return self.of[f"{table}.{name}"].body == SHAFT
 
-    def carrier(self, name: str) -> int:
-        """Return the number of a body, given by its name or by a marker on it; the ground where nobody knows it."""
+    def carrier(self, name: str) -> Carrier:
+        """Return a body, given by its name or by a marker on it; the ground where nobody knows it."""
         if name in self.carriers:
             return self.carriers[name]
         return self.markers[name].body if name in self.markers else GROUND
+
+    def seat(self, name: str) -> int:
+        """Return the number of the body that carries an outer ring; the ground where no body can."""
+        found = self.carrier(name)
+        return GROUND if isinstance(found, BearingPart) else found
 
 
 def places(case: MachineCase, outside: ElasticBody | None, ledger: Ledger) -> Places:
@@ -60,7 +66,13 @@ def places(case: MachineCase, outside: ElasticBody | None, ledger: Ledger) -> Pl
     Where the shaft comes from a file that cannot be read, names that nobody knows may be those of its nodes.
     """
     is_blind = outside is None and case.shaft.reduced is not None
-    carriers = {"ground": GROUND, "shaft": SHAFT, **{name: i + 1 for i, name in enumerate(case.bodies)}}
+    parts = bearing_parts(case)
+    carriers: dict[str, Carrier] = {"ground": GROUND, "shaft": SHAFT}
+    carriers |= {name: i + 1 for i, name in enumerate(case.bodies)}
+    carriers |= parts
+    for table in ("bodies", "markers"):
+        for name in (name for name in getattr(case, table) if name in parts):
+            ledger.problem(f"{table}.{name}", f'"{name}" is a part of a bearing: choose another name')
     nodes: dict[str, float] = {}
     if outside is not None and outside.names:
         nodes = dict(zip(outside.names, outside.positions.tolist(), strict=True))
@@ -83,6 +95,10 @@ def places(case: MachineCase, outside: ElasticBody | None, ledger: Ledger) -> Pl
         elif part.at in markers:
             found[where] = markers[part.at]
             _fits(table, where, part.at, found[where], ledger)
+        elif table in _ON_PARTS and part.at in parts:
+            own = f"bearings.{parts[part.at].bearing}"
+            if own in found:  # else that is what is wrong
+                found[where] = Place(parts[part.at], found[own].point, np.eye(3))
         elif table != "bearings" and part.at in case.bearings:
             if f"bearings.{part.at}" in found:  # else that is what is wrong
                 found[where] = Place(SHAFT, found[f"bearings.{part.at}"].point, np.eye(3))
@@ -90,9 +106,31 @@ def places(case: MachineCase, outside: ElasticBody | None, ledger: Ledger) -> Pl
             what, known = (
                 ("marker", markers) if table == "bearings" else ("marker or bearing", [*markers, *case.bearings])
             )
+            known = [*known, *parts] if table in _ON_PARTS and "." in part.at else known
             ledger.problem(f"{where}.at", _unknown(what, part.at, known))
+    _refuse_absent_cages(case, carriers, found, ledger)
     _ends(case, carriers, markers, found, ledger)
     return Places(found, carriers, markers)
+
+
+def bearing_parts(case: MachineCase) -> dict[str, BearingPart]:
+    """Return the outer rings and cages of a case by their names as places: "left.outer_ring", "left.cage"."""
+    return {f"{name}.{part}": BearingPart(name, part) for name in case.bearings for part in PARTS}
+
+
+def _refuse_absent_cages(
+    case: MachineCase, carriers: Mapping[str, Carrier], found: Mapping[str, Place], ledger: Ledger
+) -> None:
+    """Note places on the cage of a bearing that has none."""
+    used = [(f"{where}.at", place.body) for where, place in found.items()]
+    used += [(f"markers.{name}.body", carriers.get(marker.body, GROUND)) for name, marker in case.markers.items()]
+    used += [(f"connections.{name}.to", carriers.get(one.to, GROUND)) for name, one in case.connections.items()]
+    for where, body in used:
+        if not isinstance(body, BearingPart) or body.part != "cage":
+            continue
+        depth = case.bearings[body.bearing].depth
+        if not (depth if "cage" in depth.model_fields_set else case.depth).cage:
+            ledger.problem(where, f'"{body.bearing}" has no cage: depth.cage is false')
 
 
 def _placed(case: MachineCase) -> Iterator[tuple[str, str, Placed]]:
@@ -135,7 +173,7 @@ def _fits(table: str, where: str, marker: str, place: Place, ledger: Ledger) -> 
 
 
 def _ends(
-    case: MachineCase, carriers: Mapping[str, int], markers: Mapping[str, Place], found: Mapping[str, Place],
+    case: MachineCase, carriers: Mapping[str, Carrier], markers: Mapping[str, Place], found: Mapping[str, Place],
     ledger: Ledger,
 ) -> None:  # fmt: skip
     """Check what carries outer rings, and the other ends of springs."""
@@ -152,8 +190,10 @@ def _ends(
         if other not in carriers and not is_apart and math.dist(markers[other].point, found[where].point) > _SAME:
             at = ", ".join(show(x, "length", 6) for x in found[where].point)
             ledger.problem(f"{where}.{option}", f'"{other}" stands elsewhere: both ends have to be at {at}')
-        if option == "outer" and body == SHAFT:
-            ledger.problem(f"{where}.outer", "the outer ring sits in the ground or in a body, not on the shaft")
+        if option == "outer" and (body == SHAFT or isinstance(body, BearingPart)):
+            ledger.problem(
+                f"{where}.outer", f'the outer ring sits in the ground or in one of [bodies], not on "{other}"'
+            )
         elif body == found[where].body:
             ledger.problem(f"{where}.{option}", "both ends are on the same body")
 

@@ -9,10 +9,10 @@ import numpy as np
 
 from lambda_core.case.holding import Dof
 from lambda_core.case.machine import MachineCase
-from lambda_core.case.machine_parts import MachineBody, PointLoad
+from lambda_core.case.machine_parts import Connection, MachineBody, PointLoad
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import POSE
+from lambda_core.domain.elements import POSE, SPIN
 from lambda_core.domain.units import show
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.formulas.elastic.body import ElasticBody
@@ -29,6 +29,8 @@ from lambda_core.model.machine_model import (
     GROUND,
     PLACES,
     SHAFT,
+    BearingPart,
+    Carrier,
     MachineLink,
     MachineSpring,
     MountedBearing,
@@ -41,6 +43,7 @@ FORCE_ELEMENT = "force_element"
 COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
 LOADS = (*COMPONENTS, "radial")  # what may change over time of a load at a place
 _DOFS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
+_ABOUT_X = 3  # row of a node
 _ROUNDING = 1e-9
 _FARTHEST = 0.1  # [m, rad] of a prescribed motion: seats and housings move by micrometres, milliradians
 _FAR_BEYOND = 1000.0  # times the static ratings: pressures ten times those that dent it
@@ -99,6 +102,7 @@ def connections(case: MachineCase, stand: Places, ledger: Ledger) -> tuple[Machi
         if f"connections.{name}" not in stand.of or given.is_by_law:
             continue  # said where places are sought; or no spring
         place, to = stand.of[f"connections.{name}"], stand.carrier(given.to)
+        _refuse_springs_on_parts(name, given, (place.body, to), ledger)
         matrices = []
         for kind in ("stiffness", "damping"):
             own = np.diag([getattr(getattr(given, dof), kind) for dof in _DOFS])
@@ -107,6 +111,21 @@ def connections(case: MachineCase, stand: Places, ledger: Ledger) -> tuple[Machi
             ledger.problem(f"connections.{name}.tilt_x", "would prevent rotation of the shaft; remove it")
         found.append(MachineSpring(name, place, to, *matrices))
     return (*found, *_elastic_support(case, stand))
+
+
+def _refuse_springs_on_parts(name: str, given: Connection, ends: tuple[Carrier, ...], ledger: Ledger) -> None:
+    """Note springs where only a law can act: at a cage, and against the rotation of an outer ring."""
+    parts = [end for end in ends if isinstance(end, BearingPart)]
+    if any(part.part == "cage" for part in parts):
+        ledger.problem(
+            f"connections.{name}",
+            "springs hold the shaft, outer rings and bodies; at a cage give a law by `parameters`",
+        )
+    elif parts and (given.tilt_x.stiffness or given.tilt_x.damping):
+        ledger.problem(
+            f"connections.{name}.tilt_x",
+            "springs do not hold the rotation of an outer ring: leave it out, or give a law",
+        )
 
 
 def _elastic_support(case: MachineCase, stand: Places) -> list[MachineSpring]:
@@ -176,23 +195,69 @@ def all_loads(
     varying: dict[int, list[TimeFunction]] = {}
     for name, load in case.loads.items():
         place = stand.of[f"loads.{name}"]
-        if place.body == GROUND:
+        if place.body == GROUND or isinstance(place.body, BearingPart):
             continue
         if place.body == SHAFT:
             first, arm = body.rows(place.point[0]).start, np.array([0.0, *place.point[1:]])
         else:
             own = bodies[place.body - 1]
             first, arm = size + NODE * (place.body - 1), np.subtract(place.point, own.centre)
-        share = carried(arm).T @ _along(place).T  # of each component at the place in each row of its body
-        functions = _components(load)
-        for i in range(NODE):
-            total = added(*(scaled(f, float(c)) for f, c in zip(functions, share[i], strict=True)))
+        for i, total in enumerate(_about_centre(load, place, arm)):
             found[first + i] += initial(total)
             if any(term.kind != "constant" for term in total.terms):
                 varying.setdefault(first + i, []).append(total)
     for name, forces in gears.items():
         found[body.rows(case.gears[name].place)] += [*forces.force, *forces.moment]
     return found, tuple((row, added(*functions)) for row, functions in varying.items())
+
+
+def loads_on_parts(case: MachineCase, stand: Places) -> dict[BearingPart, tuple[TimeFunction, ...]]:
+    """Return force and moment on outer rings and cages about their centres, those of all loads on each."""
+    found: dict[BearingPart, list[TimeFunction]] = {}
+    for name, load in case.loads.items():
+        place = stand.of[f"loads.{name}"]
+        if not isinstance(place.body, BearingPart):
+            continue
+        centre = stand.of[f"bearings.{place.body.bearing}"].point
+        sofar = found.setdefault(place.body, [TimeFunction()] * NODE)
+        own = _about_centre(load, place, np.subtract(place.point, centre))
+        sofar[:] = [added(one, other) for one, other in zip(sofar, own, strict=True)]
+    return {part: tuple(functions) for part, functions in found.items()}
+
+
+def say_idle_loads(
+    loads: Mapping[BearingPart, tuple[TimeFunction, ...]],
+    bearings: Sequence[MountedBearing],
+    housing: FloatArray | None,
+    ledger: Ledger,
+) -> None:
+    """Note loads on outer rings along which nothing can move; say that cages are loaded in motion only."""
+    held = {bearing.name: bearing for bearing in bearings}
+    for part, load in loads.items():
+        bearing = held[part.bearing]
+        if part.part == "cage":
+            ledger.assume(f"{part.bearing}: loads on the cage act in motion; the equilibrium of the shaft has no cage")
+            for row, dof in zip((*PLACES, _ABOUT_X), (*POSE, SPIN), strict=True):
+                if load[row].terms and bearing.model.cage_body.dofs[dof].mode != "free":
+                    where = f"bearings.{part.bearing}.cage.{dof}"
+                    ledger.problem(where, 'holds the cage, so that its load there does nothing: write "free"')
+            continue
+        is_housed = housing is not None and bearing.carrier == GROUND
+        for row, dof in zip(PLACES, POSE, strict=True):
+            k = bearing.seating.stiffness[POSE.index(dof)]
+            if load[row].terms and math.isinf(k) and not is_housed:
+                ledger.problem(
+                    f"bearings.{part.bearing}.support.{dof}",
+                    f"holds the outer ring, so that its load along {dof} does nothing: leave the load out, or write "
+                    '"free" or a stiffness',
+                )
+
+
+def _about_centre(load: PointLoad, place: Place, arm: FloatArray) -> list[TimeFunction]:
+    """Return force and moment of a load about a point from which its place is at `arm` [m]."""
+    share = carried(arm).T @ _along(place).T  # of each component at the place in each row of its body
+    functions = _components(load)
+    return [added(*(scaled(f, float(c)) for f, c in zip(functions, share[i], strict=True))) for i in range(NODE)]
 
 
 def _components(load: PointLoad) -> list[TimeFunction]:

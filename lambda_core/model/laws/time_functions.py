@@ -9,7 +9,8 @@ import math
 from dataclasses import replace
 
 from lambda_core.case.signals import ByLaw, Constant, Harmonic, Ramp, Sum, Table, TimeTable
-from lambda_core.model.bearing_model import LawTerm, TableTerm, Term, TimeFunction
+from lambda_core.domain.elements import SPIN
+from lambda_core.model.bearing_model import Body, LawTerm, TableTerm, Term, TimeFunction
 from lambda_core.model.laws.interpolation import curve, extremes, table_term
 
 
@@ -99,6 +100,11 @@ def planned_speed(function: TimeFunction) -> float:
     for term in function.terms:
         values += {"ramp": term.values[1:2], "table": term.values[1::2]}.get(term.kind, ())
     return values[0] or max(values, key=abs)
+
+
+def spin_at_start(body: Body) -> float:
+    """Return the speed at which a body is made to turn at t = 0, 0 where nothing makes it [rad/s]."""
+    return initial(body.dofs[SPIN].motion) if body.dofs[SPIN].mode == "prescribed" else 0.0
 
 
 def highest_frequency(*functions: TimeFunction) -> float:

@@ -12,7 +12,8 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bodies.locations import carried
 from lambda_core.model.laws.law_context import build_context, prepare
-from lambda_core.model.machine_model import GROUND, SHAFT, MachineLink, MachineModel
+from lambda_core.model.laws.time_functions import spin_at_start
+from lambda_core.model.machine_model import GROUND, SHAFT, BearingPart, Carrier, MachineLink, MachineModel, is_on_cage
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.held_ring import HeldRing
 from lambda_core.solver.drivers.structure import Rows, point_on
@@ -63,8 +64,7 @@ class LinkForce:
         second = _moves(model, rows, link.second.body, link.second.point, link.second.point)
         self._apart = second - _moves(model, rows, link.first.body, link.first.point, link.first.point)
         self._acts = second - _moves(model, rows, link.first.body, link.first.point, link.second.point)
-        spin = np.array([model.speed, 0.0, 0.0])
-        self._spin = spin * ((link.second.body == SHAFT) - float(link.first.body == SHAFT))
+        self._spin = np.array([_spin(model, link.second.body) - _spin(model, link.first.body), 0.0, 0.0])
         self._drawn = np.subtract(link.second.point, link.first.point)
 
     def force(self, motions: FloatArray) -> FloatArray:
@@ -106,7 +106,16 @@ class LinkForce:
         return out
 
 
-def _moves(model: MachineModel, rows: Rows, body: int, carrier: Sequence[float], point: Sequence[float]) -> FloatArray:
+def _spin(model: MachineModel, body: Carrier) -> float:
+    """Return how fast a body turns about the axis [rad/s]."""
+    if isinstance(body, BearingPart):
+        return spin_at_start(model.bearings[model.index(body)].model.outer_ring)
+    return model.speed if body == SHAFT else 0.0
+
+
+def _moves(
+    model: MachineModel, rows: Rows, body: Carrier, carrier: Sequence[float], point: Sequence[float]
+) -> FloatArray:
     """Return how a point moves and turns as part of a body, by the shaft's node at `carrier`, shape (6, size)."""
     found: FloatArray = np.zeros((NODE, rows.size))
     if body == SHAFT:
@@ -119,5 +128,12 @@ def _moves(model: MachineModel, rows: Rows, body: int, carrier: Sequence[float],
 
 
 def link_forces(model: MachineModel, rows: Rows, rings: Sequence[HeldRing], kernels: Kernels) -> list[LinkForce]:
-    """Return the connections of a machine that have a law; the first bearing has the laws, compiled in `kernels`."""
-    return [LinkForce(model, rows, link, rings[0], kernels) for link in model.links]
+    """Return the connections of a machine that have a law; the first bearing has the laws, compiled in `kernels`.
+
+    Those of cages act in motion only: an equilibrium has no cage.
+    """
+    return [
+        LinkForce(model, rows, link, rings[0], kernels)
+        for link in model.links
+        if not any(map(is_on_cage, (link.first, link.second)))
+    ]

@@ -22,7 +22,7 @@ from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bearing_model import ZERO, BearingModel, Body, DofState, TimeFunction
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.time_functions import added, initial, scaled
-from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel, Place, RigidBody
+from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, BearingPart, Carrier, MachineModel, Place, RigidBody
 from lambda_core.solver.drivers.assembly import AssembledBearing, AssembledLink, Assembly, Member, Ties
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.law_inputs import Oils
@@ -59,6 +59,16 @@ class MemberNumbers:
     bodies: NDArray[np.int64]
     driven: NDArray[np.int64]
     count: int
+
+    def carrier(self, machine: MachineModel, body: Carrier) -> tuple[int, tuple[float, float, float]]:
+        """Return the member that is a rigid body or a part of a bearing, and where its centre is drawn [m]."""
+        if isinstance(body, BearingPart):
+            return self.part(machine, body), (machine.bearings[machine.index(body)].position, 0.0, 0.0)
+        return int(self.bodies[body - 1]), machine.bodies[body - 1].centre
+
+    def part(self, machine: MachineModel, part: BearingPart) -> int:
+        """Return the number of an outer ring or a cage."""
+        return (self.outer_rings if part.part == "outer_ring" else self.cages)[machine.index(part)]
 
 
 def member_numbers(machine: MachineModel, shaft: LumpedShaft) -> MemberNumbers:
@@ -98,7 +108,8 @@ def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Fro
     for i, bearing in enumerate(bearings):
         model = bearing.model
         members[numbers.outer_rings[i]] = Member(f"{bearing.name} outer ring", _outer_ring(machine, i, model))
-        members[numbers.cages[i]] = Member(f"{bearing.name} cage", _unloaded(machine.bearings[i].model.cage_body))
+        cage = _loaded(machine.bearings[i].model.cage_body, machine.load_on(BearingPart(bearing.name, "cage")))
+        members[numbers.cages[i]] = Member(f"{bearing.name} cage", cage)
     loads = _loads_on_bodies(machine)
     for k, rigid in enumerate(machine.bodies):
         members[int(numbers.bodies[k])] = Member(rigid.name, _rigid(rigid, loads[k]))
@@ -133,7 +144,7 @@ def _end(
     if place.body == SHAFT:
         lump = shaft.at(place.point[0])
         return int(numbers.lumps[lump]), (float(shaft.positions[lump]), 0.0, 0.0)
-    return int(numbers.bodies[place.body - 1]), machine.bodies[place.body - 1].centre
+    return numbers.carrier(machine, place.body)
 
 
 def _lumps(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) -> dict[int, Member]:
@@ -172,8 +183,9 @@ def _outer_ring(machine: MachineModel, i: int, model: BearingModel) -> Body:
     is_housed = machine.housing is not None and machine.bearings[i].carrier == GROUND
     for name, stiffness, lead in zip(POSE, seating.stiffness, seating.prescribed, strict=True):
         dofs[name] = _FREE if math.isfinite(stiffness) or is_housed else _prescribed(lead)
-    ring = dataclasses.replace(_unloaded(model.outer_ring), dofs=dofs)
-    return _loaded(ring, (TimeFunction.constant(seating.force), *[ZERO] * (NODE - 1)))
+    along, *others = machine.load_on(BearingPart(machine.bearings[i].name, "outer_ring"))
+    load = (_sum(along, TimeFunction.constant(seating.force)), *others)
+    return _loaded(dataclasses.replace(model.outer_ring, dofs=dofs), load)
 
 
 def _prescribed(motion: TimeFunction) -> DofState:
@@ -185,11 +197,6 @@ def _rigid(rigid: RigidBody, load: Load) -> Body:
     for name, place in zip(DOFS, (*PLACES, _ABOUT_X), strict=True):  # the turn about x comes last
         dofs[name] = _FREE if math.isfinite(rigid.hold[place]) else _prescribed(rigid.prescribed[place])
     return _loaded(Body(rigid.mass, rigid.transverse_inertia, rigid.polar_inertia, dofs), load)
-
-
-def _unloaded(body: Body) -> Body:
-    """Return a body without the loads of a bearing that is alone: those of the machine act on its members."""
-    return dataclasses.replace(body, force=(ZERO,) * 3, moment=(ZERO,) * 3)
 
 
 def _loaded(body: Body, load: Load) -> Body:

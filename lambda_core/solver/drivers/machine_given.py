@@ -168,9 +168,9 @@ def _signals(
             each[:, _ABOUT_X] = 0.0
         members = lumps.tolist()
     else:
-        body = machine.bodies[place.body - 1]
-        each = carried(np.subtract(place.point, body.centre))[axis].reshape(1, NODE)
-        members = [int(numbers.bodies[place.body - 1])]
+        member, centre = numbers.carrier(machine, place.body)
+        each = carried(np.subtract(place.point, centre))[axis].reshape(1, NODE)
+        members = [member]
     return {
         PER_BODY * member + _LOADS[row]: float(weight)
         for member, weights in zip(members, each, strict=True)

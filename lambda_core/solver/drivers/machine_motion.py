@@ -12,8 +12,8 @@ from lambda_core.domain.elements import CAGE, DOFS, INNER, OUTER, POSE, SPIN
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bearing_model import Body, DofState, TimeFunction
 from lambda_core.model.bodies.locations import carried
-from lambda_core.model.laws.time_functions import initial
-from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel
+from lambda_core.model.laws.time_functions import initial, spin_at_start
+from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, BearingPart, MachineModel
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.assembly import Assembly, BearingSpan
@@ -258,10 +258,10 @@ def _standing(machine: MachineModel, shaft: LumpedShaft, context: SolverContext)
         flat[L.NS * lump + RING_STATES] = RING_SIGNS * machine.hold.shift
     for outer, bearing in zip(numbers.outer_rings, machine.bearings, strict=True):
         flat[L.NS * outer + RING_STATES] = RING_SIGNS * bearing.seating.shift
-        flat.view(R.BODY_STATE)["spin"][outer] = _spin(bearing.model.outer_ring)
+        flat.view(R.BODY_STATE)["spin"][outer] = spin_at_start(bearing.model.outer_ring)
     for cage, bearing in zip(numbers.cages, machine.bearings, strict=True):
         flat[L.NS * cage + RING_STATES] = RING_SIGNS * _pose(bearing.model.cage_body)
-        flat.view(R.BODY_STATE)["spin"][cage] = _spin(bearing.model.cage_body)
+        flat.view(R.BODY_STATE)["spin"][cage] = spin_at_start(bearing.model.cage_body)
     for number, rigid in zip(numbers.bodies, machine.bodies, strict=True):
         flat[L.NS * number + STATES] = SIGNS * rigid.shift
     return flat
@@ -270,11 +270,6 @@ def _standing(machine: MachineModel, shaft: LumpedShaft, context: SolverContext)
 def _pose(body: Body) -> FloatArray:
     """Return where a body is held at t = 0, in the order of POSE; 0 where it is free or locked."""
     return np.array([initial(body.dofs[dof].motion) if body.dofs[dof].mode == "prescribed" else 0.0 for dof in POSE])
-
-
-def _spin(body: Body) -> float:
-    """Return the speed at which a body is made to turn [rad/s]."""
-    return initial(body.dofs[SPIN].motion) if body.dofs[SPIN].mode == "prescribed" else 0.0
 
 
 class MemberChannels:
@@ -286,15 +281,25 @@ class MemberChannels:
         self._azimuths = unbalance_of_lumps(machine, shaft)[1]
         count = len(machine.markers)
         self._of_lumps = np.zeros((count, _AXES, NODE * shaft.positions.size))
-        self._of_bodies = np.zeros((count, _AXES, NODE * len(machine.bodies)))
+        # rings and cages move their markers as bodies do; their rotation moves none, as that of the shaft
+        self._parts = [*self._numbers.outer_rings, *self._numbers.cages]
+        self._of_bodies = np.zeros((count, _AXES, NODE * (len(machine.bodies) + len(self._parts))))
         for k, (_, place) in enumerate(machine.markers):
             if place.body == SHAFT:
                 node = shaft.follow[machine.body.rows(place.point[0]), : self._of_lumps.shape[2]]
                 self._of_lumps[k] = (carried([0.0, *place.point[1:]]) @ node)[:_AXES]
             elif place.body != GROUND:
-                own, first = machine.bodies[place.body - 1], NODE * (place.body - 1)
-                arm = np.subtract(place.point, own.centre)
+                number, centre = self._body(place.body)
+                first, arm = NODE * number, np.subtract(place.point, centre)
                 self._of_bodies[k, :, first : first + NODE] = carried(arm)[:_AXES]
+
+    def _body(self, body: int | BearingPart) -> tuple[int, tuple[float, float, float]]:
+        """Return the number of a body among rigid bodies, outer rings and cages, and where its centre is drawn [m]."""
+        if not isinstance(body, BearingPart):
+            return body - 1, self._machine.bodies[body - 1].centre
+        number = self._parts.index(self._numbers.part(self._machine, body))
+        position = self._machine.bearings[self._machine.index(body)].position
+        return len(self._machine.bodies) + number, (position, 0.0, 0.0)
 
     def __call__(self, times: FloatArray, flat: FloatArray) -> Channels:
         """Return the channels from the whole shared state of samples, shape (n, 12 bodies)."""
@@ -307,8 +312,13 @@ class MemberChannels:
             "shaft_twist": twist,
             "body_position": rigid[:, :, :3],
             "body_tilt": rigid[:, :, 3:],
-            "marker_position": self._markers(_motions(lumps, twist), rigid),
+            "marker_position": self._markers(_motions(lumps, twist), self._with_parts(bodies, rigid)),
         }
+
+    def _with_parts(self, bodies: np.ndarray, rigid: FloatArray) -> FloatArray:
+        """Return the motions of rigid bodies, then of outer rings and cages without their rotation."""
+        parts = bodies[:, self._parts]
+        return np.concatenate([rigid, _motions(parts, np.zeros(parts.shape))], axis=1)
 
     def _twist(self, flat: FloatArray) -> FloatArray:
         """Return how far the lumps have turned beyond the coupling, shape (n, lumps) [rad]."""

@@ -18,7 +18,8 @@ from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import SolverError
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.model.machine_model import GROUND, PLACES, MachineModel
+from lambda_core.model.laws.time_functions import initial
+from lambda_core.model.machine_model import GROUND, PLACES, BearingPart, MachineModel, MountedBearing
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
 from lambda_core.solver.drivers.first_state import free_contact_angle
 from lambda_core.solver.drivers.held_ring import HeldRing
@@ -117,7 +118,7 @@ class _System:
         given[: self.size], given[rows.bodies :] = acting[: self.size], acting[self.size :]
         for own, bearing in zip(self.outer, model.bearings, strict=True):
             self.start[own] = bearing.seating.shift
-            given[own[0]] += bearing.seating.force
+            given[own] += seat_load(model, bearing)
             is_held = np.isinf(bearing.seating.stiffness) & (model.housing is None or bearing.carrier != GROUND)
             held += own[is_held].tolist()
         if model.housing is not None:
@@ -144,7 +145,8 @@ class _System:
         arms[rows.bodies :].reshape(-1, NODE)[:, 3:] = length
         self.arms = arms
         loads = np.abs(model.loads + model.weight) / np.concatenate([arms[: self.size], arms[rows.bodies :]])
-        self.scale = max(float(loads.max()), *(abs(b.seating.force) for b in model.bearings), 1.0)
+        on_rings = [float(np.abs(seat_load(model, b)[:3]).max()) for b in model.bearings]
+        self.scale = max(float(loads.max()), *on_rings, 1.0)
         self.carried = 0.0  # largest reaction of a bearing at the last state [N]
 
     def poses(self, q: FloatArray) -> FloatArray:
@@ -190,6 +192,14 @@ class _System:
         except np.linalg.LinAlgError:  # nothing holds it in some direction: the search ends there and says which
             move[self.free] = scale * np.linalg.lstsq(scaled, pull)[0]
         return move
+
+
+def seat_load(model: MachineModel, bearing: MountedBearing) -> FloatArray:
+    """Return force and moment on an outer ring at t = 0, in the order of POSE [N, N m]."""
+    load = model.load_on(BearingPart(bearing.name, "outer_ring"))
+    found = np.array([initial(load[row]) for row in PLACES])
+    found[0] += bearing.seating.force
+    return found
 
 
 def _carried(model: MachineModel, frame: NDArray[np.int64]) -> FloatArray:

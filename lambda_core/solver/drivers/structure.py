@@ -12,7 +12,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bodies.locations import carried
-from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, MachineModel, MachineSpring
+from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, BearingPart, Carrier, MachineModel, MachineSpring
 
 _RING = np.array(PLACES)
 
@@ -47,7 +47,7 @@ def static_rows(model: MachineModel) -> Rows:
 
 
 def point_on(
-    model: MachineModel, rows: Rows, body: int, point: Sequence[float]
+    model: MachineModel, rows: Rows, body: Carrier, point: Sequence[float]
 ) -> tuple[NDArray[np.int64], FloatArray]:
     """Return the rows that move a point of a body, and how the point moves and turns with them, shape (6, rows)."""
     if body == GROUND:
@@ -55,8 +55,21 @@ def point_on(
     at = np.asarray(point, dtype=float)
     if body == SHAFT:
         return rows.node(at[0]) + np.arange(NODE), carried([0.0, *at[1:]])
+    if isinstance(body, BearingPart):
+        return _point_on_part(model, rows, body, at)
     own = model.bodies[body - 1]
     return rows.bodies + NODE * (body - 1) + np.arange(NODE), carried(at - own.centre)
+
+
+def _point_on_part(
+    model: MachineModel, rows: Rows, part: BearingPart, at: FloatArray
+) -> tuple[NDArray[np.int64], FloatArray]:
+    """Return the same for a point of an outer ring; the rotation of a ring and a cage stand in no such vector."""
+    if part.part == "cage":
+        return np.zeros(0, dtype=np.int64), np.zeros((NODE, 0))
+    number = model.index(part)
+    moves = carried(at - np.array([model.bearings[number].position, 0.0, 0.0]))[:, _RING]
+    return rows.rings + len(POSE) * number + np.arange(len(POSE)), moves
 
 
 def ring_in(model: MachineModel, rows: Rows, index: int) -> FloatArray:
