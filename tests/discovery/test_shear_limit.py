@@ -50,6 +50,23 @@ def test_where_no_equilibrium_is_found_the_law_is_named(monkeypatch: pytest.Monk
             equilibrium.solve(api.check(case))
 
 
+def test_a_law_of_no_oil_is_given_up_after_one_attempt(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Four starts anew and four warmer oils multiplied the time to the same sentence."""
+    monkeypatch.setattr(equilibrium, "MAX_ITERATIONS", {False: 5000, True: 0})
+    monkeypatch.setattr(equilibrium, "_FRESH_ITERATIONS", 0)
+    attempt, made = equilibrium._attempt, []
+
+    def counted(*arguments: Any) -> Any:
+        made.append(arguments[-1])
+        return attempt(*arguments)
+
+    monkeypatch.setattr(equilibrium, "_attempt", counted)
+    case = api.case("6319-cp10-1500").with_(models={"traction": limitless})
+    with pytest.raises(SolverError, match="limiting stress"):
+        equilibrium.solve(api.check(case))
+    assert made.count(0) == 1
+
+
 def test_a_default_with_a_unit_says_how_its_parameter_is_declared() -> None:
     class Stress(Parameters):
         tau: float = parameter("6 MPa", "Eyring stress")

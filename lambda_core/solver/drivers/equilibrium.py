@@ -228,7 +228,8 @@ def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *
 
     With friction it begins anew where it stalls, as methods with a memory are restarted (Powell 1977, Math. Program.
     12, 241): a ball at a kink of its friction narrows the limit on its own steps to nothing, and the step in
-    pseudo-time, which waits for all balls, stays what it was.
+    pseudo-time, which waits for all balls, stays what it was. A traction law that gives stresses of no oil is given
+    one attempt: its slopes are what the continuation cannot follow.
     """
     system = context.bundle.system[0]
     system["friction_on"], system["guides_on"], system["drag_azimuths"] = int(friction), 0, _DRAG_AZIMUTHS
@@ -237,7 +238,7 @@ def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *
     for most in attempts:
         status, report = _attempt(compiled, context, state, most)
         spent += report["iterations"][0]
-        if status in (Status.OK, Status.REFUSED):
+        if status in (Status.OK, Status.REFUSED) or (friction and _limitless(context)):
             break
     report["iterations"] = spent
     system["friction_on"], system["guides_on"], system["drag_azimuths"] = 1, 1, 1
@@ -297,7 +298,7 @@ def _with_friction(compiled: Core, context: SolverContext, state: FloatArray, *,
     try:
         return found(context, state)
     except SolverError as error:
-        near = from_warmer_oil(context, start, found) if strict else None
+        near = from_warmer_oil(context, start, found) if strict and not _limitless(context) else None
         if near is None:
             beyond = operating_warnings(context.model) if strict else []
             raise SolverError("; ".join([str(error), *beyond])) from None
