@@ -114,7 +114,13 @@ def _value(table: type[BaseModel], name: str, card: FieldCard) -> str:
         return f"degree of freedom, see [{_SHARED[members[0]]}](#{_anchor(_SHARED[members[0]])})"
     if card.kind == "table":
         return "name or table" if members == [parts.InlineMaterial] else "table"
-    words = {"text": "text", "number": "number", "integer": "whole number", "flag": "`true` or `false`"}
+    words = {
+        "text": "text",
+        "number": "number",
+        "integer": "whole number",
+        "flag": "`true` or `false`",
+        "pairs": "list of pairs",
+    }
     return f"{words.get(card.kind, 'list of texts')}{limits}"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -235,12 +236,26 @@ class ParagraphRow(LinesRow):
         return " ".join(text.split()) or None
 
 
+class PointsRow(LinesRow):
+    """Pairs of values, such as the points of a table over time, one "time, value" per line."""
+
+    def lines(self, value: Any) -> str:
+        """Return one line per pair."""
+        return "\n".join(", ".join(str(cell) for cell in point) for point in value or ())
+
+    def parse(self, text: str) -> Any:
+        """Return the pairs."""
+        lines = [line for line in text.splitlines() if line.strip()]
+        return [[cell.strip() for cell in re.split(r"[,;\t]", line)] for line in lines] or None
+
+
 def row_for(place: Place, card: FieldCard, around: Surroundings, *, deep: bool = False, label: str = "") -> Row:
     """Return the row that suits a plain option."""
     if card.kind == "flag":
         return FlagRow(place, card, around, deep=deep, label=label)
     if card.kind == "choice":
         return ChoiceRow(place, card, around, deep=deep, label=label)
-    if card.kind == "texts":
-        return LinesRow(place, card, around, deep=deep, label=label)
+    if card.kind in ("texts", "pairs"):
+        row = LinesRow if card.kind == "texts" else PointsRow
+        return row(place, card, around, deep=deep, label=label)
     return TextRow(place, card, around, deep=deep, label=label)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -19,7 +18,7 @@ from lambda_gui.branch import Branch
 from lambda_gui.choice import Choice
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.entry import Entry, text_of, value_of
-from lambda_gui.fields import LinesRow, row_for
+from lambda_gui.fields import PointsRow, row_for
 from lambda_gui.laws import LawRow
 from lambda_gui.places import Option, Part
 from lambda_gui.rows import Left, Surroundings
@@ -193,16 +192,3 @@ def _as_kind(kind: str, value: Any) -> Any:
         "sum": {"terms": [value] if value is not None else [""]},
     }
     return {"kind": kind, **{name: text for name, text in known[kind].items() if text is not None}}
-
-
-class PointsRow(LinesRow):
-    """The points of a table over time, one "time, value" per line."""
-
-    def lines(self, value: Any) -> str:
-        """Return one line per point."""
-        return "\n".join(", ".join(str(cell) for cell in point) for point in value or ())
-
-    def parse(self, text: str) -> Any:
-        """Return pairs of time and value."""
-        lines = [line for line in text.splitlines() if line.strip()]
-        return [[cell.strip() for cell in re.split(r"[,;\t]", line)] for line in lines] or None

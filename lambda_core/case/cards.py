@@ -19,7 +19,7 @@ from lambda_core.case.signals import TimeTable
 from lambda_core.domain.option_tree import members
 from lambda_core.domain.units import UNITS, show
 
-Kind = Literal["text", "number", "integer", "flag", "choice", "quantity", "signal", "texts", "table"]
+Kind = Literal["text", "number", "integer", "flag", "choice", "quantity", "signal", "texts", "pairs", "table"]
 
 
 class FieldCard(BaseModel):
@@ -40,7 +40,7 @@ class FieldCard(BaseModel):
 def field_card(model: type[BaseModel], name: str) -> FieldCard:
     """Return the card of one field of a table or of a model's parameters."""
     info = model.model_fields[name]
-    quantity = quantity_of(model, name)
+    quantity = "" if _is_of_pairs(info.annotation) else quantity_of(model, name)
     choices = _choices(info.annotation)
     extra = info.json_schema_extra if isinstance(info.json_schema_extra, dict) else {}
     return FieldCard(
@@ -107,12 +107,20 @@ def _choices(annotation: Any) -> list[str]:
     ]
 
 
+def _is_of_pairs(annotation: Any) -> bool:
+    """Return whether a list of pairs is allowed."""
+    lists = (plain for plain in _plain(annotation) if get_origin(plain) is list)
+    return any(get_origin(item) is tuple for plain in lists for item in get_args(plain))
+
+
 def _kind(info: FieldInfo, quantity: str, choices: list[str]) -> Kind:
     tables = list(members(info.annotation))
     if any(issubclass(table, TimeTable) for table in tables):
         return "signal"
     if tables or dict in [get_origin(plain) for plain in _plain(info.annotation)]:
         return "table"
+    if _is_of_pairs(info.annotation):
+        return "pairs"
     if quantity:
         return "quantity"
     if choices:

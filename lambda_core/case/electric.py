@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
@@ -10,7 +9,7 @@ from typing import Any, Literal
 from pydantic import PrivateAttr, ValidationInfo, model_validator
 
 from lambda_core.case.option import Section, option
-from lambda_core.case.signals import read_numbered
+from lambda_core.case.pairs import Pairs, Points, given_pairs
 from lambda_core.domain.roles import DEFAULT_MODELS
 from lambda_core.domain.units import (
     Capacitance,
@@ -19,7 +18,6 @@ from lambda_core.domain.units import (
     Resistance,
     Time,
     Voltage,
-    parse,
     show,
 )
 
@@ -57,83 +55,59 @@ class Step(Section):
 
 
 class Series(Section):
-    """Measured common-mode voltage, repeated.
+    """Measured common-mode voltage: straight lines between pairs, held constant outside or repeated.
 
-    The period is the last time where the last voltage equals the first; otherwise one median step more.
+    Where it is repeated the period is the last time less the first one where the last voltage equals the first;
+    otherwise one median step more.
     """
 
-    points: list[str] | None = option(None, 'times and voltages in place of a file, ["0 s, 0 V", "1 us, 5 V", ...]')
+    points: list[tuple[Time, Voltage]] | None = option(
+        None, 'pairs of time and voltage, [["0 s", "0 V"], ["1 us", "5 V"], ...]'
+    )
     file: str | None = option(None, 'CSV file whose header is "time [s],voltage [V]"', min_length=1)
-    _rows: tuple[tuple[float, float], ...] = PrivateAttr(default=())
+    repeat: bool = option(False, "begin again behind the last pair; otherwise the last voltage stays")
+    _rows: Points = PrivateAttr(default=())
 
     @model_validator(mode="after")
     def _read(self, info: ValidationInfo) -> Series:
-        if (self.points is None) == (self.file is None):
-            raise ValueError("give either points or file")
-        if self.points is not None:
-            rows = tuple(_point(text) for text in self.points)
-            check_series(rows, '"points"', range(1, len(rows) + 1), "entry")
-            _check_voltages(rows, '"points"', range(1, len(rows) + 1), "entry")
-        else:
-            rows, lines = read_numbered(Path((info.context or {}).get("folder") or ".") / str(self.file), "voltage")
-            check_series(rows, f'"{self.file}"', lines)
-            _check_voltages(rows, f'"{self.file}"', lines, "line")
-        self._rows = rows
+        folder = Path((info.context or {}).get("folder") or ".")
+        pairs = given_pairs(self.points, self.file, "voltage", folder)
+        check_series(pairs)
+        _check_voltages(pairs)
+        self._rows = pairs.points
         return self
 
     @property
-    def rows(self) -> tuple[tuple[float, float], ...]:
+    def rows(self) -> Points:
         """Points as (time [s], voltage [V])."""
         return self._rows
 
     def inlined(self) -> dict[str, Any]:
         """Return the series with its points written out, for a case that must stand alone."""
-        return {"points": [f"{show(t, 'time')}, {show(v, 'voltage')}" for t, v in self.rows]}
+        repeat = {"repeat": True} if self.repeat else {}
+        return {"points": [[show(t, "time"), show(v, "voltage")] for t, v in self.rows], **repeat}
 
 
-def _point(text: str) -> tuple[float, float]:
-    time, comma, volts = text.partition(",")
-    if not comma:
-        raise ValueError(f'"{text}": write a time and a voltage, for example "1 us, 5 V"')
-    return parse(time, "time"), parse(volts, "voltage")
-
-
-def check_series(rows: tuple[tuple[float, float], ...], name: str, numbers: Sequence[int], word: str = "line") -> None:
-    """Refuse a measured series that is too short, runs backwards, or has gaps.
-
-    Parameters
-    ----------
-    rows : tuple of (time [s], value)
-    name : str
-        Of the series, for people.
-    numbers : sequence of int
-        Where each row stands, as a `word` with this number.
-
-    Raises
-    ------
-    ValueError
-        With a sentence that names the series and the row.
-    """
-    if len(rows) < 3:
-        raise ValueError(f"{name}: a series needs at least three rows")
-    steps = [later[0] - earlier[0] for earlier, later in pairwise(rows)]
+def check_series(pairs: Pairs) -> None:
+    """Refuse a measured series that is too short or has gaps; ValueError with the row."""
+    if len(pairs.points) < 3:
+        raise ValueError(f"{pairs.name}: a series needs at least three rows")
+    steps = [later[0] - earlier[0] for earlier, later in pairwise(pairs.points)]
     usual = sorted(steps)[len(steps) // 2]
-    for number, step in zip(numbers[1:], steps, strict=True):
-        if step <= 0.0:
-            raise ValueError(f"{name} {word} {number}: the times must increase")
+    for index, step in enumerate(steps, 1):
         if step > _GAP * usual:
             raise ValueError(
-                f"{name} {word} {number}: a gap of {step:.4g} s where the rows are {usual:.4g} s apart; "
+                f"{pairs.where(index)}: a gap of {step:.4g} s where the rows are {usual:.4g} s apart; "
                 "cut the series there, or fill the gap"
             )
 
 
-def _check_voltages(rows: tuple[tuple[float, float], ...], name: str, numbers: Sequence[int], word: str) -> None:
+def _check_voltages(pairs: Pairs) -> None:
     """Refuse voltages that no machine has: a unit is wrong."""
-    for number, (_, voltage) in zip(numbers, rows, strict=True):
+    for index, (_, voltage) in enumerate(pairs.points):
         if abs(voltage) > _MOST_VOLTAGE:
             raise ValueError(
-                f"{name} {word} {number}: {voltage:.4g} V is more than {_MOST_VOLTAGE:g} V; is the unit right?"
+                f"{pairs.where(index)}: {voltage:.4g} V is more than {_MOST_VOLTAGE:g} V; is the unit right?"
             )
 
 

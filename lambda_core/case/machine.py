@@ -25,11 +25,12 @@ from lambda_core.case.machine_parts import (
 from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters, Solver
 from lambda_core.case.motion import CageBody, Gravity, Marker, RingBody, TurningRing
 from lambda_core.case.option import NAME_PATTERN, Section, option
+from lambda_core.case.pairs import Pairs, rising
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, OwnLubricant, Surface
 from lambda_core.case.requirements import Life, Requirements
 from lambda_core.case.salvage import SHARED_STAND_INS, StandIns
 from lambda_core.case.signals import MomentSignal, SpeedSignal
-from lambda_core.case.thermal import BearingThermal, MachineThermal, PlaceTemperature, rising
+from lambda_core.case.thermal import BearingThermal, MachineThermal
 from lambda_core.case.written import Written
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import Problem
@@ -102,7 +103,10 @@ class Shaft(Section):
     sections: list[ShaftSection] = option([], "pieces from left to right")
     material: MaterialChoice = option("100Cr6", "catalogue name or a table of properties")
     temperature: Temperature = option("20 degC", "mean temperature, for its growth in length")
-    temperatures: list[PlaceTemperature] = option([], "in place of the mean temperature: temperatures along the shaft")
+    temperatures: list[tuple[Length, Temperature]] = option(
+        [],
+        'in place of the mean temperature: pairs of place and temperature, [["0 mm", "60 degC"], ...]',
+    )
     drive: Length | None = option(
         None,
         "where the coupling holds the shaft against turning, by the rest of the torque; absent: the left end",
@@ -113,7 +117,11 @@ class Shaft(Section):
 
     support: ShaftSupport = option({}, "what holds the shaft in addition to its bearings")
 
-    _rising = field_validator("temperatures")(rising)
+    @field_validator("temperatures")
+    @classmethod
+    def _rises(cls, pairs: list[tuple[float, float]]) -> list[tuple[float, float]]:
+        rising(Pairs(tuple(pairs), '"temperatures"', "entry", range(1, len(pairs) + 1)), "places")
+        return pairs
 
     @field_validator("sections")
     @classmethod

@@ -7,21 +7,17 @@ carry the signal's own quantity, so that a force cannot ramp up to a speed.
 
 from __future__ import annotations
 
-import csv
-import re
 from collections.abc import Iterable, Iterator
-from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, TypeVar
 
 from pydantic import Discriminator, PrivateAttr, Tag, ValidationInfo, model_validator
 
 from lambda_core.case.option import Section, option
-from lambda_core.domain.files import read_text
-from lambda_core.domain.units import Angle, Frequency, Quantity, Time, parse
+from lambda_core.case.pairs import given_pairs
+from lambda_core.domain.units import Angle, Frequency, Quantity, Time
 
 V = TypeVar("V")
-_MOST_POINTS, _LARGEST_TABLE = 100_000, 16 * 2**20  # points, byte
 _MOST_TERMS = 1000  # of a sum: each is evaluated at every step
 SIGNAL_KINDS = ("constant", "ramp", "harmonic", "table", "law", "sum")
 
@@ -89,20 +85,10 @@ class Table(TimeTable, Generic[V]):
 
     @model_validator(mode="after")
     def _read(self, info: ValidationInfo) -> Table[V]:
-        if (self.points is None) == (self.file is None):
-            raise ValueError("give either points or file")
-        if self.points is not None:
-            if len(self.points) > _MOST_POINTS:
-                raise ValueError(f"{len(self.points)} points, at most {_MOST_POINTS}")
-            rows = tuple((time, float(value)) for time, value in self.points)  # type: ignore[arg-type]
-        else:
-            folder = Path((info.context or {}).get("folder") or ".")
-            rows = read_table(folder / str(self.file), self.quantity)
-        if len(rows) < 2:
+        folder = Path((info.context or {}).get("folder") or ".")
+        self._rows = given_pairs(self.points, self.file, self.quantity, folder).points  # type: ignore[arg-type]
+        if len(self._rows) < 2:
             raise ValueError("a table needs at least two points")
-        if any(later <= earlier for (earlier, _), (later, _) in pairwise(rows)):
-            raise ValueError("the times of a table must increase")
-        self._rows = rows
         return self
 
     @property
@@ -183,52 +169,6 @@ def summands(signals: Iterable[tuple[str, float | TimeTable | None]]) -> Iterato
             yield from ((f"{path}.terms.{number}", term) for number, term in enumerate(signal.terms))
         else:
             yield path, signal
-
-
-_HEADER = re.compile(r"^\s*(.*?)\s*\[\s*(.*?)\s*\]\s*$")
-
-
-def read_table(path: Path, quantity: str) -> tuple[tuple[float, float], ...]:
-    """Read a CSV file of time and value; the header names the units in brackets.
-
-    Returns
-    -------
-    tuple of (time [s], value [SI])
-
-    Raises
-    ------
-    ValueError
-        With a sentence naming the file and the line.
-    """
-    return read_numbered(path, quantity)[0]
-
-
-def read_numbered(path: Path, quantity: str) -> tuple[tuple[tuple[float, float], ...], tuple[int, ...]]:
-    """Read a CSV file as :func:`read_table` does; return its rows, and the line of the file that each stands in."""
-    try:
-        lines = read_text(path, _LARGEST_TABLE).splitlines()
-        reader = csv.reader(lines)
-        numbered = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "is not UTF-8 text"
-        raise ValueError(f'cannot read "{path}": {reason}') from None
-    except csv.Error as error:  # a stray quote makes one cell of the rest of the file
-        raise ValueError(f'"{path}" line {reader.line_num}: {error}; is there a quote too many?') from None
-    headers = [_HEADER.match(cell) for cell in numbered[0][1]] if numbered else []
-    if len(headers) != 2 or headers[0] is None or headers[1] is None:
-        raise ValueError(f'"{path}": the first line must name both columns with units, like "time [s],value [N]"')
-    units = (headers[0][2], headers[1][2])
-    if len(numbered) > _MOST_POINTS + 1:
-        raise ValueError(f'"{path}" has {len(numbered) - 1} points: at most {_MOST_POINTS}')
-    rows = []
-    for number, cells in numbered[1:]:
-        if len(cells) != 2:
-            raise ValueError(f'"{path}" line {number}: expected two columns, found {len(cells)}')
-        try:
-            rows.append((parse(f"{cells[0]} {units[0]}", "time"), parse(f"{cells[1]} {units[1]}", quantity)))
-        except ValueError as error:
-            raise ValueError(f'"{path}" line {number}: {error}') from None
-    return tuple(rows), tuple(number for number, _ in numbered[1:])
 
 
 if TYPE_CHECKING:

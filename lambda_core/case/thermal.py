@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import Literal
 
 from pydantic import field_validator
@@ -106,18 +105,3 @@ class BearingThermal(Section):
     oil_flow: VolumeFlow | None = option(None, "oil that flows through it", ge=0.0)
     oil_supply: Temperature | None = option(None, "temperature of the oil that flows in")
     nodes: dict[str, ThermalNode] = option({}, "its own nodes by name, without the bearing's name")
-
-
-class PlaceTemperature(Section):
-    """Temperature at a place of the shaft."""
-
-    at: Length = option(description="place along the shaft, from its left end")
-    temperature: Temperature = option(description="temperature there; linear between places, constant beyond them")
-
-
-def rising(places: list[PlaceTemperature]) -> list[PlaceTemperature]:
-    """Check that places follow each other along the shaft."""
-    at = [place.at for place in places]
-    if any(b <= a for a, b in pairwise(at)):
-        raise ValueError("places must rise from entry to entry")
-    return places

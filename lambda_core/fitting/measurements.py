@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import csv
 import hashlib
-import io
 import math
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -15,6 +12,7 @@ import numpy as np
 
 from lambda_core.analysis.band.quantities import ERROR, LABEL, OPERATING_POINTS, Vocabulary
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.csv_rows import csv_rows
 from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
 from lambda_core.domain.units import from_si, misread, parse, units_of
@@ -105,8 +103,8 @@ def read_measurements(path: str | Path, words: Vocabulary = OPERATING_POINTS) ->
 
 def parse_measurements(text: str, name: str, words: Vocabulary = OPERATING_POINTS) -> Measurements:
     """Read measured operating points from text; CaseError with every mistake."""
-    problems: list[Problem] = []
-    rows = list(_rows(text.removeprefix("\ufeff"), problems))
+    rows, mistakes = csv_rows(text)
+    problems = [Problem(f"line {line}", why) for line, why in mistakes]
     if problems or not rows:
         raise CaseError(name, problems or [Problem("line 1", f"is empty: write a header, for example {words.example}")])
     (head, header), *body = rows
@@ -121,25 +119,6 @@ def parse_measurements(text: str, name: str, words: Vocabulary = OPERATING_POINT
     if problems:
         raise CaseError(name, problems)
     return _measurements(name, text, [line for line, _ in body], columns, table, problems)
-
-
-def _rows(text: str, problems: list[Problem]) -> Iterator[tuple[int, list[str]]]:
-    """Yield line numbers and cells; a quote that opens and does not close is a mistake."""
-    delimiter = None
-    for line, content in enumerate(text.splitlines(), 1):
-        if not content.strip() or content.lstrip().startswith("#"):
-            continue
-        delimiter = delimiter or next((mark for mark in (";", "\t") if mark in content), ",")
-        if content.count('"') % 2:
-            column = content.index('"') + 1
-            problems.append(Problem(f"line {line}", f'has a single quote mark at character {column}: remove the "'))
-            continue
-        try:
-            cells = next(csv.reader(io.StringIO(content), delimiter=delimiter, strict=True))
-        except csv.Error as error:
-            problems.append(Problem(f"line {line}", f'{error}: remove the " marks, numbers need none'))
-            continue
-        yield line, [cell.strip() for cell in cells]
 
 
 def _columns(line: int, header: list[str], problems: list[Problem], words: Vocabulary) -> list[_Column]:

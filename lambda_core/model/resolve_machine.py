@@ -429,8 +429,8 @@ def _growth(case: MachineCase, body: ElasticBody, material: BodyMaterial) -> Flo
     stretched = np.zeros(body.mass.shape[0])
     along = case.shaft.temperatures
     if along:
-        places = np.array([place.at for place in along])
-        moved = stretch(body.positions, places, np.array([place.temperature for place in along]), material)
+        places, temperatures = np.array(along).T
+        moved = stretch(body.positions, places, temperatures, material)
     else:
         strain = material.thermal_expansion * (case.shaft.temperature - REFERENCE_TEMPERATURE)
         moved = strain * body.positions

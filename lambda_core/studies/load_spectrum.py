@@ -2,17 +2,17 @@
 
 The first line names the columns: ``time [s]``, options of the case with their units (``gears.wheel.power [kW]``,
 ``operation.speed [rpm]``, ``loads.belt.force_z [N]``), and perhaps ``name``. An empty cell leaves the option as the
-case has it. Commas separate cells, or semicolons where the first line has them; lines that begin with # are left out.
+case has it. Cells are separated as :mod:`lambda_core.domain.csv_rows` says.
 """
 
 from __future__ import annotations
 
-import csv
 import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from lambda_core.domain.csv_rows import csv_rows
 from lambda_core.domain.errors import CaseError, Problem, UsageError
 from lambda_core.domain.files import read_text
 from lambda_core.domain.units import parse
@@ -49,41 +49,26 @@ def read_spectrum(path: Path) -> list[SpectrumLine]:
         With every mistake and the line that it stands in.
     """
     try:
-        lines = read_text(path).splitlines()
+        rows, mistakes = csv_rows(read_text(path))
     except UnicodeDecodeError:
         raise CaseError(path.name, [Problem("", "is not a text file in UTF-8")]) from None
     except OSError as error:
         raise UsageError(f'cannot read the load spectrum "{path}": {error.strerror}') from None
-    numbered = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and not line.lstrip().startswith("#")]
-    if len(numbered) < 2:
+    if len(rows) < 2 and not mistakes:
         raise CaseError(path.name, [Problem("", "needs a line that names the columns, and one line per phase")])
-    found: list[Problem] = []
-    between = ";" if ";" in numbered[0][1] else ","
-    columns = _columns(numbered[0], between, found)
-    read = [_line(number, line, between, columns, found) for number, line in numbered[1:]] if columns else []
+    found = [Problem(f"line {number}", why) for number, why in mistakes]
+    columns = _columns(*rows[0], found) if rows and not found else []
+    read = [_line(number, cells, columns, found) for number, cells in rows[1:]] if columns else []
     if found:
         more = [Problem("", f"and {len(found) - _MOST_PROBLEMS} more mistakes")] if len(found) > _MOST_PROBLEMS else []
         raise CaseError(path.name, [*found[:_MOST_PROBLEMS], *more])
     return [line for line in read if line is not None]
 
 
-def _cells(line: str, between: str) -> list[str]:
-    """Return the cells of a line; ValueError where it is no CSV."""
-    try:
-        (cells,) = csv.reader([line], delimiter=between, strict=True)
-    except (csv.Error, ValueError) as error:
-        raise ValueError(f"is not CSV: {error}") from None
-    return [cell.strip() for cell in cells]
-
-
-def _columns(first: tuple[int, str], between: str, found: list[Problem]) -> list[_Column]:
+def _columns(number: int, cells: list[str], found: list[Problem]) -> list[_Column]:
     """Return what the columns are; mistakes come into `found`, and nothing is returned."""
-    where = f"line {first[0]}"
-    try:
-        matches = [_COLUMN.fullmatch(cell) for cell in _cells(first[1], between)]
-    except ValueError as error:
-        found.append(Problem(where, str(error)))
-        return []
+    where = f"line {number}"
+    matches = [_COLUMN.fullmatch(cell) for cell in cells]
     if not all(matches):
         found.append(Problem(where, 'name every column by an option and its unit, like "operation.speed [rpm]"'))
         return []
@@ -97,17 +82,11 @@ def _columns(first: tuple[int, str], between: str, found: list[Problem]) -> list
     return [] if found else columns
 
 
-def _line(number: int, line: str, between: str, columns: list[_Column], found: list[Problem]) -> SpectrumLine | None:
+def _line(number: int, cells: list[str], columns: list[_Column], found: list[Problem]) -> SpectrumLine | None:
     """Return one phase; None where the line has mistakes, which come into `found`."""
     before = len(found)
-    try:
-        cells = _cells(line, between)
-    except ValueError as error:
-        cells = []
-        found.append(Problem(f"line {number}", str(error)))
-    if cells and len(cells) != len(columns):
+    if len(cells) != len(columns):
         found.append(Problem(f"line {number}", f"has {len(cells)} cells, and there are {len(columns)} columns"))
-    if len(found) > before:
         return None
     name, time, changes = f"line {number}", math.nan, {}
     for column, cell in zip(columns, cells, strict=True):

@@ -36,6 +36,7 @@ def test_every_option_has_a_card_with_help(path: str) -> None:
         ("bearing.geometry.ball_diameter", "quantity"),
         ("bearing.geometry.conformity_inner", "number"),
         ("loads.radial", "signal"),
+        ("electric.series.points", "pairs"),
         ("bodies.outer_ring.x.motion", "signal"),
         ("depth.cage", "flag"),
         ("markers", "table"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Callable
 from itertools import pairwise
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -14,6 +15,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lambda_core import api
+from lambda_core.case.pairs import read_pairs
+from lambda_core.fitting.measurements import read_measurements
 from lambda_core.model.bearing_model import TableTerm, TimeFunction
 from lambda_core.model.laws.time_functions import initial, peak, scaled
 from lambda_core.model.machine_templates import geared_shaft
@@ -21,6 +24,7 @@ from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.time_tables import add_terms
 from lambda_core.solver.motion.prescribed import _spline
+from lambda_core.studies.load_spectrum import read_spectrum
 
 PULSE = [["0 ms", "0 N"], ["2 ms", "0 N"], ["2.5 ms", "30 N"], ["3 ms", "0 N"], ["100 ms", "0 N"]]
 MODES = ("monotone", "spline")
@@ -141,3 +145,19 @@ def test_a_shaft_says_where_a_spline_leaves_its_points() -> None:
     told = [sentence for sentence in api.machine_warnings(resolve_machine(case)) if "spline" in sentence]
     assert [sentence.split(": ")[0] for sentence in told] == ["operation.speed", "loads.kick.force_z"]
     assert "-1.327 kN at 35.33 ms" in told[1]
+
+
+def test_every_csv_file_is_read_by_the_same_rules(tmp_path: Path) -> None:
+    """Loads and voltages took no comment and no semicolon, measurements and spectra did."""
+    rows = "\ufeff# bench 3\n\ntime [ms];{} [{}]\n0;1\n# a pause\n5 ; 2\n10;3\n"
+    (tmp_path / "load.csv").write_text(rows.format("load", "kN"), encoding="utf-8")
+    (tmp_path / "volts.csv").write_text(rows.format("voltage", "V"), encoding="utf-8")
+    (tmp_path / "phases.csv").write_text(rows.format("operation.speed", "rpm"), encoding="utf-8")
+    (tmp_path / "rig.csv").write_text(
+        rows.format("friction torque", "N mm").replace("time [ms]", "speed [rpm]"), encoding="utf-8"
+    )
+    assert read_pairs(tmp_path / "load.csv", "force").points == ((0.0, 1e3), (5e-3, 2e3), (10e-3, 3e3))
+    assert read_pairs(tmp_path / "volts.csv", "voltage").points == ((0.0, 1.0), (5e-3, 2.0), (10e-3, 3.0))
+    assert read_measurements(tmp_path / "rig.csv").lines == (4, 6, 7)
+    with pytest.raises(api.CaseError, match=r'line 4, time +"0" must be greater than 0'):
+        read_spectrum(tmp_path / "phases.csv")

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
 import pytest
 
 from lambda_core import api
 from lambda_core.analysis.electric.outcome import source_words
-from lambda_core.analysis.electric.voltage_sources import corners
+from lambda_core.analysis.electric.voltage_sources import corners, one_period
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import load_case
 from lambda_core.case.case_writer import standalone_toml
-from lambda_core.case.electric import Inverter, Series, Sine, Step
+from lambda_core.case.electric import Electric, Inverter, Series, Sine, Step
+from lambda_core.case.signals import Table
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError
+from lambda_core.domain.units import Quantity
 
 
 def case_with(electric: dict[str, object], folder: Path | None = None) -> Case:
@@ -51,7 +55,11 @@ def test_average_follows_no_fundamental() -> None:
 
 @pytest.mark.parametrize(
     "source",
-    [Inverter(), Sine(amplitude="10 V", frequency="3 kHz"), Series(points=["0 s, 0 V", "7 us, 5 V", "9 us, 1 V"])],
+    [
+        Inverter(),
+        Sine(amplitude="10 V", frequency="3 kHz"),
+        Series(points=[("0 s", "0 V"), ("7 us", "5 V"), ("9 us", "1 V")], repeat=True),
+    ],
 )
 def test_stretches_have_the_same_corners(source: Inverter | Sine | Series) -> None:
     """A span in two parts has the same corners, bit for bit."""
@@ -74,14 +82,15 @@ def test_step() -> None:
 
 def test_series_is_repeated(tmp_path: Path) -> None:
     (tmp_path / "shaft.csv").write_text("time [us],voltage [V]\n0,1\n10,2\n20,-1\n30,0\n")
-    case = case_with({"series": {"file": "shaft.csv"}}, tmp_path)
+    case = case_with({"series": {"file": "shaft.csv", "repeat": True}}, tmp_path)
     assert case.electric is not None
     assert isinstance(case.electric.source, Series)
     time, volts = corners(case.electric.source, 0.0, 100e-6, np.zeros_like)
     np.testing.assert_allclose(np.interp([5e-6, 45e-6, 85e-6, 38e-6], time, volts), [1.5, 1.5, 1.5, 0.8])
     alone = standalone_toml(case)
     assert "shaft.csv" not in alone
-    assert '"20 us, -1 V"' in alone
+    assert '["20 us", "-1 V"]' in alone
+    assert tomllib.loads(alone)["electric"]["series"]["repeat"]
 
 
 @pytest.mark.parametrize(
@@ -96,11 +105,11 @@ def test_series_is_repeated(tmp_path: Path) -> None:
         ({"inverter": {"dc_link": "800 A"}}, "electric.inverter.dc_link", "is not a unit of voltage"),
         ({"inverter": {}, "step": {"amplitude": "1 V"}}, "electric", "inverter and step are both sources"),
         (
-            {"series": {"points": ["0 s, 1 V", "1 s, 1 V", "1 s, 2 V"]}},
+            {"series": {"points": [["0 s", "1 V"], ["1 s", "1 V"], ["1 s", "2 V"]]}},
             "electric.series",
             '"points" entry 3: the times',
         ),
-        ({"series": {"points": ["0 s 1 V"]}}, "electric.series", "write a time and a voltage"),
+        ({"series": {"points": ["0 s, 1 V"]}}, "electric.series.points.0", "is not a pair in brackets"),
         ({"grounding": {"shunt": "1 Ohm"}}, "electric.grounding", "`shunt` requires `insulation`"),
         ({"series": {}}, "electric.series", "give either points or file"),
     ],
@@ -113,14 +122,37 @@ def test_mistakes_are_named(electric: dict[str, object], where: str, words: str)
     assert words in problem.message
 
 
+def _series(*points: tuple[str, str], repeat: bool = False) -> Electric:
+    found = case_with({"series": {"points": points, "repeat": repeat}}).electric
+    assert found is not None
+    return found
+
+
+def test_a_series_has_the_syntax_and_the_ends_of_a_table() -> None:
+    """Pairs, the first value before them and the last one behind them; it began again, and its points were texts."""
+    points = (("10 us", "1 V"), ("20 us", "4 V"), ("30 us", "2 V"))
+    held = _series(*points)
+    for origin in (0.0, 0.5):
+        times, volts = corners(held.source, origin, origin + 1e-3, np.zeros_like, origin)
+        assert times[0] <= origin
+        assert times[-1] >= origin + 1e-3
+        seen = np.interp([origin, origin + 15e-6, origin + 45e-6, origin + 1e-3], times, volts)
+        np.testing.assert_allclose(seen, [1.0, 2.5, 2.0, 2.0])
+    assert one_period(held.source, 0.0, np.zeros_like)[0].size == 0
+    assert source_words(held) == "measured series, 3 rows to 0.03 ms, 2 V from there on"
+    times, volts = corners(_series(*points, repeat=True).source, 0.0, 1e-4, np.zeros_like)
+    np.testing.assert_allclose(np.interp([15e-6, 45e-6, 75e-6], times, volts), [2.5, 2.5, 2.5])
+    assert Table[Annotated[float, Quantity("voltage")]](kind="table", points=points).rows == held.source.rows
+
+
 def test_a_series_that_ends_where_it_began_is_one_period() -> None:
     """Corners that end at 100 us repeat every 100 us; a series that does not close gets one more step."""
-    closed = case_with({"series": {"points": ["0 us, 0 V", "25 us, 9 V", "75 us, -9 V", "100 us, 0 V"]}}).electric
+    closed = _series(("0 us", "0 V"), ("25 us", "9 V"), ("75 us", "-9 V"), ("100 us", "0 V"), repeat=True)
     times, volts = corners(closed.source, 0.0, 2e-4, lambda t: t)
     np.testing.assert_allclose(times, [0.0, 25e-6, 75e-6, 100e-6, 125e-6, 175e-6, 200e-6], atol=1e-12)
     np.testing.assert_allclose(volts, [0.0, 9.0, -9.0, 0.0, 9.0, -9.0, 0.0])
     assert "repeated every 0.1 ms" in source_words(closed)
-    opened = case_with({"series": {"points": ["0 us, 0 V", "25 us, 9 V", "50 us, 3 V"]}}).electric
+    opened = _series(("0 us", "0 V"), ("25 us", "9 V"), ("50 us", "3 V"), repeat=True)
     assert corners(opened.source, 0.0, 1e-5, lambda t: t)[0][-1] == pytest.approx(75e-6)
 
 
@@ -135,7 +167,7 @@ def test_a_series_that_ends_where_it_began_is_one_period() -> None:
         ("time,voltage\n0,1\n1,2\n2,3\n", "must name both columns with units"),
         ("time [s],voltage [A]\n0,1\n1,2\n2,3\n", "is not a unit of voltage"),
         ("time [s],voltage [V]\n0,1\n1,\n2,3\n", "line 3"),
-        ('time [s],voltage [V]\n0,1\n"1,2\n' + 20000 * "2.0000,3\n", "is there a quote too many?"),
+        ('time [s],voltage [V]\n0,1\n"1,2\n' + 20000 * "2.0000,3\n", "single quote mark at character 1"),
     ],
 )
 def test_mistakes_in_a_series_are_named(text: str, words: str, tmp_path: Path) -> None:

@@ -52,8 +52,8 @@ def test_grounded_rotor_has_no_voltage_at_the_start() -> None:
 
 def test_offset_of_a_measured_series_leaks_away() -> None:
     """A series about 100 V: a bearing that leaks does not see the 100 V, from its first moment on."""
-    points = [f"{1e-5 * k} s, {100.0 + 50.0 * math.sin(0.1 * math.pi * k)} V" for k in range(20)]
-    series = Series(points=points)
+    points = [(f"{1e-5 * k} s", f"{100.0 + 50.0 * math.sin(0.1 * math.pi * k)} V") for k in range(20)]
+    series = Series(points=points, repeat=True)
     source, rest = corners(series, 0.0, STOP, at_rest), one_period(series, 0.0, at_rest)
     films = steady(400e-12, 400e-12, leak=1e-12, stop=STOP)
     found = integrate(films, one_bearing(50e-12, 800e-12), SMOOTH, source, rest=rest)
@@ -64,7 +64,7 @@ def test_offset_of_a_measured_series_leaks_away() -> None:
 
 def test_periods_close() -> None:
     """Every periodic source ends its first period at the voltage it began with; an edge has no period."""
-    series = Series(points=["0 s, 3 V", "1 us, 5 V", "2 us, -1 V"])
+    series = Series(points=[("0 s", "3 V"), ("1 us", "5 V"), ("2 us", "-1 V")], repeat=True)
     for source in (Inverter(), Sine(amplitude="5 V", frequency="77 Hz"), series):
         times, volts = one_period(source, 0.0, lambda t: 288.0 * t)
         assert volts[-1] == volts[0]

@@ -71,7 +71,7 @@ def test_a_spectrum_is_its_phases(box: Path) -> None:
         ("time,operation.speed [rpm]\n1,1000\n", ("line 1", "needs a unit")),
         ("time [s],time [min]\n1,1000\n", ("line 1", "names time twice")),
         ("time [s],[rpm]\n1,1000\n", ("line 1", "name every column")),
-        ('time [s],operation.speed [rpm]\n1,"10\n', ("line 2", "is not CSV")),
+        ('time [s],operation.speed [rpm]\n1,"10\n', ("line 2", "has a single quote mark at character 3")),
         ("time [s]\n", ("one line per phase",)),
         ("time [min],operation.speed [rpm]\n1,1000\n3,0\n", ("loads.csv, line 3 of box", "needs a speed")),
     ],

@@ -303,9 +303,9 @@ COMPUTED = {"operation": {"temperatures": "computed"}}
             "FVA3X",
         ),
         (
-            {"shaft": {"temperatures": [{"at": "9 mm", "temperature": "9 degC"}] * 2}},
+            {"shaft": {"temperatures": [["9 mm", "9 degC"]] * 2}},
             "shaft.temperatures",
-            "must rise",
+            "the places must increase",
         ),
     ],
 )  # fmt: skip

@@ -200,16 +200,16 @@ def test_c4_exported_rows_hold_no_formula(tmp_path: Path, user_folder: Path) -> 
 
 @pytest.mark.skipif(os.name == "nt", reason="pipes and devices of POSIX")
 def test_c3_table_files_are_regular_and_bounded(tmp_path: Path) -> None:
-    from lambda_core.case.signals import read_table
+    from lambda_core.case.pairs import read_pairs
 
     os.mkfifo(tmp_path / "pipe")
     for path, words in ((Path("/dev/zero"), "a device"), (tmp_path / "pipe", "a pipe"), (tmp_path, "folder|directory")):
         with pytest.raises(ValueError, match=words):
-            read_table(path, "force")
+            read_pairs(path, "force")
     large = tmp_path / "large.csv"
     large.write_bytes(b"time [s],value [N]\n" + b"1,2\n" * 100_001)
     with pytest.raises(ValueError, match="at most 100000"):
-        read_table(large, "force")
+        read_pairs(large, "force")
     with pytest.raises(OSError, match="larger than"):
         read_bytes(large, 1000)
 

@@ -12,7 +12,7 @@ from pydantic import Field
 from lambda_core.analysis.electric.circuit import surroundings
 from lambda_core.analysis.electric.circuit_bearing import of_model
 from lambda_core.case.electric import check_series
-from lambda_core.case.signals import read_numbered
+from lambda_core.case.pairs import read_pairs
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError, UsageError
@@ -204,16 +204,16 @@ def read_measured(path: Path, frequency: float | None) -> FloatArray:
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
         impedance = "Ohm" in next((line for line in lines if line.strip()), "")
-        rows, numbers = read_numbered(path, "resistance" if impedance else "capacitance")
-        check_series(rows, f'"{path.name}"', numbers)
+        pairs = read_pairs(path, "resistance" if impedance else "capacitance")
+        check_series(pairs)
     except (OSError, ValueError) as error:
         raise UsageError(
             str(error) if isinstance(error, ValueError) else f'cannot read "{path}": {error.strerror}'
         ) from None
-    values = np.array([value for _, value in rows])
+    values = np.array([value for _, value in pairs.points])
     if not np.all(values > 0.0):
-        line = numbers[int(np.argmax(values <= 0.0))]
-        raise UsageError(f'"{path}" line {line}: a capacitance or impedance must be greater than 0')
+        where = pairs.where(int(np.argmax(values <= 0.0)))
+        raise UsageError(f"{where}: a capacitance or impedance must be greater than 0")
     if not impedance:
         return values
     if frequency is None:

@@ -193,7 +193,10 @@ def source_words(options: Electric) -> str:
         return f"sine, {source.amplitude:g} V, {source.frequency:g} Hz"
     if isinstance(source, Step):
         return f"step to {source.amplitude:g} V in {1e9 * source.rise_time:g} ns"
-    return f"measured series, {len(source.rows)} rows, repeated every {1e3 * period_of(np.array(source.rows)):.6g} ms"
+    rows = np.array(source.rows)
+    if not source.repeat:
+        return f"measured series, {len(rows)} rows to {1e3 * rows[-1, 0]:.6g} ms, {rows[-1, 1]:.6g} V from there on"
+    return f"measured series, {len(rows)} rows, repeated every {1e3 * period_of(rows):.6g} ms"
 
 
 def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[str]:

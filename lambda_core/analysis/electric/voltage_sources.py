@@ -52,7 +52,7 @@ def corners(
         keep = np.concatenate([[True], np.diff(t) > 0.0])
         t, v = t[keep], v[keep]
     else:
-        t, v = _repeated(np.array(source.rows), begin, end)
+        t, v = (_repeated if source.repeat else _held)(np.array(source.rows), begin, end)
     return t + origin, v
 
 
@@ -74,11 +74,11 @@ def _rate(source: Inverter | Sine | Step | Series) -> float:
         return source.frequency * source.points
     if isinstance(source, Step):
         return 0.0
-    return len(source.rows) / period_of(np.array(source.rows))
+    return len(source.rows) / period_of(np.array(source.rows)) if source.repeat else 0.0
 
 
 def one_period(source: Inverter | Sine | Step | Series, origin: float, turned: Turned) -> tuple[FloatArray, FloatArray]:
-    """Return the corners of the first period of a source that began at `origin` [s]; of an edge, which has none, none.
+    """Return the corners of the first period of a source that began at `origin` [s]; none of one without a period.
 
     The voltage ends where it began.
     """
@@ -88,9 +88,9 @@ def one_period(source: Inverter | Sine | Step | Series, origin: float, turned: T
         count = np.arange(source.points + 1)
         volts = source.amplitude * np.sin(2.0 * math.pi * (count % source.points) / source.points)
         return count / (source.frequency * source.points), volts
-    if isinstance(source, Series):
+    if isinstance(source, Series) and source.repeat:
         return _repeated(np.array(source.rows), 0.0, 0.0)
-    return np.zeros(0), np.zeros(0)
+    return np.zeros(0), np.zeros(0)  # an edge, or a series that is not repeated
 
 
 def reach(source: Inverter | Sine | Step | Series) -> float:
@@ -139,11 +139,19 @@ def _ramps(instant: FloatArray, change: FloatArray, rise: float) -> tuple[FloatA
     return t, np.where(flat, step * np.round(level / step), level)  # on the levels exactly, whatever was added up
 
 
+def _held(rows: FloatArray, start: float, stop: float) -> tuple[FloatArray, FloatArray]:
+    """Return a measured series with its first voltage before it and its last one behind it."""
+    first, last = min(start, rows[0, 0]) - 1.0, max(stop, rows[-1, 0]) + _LATER
+    return np.array([first, *rows[:, 0], last]), np.array([rows[0, 1], *rows[:, 1], rows[-1, 1]])
+
+
 def _repeated(rows: FloatArray, start: float, stop: float) -> tuple[FloatArray, FloatArray]:
     """Return a measured series, repeated over start..stop; where it does not close, a straight line joins its ends."""
-    t, period = rows[:, 0] - rows[0, 0], period_of(rows)
+    begin, period = rows[0, 0], period_of(rows)
+    t = rows[:, 0] - begin
     if rows[-1, 1] == rows[0, 1]:
         t, rows = t[:-1], rows[:-1]
-    turn = np.arange(math.floor(start / period), max(math.ceil(stop / period), math.floor(start / period) + 1))
-    found = (t[None, :] + period * turn[:, None]).ravel()
-    return np.append(found, period * (turn[-1] + 1)), np.append(np.tile(rows[:, 1], turn.size), rows[0, 1])
+    first = math.floor((start - begin) / period)
+    turn = np.arange(first, max(math.ceil((stop - begin) / period), first + 1))
+    found = begin + (t[None, :] + period * turn[:, None]).ravel()
+    return np.append(found, begin + period * (turn[-1] + 1)), np.append(np.tile(rows[:, 1], turn.size), rows[0, 1])

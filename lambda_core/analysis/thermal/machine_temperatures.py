@@ -228,7 +228,7 @@ def _with_temperatures(loop: MachineLoop, found: Steady, sentence: str) -> dict[
         bearings[bearing.name] = {"temperatures": parts, "lubricant": {"temperature": _degrees(point.inlet)}}
     nodes = zip(machine.heat.shaft, machine.body.positions.tolist(), strict=True)
     warm = {x: at.get(name, _mean(machine, at, "inner_ring")) for name, x in nodes}
-    along = [{"at": f"{1e3 * x:.9g} mm", "temperature": _degrees(value)} for x, value in warm.items()]
+    along = [[f"{1e3 * x:.9g} mm", _degrees(value)] for x, value in warm.items()]
     changed = merged(
         tables,
         {

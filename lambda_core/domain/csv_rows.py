@@ -1,0 +1,34 @@
+"""Read the cells of a CSV file: the one reader of measurements, tables over time, voltages and load spectra.
+
+Commas separate cells, or semicolons or tabs where the first line has them. Empty lines and those that begin with # are
+left out.
+"""
+
+from __future__ import annotations
+
+import csv
+
+Rows = list[tuple[int, list[str]]]  # number of the line, cells
+Mistakes = list[tuple[int, str]]  # number of the line, what is wrong
+
+
+def csv_rows(text: str) -> tuple[Rows, Mistakes]:
+    """Return the cells of every line, and the lines that cannot be read."""
+    rows: Rows = []
+    mistakes: Mistakes = []
+    delimiter = ""
+    for line, content in enumerate(text.removeprefix("\ufeff").splitlines(), 1):
+        if not content.strip() or content.lstrip().startswith("#"):
+            continue
+        delimiter = delimiter or next((mark for mark in (";", "\t") if mark in content), ",")
+        if content.count('"') % 2:
+            where = content.index('"') + 1
+            mistakes.append((line, f'has a single quote mark at character {where}: remove the "'))
+            continue
+        try:
+            (cells,) = csv.reader([content], delimiter=delimiter, strict=True)
+        except (csv.Error, ValueError) as error:
+            mistakes.append((line, f'{error}: remove the " marks, numbers need none'))
+            continue
+        rows.append((line, [cell.strip() for cell in cells]))
+    return rows, mistakes
