@@ -16,11 +16,11 @@ def animate(
     source: Annotated[Path, typer.Argument(metavar="RESULT", help="Result file.")],
     out: Annotated[
         Path | None,
-        typer.Option("--out", metavar="FILE", help="Its ending says the format: gif, mp4, glb; default: RESULT.gif."),
+        typer.Option("--out", metavar="FILE", help="File to write, .gif, .mp4 or .glb; default: RESULT.gif."),
     ] = None,
     turns: Annotated[float, typer.Option("--turns", metavar="N", help="Revolutions of the cage to show.")] = 1.0,
     start: Annotated[
-        float | None, typer.Option("--start", metavar="S", help="First moment in seconds; default: the last turns.")
+        float | None, typer.Option("--start", metavar="S", help="Start time in seconds; default: the last turns.")
     ] = None,
     frames: Annotated[int, typer.Option("--frames", metavar="N", help="Number of frames.")] = 120,
     fps: Annotated[float, typer.Option("--fps", metavar="N", help="Frames per second when played.")] = 25.0,

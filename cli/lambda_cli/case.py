@@ -41,16 +41,20 @@ def init(
         typer.Option(
             "--template",
             metavar="NAME",
-            help="Start from a machine: geared-shaft (a shaft in two bearings); or one bearing with what is usual in "
-            "an electric-motor, gearbox-shaft, spindle, pump, wheel or thin-housing, with --bearing for one of yours.",
+            help="Start from a template: geared-shaft (a shaft in two bearings), or one bearing with the usual loads "
+            "and oil of an electric-motor, gearbox-shaft, spindle, pump, wheel or thin-housing; --bearing selects it.",
         ),
     ] = None,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="File to write; default: NAME.toml.")
     ] = None,
-    radial: Annotated[str | None, typer.Option("--radial", metavar="FORCE", help="With --bearing: load.")] = None,
-    axial: Annotated[str | None, typer.Option("--axial", metavar="FORCE", help="With --bearing: load.")] = None,
-    speed: Annotated[str | None, typer.Option("--speed", metavar="SPEED", help="With --bearing.")] = None,
+    radial: Annotated[
+        str | None, typer.Option("--radial", metavar="FORCE", help="With --bearing: radial load.")
+    ] = None,
+    axial: Annotated[str | None, typer.Option("--axial", metavar="FORCE", help="With --bearing: axial load.")] = None,
+    speed: Annotated[
+        str | None, typer.Option("--speed", metavar="SPEED", help="With --bearing: speed of the inner ring.")
+    ] = None,
     oil: Annotated[str | None, typer.Option("--oil", metavar="NAME", help="With --bearing: lubricant.")] = None,
     force: ForceOption = False,
 ) -> None:
@@ -71,12 +75,12 @@ def check(
     case: CaseArgument,
     changes: SetOption = None,
     everything: Annotated[
-        bool, typer.Option("--all", help="Also laws, published and numerical values, and the source of each.")
+        bool, typer.Option("--all", help="Also print laws and all values with their sources.")
     ] = False,
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
 ) -> None:
-    """Check a case: errors or none first, then what it is, warnings, and assumptions by what they affect."""
+    """Check a case: errors, model, warnings and assumptions."""
     from lambda_db.recent import remember
 
     from lambda_core import api

@@ -10,7 +10,7 @@ import typer
 from lambda_cli.options import BearingOption, CaseArgument, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 
-SIDE_BY_SIDE = "Results stand side by side with: lambda-bearing show A.h5 B.h5, or view A.h5 B.h5"
+SIDE_BY_SIDE = "To compare results: lambda-bearing show A.h5 B.h5, or view A.h5 B.h5"
 
 
 def compare(

@@ -26,7 +26,7 @@ app = typer.Typer(
 
 _TABLES = "source, alias, bearing, clearance, material, cage, lubricant, lubricant_property, lubricant_parameter"
 TableOption = Annotated[str | None, typer.Option("--table", metavar="TABLE", help=f"One of {_TABLES}.")]
-ReplaceOption = Annotated[bool, typer.Option("--replace", help="Put rows in the place of your own of the same key.")]
+ReplaceOption = Annotated[bool, typer.Option("--replace", help="Replace your own rows that have the same key.")]
 
 
 @contextmanager
@@ -122,7 +122,7 @@ def choose(
 @app.command()
 def show(
     words: Annotated[list[str], typer.Argument(metavar="NAME", help="Bearing, lubricant, material or cage.")],
-    maker: Annotated[str | None, typer.Option(help="Whose bearing, where several makers are in the catalogue.")] = None,
+    maker: Annotated[str | None, typer.Option(help="Maker, if several have this designation.")] = None,
     temperature: Annotated[
         list[str] | None, typer.Option(help='Of a lubricant: temperatures, for example "40 degC".')
     ] = None,
@@ -159,7 +159,7 @@ def add(
     replace: ReplaceOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Add one row to your own catalogue; inner geometry that is left open is estimated."""
+    """Add one row to your own catalogue; the program estimates missing inner geometry."""
     from lambda_db.transfer import add_row
 
     cells = _cells(values)
@@ -191,7 +191,7 @@ def remove(
     ],
     json: JsonOption = False,
 ) -> None:
-    """Remove one row of your own, and what belongs to it; built-in rows stay."""
+    """Remove one row of your own and its dependent rows; built-in rows stay."""
     from lambda_db.removal import remove_row
 
     cells = _cells(values)
@@ -231,7 +231,7 @@ def import_rows(
     replace: ReplaceOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Bring rows into your own catalogue."""
+    """Import rows into your own catalogue."""
     from lambda_db.transfer import import_path
 
     with _opened() as (catalogue, _):

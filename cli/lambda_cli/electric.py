@@ -40,7 +40,7 @@ def electric(
     duration: Annotated[
         str | None, typer.Option("--duration", metavar="TIME", help='Simulated time, e.g. "1s".')
     ] = None,
-    seed: Annotated[int | None, typer.Option("--seed", metavar="N", help="Key of the random numbers.")] = None,
+    seed: Annotated[int | None, typer.Option("--seed", metavar="N", help="Seed of the random numbers.")] = None,
     out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Table of discharges, .csv or .h5.")] = None,
     force: ForceOption = False,
     as_json: JsonOption = False,
@@ -48,11 +48,11 @@ def electric(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Bearing voltage, discharges and impedance in the circuit of an electric machine.
+    """Compute bearing voltage, discharges and impedance in the circuit of an electric machine.
 
-    The circuit is the section electric of the case; what it leaves open has defaults, which are listed. A case is
-    computed on the films of its quasi-static equilibria, a result on the films of the run. All bearings of a machine
-    stand in one circuit between shaft and frame.
+    The section electric of the case describes the circuit; the command lists the defaults that it uses. The films are
+    those of quasi-static equilibria for a case, and those of the run for a result. All bearings of a machine are part
+    of one circuit between shaft and frame.
     """
     from lambda_core import api
 
@@ -85,7 +85,7 @@ def film(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Film thickness and starvation from a measured capacitance or impedance of the bearing."""
+    """Find film thickness and starvation from a measured capacitance or impedance."""
     from lambda_core import api
 
     with talk(progress, quiet) as speaker:
@@ -106,7 +106,7 @@ def risk_map(
         str,
         typer.Argument(
             metavar="CASE|FOLDER",
-            help="Case file or name of a built-in case; or the folder of a map, to go on with it.",
+            help="Case file or name of a built-in case; or the folder of a map, to continue it.",
         ),
     ],
     changes: SetOption = None,
@@ -120,11 +120,13 @@ def risk_map(
     points: Annotated[str, typer.Option("--points", metavar="NxM", help="Speeds times temperatures.")] = "20x10",
     folder: Annotated[
         Path | None,
-        typer.Option("--folder", metavar="FOLDER", help="Keep the map as a study, which goes on after a kill."),
+        typer.Option("--folder", metavar="FOLDER", help="Store the map as a study; the same command continues it."),
     ] = None,
     workers: WorkersOption = None,
     executor: ExecutorOption = "processes",
-    out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Every number, as .csv.")] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="FILE", help="Write every number to a .csv file.")
+    ] = None,
     draw: Annotated[
         Path | None, typer.Option("--draw", metavar="DIR", help="Also write pictures (svg and png) into this folder.")
     ] = None,
@@ -134,12 +136,11 @@ def risk_map(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Discharges over speed and temperature, on quasi-static films.
+    """Map the discharges over speed and temperature, with quasi-static films.
 
-    The circuit is the section electric of the case; of a machine all bearings stand in it, and the map is of one.
-    Speeds are even in logarithm; without --speed they go from a tenth to twice the speed of the case. With
-    --folder the map is a study: after Ctrl+C or a kill, lambda-bearing electric-map FOLDER does what is missing.
-    Numbers do not depend on the workers.
+    The section electric of the case describes the circuit, with all bearings of a machine; --bearing selects the one
+    to map. Speeds have equal ratios; without --speed they range from a tenth to twice the speed of the case. With
+    --folder the map is a study: after an interruption, lambda-bearing electric-map FOLDER computes the missing points.
     """
     from lambda_core import api
 

@@ -16,7 +16,7 @@ app = typer.Typer(add_completion=False, no_args_is_help=True)
 
 
 class Couple(StrEnum):
-    """What the other program gives."""
+    """Inputs that the other program gives."""
 
     FORCE = "force"
     MOTION = "motion"
@@ -24,7 +24,7 @@ class Couple(StrEnum):
 
 @app.callback()
 def _export() -> None:
-    """A bearing or a machine for other programs."""
+    """Export a bearing or a machine for other programs."""
 
 
 @app.command()
@@ -35,7 +35,7 @@ def fmu(
     ] = None,
     fmi: Annotated[int, typer.Option(metavar="VERSION", help="Version of the standard: 2 or 3.")] = 2,
     couple: Annotated[
-        Couple, typer.Option(help="What comes from outside: loads, or the motion of both rings of one bearing.")
+        Couple, typer.Option(help="Inputs of the FMU: loads, or the motion of both rings of one bearing.")
     ] = Couple.FORCE,
     vary: Annotated[
         list[str] | None,
@@ -49,13 +49,13 @@ def fmu(
         typer.Option(
             "--platform",
             metavar="NAME",
-            help="System that it is for: linux (default), windows, linux-arm, mac-arm, mac-intel. Repeatable.",
+            help="System to export for: linux (default), windows, linux-arm, mac-arm, mac-intel. Repeatable.",
         ),
     ] = None,
     processor: Annotated[
         str,
         typer.Option(
-            metavar="NAME", help="The least processor: x86-64-v3, x86-64-v2, x86-64-v4, or native (this one)."
+            metavar="NAME", help="Oldest processor to support: x86-64-v3, x86-64-v2, x86-64-v4, or native (this one)."
         ),
     ] = "x86-64-v3",
     changes: SetOption = None,

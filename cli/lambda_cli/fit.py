@@ -20,7 +20,7 @@ VaryOption = Annotated[
     typer.Option(
         "--vary",
         metavar="PATH[=LOW..HIGH]",
-        help='A parameter, "loss_factor" or "tau_eyring=3 MPa..10 MPa"; repeat it.',
+        help='Parameter to fit, "loss_factor" or "tau_eyring=3 MPa..10 MPa"; may be repeated.',
     ),
 ]
 
@@ -32,7 +32,7 @@ def fit(
     changes: SetOption = None,
     predict: Annotated[
         Path | None,
-        typer.Option("--predict", metavar="OTHER.csv", help="Predict measured points that the fit does not see."),
+        typer.Option("--predict", metavar="OTHER.csv", help="Predict measured points that the fit does not use."),
     ] = None,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="Write a case file with the fitted values.")
@@ -46,7 +46,7 @@ def fit(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Fit parameters of a case to measured operating points, and tell what the measurements determine.
+    """Fit parameters of a case to measured operating points, and report what the measurements determine.
 
     Quasi-static and without cage. Ctrl+C keeps the best values so far.
     """

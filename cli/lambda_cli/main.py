@@ -135,7 +135,7 @@ def _program(
         list[str] | None, typer.Option("--no-plugin", metavar="NAME", help="Switch a plugin off for this call.")
     ] = None,
 ) -> None:
-    """Simulate the dynamics of ball bearings: friction, kinematics, films, capacitance.
+    """Simulate rolling bearings and shafts: friction, lives, films, temperatures, currents.
 
     Start with: lambda-bearing run 6319-cp10-1500
     """

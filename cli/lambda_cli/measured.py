@@ -12,7 +12,7 @@ from lambda_cli.options import BandOption, Bands, ForceOption, JsonOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 from lambda_core.domain.wrapping import wrapped
 
-app = typer.Typer(no_args_is_help=True, help="Measured series, and how far the program is from each of them.")
+app = typer.Typer(no_args_is_help=True, help="Compare measured series with the program.")
 
 NamesArgument = Annotated[
     list[str] | None, typer.Argument(metavar="[SERIES]...", help="Names, or TOML files of your own; default: all.")
@@ -40,7 +40,7 @@ def add(
     file: Annotated[Path, typer.Argument(metavar="FILE.toml", help="Description; the points are in FILE.csv.")],
     force: ForceOption = False,
 ) -> None:
-    """Add a measured series of your own: both files are copied into your data folder."""
+    """Copy a measured series of your own into your data folder."""
     from lambda_core import api
 
     series = api.add_measured(file, overwrite=force)

@@ -44,18 +44,14 @@ UnitsOption = Annotated[
         "--units",
         envvar="LAMBDA_BEARING_UNITS",
         show_envvar=False,
-        help="Units of what is printed; LAMBDA_BEARING_UNITS=us sets them for good. Files and --json stay in SI.",
+        help="Units of the output; LAMBDA_BEARING_UNITS=us changes the default. Files and --json stay in SI.",
     ),
 ]
 BandOption = Annotated[
     Bands,
-    typer.Option(
-        "--band", help="Also tell how far the model itself may be off: 90 % band; none skips it and saves a second."
-    ),
+    typer.Option("--band", help="model: also compute the 90 % model band; none: skip it and save a second."),
 ]
-BearingOption = Annotated[
-    str | None, typer.Option("--bearing", metavar="NAME", help="Which bearing of a machine is meant.")
-]
+BearingOption = Annotated[str | None, typer.Option("--bearing", metavar="NAME", help="Bearing of a machine.")]
 ForceOption = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")]
 WorkersOption = Annotated[
     int | None, typer.Option("--workers", min=1, metavar="N", help="Processes; default: every processor.")

@@ -23,14 +23,14 @@ def report(
         typer.Option("--out", metavar="FILE", help="Page, .html or .pdf; default: name of the source with .html."),
     ] = None,
     project: Annotated[str, typer.Option("--project", metavar="TEXT", help="Project, for the head of the page.")] = "",
-    author: Annotated[str, typer.Option("--author", metavar="TEXT", help="Who writes it, for the head.")] = "",
+    author: Annotated[str, typer.Option("--author", metavar="TEXT", help="Author, for the head of the page.")] = "",
     full: Annotated[bool, typer.Option("--full", help="All appendices after the standard pages.")] = False,
     appendices: Annotated[
         list[str] | None,
         typer.Option(
             "--appendix",
             metavar="NAME",
-            help="What follows the standard pages: tables, views, trust, inputs, assumptions, laws, references, "
+            help="Appendix after the standard pages: tables, views, trust, inputs, assumptions, laws, references, "
             "origin; may be repeated; default: nothing.",
         ),
     ] = None,
@@ -40,7 +40,7 @@ def report(
 ) -> None:
     """Write a report: verdict with margins, sketch, loads, lives, losses, inputs and limits on four pages.
 
-    One HTML file without anything from outside, or a PDF (--out x.pdf) where a browser or WeasyPrint is installed;
+    One HTML file that needs no network, or a PDF (--out x.pdf) where a browser or WeasyPrint is installed;
     the extra "pdf" brings one. A machine has its shaft first, then a page for each bearing.
     """
     from lambda_core import api

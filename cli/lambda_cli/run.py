@@ -41,10 +41,10 @@ def run(
 ) -> None:
     """Simulate a case from its quasi-static equilibrium and write its result.
 
-    Without --duration it goes on until the friction torque is known to 1 % (95 % confidence),
-    after one discarded and at least four averaged cage revolutions. Ctrl+C keeps what there
-    is; lambda-bearing resume FILE goes on. Exit codes: 0 converged, 3 invalid case, 4 the
-    solver failed, 5 not converged or stopped early (the reason is printed), 130 interrupted.
+    Without --duration the run ends when the friction torque is known to 1 % (95 % confidence),
+    after one discarded and at least four averaged cage revolutions. Ctrl+C keeps the results so far;
+    lambda-bearing resume FILE continues the run. Exit codes: 0 converged, 3 invalid case, 4 the solver
+    failed, 5 not converged or stopped early (the program prints the reason), 130 interrupted.
     """
     from lambda_db.recent import remember
 
@@ -75,7 +75,7 @@ def finish(result: Result, as_json: bool, units: Units) -> None:
     summary = result.summary()
     typer.echo(summary.model_dump_json(indent=2) if as_json else summary.text(columns(), units.system))
     if summary.state == "interrupted":
-        typer.echo(f"interrupted; go on with: lambda-bearing resume {result.path}{taken_options()}", err=True)
+        typer.echo(f"interrupted; continue with: lambda-bearing resume {result.path}{taken_options()}", err=True)
         raise typer.Exit(130)
     if not summary.converged:
         raise PartialResultError(f"not converged: {'; '.join(summary.reasons)}")

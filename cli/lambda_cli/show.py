@@ -18,18 +18,18 @@ def show(
         list[Path],
         typer.Argument(
             metavar="FILE...",
-            help="Result file, also of a run that still goes on; or several.",
+            help="Result file, also of a running simulation; or several.",
         ),
     ],
     as_json: JsonOption = False,
     bearing: BearingOption = None,
-    assumptions: Annotated[bool, typer.Option("--assumptions", help="List what was assumed.")] = False,
+    assumptions: Annotated[bool, typer.Option("--assumptions", help="List the assumptions.")] = False,
     units: UnitsOption = Units.SI,
 ) -> None:
     """Show the summary of a result: finished, still growing, or left behind by a killed run.
 
-    Of a machine of several bearings: its motion and a column for each bearing; with --bearing that one in full.
-    With several results: what their cases say differently, and their key numbers side by side.
+    A machine shows its motion and a column for each bearing; --bearing shows one bearing in full. Several results
+    show the differences of their cases and their key numbers in columns.
     """
     from lambda_core import api
 

@@ -13,7 +13,7 @@ from lambda_core.domain.files import check_folder
 
 SpeedsOption = Annotated[
     list[str] | None,
-    typer.Option("--speed", metavar="SPEED", help='A speed, for example "10 rpm"; may be given again.'),
+    typer.Option("--speed", metavar="SPEED", help='A speed, for example "10 rpm"; may be repeated.'),
 ]
 
 
@@ -22,7 +22,7 @@ def stribeck(
     changes: SetOption = None,
     bearing: BearingOption = None,
     speeds: SpeedsOption = None,
-    points: Annotated[int, typer.Option("--points", min=2, max=200, help="Speeds, where none is given.")] = 16,
+    points: Annotated[int, typer.Option("--points", min=2, max=200, help="Number of speeds without --speed.")] = 16,
     draw: Annotated[
         Path | None,
         typer.Option("--draw", metavar="DIR", help="Also write the picture (svg and png) into this folder."),

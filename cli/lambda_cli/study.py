@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from lambda_core.domain.unit_systems import UnitSystem
     from lambda_core.views.table import StudyTable
 
-app = typer.Typer(no_args_is_help=True, add_completion=False, help="Many runs: sweeps, samples, maps, searches.")
+app = typer.Typer(no_args_is_help=True, add_completion=False, help="Evaluate a case over many operating points.")
 
 FolderArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help="Folder of a study.")]
 
@@ -48,7 +48,7 @@ def init(
     ] = None,
     case: Annotated[
         str | None,
-        typer.Option("--case", metavar="CASE", help="Built-in case or case file to study; look at the ranges, too."),
+        typer.Option("--case", metavar="CASE", help="Built-in case or case file to study; check the ranges, too."),
     ] = None,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="File to write; default: NAME.toml.")
@@ -71,21 +71,21 @@ def init(
 def run(
     study: Annotated[Path, typer.Argument(metavar="STUDY", help="Study file (TOML).")],
     out: Annotated[
-        Path | None, typer.Option("--out", metavar="FOLDER", help="Folder to make; default: the study's name.")
+        Path | None, typer.Option("--out", metavar="FOLDER", help="Folder to create; default: the study's name.")
     ] = None,
     workers: WorkersOption = None,
     executor: ExecutorOption = "processes",
     band: BandOption = Bands.MODEL,
-    dry: Annotated[bool, typer.Option("--dry-run", help="Check it and say what it costs; run nothing.")] = False,
+    dry: Annotated[bool, typer.Option("--dry-run", help="Check the study and estimate its time; run nothing.")] = False,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Run a study into a folder of its own.
+    """Run a study and store it in a folder.
 
-    Ctrl+C keeps what there is; lambda-bearing study resume FOLDER goes on. Exit codes: 0 every point has a result,
-    2 the study is too large or cannot be written, 3 it is invalid, 5 points failed or have not converged, 130
-    interrupted.
+    Ctrl+C keeps the finished points; lambda-bearing study resume FOLDER continues. Exit codes: 0 every point has
+    a result, 2 the study is too large or cannot be written, 3 it is invalid, 5 points failed or have not converged,
+    130 interrupted.
     """
     from lambda_core import api
 
@@ -111,14 +111,14 @@ def run(
 @app.command()
 def resume(
     folder: FolderArgument,
-    retry: Annotated[bool, typer.Option("--retry", help="Do failed points again.")] = False,
+    retry: Annotated[bool, typer.Option("--retry", help="Repeat failed points.")] = False,
     workers: WorkersOption = None,
     executor: ExecutorOption = "processes",
     as_json: JsonOption = False,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Go on with an interrupted study: only what is missing is done."""
+    """Continue an interrupted study: compute the missing points."""
     from lambda_core import api
 
     with talk(progress, quiet) as speaker:
@@ -128,7 +128,7 @@ def resume(
 
 @app.command()
 def status(folder: FolderArgument, as_json: JsonOption = False) -> None:
-    """Say where a study stands, also while it runs."""
+    """Print the progress of a study, also while it runs."""
     from lambda_core import api
 
     found = api.study_status(folder)
@@ -174,7 +174,7 @@ def _finish(status: StudyStatus, as_json: bool) -> None:
     from lambda_core.domain.errors import PartialResultError
 
     typer.echo(status.model_dump_json(indent=2) if as_json else printable(status.text()))
-    resume = f"go on with: lambda-bearing study resume {status.folder}{taken_options()}"
+    resume = f"continue with: lambda-bearing study resume {status.folder}{taken_options()}"
     if status.interrupted:
         typer.echo(f"interrupted; {resume}", err=True)
         raise typer.Exit(130)

@@ -13,7 +13,7 @@ from lambda_core.domain.files import check_folder
 
 TransientOption = Annotated[
     str | None,
-    typer.Option("--transient", metavar="TIME", help='Follow the temperatures over a time, for example "1 h".'),
+    typer.Option("--transient", metavar="TIME", help='Compute the temperatures over time, for example "1 h".'),
 ]
 
 

@@ -44,7 +44,7 @@ def view(
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
 ) -> None:
-    """Draw one view, or every one that there is to see.
+    """Draw one view, or all views that apply.
 
     Writes RESULT-NAME.svg and .png and prints their names; with --json the data with units instead.
     """

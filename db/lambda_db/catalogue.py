@@ -140,7 +140,7 @@ class SqlCatalogue:
                     said = f'"{maker}" is not a maker of {wanted} in the catalogue; makers: {makers}'
                     raise _error("maker", f"{said}; {maker} has {', '.join(close)}" if close else said)
             if len(found) > 1:
-                several = f'"{wanted}" stands in the catalogue from several makers, choose one: {makers}'
+                several = f'"{wanted}" is in the catalogue from several makers; choose one: {makers}'
                 raise _error("maker", f'{several} (as in "{found[0].maker} {wanted}")')
             return self._bearing_rows(session, found)[0]
 

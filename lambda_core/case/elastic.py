@@ -15,9 +15,7 @@ class BendingRing(Section):
         "pi R k of a bedding with k per length; 0 N/m: a ring that nothing backs",
         ge=0.0,
     )
-    orders: int = option(
-        6, "highest number of waves round the ring that is followed; an ellipse has 2", ge=2, le=MOST_ORDERS
-    )
+    orders: int = option(6, "highest wave number round the ring in the model; an ellipse has 2", ge=2, le=MOST_ORDERS)
     damping_ratio: float = option(
         0.02,
         "damping of every wave, over critical",
@@ -35,9 +33,7 @@ class BendingRing(Section):
 class BendingCage(Section):
     """A cage that bends in its plane as waves round it, pushed by balls and guiding lands."""
 
-    orders: int = option(
-        4, "highest number of waves round the cage that is followed; an ellipse has 2", ge=2, le=MOST_ORDERS
-    )
+    orders: int = option(4, "highest wave number round the cage in the model; an ellipse has 2", ge=2, le=MOST_ORDERS)
     damping_ratio: float = option(
         0.02,
         "damping of every wave, over critical",

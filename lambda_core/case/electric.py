@@ -119,10 +119,16 @@ class MachineCapacitances(Section):
     """Capacitances of the machine between winding, rotor and frame."""
 
     winding_rotor: Capacitance = option(
-        "50 pF", "C_wr, winding to rotor", reference="order of size, Muetze and Binder 2007, IEEE TIE 54, 1614", gt=0.0
+        "50 pF",
+        "C_wr, winding to rotor",
+        reference="order of magnitude, Muetze and Binder 2007, IEEE TIE 54, 1614",
+        gt=0.0,
     )
     rotor_frame: Capacitance = option(
-        "800 pF", "C_rf, rotor to frame", reference="order of size, Muetze and Binder 2007, IEEE TIE 54, 1614", ge=0.0
+        "800 pF",
+        "C_rf, rotor to frame",
+        reference="order of magnitude, Muetze and Binder 2007, IEEE TIE 54, 1614",
+        ge=0.0,
     )
     other_bearings: Capacitance | None = option(
         None,
@@ -151,7 +157,9 @@ class Grounding(Section):
 class Film(Section):
     """The lubricating film and its surroundings as electric parts."""
 
-    conductivity: Conductivity = option("1e-10 S/m", "of the oil", reference="order of size of mineral oils", ge=0.0)
+    conductivity: Conductivity = option(
+        "1e-10 S/m", "of the oil", reference="order of magnitude for mineral oils", ge=0.0
+    )
     metal_resistance: Resistance = option("1 Ohm", "of a contact whose asperities touch", reference="assumed", gt=0.0)
     roughness: Literal["smooth", "gamma"] = option(
         "smooth", "whether roughness raises the capacitance of the Hertzian area"

@@ -92,7 +92,7 @@ class Solver(Section):
         "auto: vibrations where a raceway is not nominal or something shakes faster than the shaft turns",
     )
     resolve: Frequency | None = option(
-        None, "highest frequency that vibrations are followed to; absent: 2 kHz, or twice an excitation", gt=0.0
+        None, "highest frequency of vibrations to resolve; absent: 2 kHz, or twice an excitation", gt=0.0
     )
     duration: Time | None = option(None, "simulated time; absent: until converged", gt=0.0)
     max_duration: Time | None = option(None, "longest simulated time; absent: 30 turns of the cage", gt=0.0)

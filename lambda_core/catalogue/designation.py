@@ -78,7 +78,7 @@ def designated(catalogue: Catalogue, text: str, maker: str | None = None) -> tup
     Raises
     ------
     CatalogueError
-        When it is unknown, stands in the catalogue from several makers, names a maker and another one, or has
+        When it is unknown, is in the catalogue from several makers, names a maker and another one, or has
         an unknown suffix.
     """
     read = read_designation(text, catalogue.names("bearing"), catalogue.suffixes())

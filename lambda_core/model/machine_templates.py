@@ -12,15 +12,15 @@ from importlib import resources
 
 _TILT = """\
 [bodies.inner_ring]
-tilt_y = "locked"         # a shaft on two bearings hardly tilts; "free" where nothing else holds it,
+tilt_y = "locked"         # a shaft in two bearings hardly tilts; "free" if nothing else holds it,
 tilt_z = "locked"         # or { stiffness = "20 N m/mrad" } of the shaft
 """
 _SEATS = """
-[bearing.fits]            # take clearance away; leave the section out where the mounted clearance is known
+[bearing.fits]            # reduce the clearance; omit this section if you know the mounted clearance
 shaft = "{shaft}"
 housing = "{housing}"
 
-[bearing.temperatures]    # the shaft's side is the warmer one
+[bearing.temperatures]    # the shaft is warmer
 inner_ring = "{inner} degC"
 outer_ring = "{outer} degC"
 """
@@ -29,10 +29,10 @@ _HUB = """
 spin = { mode = "prescribed", motion = "800 rpm" }  # the hub turns, the axle stands still
 """
 _ELASTIC = """
-[elastic.outer_ring]            # bends in its seat, as waves round it
-housing_stiffness = "300 N/um"  # force over displacement of a rigid ring pushed into its seat: it decides, find yours
+[elastic.outer_ring]            # bends in its seat
+housing_stiffness = "300 N/um"  # force over displacement of a rigid ring in its seat: measure it, it matters most
 
-[elastic.cage]                  # bends as a ring of its mass; its section where bars and rims are known:
+[elastic.cage]                  # bends as a ring of its mass; give its section if you know bars and rims:
 # section_height = "3 mm"
 # section_width = "4 mm"
 """
@@ -45,9 +45,9 @@ class MachineTemplate:
     Attributes
     ----------
     words : str
-        What it is, for people; "" for any.
+        Description; "" for any.
     bearing : str
-        Where no other bearing is asked for.
+        Default designation.
     oil, temperature : str
         Lubricant of the catalogue and its temperature [degC].
     load : float
@@ -57,9 +57,9 @@ class MachineTemplate:
     speed : float
         Of the inner ring [rpm]; at most half the limiting speed of the bearing is written.
     clearance : str
-        Class where the designation has none.
+        Class if the designation has none.
     tail : str
-        Sections behind the operation.
+        Sections after the operation.
     """
 
     words: str

@@ -31,7 +31,7 @@ class RingMode(Record):
 class Followed(Record):
     """How far vibrations can be believed."""
 
-    resolve_Hz: float = Field(description="to which they were followed; 0 where averages were the answer")
+    resolve_Hz: float = Field(description="highest resolved frequency; 0 for averages")
     step_s: float = Field(description="length of a step, the cubic mean over time")
     modes: list[RingMode] = Field(
         description="modes of the rings by frequency, those that are damped least; of a shaft all up to resolve_Hz"
@@ -50,7 +50,7 @@ class Followed(Record):
             where, own = show(worst.frequency_Hz, "frequency", 3), f"{worst.damping_percent:.2g} % of its own"
             lost = f"{worst.added_percent:.2g} % at {where}, which has {own} ({self._advice(worst.frequency_Hz)})"
         if self.resolve_Hz:
-            until = f"followed to {show(self.resolve_Hz, 'frequency')}"
+            until = f"resolved to {show(self.resolve_Hz, 'frequency')}"
             added_there = f"{until}, {self.at(self.resolve_Hz)[0]:.1g} % damping added"
             return f"{until}; the integration adds damping: {lost}" if lost else added_there
         if lost:
@@ -61,9 +61,9 @@ class Followed(Record):
 
     def _advice(self, frequency: float) -> str:
         if self.resolve_Hz:
-            return f"solver.resolve above {show(max(frequency, self.resolve_Hz), 'frequency', 3)} follows it"
+            return f"solver.resolve above {show(max(frequency, self.resolve_Hz), 'frequency', 3)} resolves it"
         more = f" with solver.resolve above {show(frequency, 'frequency', 3)}" if frequency > USUAL_RESOLVE else ""
-        return f'solver.accuracy = "vibration"{more} follows it'
+        return f'solver.accuracy = "vibration"{more} resolves it'
 
     def note(self, frequency: float) -> str:
         """Return the note of a spectrum that ends at a frequency [Hz]."""

@@ -105,7 +105,7 @@ def test_mistake_in_the_file(problems: Problems, changes: dict[str, Any], where:
     ("changes", "where", "said"),
     [
         ({"bearing": {"designation": "6391", "maker": None}}, "bearing.designation", "nearest: 6"),
-        ({"bearing": {"maker": None}}, "bearing.maker", "several makers, choose one: KOYO, NSK, SKF, Syla2026"),
+        ({"bearing": {"maker": None}}, "bearing.maker", "several makers; choose one: KOYO, NSK, SKF, Syla2026"),
         ({"bearing": {"maker": "Sila2026"}}, "bearing.maker", "Syla2026"),
         ({"bearing": {"designation": None, "maker": None}}, "bearing.designation", "is required"),
         ({"lubricant": {"name": "FVA4"}}, "lubricant.name", "nearest: FVA"),

@@ -205,7 +205,7 @@ def test_two_classes_of_clearance_are_a_warning(clearance: str, count: int) -> N
             "bearing.maker",
             '"FAG" is not a maker of 6319 in the catalogue; makers: KOYO, SKF, Syla2026',
         ),
-        ("6208-2Z", {}, "bearing.maker", "several makers, choose one"),
+        ("6208-2Z", {}, "bearing.maker", "several makers; choose one"),
         ("SKF 6208-2Z", {"maker": "NSK"}, "bearing.maker", 'names "SKF", and the maker is "NSK"'),
         ("6288-2Z", {}, "bearing.designation", "is not a known bearing; nearest: 62"),
     ],

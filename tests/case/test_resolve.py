@@ -388,12 +388,12 @@ def test_what_undoes_the_following_of_vibrations_is_said() -> None:
         return [text for text in found.assumptions if words in text]
 
     followed = {"accuracy": "vibration"}
-    assert said("solver.max_step would lose", solver={**followed, "max_step": "1 ms"})
-    assert not said("solver.max_step would lose", solver={**followed, "max_step": "1 us"})
-    (folds,) = said("at wrong places", solver=followed, output={"interval": "1 ms"})
+    assert said("solver.max_step is too long", solver={**followed, "max_step": "1 ms"})
+    assert not said("solver.max_step is too long", solver={**followed, "max_step": "1 us"})
+    (folds,) = said("at wrong frequencies", solver=followed, output={"interval": "1 ms"})
     assert "up to 500 Hz" in folds
     assert "up to 2 kHz" in folds
-    assert not said("at wrong places", solver=followed, output={"interval": "0.1 ms"})
+    assert not said("at wrong frequencies", solver=followed, output={"interval": "0.1 ms"})
     with pytest.raises(CaseError, match=r"solver\.resolve +makes .* samples of 5 s; at most 1e\+07: 387 kHz or lower"):
         model_of("6319-cp10-3000", solver={"resolve": "1e9 kHz", "duration": "5 s"})
 
@@ -418,9 +418,9 @@ def test_vibrations_are_followed_where_they_are_the_answer() -> None:
     rough = {"ball_outer": {"models": {"surface": "waviness"}}}
     surface = model_of("6319-cp10-3000", forces=rough)
     assert surface.solver.resolve == pytest.approx(2000.0)
-    assert any("ball_outer has a surface of its own, waviness" in text for text in surface.assumptions)
+    assert any("ball_outer has the surface law waviness" in text for text in surface.assumptions)
     for solver, words in (
-        ({"accuracy": "averages", "resolve": "1 kHz"}, "averages follow no frequency"),
+        ({"accuracy": "averages", "resolve": "1 kHz"}, "averages resolve no frequency"),
         ({"resolve": "1 kHz"}, "the case is excited at 2 kHz"),
     ):
         with pytest.raises(CaseError, match=words):

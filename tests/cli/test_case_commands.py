@@ -177,7 +177,7 @@ def test_set_changes_the_case(call: Call) -> None:
         (("init", "a b"), 3, "letters, digits"),
         (("init", "x", "--from", "nowhere"), 2, "neither a file nor a built-in case"),
         (("init", "x", "--bearing", "62099"), 3, "nearest: 6209"),
-        (("init", "x", "--bearing", "6208"), 3, "several makers, choose one: KOYO, NSK, SKF"),
+        (("init", "x", "--bearing", "6208"), 3, "several makers; choose one: KOYO, NSK, SKF"),
         (("init", "x", "--bearing", "XX 6208"), 3, '"XX" is not a maker of 6208'),
         (("init", "x", "--bearing", "SKF 6208", "--from", "6319-cp10-1500"), 2, "not from both"),
         (("init", "x", "--template", "pump", "--from", "6319-cp10-1500"), 2, "from a template, not from both"),

@@ -238,7 +238,7 @@ def test_an_interrupted_run_is_readable_and_goes_on_bit_for_bit(number: int, war
         assert process.returncode == 130, err
         assert summary.state == "interrupted"
         assert "friction torque" in out
-        assert "go on with: lambda-bearing resume" in err
+        assert "continue with: lambda-bearing resume" in err
     end = f"{summary.simulated_s + 0.005:.4f} s"
     assert main(["resume", str(path), "--duration", end, "--quiet"]) == 5
     assert main(["run", CASE, "--duration", end, "--out", "whole.h5", "--quiet"]) == 5

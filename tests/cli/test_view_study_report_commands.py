@@ -181,7 +181,7 @@ def test_points_that_wait_for_another_process_are_no_interruption(
     monkeypatch.setattr(api, "study_resume", lambda *_, **__: status, raising=False)
     code, _, err = call("study", "resume", "pair", "--quiet")
     assert code == 5
-    assert "1 of 2 points wait for another process; go on with: lambda-bearing study resume pair" in err
+    assert "1 of 2 points wait for another process; continue with: lambda-bearing study resume pair" in err
     assert "interrupted" not in err
     stopped = status.model_copy(update={"interrupted": True})
     monkeypatch.setattr(api, "study_resume", lambda *_, **__: stopped, raising=False)

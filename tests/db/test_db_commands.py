@@ -82,7 +82,7 @@ def test_show_marks_estimates_and_lists_candidates(capsys: pytest.CaptureFixture
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
-        (["show", "6208"], 3, "several makers, choose one: KOYO, NSK, SKF, Syla2026"),
+        (["show", "6208"], 3, "several makers; choose one: KOYO, NSK, SKF, Syla2026"),
         (["show", "XX 6208"], 3, '"XX" is not a maker of 6208'),
         (["show", "fva4"], 3, "nearest: FVA3"),
         (["show", "FVA3", "--temperature", "40"], 2, 'has no unit: write "40 degC"'),

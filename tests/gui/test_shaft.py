@@ -315,5 +315,5 @@ def test_a_new_name_goes_wherever_it_is_named(tmp_path: Path) -> None:
     (node,) = (n for n in found if n.key == "markers.foot")
     rename(node, draft, "paw")
     assert draft.get("connections", "mount", "at") == "paw"
-    assert "# A housing that gives way" in draft.text()
+    assert "# A flexible-mounted housing" in draft.text()
     assert api.check(draft.tables).bodies[0].name == "case"

@@ -103,7 +103,7 @@ def test_vibrations_choose_themselves(is_shaken: bool) -> None:
         why, resolve = "the shaft is excited at 1.5 kHz", 3000.0
     else:
         found["bearings"]["right"]["forces"] = DEFECT
-        why, resolve = "right: ball_outer has a surface of its own, defect", 2000.0
+        why, resolve = "right: ball_outer has the surface law defect", 2000.0
     model = resolve_machine(found)
     assert [bearing.model.solver.resolve for bearing in model.bearings] == [resolve, resolve]
     assert any(why in sentence for sentence in model.assumptions)
@@ -137,7 +137,7 @@ def test_steps_that_are_cut_are_said_once() -> None:
     load = {"shaker": {"at": "85 mm", "force_z": shaking}}
     model = resolve_machine(box({"max_step": "1 ms"}, loads=load))
     assert [text for text in model.assumptions if "steps are at most" in text] == [
-        "in motion steps are at most 55.6 us: solver.max_step would lose what is to be followed"
+        "in motion steps are at most 55.6 us: solver.max_step is too long to resolve the vibrations"
     ]
 
 

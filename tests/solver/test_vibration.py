@@ -164,7 +164,7 @@ def test_a_run_says_how_far_its_vibrations_can_be_believed(tmp_path: Path) -> No
         reach[accuracy] = max(float(series.x.max()) for series in api.view(out, "ring-spectrum").panels[0].series)
     assert said["averages"][0].startswith("damped by the integration: ")
     assert 0.5 < said["averages"][2] < 10.0
-    assert said["vibration"][0] == "followed to 2 kHz, 0.002 % damping added"
+    assert said["vibration"][0] == "resolved to 2 kHz, 0.002 % damping added"
     assert said["vibration"][2] < 1e-3
     assert "at 1 kHz" in said["averages"][1]
     assert reach["vibration"] == pytest.approx(2000.0, rel=0.05)

@@ -68,7 +68,7 @@ def test_c2_4_a_signal_is_answered_within_a_record(number: int, warm: Warm, tmp_
     assert process.returncode == 130, err
     summary = json.loads(out)
     assert summary["state"] == "interrupted"
-    assert "go on with: lambda-bearing resume" in err
+    assert "continue with: lambda-bearing resume" in err
 
 
 def ended(process: Started) -> None:

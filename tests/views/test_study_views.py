@@ -202,3 +202,17 @@ def test_options_that_would_do_nothing_are_refused() -> None:
         data(table(), "friction-stack", response="friction_torque_Nmm")
     with pytest.raises(UsageError, match=r'"loads\.radal" is not .*; nearest: loads\.radial'):
         data(table(), "study-map", x="loads.radal")
+
+
+def test_named_values_have_positions_of_their_own() -> None:
+    """A study over names alone, such as oils, is drawn over these names."""
+    oils = Column("lubricant.name", "", "oil", ("thin", "middle", "thick"))
+    torques = Column("friction_torque_Nmm", "N mm", "friction torque", (75.0, 84.0, 105.0))
+    loads = Column("max_load_N", "N", "largest load", (1697.6802, 1697.6801, 1697.6795))
+    states: tuple[PointState, ...] = ("done",) * 3
+    study = StudyTable("t", "Oils", "quasi-static", "crossed", (oils,), (torques, loads), states, ("",) * 3, ("",) * 3)
+    first, second = data(study, "study-curves").panels
+    assert first.x.categories == ("thin", "middle", "thick")
+    np.testing.assert_array_equal(first.series[0].x, [0.0, 1.0, 2.0])
+    np.testing.assert_array_equal(first.series[0].y, torques.numbers())
+    assert second.y.least == pytest.approx(1.6976802)  # [N] rounding in the seventh digit looks flat

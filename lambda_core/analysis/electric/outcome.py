@@ -213,11 +213,12 @@ def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[s
     written = options.machine.model_fields_set
     for name, words in (("winding_rotor", "C_wr"), ("rotor_frame", "C_rf")):
         if name not in written:
-            found.append(f"{words} is {1e12 * getattr(options.machine, name):g} pF: an order of size, not this machine")
+            value = 1e12 * getattr(options.machine, name)
+            found.append(f"{words} is {value:g} pF: an order of magnitude; measure it on your machine")
     if options.machine.other_bearings is None and not isinstance(options, MachineElectric):
         found.append(
-            "the machine has one more bearing like this, of the same capacitance at every moment, whose films never "
-            "break down: every discharge goes through this one"
+            "the machine has a second bearing with the same capacitance at every moment, whose films never break down: "
+            "every discharge goes through this one"
         )
     if options.film.surroundings is None:
         found.append("between the rings there is air outside the balls")
@@ -241,9 +242,8 @@ def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[s
     floor = f"no film breaks down below {least:g} V"
     if events is not None and events.time.size:
         share = floor_share(events, least)
-        floor += f": {100.0 * share:.0f} % of the breakdowns are at it" + (
-            ", not at what the law says" if share else ""
-        )
+        if share:
+            floor += f" (assumed): {100.0 * share:.0f} % of the breakdowns occur there, not at the voltage of the law"
     found.append(floor)
     found.append("each patch of one contact width has its own breakdown voltage")
     found.append("contacts without load do not break down; craters do not change the surfaces")
@@ -308,7 +308,7 @@ def bearing_lines(found: Outcome) -> list[str]:
 
 def _floor(found: Outcome) -> str:
     share = f"{100 * found.floor_share:.0f} % of the breakdowns"
-    return f"{share} at breakdown.least_voltage, a floor that no measurement stands behind"
+    return f"{share} at breakdown.least_voltage, an assumed lower limit"
 
 
 def _limit(limit: Limit) -> str:

@@ -26,10 +26,7 @@ def bearing_number(machine: MachineModel, name: str | None) -> int:
     """
     names = [bearing.name for bearing in machine.bearings]
     if name is None and len(names) > 1:
-        raise UsageError(
-            f"{machine.name} has {len(names)} bearings, and this question is about one: "
-            f"name it with --bearing ({', '.join(names)})"
-        )
+        raise UsageError(f"{machine.name} has {len(names)} bearings; choose one with --bearing ({', '.join(names)})")
     if name is not None and name not in names:
         raise UsageError(unknown_name("bearing", name, names))
     return 0 if name is None else names.index(name)

@@ -132,7 +132,7 @@ def export_fmu(
         write(task, announce)
     else:
         if announce is not None:
-            announce(f"exporting for {processor} (the first time what is compiled takes about a minute)")
+            announce(f"exporting for {processor} (compiling takes one to three minutes the first time)")
         _write_apart(task, processor)
     return target
 

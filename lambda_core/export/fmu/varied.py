@@ -86,16 +86,18 @@ def _read(text: str, written: Mapping[str, Any], case: Case | MachineCase) -> Va
     if said is None:
         _check_known(path, low, case)
     if said is None or isinstance(said, Mapping | list | bool):
-        raise UsageError(f"{path} is to vary, but the case does not say what it is at first: add --set {path}=...")
+        raise UsageError(f"--vary {path}: the case has no start value; add --set {path}=...")
     quantity = _quantity(path, str(low))
     if not (quantity or _NUMBER.fullmatch(str(said))):
         unit = _NUMBER.sub("", str(said), count=1).strip()
-        raise UsageError(f"{path} is {said} in the case, its limits have no unit: write {path}={low}..{high} {unit}")
+        raise UsageError(
+            f"--vary {path}: the limits have no unit; the case has {said}; write {path}={low}..{high} {unit}"
+        )
     lowest, highest, start = (_value(path, each, quantity) for each in (low, high, said))
     if not lowest < highest:
-        raise UsageError(f"{path} is to vary from {low} to {high}: the first limit has to be below the second")
+        raise UsageError(f"--vary {path}: the first limit ({low}) must be below the second ({high})")
     if not lowest <= start <= highest:
-        raise UsageError(f"{path} is {said} in the case, which is not between {low} and {high}")
+        raise UsageError(f"--vary {path}: the value of the case, {said}, is not between {low} and {high}")
     return Varied(path, quantity, lowest, start, highest)
 
 
@@ -108,7 +110,7 @@ def _check_known(path: str, value: str, case: Case | MachineCase) -> None:
     except CaseError as error:
         for problem in error.problems:
             if f"{path}.".startswith(f"{problem.where}."):
-                raise UsageError(f"{path} is to vary, but {problem.where} {problem.message}") from None
+                raise UsageError(f"--vary {path}: {problem.where} {problem.message}") from None
 
 
 def _quantity(path: str, text: str) -> str:
@@ -120,7 +122,7 @@ def _quantity(path: str, text: str) -> str:
         except ValueError:
             continue
         return quantity
-    raise UsageError(f'{path} is to vary from "{text}" on: that is no number with a unit')
+    raise UsageError(f'--vary {path}: "{text}" is not a number with a unit')
 
 
 def _value(path: str, said: object, quantity: str) -> float:

@@ -93,7 +93,7 @@ def say_cut(given: Solver, longest: float, ledger: Ledger) -> None:
     """Say where steps are shorter than the case asks for [s]."""
     if given.max_step is not None and given.max_step > longest:
         ledger.assume(
-            f"steps are at most {show(longest, 'time', 3)}: solver.max_step would lose what is to be followed"
+            f"steps are at most {show(longest, 'time', 3)}: solver.max_step is too long to resolve the vibrations"
         )
 
 
@@ -114,7 +114,7 @@ def resolution(given: Solver, frequency: float, why: str, ledger: Ledger, *, is_
     """
     if given.accuracy == "averages":
         if given.resolve is not None:
-            ledger.problem("solver.resolve", 'needs solver.accuracy = "vibration": averages follow no frequency')
+            ledger.problem("solver.resolve", 'needs solver.accuracy = "vibration": averages resolve no frequency')
         return 0.0
     if given.accuracy == "auto" and not why and given.resolve is None:
         return 0.0
@@ -125,7 +125,7 @@ def resolution(given: Solver, frequency: float, why: str, ledger: Ledger, *, is_
         )
     if is_silent or (given.accuracy == "vibration" and given.resolve is not None):
         return resolve
-    until = f"vibrations are followed up to {show(resolve, 'frequency')}"
+    until = f"vibrations are resolved up to {show(resolve, 'frequency')}"
     chosen = f", since {why}" if given.accuracy == "auto" and given.resolve is None else ""
     other = ' (solver.accuracy = "averages" costs less)' if chosen else ""
     ledger.assume(f"{until}{chosen}{other}")
@@ -136,7 +136,7 @@ def surface_of_its_own(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> str:
     """Return which raceway of a bearing is not nominal, in words, or nothing."""
     for element, roles in laws.items():
         if "surface" in roles and roles["surface"].model.name != "none":
-            return f"{element} has a surface of its own, {roles['surface'].model.name}"
+            return f"{element} has the surface law {roles['surface'].model.name}"
     return ""
 
 
@@ -167,8 +167,8 @@ def _say_what_folds(case: Case, highest: float, ledger: Ledger) -> None:
     interval = case.output.interval
     if interval is not None and highest * LEAST_PER_PERIOD * interval > 1.0:
         ledger.assume(
-            f"output.interval shows frequencies up to {show(0.5 / interval, 'frequency')}; what is faster, up to "
-            f"{show(highest, 'frequency')}, stands in spectra at wrong places"
+            f"output.interval resolves frequencies up to {show(0.5 / interval, 'frequency')}; faster motion, up to "
+            f"{show(highest, 'frequency')}, folds into the spectra at wrong frequencies"
         )
 
 

@@ -90,7 +90,7 @@ def ring_spectrum(run: RunData, options: Options) -> ViewData:
     values = ", ".join(f"{name} {value:.4g}" for name, value in marks.items())
     notes = (
         f"Hann window over {span.words}; x along the shaft, y horizontal, z up; a point every {step:.3g} Hz: "
-        "longer runs tell more (solver.average_revolutions)",
+        "longer runs have finer spectra (solver.average_revolutions)",
         f"characteristic frequencies of rolling without slip [Hz]: {values}",
         *integration(run, float(series[0].x[-1])),
     )

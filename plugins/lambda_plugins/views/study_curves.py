@@ -9,6 +9,7 @@ from lambda_plugins.views.study_table import (
     Curves,
     axis_of,
     numeric_parameters,
+    positions,
     responses,
     rows_by_label,
     source_line,
@@ -16,16 +17,17 @@ from lambda_plugins.views.study_table import (
 )
 
 _CURVES = 9  # curves in a panel
+_ROUNDING = 1e-3  # smallest range of an axis, over the largest value
 # What a row of a comparison method answers beside the solver's own response.
 _SAME: dict[str, str] = {"friction/total": "friction_torque_Nmm"}
 
 
 def study_curves(table: StudyTable, options: Curves) -> ViewData:
     """Every response over one parameter, a curve for each combination of the others."""
-    numeric = numeric_parameters(table)
-    if not numeric:
-        raise NotApplicable("no numeric parameter varies in this study")
-    x = table.parameter(options.x) if options.x else numeric[0]
+    candidates = [*numeric_parameters(table), *varied(table)]
+    if not candidates:
+        raise NotApplicable("no parameter varies in this study")
+    x = table.parameter(options.x) if options.x else candidates[0]
     groups = rows_by_label(table, x)
     sampled = len(groups) > 0.5 * len(table)
     if not sampled and len(groups) > _CURVES:
@@ -40,16 +42,22 @@ def study_curves(table: StudyTable, options: Curves) -> ViewData:
         for column in alike:
             who = _who(column, table) if several else ""
             if sampled:
-                series.append(Series(who or "points", x.numbers(), column.numbers(), "points", unlisted=not who))
+                series.append(Series(who or "points", positions(x), column.numbers(), "points", unlisted=not who))
             else:
                 series += (
                     _curve(x, column, rows, ", ".join(filter(None, (who, label)))) for label, rows in groups.items()
                 )
-        panels.append(Panel("", axis_of(x), Axis(_label(alike[0]), alike[0].unit), tuple(series)))
+        panels.append(Panel("", axis_of(x), Axis(_label(alike[0]), alike[0].unit, least=_least(alike)), tuple(series)))
     notes = [f"all other parameters vary too: {', '.join(_others(table, x))}"] if sampled and _others(table, x) else []
     if compared and table.mode == "quasi-static":
         notes.append("the quasi-static solution has no cage")
     return ViewData("study-curves", "Responses over a parameter", source_line(table), tuple(panels), 2, tuple(notes))
+
+
+def _least(columns: list[Column]) -> float:
+    """Return a range below which values count as equal: their last digits are rounding."""
+    sizes = [np.abs(column.numbers()[np.isfinite(column.numbers())]) for column in columns]
+    return _ROUNDING * max((float(size.max()) for size in sizes if size.size), default=0.0)
 
 
 def _by_question(columns: list[Column]) -> list[list[Column]]:
@@ -76,6 +84,7 @@ def _others(table: StudyTable, x: Column) -> list[str]:
 
 
 def _curve(x: Column, response: Column, rows: list[int], label: str) -> Series:
-    places, values = x.numbers()[rows], response.numbers()[rows]
+    places, values = positions(x)[rows], response.numbers()[rows]
     order = np.argsort(places)
-    return Series(label or response.label, places[order], values[order], "line", unlisted=not label)
+    style = "line" if x.numeric else "points"
+    return Series(label or response.label, places[order], values[order], style, unlisted=not label)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field as Declared
 
 from lambda_core.plugins import (
@@ -28,7 +29,7 @@ class Which(Options):
 class Along(Options):
     """Along which parameter a view goes."""
 
-    x: str = Declared("", description="parameter of the first axis; empty: the first numeric one")
+    x: str = Declared("", description="parameter of the first axis; empty: the first numeric one, else the first")
 
 
 class Curves(Along, Which):
@@ -54,8 +55,22 @@ def source_line(table: StudyTable) -> str:
     return f"{table.title}   {table.mode}, {table.design}, {done} of {len(table)} points"
 
 
+def positions(column: Column) -> NDArray[np.float64]:
+    """Return where the values of a column are on its axis: each text has a position of its own."""
+    if column.numeric:
+        return column.numbers()
+    places = {text: float(place) for place, text in enumerate(_texts(column))}
+    return np.array([places[str(value)] for value in column.values])
+
+
+def _texts(column: Column) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(map(str, column.values)))
+
+
 def axis_of(column: Column) -> Axis:
     """Return the axis of a column; values that rise by factors are drawn on a logarithmic scale."""
+    if not column.numeric:
+        return Axis(column.label, column.unit, categories=_texts(column))
     values = column.numbers()
     values = np.unique(values[np.isfinite(values)])
     log = values.size > 3 and values[0] > 0.0 and np.ptp(np.diff(np.log(values))) < 0.1 * np.diff(np.log(values)).mean()
