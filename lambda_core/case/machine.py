@@ -183,7 +183,7 @@ class MachineBearing(Bearing, Placed):
     )
     takes: Literal["+x", "-x"] | None = option(
         None,
-        "axial force on the shaft that it can take: needed for angular contact and for a preload; +x left "
+        "axial force on the shaft that it can take: needed for angular contact, cones, NJ and a preload; +x left "
         "and -x right is an O arrangement, the other way round X, both alike tandem",
     )
     preload: SmallLength | None = option(

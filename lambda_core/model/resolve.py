@@ -106,7 +106,7 @@ def resolve(
     CaseError
         With everything that is unknown, missing, contradictory or impossible.
     """
-    found = rollers_of(case, catalogue)
+    found = rollers_of(case, catalogue, place)
     if found is not None:
         model = resolve(as_balls(case, found[0]), registry, catalogue, is_static=is_static, place=place)
         model = with_rollers(model, case, *found, lambda role, name: law_called(registry, role, name, given=False))

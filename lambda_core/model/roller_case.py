@@ -161,7 +161,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         raise CaseError(case.name, [Problem(_WHERE, "is not a complete roller bearing")])
     lubrication = lubrication_of(case.lubricant, row)
     rollers = bearing.rollers or InlineRollers()
-    height = 0.0 if lubrication != "oil bath" or is_grease(row) else max(level + 0.5 * geometry.diameter, 0.0)
+    level = -math.inf if is_grease(row) else level
     return RollerModel(
         name=case.name,
         title=roller_title(case, found, geometry),
@@ -170,12 +170,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         held=held,
         speeds=(initial(time_function(case.operation.speed)), 0.0),
         oil=state,
-        friction=FrictionParameters(
-            raceway_roughness=case.surface.roughness,
-            rib_roughness=geometry.rib_roughness,
-            replenishment=_REPLENISHMENT[lubrication],
-            oil_height=height,
-        ),
+        friction=friction_parameters(geometry, case.surface.roughness, lubrication, level),
         lubricant=row.name,
         base_type=row.base_type,
         lubrication=lubrication,
@@ -183,6 +178,18 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         slices=rollers.slices,
         assumptions=tuple(ledger.assumptions),
         values=tuple(ledger.values),
+    )
+
+
+def friction_parameters(
+    rollers: RollerBearing, roughness: float, lubrication: Lubrication, level: float
+) -> FrictionParameters:
+    """Return surfaces and supply; the oil stands at `level` above the lowest point of the pitch circle [m]."""
+    return FrictionParameters(
+        raceway_roughness=roughness,
+        rib_roughness=rollers.rib_roughness,
+        replenishment=_REPLENISHMENT[lubrication],
+        oil_height=max(level + 0.5 * rollers.diameter, 0.0) if lubrication == "oil bath" else 0.0,
     )
 
 

@@ -6,6 +6,7 @@ for contacts with raceways, points for those of their ends with ribs, their own 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -33,26 +34,35 @@ _SIDES = {1: "+x", -1: "-x"}
 _POCKET, _NO_DRAG = "roller-pocket", "none"
 
 
-def rollers_of(case: Case, catalogue: Catalogue) -> tuple[RollerBearing, str, tuple[str, ...]] | None:
+def rollers_of(
+    case: Case, catalogue: Catalogue, place: Callable[[str], str] = str
+) -> tuple[RollerBearing, str, tuple[str, ...]] | None:
     """Return the rollers of a case, their title and what is assumed; None of a case with balls.
+
+    Parameters
+    ----------
+    place : callable
+        Where in the file stands what stands at a path of the case: of a machine, whose shaft decides about thrust.
 
     Raises
     ------
     CaseError
         With everything that is missing, contradictory, or not followed in motion.
     """
-    bearing, ledger, found = case.bearing, Ledger(), None
+    bearing, ledger, found = case.bearing, Ledger(place=place), None
     if bearing.designation is not None:
         found = ledger.ask("bearing.", lambda: roller_designation(catalogue, str(bearing.designation), bearing.maker))
     if found is None and bearing.rollers is None:
         return None
     rollers = roller_geometry(case, found, ledger)
     if rollers is not None:
-        _refuse_thrust(case, rollers, ledger)
+        if place is str:
+            _refuse_thrust(case, rollers, ledger)
         if rollers.full_complement:
             ledger.problem(
                 "bearing.designation",
-                f"{rollers.kind} rollers, a full complement, have no motion in time yet: quasistatic computes them",
+                f"{rollers.kind} rollers, a full complement, run neither in time nor on a shaft yet: "
+                "quasistatic computes a bearing that is alone",
             )
     if not case.depth.cage:
         ledger.problem("depth.cage", "rollers in motion need their cage: full complements are computed by quasistatic")
@@ -170,12 +180,27 @@ def with_rollers(
     return replace(
         model,
         laws=laws,
-        geometry=replace(model.geometry, ribs=" ".join(f"{rib.ring}{_SIDES[rib.end]}" for rib in rollers.ribs)),
+        geometry=replace(model.geometry, ribs=_ribs(rollers)),
         title=title,
-        rollers=rollers,
+        rollers=rollers if model.mounting is None else with_clearance(rollers, model.geometry.clearance),
         assumptions=(*model.assumptions, *assumptions),
         values=(*model.values, *ratings),
     )
+
+
+def facing(model: BearingModel, rollers: RollerBearing, side: int) -> BearingModel:
+    """Return a model whose rollers take thrust on the shaft along x, or against it where `side` is -1."""
+    turned = replace(rollers, faces=side)
+    return replace(model, rollers=turned, geometry=replace(model.geometry, ribs=_ribs(turned)))
+
+
+def _ribs(rollers: RollerBearing) -> str:
+    return " ".join(f"{rib.ring}{_SIDES[rollers.faces * rib.end]}" for rib in rollers.ribs)
+
+
+def with_clearance(rollers: RollerBearing, clearance: float) -> RollerBearing:
+    """Return rollers with another radial clearance [m]; that of cones counts across the raceway."""
+    return replace(rollers, clearance=clearance * math.cos(rollers.contact_angle))
 
 
 def _with_constant(supply: ChosenLaw, k_z: float) -> ChosenLaw:

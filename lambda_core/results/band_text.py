@@ -41,6 +41,8 @@ def source_lines(band: ModelBand | None) -> list[str]:
     """Return what the bands come from, once for those of one origin, and what was left out."""
     if band is None:
         return []
+    if not band.bands:
+        return list(band.left_out)
     reasons: dict[str, list[str]] = {}
     for one in band.bands:
         reasons.setdefault(one.mostly(), []).append(one.quantity)

@@ -131,7 +131,12 @@ def solve_rollers(model: RollerModel) -> SolvedRollers:
 
 def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
     """Solve a roller bearing and put it into the units of the interface; errors as :func:`solve_rollers`."""
-    bearing, solved = model.bearing, solve_rollers(model)
+    return roller_answer(model, solve_rollers(model))
+
+
+def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStatic:
+    """Put a solved roller bearing into the units of the interface."""
+    bearing = model.bearing
     state, motion, turning = solved.state, solved.motion, solved.friction is not None
     found = solved.friction or RollerFriction()
     carried = np.maximum(state.inner.sum(axis=1), state.outer.sum(axis=1))

@@ -166,6 +166,7 @@ def compare(
     from lambda_core.discovery.manager import registry
     from lambda_core.model.roller_case import roller_model
     from lambda_core.results.reader import Result
+    from lambda_core.results.roller_quasistatic import solve_rollers
     from lambda_core.runs.compare_rollers import compare_rollers
     from lambda_core.runs.comparison import comparison_of
 
@@ -174,34 +175,39 @@ def compare(
     if unknown is not None:
         raise UsageError(unknown_name("comparison method", unknown, known))
     every = list(known.values())
-    chosen = [known[name] for name in methods] or [one for one in every if one.is_about(rollers=False)]
+    chosen, of_rollers = (
+        [known[name] for name in methods] or [one for one in every if one.is_about(rollers=rollers)]
+        for rollers in (False, True)
+    )
     if is_machine(source):
         if result is not None:
             raise UsageError("a result is compared with a case of one bearing; leave it out for one of a machine")
-        return _compare_in_machine(source, overrides, bearing, chosen, contamination, announce)
+        return _compare_in_machine(source, overrides, bearing, (chosen, of_rollers), contamination, announce)
     refuse_bearing(bearing)
     rollers = roller_model(source, overrides) if not hasattr(source, "laws") else None  # type: ignore[arg-type]
     if rollers is not None:
         if result is not None:
             raise UsageError("results of roller bearings in motion do not exist: leave the result out")
-        of_rollers = chosen if methods else [one for one in every if one.is_about(rollers=True)]
-        return compare_rollers(rollers, of_rollers, contamination)
+        return compare_rollers(rollers, solve_rollers(rollers), of_rollers, contamination)
     model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
     simulated = result if result is None or isinstance(result, Result) else Result(result)
     return comparison_of(model, ask(model, chosen, contamination=contamination, announce=announce), simulated)
 
 
 def _compare_in_machine(
-    source: Any, overrides: Iterable[str], bearing: str | None, methods: Sequence[Method], contamination: float | None,
-    announce: Callable[[str], None] | None,
+    source: Any, overrides: Iterable[str], bearing: str | None, methods: tuple[Sequence[Method], ...],
+    contamination: float | None, announce: Callable[[str], None] | None,
 ) -> Comparison:  # fmt: skip
-    """Compare methods on one bearing of a machine, at its pose there."""
+    """Compare methods, those for balls and those for rollers, on one bearing of a machine, at its pose there."""
     import dataclasses
 
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.analysis.rotor.bearing_alone import alone_under_load, bearing_number
+    from lambda_core.analysis.rotor.rollers_on_shaft import rollers_on_shaft
     from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+    from lambda_core.runs.compare_rollers import compare_rollers
     from lambda_core.runs.comparison import comparison_of
+    from lambda_core.solver.drivers.held_rollers import HeldRollers
     from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
     from lambda_core.views.method import evaluate_methods
 
@@ -209,9 +215,14 @@ def _compare_in_machine(
     number = bearing_number(machine, bearing)
     state = solve_shaft(machine, announce)
     given = machine.bearings[number].model.contamination if contamination is None else contamination
-    inputs = comparison_inputs(state.rings[number].equilibrium(), contamination=given)
+    ring, (for_balls, for_rollers) = state.rings[number], methods
+    if isinstance(ring, HeldRollers):
+        found = rollers_on_shaft(ring)
+        name = f"{machine.name}, {machine.bearings[number].name}"
+        return compare_rollers(dataclasses.replace(found.model, name=name), found.solved, for_rollers, given)
+    inputs = comparison_inputs(ring.equilibrium(), contamination=given)
     alone = alone_under_load(machine, state, number)
     return comparison_of(
         dataclasses.replace(alone, name=f"{machine.name}, {machine.bearings[number].name}"),
-        evaluate_methods(methods, inputs),
+        evaluate_methods(for_balls, inputs),
     )

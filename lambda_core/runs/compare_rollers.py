@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from lambda_core.results.roller_quasistatic import headline_of, solve_rollers
+from lambda_core.results.roller_quasistatic import SolvedRollers, headline_of
 from lambda_core.runs.comparison import Comparison, compared
 from lambda_core.views.method import Method, RollerMethodInputs, evaluate_methods
 
@@ -14,15 +14,16 @@ if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
 
 
-def compare_rollers(model: RollerModel, methods: Iterable[Method], contamination: float | None = None) -> Comparison:
-    """Ask every method about a roller bearing; errors as :func:`lambda_core.results.roller_quasistatic.solve_rollers`.
+def compare_rollers(
+    model: RollerModel, solved: SolvedRollers, methods: Iterable[Method], contamination: float | None = None
+) -> Comparison:
+    """Ask every method about a solved roller bearing.
 
     Parameters
     ----------
     contamination : float, optional
         e_C of ISO 281, for modified lives.
     """
-    solved = solve_rollers(model)
     loads = solved.state.loads
     radial, axial = math.hypot(loads[1], loads[2]), abs(float(loads[0]))
     inputs = RollerMethodInputs(

@@ -84,7 +84,7 @@ def test_what_cannot_be(
     [
         ("32216", "0 N", "", "needs thrust on the inner ring along x"),
         ("NU 208", "500 N", "", "takes no thrust in this direction"),
-        ("NCF 3008", "0 N", "", "full complement, have no motion in time yet"),
+        ("NCF 3008", "0 N", "", "full complement, run neither in time nor on a shaft yet"),
         ("NU 208", "0 N", "[depth]\ncage = false\n", "need their cage"),
         ("NU 208", "0 N", "[parameters.film_thickness]\nx = 1\n", "parameters.film_thickness"),
         ("NU 208", "0 N", '[models]\nfluid_drag = "none"\n', "the law's own values here"),
@@ -112,7 +112,7 @@ def test_a_slip_in_a_designation_names_the_nearest(tmp_path: Path, capsys: pytes
     assert "NU 208" in capsys.readouterr().err
 
 
-def test_shafts_do_not_take_rollers_yet(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_shafts_take_rollers_but_full_complements(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "shaft.toml"
     path.write_text(
         """\
@@ -124,8 +124,11 @@ bearings = { left = { designation = "SKF 6208", at = "21 mm" }, right = { design
 """,
         encoding="utf-8",
     )
+    assert main(["compare", str(path), "--bearing", "right"]) == 0
+    assert "rib [N mm]" in capsys.readouterr().out
+    path.write_text(path.read_text(encoding="utf-8").replace("NU 208", "NCF 3008"), encoding="utf-8")
     assert main(["check", str(path)]) == 3
-    assert "without ribs nothing holds tilted rollers" in capsys.readouterr().err
+    assert "bearings.right.designation NCF rollers, a full complement" in " ".join(capsys.readouterr().err.split())
 
 
 def test_own_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 
 _NORMAL = 1.6448536269514722  # standard deviations of a normal distribution within which 90 % lie
+_NO_ROLLERS = "rollers have no model band yet"
 _LEAST_SHARE = 0.02  # of the variance of a contributor that is named
 Reader = Callable[[Equilibrium], float]
 
@@ -140,7 +141,12 @@ def bands_of_machine(
     from lambda_core.analysis.rotor.bearing_alone import alone_under_load
 
     chosen = range(len(machine.bearings)) if number is None else (number,)
-    bearings = {machine.bearings[i].name: band_of(alone_under_load(machine, state, i), quantities) for i in chosen}
+    bearings = {
+        machine.bearings[i].name: band_of(alone_under_load(machine, state, i), quantities)
+        if machine.bearings[i].model.rollers is None
+        else ModelBand(case=machine.name, coverage=COVERAGE, bands=[], left_out=[_NO_ROLLERS])
+        for i in chosen
+    }
     return MachineBand(case=machine.name, bearings=bearings)
 
 

@@ -14,6 +14,7 @@ from lambda_core.model.laws.method_inputs import bearing_load
 from lambda_core.results.rating import Rating
 from lambda_core.results.verdict import limits_of
 from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.held_rollers import HeldRollers
 from lambda_core.views.method import Method, evaluate_methods
 
 if TYPE_CHECKING:
@@ -82,8 +83,12 @@ def mounted_rating(model: MachineModel, state: ShaftState, number: int, found: E
     found : Equilibrium
         Of this bearing, with the load of every ball.
     """
+    from lambda_core.analysis.rotor.rollers_on_shaft import rollers_on_shaft
     from lambda_core.discovery.manager import registry
 
+    ring = state.rings[number]
+    if isinstance(ring, HeldRollers):
+        return rollers_on_shaft(ring).rating
     x, y, z = state.reactions[number][:3]
     return rating_of(found, registry().methods, (float(np.hypot(y, z)), abs(float(x))))
 

@@ -37,7 +37,8 @@ def bearing_alone(
 ) -> BearingModel:
     """Return one bearing under the constant load and at the misalignment that it has in the machine at t = 0.
 
-    Its inner ring is free along x, y and z and carries the load; its tilts are held where shaft and housing hold them.
+    Its inner ring is free along x, y and z and carries the load; its tilts are held where shaft and housing hold them,
+    as is x of cylindrical rollers.
     """
     number = bearing_number(machine, name)
     return alone_under_load(machine, solve_shaft(machine, announce), number)
@@ -64,17 +65,20 @@ def alone_under_load(machine: MachineModel, state: ShaftState, number: int) -> B
     """Return one bearing of a solved machine as :func:`bearing_alone` does."""
     mounted, reaction, pose = machine.bearings[number], state.reactions[number], state.pose(machine, number)
     model, body = mounted.model, mounted.model.inner_ring
-    free = dict.fromkeys(POSE[:3], DofState("free"))
-    tilts = {
+    # cylinders need no thrust, and where nothing presses their ribs nothing else holds the ring along the shaft
+    stays = model.rollers is not None and model.rollers.contact_angle == 0.0
+    free = dict.fromkeys(POSE[stays:3], DofState("free"))
+    held = {
         axis: DofState("prescribed", TimeFunction.constant(float(value)))
-        for axis, value in zip(POSE[3:], pose[3:], strict=True)
+        for axis, value in zip(POSE, pose, strict=True)
+        if axis not in free
     }
     # what the shaft puts on the ring is all that it carries: its own weight is among the shaft's
     force = tuple(
         TimeFunction.constant(-float(carried) - body.mass * pull)
         for carried, pull in zip(reaction[:3], model.gravity, strict=True)
     )
-    inner = dataclasses.replace(body, force=force, dofs={**body.dofs, **free, **tilts})  # type: ignore[arg-type]
+    inner = dataclasses.replace(body, force=force, dofs={**body.dofs, **free, **held})  # type: ignore[arg-type]
     outer = dataclasses.replace(
         model.outer_ring, dofs={**model.outer_ring.dofs, **dict.fromkeys(POSE, DofState("locked"))}
     )

@@ -11,6 +11,7 @@ from pydantic import Field, PrivateAttr
 
 from lambda_core.analysis.rating.engineering import mounted_rating
 from lambda_core.analysis.rotor.machine_modes import AXES, six
+from lambda_core.analysis.rotor.rollers_on_shaft import rollers_on_shaft
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.unit_systems import SI, UnitSystem
@@ -33,6 +34,7 @@ from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Summary
 from lambda_core.results.verdict import Verdict
 from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.held_rollers import HeldRollers
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 from lambda_core.solver.drivers.structure import point_on, static_rows, stretch
 
@@ -243,8 +245,12 @@ def equilibrium_of(
 
     `equilibria` are those of the bearings with the friction of their balls; by default they are solved.
     """
-    solved = equilibria or [ring.equilibrium() for ring in state.rings]
-    bearings = [_bearing(model, state, i, found) for i, found in enumerate(solved)]
+    bearings = [
+        _rollers(model, state, i, ring)
+        if isinstance(ring, HeldRollers)
+        else _bearing(model, state, i, equilibria[i] if equilibria else ring.equilibrium())
+        for i, ring in enumerate(state.rings)
+    ]
     moved = state.displacement[: NODE * model.body.positions.size].reshape(-1, NODE)
     cuts, forces = internal_forces(model.body, state.displacement, model.gravity)
     lives = [b.reference_life_h for b in bearings if b.reference_life_h is not None]
@@ -306,16 +312,7 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
     judged = rated_verdict(rating, alone.max_pressure_GPa, alone.film_parameter, tilt)
     assert judged is not None  # a rating of rating_of has limits
     return BearingEquilibrium(
-        name=bearing.name,
-        title=bearing.model.title,
-        position_mm=1e3 * bearing.position,
-        force_N=_listed(reaction[:3]),
-        moment_Nm=_listed(reaction[3:]),
-        radial_load_N=radial,
-        axial_load_N=axial,
-        displacement_um=_listed(1e6 * pose[:3]),
-        misalignment_mrad=_listed(1e3 * pose[3:]),
-        outer_ring_um=_listed(1e6 * state.outer[index, :3]),
+        **_in_machine(bearing, state, index, pose, reaction),
         clearance_um=1e6 * bearing.model.geometry.clearance,
         loaded_balls=alone.loaded_balls,
         max_load_N=alone.max_load_N,
@@ -332,11 +329,61 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
         friction_torque_Nmm=alone.friction_torque_Nmm if found.converged else None,
         power_loss_W=finite(float(found.losses.sum())) if found.converged else None,
         film_um=alone.film_um,
-        stiffness=six(state.stiffness[index]),
         contacts=alone.contacts,
         verdict=judged,
         warnings=_warnings(bearing, found, alone, (radial, abs(axial)), float(np.hypot(*pose[3:]))),
     )
+
+
+def _rollers(model: MachineModel, state: ShaftState, index: int, ring: HeldRollers) -> BearingEquilibrium:
+    """Return what there is to say of one bearing with rollers."""
+    bearing, reaction, pose = model.bearings[index], state.reactions[index], state.pose(model, index)
+    found = rollers_on_shaft(ring)
+    answer, rating = found.answer, found.rating
+    least = [] if answer.film_parameter is None else [answer.film_parameter]
+    judged = rated_verdict(rating, answer.max_pressure_GPa, least, 1e3 * float(np.hypot(*pose[3:])))
+    assert judged is not None  # its rating has limits
+    return BearingEquilibrium(
+        **_in_machine(bearing, state, index, pose, reaction),
+        clearance_um=1e6 * ring.rollers.clearance,
+        loaded_balls=answer.loaded_rollers,
+        max_load_N=answer.max_load_N,
+        max_load_ring=found.largest_ring,
+        max_pressure_GPa=answer.max_pressure_GPa,
+        contact_angle_deg=found.angles,
+        equivalent_load_N=rating.equivalent_load_N,
+        basic_rating_life_h=rating.basic_life_h,
+        reference_rating_life_h=rating.reference_life_h,
+        modified_basic_life_h=None,
+        modified_rating_life_h=None,
+        viscosity_ratio=rating.viscosity_ratio,
+        static_safety=rating.static_safety,
+        friction_torque_Nmm=answer.friction_torque_Nmm,
+        power_loss_W=found.power,
+        film_um=answer.film_um,
+        contacts=found.contacts(),
+        verdict=judged,
+        warnings=[*answer.warnings, *operating_warnings(bearing.model, on_shaft=True)],
+    )
+
+
+def _in_machine(
+    bearing: MountedBearing, state: ShaftState, index: int, pose: FloatArray, reaction: FloatArray
+) -> dict[str, Any]:
+    """Return what of a bearing does not depend on its elements: place, load and stiffness."""
+    return {
+        "name": bearing.name,
+        "title": bearing.model.title,
+        "position_mm": 1e3 * bearing.position,
+        "radial_load_N": float(np.hypot(*reaction[1:3])),
+        "axial_load_N": float(-reaction[0]),
+        "force_N": _listed(reaction[:3]),
+        "moment_Nm": _listed(reaction[3:]),
+        "displacement_um": _listed(1e6 * pose[:3]),
+        "misalignment_mrad": _listed(1e3 * pose[3:]),
+        "outer_ring_um": _listed(1e6 * state.outer[index, :3]),
+        "stiffness": six(state.stiffness[index]),
+    }
 
 
 def _angles(alone: QuasiStatic) -> list[float]:

@@ -20,6 +20,7 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.geometry.resolve_geometry import with_clearance
+from lambda_core.model.rollers_in_motion import with_clearance as rollers_with_clearance
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.records import CONTACT_CHANNELS
@@ -117,6 +118,7 @@ class Losses:
         return dataclasses.replace(
             model,
             geometry=with_clearance(model.geometry, clearance),
+            rollers=model.rollers and rollers_with_clearance(model.rollers, clearance),
             oil=dataclasses.replace(model.oil, temperature=inlet),
         )
 

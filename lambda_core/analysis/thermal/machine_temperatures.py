@@ -21,6 +21,7 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.model.geometry.resolve_geometry import with_clearance
 from lambda_core.model.machine_model import MachineModel, MountedBearing
 from lambda_core.model.resolve_machine import resolve_machine
+from lambda_core.model.rollers_in_motion import with_clearance as rollers_with_clearance
 from lambda_core.model.settings.machine_heat import BEARING_NODES, stretch
 from lambda_core.results.reader import Result
 from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels, solve_shaft
@@ -139,6 +140,7 @@ def _warm(mounted: MountedBearing, inlet: float, clearance: float, grown: float)
     model = replace(
         model,
         geometry=with_clearance(model.geometry, clearance),
+        rollers=model.rollers and rollers_with_clearance(model.rollers, clearance),
         oil=replace(model.oil, temperature=inlet),
     )
     shift = (seating.shift[0] - grown, *seating.shift[1:])

@@ -87,6 +87,8 @@ class RollerBearing:
         A, L and k of the logarithmic profile [m, m, -], Teutsch's a_p D, c_p and k_p.
     rib_roughness : float
         Composite rms roughness of ribs and ends [m]: Wingertszahn et al. 2023, Lubricants 11, 369.
+    faces : int
+        Direction of a along x of the shaft, 1 or -1: where thrust on the shaft points that presses the rollers.
     """
 
     kind: str
@@ -113,6 +115,7 @@ class RollerBearing:
     profile_exponent: float = 2.0
     rib_roughness: float = 0.24e-6
     series: str = ""
+    faces: int = 1
 
     def __post_init__(self) -> None:
         """Refuse what cannot be built.

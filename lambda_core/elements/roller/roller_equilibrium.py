@@ -47,6 +47,8 @@ class RollerEquilibrium:
         Forces x, y, z [N] and moments about y, z [N m] that the rollers take from the inner ring, (5,).
     steps : int
         Newton steps.
+    stiffness : array
+        d(loads)/d(ring), rollers in equilibrium throughout, (5, 5) [N/m, N/rad, N m/m, N m/rad].
     """
 
     ring: FloatArray
@@ -57,6 +59,7 @@ class RollerEquilibrium:
     ribs: FloatArray
     loads: FloatArray
     steps: int
+    stiffness: FloatArray
 
 
 @dataclass(frozen=True)
@@ -99,6 +102,7 @@ def balance(
     inertial: FloatArray | None = None,
     slices: int = 40,
     first_angle: float = 0.0,
+    near: RollerEquilibrium | None = None,
 ) -> RollerEquilibrium:
     """Find the equilibrium of all rollers and the inner ring; the outer ring stands still.
 
@@ -119,6 +123,8 @@ def balance(
         Laminae of a contact.
     first_angle : float
         Azimuth of the first roller [rad].
+    near : RollerEquilibrium, optional
+        Of the same bearing, from whose rollers the search starts.
 
     Raises
     ------
@@ -135,8 +141,9 @@ def balance(
     ring = np.zeros(5) if displacement is None else np.asarray(displacement, dtype=np.float64).copy()
     outside = np.zeros(3) if inertial is None else inertial
     ring, rollers = _start(bearing, loads, free, ring, azimuths)
+    rollers = rollers if near is None else near.rollers
     merit = np.inf
-    size = max(float(np.max(np.abs(loads[:3]))), abs(float(np.max(np.abs(loads[3:])))) / bearing.length, 1e-3)
+    given = max(float(np.max(np.abs(loads[:3]))), abs(float(np.max(np.abs(loads[3:])))) / bearing.length, 1e-3)
     # a shadow stiffness: what moves nothing stays where it is, what is in balance does not feel it
     for step in range(_MOST_STEPS):
         plane = np.einsum("zpq,q->zp", carry, ring)
@@ -151,12 +158,13 @@ def balance(
             float(np.max(np.abs(np.where(free, ring_left, 0.0)[:3]))),
             float(np.max(np.abs(np.where(free, ring_left, 0.0)[3:]))) / bearing.length,
         )
+        size = max(given, float(force.max()))
+        condensed = _condensed(springs, slope, carry, roller_left)
         if left < _SETTLED * size:
             n = slices
-            return RollerEquilibrium(
-                ring, rollers, azimuths, force[:, n : 2 * n], force[:, :n], force[:, 2 * n :], ring_left + loads, step
-            )
-        move_ring, move_rollers = _newton(springs, slope, carry, free, roller_left, ring_left)
+            loaded = force[:, n : 2 * n], force[:, :n], force[:, 2 * n :]
+            return RollerEquilibrium(ring, rollers, azimuths, *loaded, ring_left + loads, step, condensed.stiffness)
+        move_ring, move_rollers = _newton(condensed, free, ring_left)
         longest = max(
             float(np.max(np.abs(move_rollers[:, :2]))),
             float(np.max(np.abs(move_ring[:3]))),
@@ -198,6 +206,11 @@ def thrust_problem(bearing: RollerBearing, thrust: float) -> str:
     if {("inner", end), ("outer", -end)} <= rings:
         return ""
     return f"a roller bearing of kind {bearing.kind} takes no thrust in this direction"
+
+
+def takes_one_side(bearing: RollerBearing) -> bool:
+    """Return whether ribs or cones take thrust from one side alone."""
+    return bool(thrust_problem(bearing, 1.0)) != bool(thrust_problem(bearing, -1.0))
 
 
 def single_springs(bearing: RollerBearing, slices: int) -> Springs:
@@ -277,28 +290,41 @@ def _start(
     return ring, rollers
 
 
-def _newton(
-    springs: Springs,
-    slope: FloatArray,
-    carry: FloatArray,
-    free: NDArray[np.bool_],
-    roller_left: FloatArray,
-    ring_left: FloatArray,
-) -> tuple[FloatArray, FloatArray]:
-    """Return the Newton step of ring and rollers: rollers eliminated first, one 3 x 3 block each."""
+@dataclass(frozen=True)
+class _Condensed:
+    """The Hessian of ring and rollers with the rollers eliminated, one 3 x 3 block each."""
+
+    stiffness: FloatArray  # of the ring, rollers in equilibrium, (5, 5)
+    diagonal: FloatArray  # of the ring, rollers where they are, (5,)
+    follow: FloatArray  # how rollers move with the ring, sign turned, (Z, 3, 5)
+    settle: FloatArray  # step of the rollers to their own balance, sign turned, (Z, 3)
+    left: FloatArray  # on the ring, of that step, (5,)
+
+
+def _condensed(springs: Springs, slope: FloatArray, carry: FloatArray, roller_left: FloatArray) -> _Condensed:
+    """Eliminate the rollers from the Hessian at these stiffnesses of all contacts."""
     own = np.einsum("zm,mi,mj->zij", slope, springs.roller, springs.roller)
     mixed = np.einsum("zm,mi,mp->zip", slope, springs.roller, springs.ring) @ carry
-    outer = np.einsum("zpq,zm,mp,mr,zrs->qs", carry, slope, springs.ring, springs.ring, carry)
+    plane = np.einsum("zm,mp,mr->zpr", slope, springs.ring, springs.ring)
+    ring = np.einsum("zpq,zpr,zrs->qs", carry, plane, carry, optimize=True)
     scale = np.maximum(np.einsum("zii->zi", own).max(axis=0), 1.0)
     own = own + _SOFT * np.diag(scale)
     solved = np.linalg.solve(own, np.concatenate([mixed, roller_left[:, :, None]], axis=2))
-    condensed = outer - np.einsum("zip,ziq->pq", mixed, solved[:, :, :-1])
-    right = ring_left - np.einsum("zip,zi->p", mixed, solved[:, :, -1])
+    return _Condensed(
+        stiffness=ring - np.einsum("zip,ziq->pq", mixed, solved[:, :, :-1]),
+        diagonal=np.diag(ring),
+        follow=solved[:, :, :-1],
+        settle=solved[:, :, -1],
+        left=np.einsum("zip,zi->p", mixed, solved[:, :, -1]),
+    )
+
+
+def _newton(condensed: _Condensed, free: NDArray[np.bool_], ring_left: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the Newton step of ring and rollers."""
     index = np.flatnonzero(free)
     step: FloatArray = np.zeros(5)
     if len(index):
-        block = condensed[np.ix_(index, index)]
-        block = block + _SOFT * np.diag(np.maximum(np.diag(outer)[index], 1.0))
-        step[index] = -np.linalg.solve(block, right[index])
-    move = -(solved[:, :, -1] + np.einsum("zip,p->zi", solved[:, :, :-1], step))
-    return step, move
+        block = condensed.stiffness[np.ix_(index, index)]
+        block = block + _SOFT * np.diag(np.maximum(condensed.diagonal[index], 1.0))
+        step[index] = -np.linalg.solve(block, (ring_left - condensed.left)[index])
+    return step, -(condensed.settle + np.einsum("zip,p->zi", condensed.follow, step))

@@ -7,6 +7,7 @@ import math
 from lambda_core.case.holding import Dof
 from lambda_core.case.machine import MachineBearing
 from lambda_core.domain.elements import POSE
+from lambda_core.elements.roller.roller_equilibrium import takes_one_side, thrust_problem
 from lambda_core.formulas.ratings import dynamic_rating, fatigue_load_limit, static_rating
 from lambda_core.model.bearing_model import BearingModel, TimeFunction
 from lambda_core.model.bodies.rigid_bodies import refuse_far
@@ -14,6 +15,7 @@ from lambda_core.model.geometry.resolve_clearance import picked
 from lambda_core.model.laws.time_functions import added, initial, time_function
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.machine_model import GROUND, LOCKED, MountedBearing, Seating
+from lambda_core.model.rollers_in_motion import facing
 
 _SIGN = {"+x": 1, "-x": -1, None: 0}
 
@@ -30,17 +32,18 @@ def mounted(
     growth : float
         How far the warm housing carries the outer ring along x [m].
     """
-    takes, angle = _SIGN[given.takes], model.geometry.contact_angle
-    if angle and not takes and model.geometry.rated_rows == 1:
-        ledger.problem(f"bearings.{name}.takes", 'is required: an angular contact bearing needs "+x" or "-x"')
-    if takes and model.geometry.rated_rows > 1:
-        ledger.problem(f"bearings.{name}.takes", "leave it out: this bearing takes thrust from both sides")
-    if model.rollers is not None:
-        ledger.problem(
-            f"bearings.{name}.designation",
-            f"{model.title}: a shaft tilts the rings of its bearings, and without ribs nothing holds tilted rollers; "
-            "solve this bearing alone, or take one with balls",
-        )
+    takes, rollers = _SIGN[given.takes], model.rollers
+    angle = model.geometry.contact_angle if rollers is None else rollers.contact_angle
+    sided = bool(angle) and model.geometry.rated_rows == 1 if rollers is None else takes_one_side(rollers)
+    if sided and not takes:
+        kind = "an angular contact bearing" if rollers is None else f"a roller bearing of kind {rollers.kind}"
+        ledger.problem(f"bearings.{name}.takes", f'is required: {kind} needs "+x" or "-x"')
+    if takes and not sided and (rollers is not None or model.geometry.rated_rows > 1):
+        both = rollers is None or not thrust_problem(rollers, 1.0)
+        what = "takes thrust from both sides" if both else "takes no thrust"
+        ledger.problem(f"bearings.{name}.takes", f"leave it out: this bearing {what}")
+    if rollers is not None and takes:
+        model = facing(model, rollers, takes)
     if model.geometry.kind.on_sphere:
         ledger.assume(f"{name}: a self-aligning bearing follows every tilt of the shaft without resistance")
     play = axial_play(given, model) if takes else 0.0
@@ -88,9 +91,12 @@ def axial_play(given: MachineBearing, model: BearingModel) -> float:
     """Return how far the inner ring moves from the middle until balls touch, as bought, without load [m].
 
     A sin(alpha_0) with cos(alpha_0) = 1 - G_r/(2 A), A = r_i + r_o - D_w (Harris and Kotzalas 2006, eq. 2.9). What fits
-    and temperatures take of the clearance afterwards adds to the preload.
+    and temperatures take of the clearance afterwards adds to the preload. Rollers between ribs have their end play;
+    tapered ones touch where they are drawn.
     """
     g = model.geometry
+    if model.rollers is not None:
+        return 0.0 if model.rollers.contact_angle else model.rollers.end_play
     distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
     bought = g.clearance if model.mounting is None else picked(model.mounting.bought, given.clearance_pick)
     cosine = 1.0 - 0.5 * max(bought, 0.0) / distance

@@ -32,8 +32,8 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
     A ball that is carried across the grooves while it goes round drags the rings sideways where it slips; at rest it
     would drag them twice as much. Under a radial or an axial load alone there is no axial path and nothing to do. The
     sphere of a self-aligning outer ring gives a ball no place of its own along the shaft: friction holds it where it
-    is. Where no equilibrium follows a step of the iteration, the last one stands; where velocities and paths still
-    differ by more than PATH_TOLERANCE, a warning in the log says so.
+    is; so it does rollers. Where no equilibrium follows a step of the iteration, the last one stands; where velocities
+    and paths still differ by more than PATH_TOLERANCE, a warning in the log says so.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
         Finds the equilibrium from a state, in place; raises EquilibriumError where it finds none.
     """
     g = context.model.geometry
-    if g.kind.on_sphere:
+    if g.kind.on_sphere or context.model.rollers is not None:
         return report
     balls = L.elements_in(context.bundle, state)
     rolling = float(np.abs(balls["velocity"][:, 2]).max())

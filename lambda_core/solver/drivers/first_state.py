@@ -23,6 +23,7 @@ from lambda_core.solver.drivers.roller_start import press_rollers, roll_rollers
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.records import CONTACT_CHANNELS
 
+FIRST_AZIMUTH = -0.5 * math.pi  # of a ball or roller: one of them is lowest
 _LOAD, _ANGLE = CONTACT_CHANNELS.index("load"), CONTACT_CHANNELS.index("contact_angle")
 
 
@@ -82,7 +83,7 @@ def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
     for i, place in enumerate(row_places(g)):
         row, count = balls[i * g.ball_count : (i + 1) * g.ball_count], g.ball_count
         row["x"] += place
-        row["azimuth"] = [-0.5 * math.pi + 2.0 * math.pi * (j + phase + 0.5 * i) / count for j in range(count)]
+        row["azimuth"] = [FIRST_AZIMUTH + 2.0 * math.pi * (j + phase + 0.5 * i) / count for j in range(count)]
     if model.rollers is not None:
         press_rollers(model, model.rollers, bodies, balls)
     context.shared_part(y)[:] = bodies.view(np.float64)[context.bundle.active]

@@ -15,7 +15,7 @@ from lambda_core.model.laws.law_context import build_context, prepare
 from lambda_core.model.laws.time_functions import spin_at_start
 from lambda_core.model.machine_model import GROUND, SHAFT, BearingPart, Carrier, MachineLink, MachineModel, is_on_cage
 from lambda_core.solver.drivers.compiled_laws import Kernels
-from lambda_core.solver.drivers.held_ring import HeldRing
+from lambda_core.solver.drivers.held_rollers import Ring
 from lambda_core.solver.drivers.structure import Rows, point_on
 
 ROLE = "force_element"
@@ -52,11 +52,11 @@ class LinkForce:
     ----------
     rows : Rows
         Of the unknowns.
-    ring : HeldRing
+    ring : HeldRing or HeldRollers
         Of the bearing among whose laws the connection's own stands.
     """
 
-    def __init__(self, model: MachineModel, rows: Rows, link: MachineLink, ring: HeldRing, kernels: Kernels) -> None:
+    def __init__(self, model: MachineModel, rows: Rows, link: MachineLink, ring: Ring, kernels: Kernels) -> None:
         self.link, self._law = link, ring.model.laws[link.element][ROLE]
         self._call = kernels.compiled[link.element, ROLE].dispatcher
         self._parameters = prepare(self._law, build_context(ring.model, link.element, ring.frame, ring.model.oil))
@@ -127,7 +127,7 @@ def _moves(
     return found
 
 
-def link_forces(model: MachineModel, rows: Rows, rings: Sequence[HeldRing], kernels: Kernels) -> list[LinkForce]:
+def link_forces(model: MachineModel, rows: Rows, rings: Sequence[Ring], kernels: Kernels) -> list[LinkForce]:
     """Return the connections of a machine that have a law; the first bearing has the laws, compiled in `kernels`.
 
     Those of cages act in motion only: an equilibrium has no cage.

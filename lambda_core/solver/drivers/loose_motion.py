@@ -29,7 +29,8 @@ def loose_motion(stiffness: FloatArray, pull: FloatArray, arms: FloatArray, scal
     float64[:], shape (n,), or None
         Of every motion the way, the longest 1.
     """
-    unit = 1.0 / np.sqrt(np.maximum(np.diag(stiffness), np.finfo(float).tiny))
+    own = np.diag(stiffness)
+    unit = 1.0 / np.sqrt(np.where(own > 0.0, own, max(float(own.max()), 1.0)))  # what nothing holds has no own scale
     values, shapes = np.linalg.eigh(stiffness * np.outer(unit, unit))
     loose = shapes[:, values < _NOTHING]
     way = unit * (loose @ (loose.T @ (unit * pull))) * arms

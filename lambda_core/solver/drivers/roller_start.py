@@ -33,7 +33,8 @@ def press_rollers(model: BearingModel, rollers: RollerBearing, bodies: NDArray[A
     loads = np.array([*(initial(f) for f in ring.force), *(initial(m) for m in ring.moment[1:])])
     loads[:3] += weight
     held = tuple(ring.dofs[name].mode != "free" for name in POSE)
-    if not held[0] and thrust_problem(rollers, float(loads[0])):
+    mirror = np.array([rollers.faces, 1.0, 1.0, rollers.faces, rollers.faces])  # from the shaft's axes to theirs
+    if not held[0] and thrust_problem(rollers, float(mirror[0] * loads[0])):
         return
     inner, outer = (initial(b.dofs["spin"].motion) for b in (model.inner_ring, model.outer_ring))
     apart = bodies["position"][INNER] - bodies["position"][OUTER]
@@ -43,27 +44,27 @@ def press_rollers(model: BearingModel, rollers: RollerBearing, bodies: NDArray[A
     try:
         found = balance(
             rollers,
-            loads,
+            mirror * loads,
             held=held,  # type: ignore[arg-type]
-            displacement=given,
+            displacement=mirror * given,
             inertial=None if motion is None else motion.inertial(rollers),
             first_angle=float(places["azimuth"][0]),
         )
     except (ArithmeticError, ValueError):
         return
-    x, y, z, tilt_y, tilt_z = found.ring
+    x, y, z, tilt_y, tilt_z = mirror * found.ring
     moved = np.array([x, y, z, tilt_z, -tilt_y])
     free = ~np.array([*held[:3], held[4], held[3]])
     bodies["position"][INNER] += np.where(free[:3], moved[:3] - apart, 0.0)
     bodies["tilt"][INNER] += np.where(free[3:], moved[3:] - tilt, 0.0)
-    places["x"] = bodies["position"][OUTER, 0] + found.rollers[:, 0]
+    places["x"] = bodies["position"][OUTER, 0] + rollers.faces * found.rollers[:, 0]
     places["radius"] = rollers.centre + found.rollers[:, 1]
-    places["tilt"][:, 0] = found.rollers[:, 2]
+    places["tilt"][:, 0] = rollers.faces * found.rollers[:, 2]
 
 
 def roll_rollers(rollers: RollerBearing, inner: float, outer: float, places: NDArray[Any]) -> None:
     """Set orbital speeds and spins to rolling without sliding between rings of these speeds [rad/s], in place."""
-    motion, axis = rolling_motion(rollers, inner, outer), rollers.angles.roller
+    motion, axis = rolling_motion(rollers, inner, outer), rollers.faces * rollers.angles.roller
     spin = -math.copysign(motion.spin, inner - outer)
     places["velocity"][:, 2] = motion.cage * places["radius"]
     # own axes lean by -axis to the shaft's

@@ -37,7 +37,8 @@ def spin_in_space(rollers: RollerBearing | None, spin: FloatArray) -> FloatArray
     """Return spins (..., 3), axial, radial, tangential, from those of the state; rollers have theirs about own axes."""
     if rollers is None:
         return spin.copy()
-    c, s = np.cos(rollers.angles.roller), np.sin(rollers.angles.roller)  # the large end points to -x
+    axis = rollers.faces * rollers.angles.roller  # the large end points to -x where they face x
+    c, s = np.cos(axis), np.sin(axis)
     own, across = spin[..., 0], spin[..., 1]
     return np.stack([c * own + s * across, c * across - s * own, spin[..., 2]], axis=-1)
 
@@ -51,37 +52,38 @@ def write_line(record: Any, rollers: RollerBearing, ring: int, line: int) -> Non
     name: Ring = "inner" if ring == INNER else "outer"
     cone = angles.inner if ring == INNER else angles.outer
     lean = np.cos(angles.roller)
-    record["kind"], record["line"], record["cone"] = LINE.number, line, -cone
+    record["kind"], record["line"], record["cone"] = LINE.number, line, -rollers.faces * cone
     record["groove_circle"] = rollers.centre + side * (half * lean + 0.25 * rollers.clearance / np.cos(cone))
-    record["axial_offset"] = side * half * np.sin(angles.roller)
+    record["axial_offset"] = rollers.faces * side * half * np.sin(angles.roller)
     record["groove_radius"], record["ball_radius"] = np.inf, half
     record["radius_x"], record["radius_y"] = rollers.radius(name), rollers.effective_length
     record["radius_deformed"] = np.inf
 
 
 def rib_of(rollers: RollerBearing, ring: int, end: int) -> Rib:
-    """Return a rib of a ring at one end of the rollers."""
+    """Return a rib of a ring at the end of the rollers towards +x or -x."""
     name = ("inner", "outer")[ring]
-    return next(rib for rib in rollers.ribs if (rib.ring, rib.end) == (name, end))
+    return next(rib for rib in rollers.ribs if (rib.ring, rollers.faces * rib.end) == (name, end))
 
 
 def write_rib(record: Any, rollers: RollerBearing, ring: int, end: int) -> None:
     """Write what a rib has in another way than a raceway of balls; R_x is along sliding."""
     rib = rib_of(rollers, ring, end)
     record["kind"], record["side"] = RIB.number, end
-    record["axial_offset"], record["rib_radius"] = rib.place[0] + end * rib.gap, rib.contact.distance
-    record["rib_angle"] = np.arctan2(end * -rib.normal[1], end * -rib.normal[0])
+    record["axial_offset"], record["rib_radius"] = rollers.faces * rib.place[0] + end * rib.gap, rib.contact.distance
+    record["rib_angle"] = np.arctan2(end * -rib.normal[1], end * rollers.faces * -rib.normal[0])
     record["ball_radius"] = rib.contact.end_radius
     record["radius_x"], record["radius_y"] = rib.contact.radius_x, rib.contact.radius_y
     record["radius_deformed"], record["roughness"] = 2.0 * rib.contact.radius_y, rollers.rib_roughness
 
 
 def write_row(record: Any, rollers: RollerBearing, cage: Cage) -> None:
-    """Write what a row of rollers has in another way than one of balls; large ends of tapered rollers point to -x."""
+    """Write what a row of rollers has in another way than one of balls; large ends of cones that face x point to -x."""
     polar, transverse = rollers.inertias
     record["kind"], record["ball_radius"] = R.ROLLERS, 0.5 * rollers.diameter
     record["ball_inertia"], record["transverse_inertia"] = polar, transverse
-    record["axis_angle"], record["cone_angle"] = -rollers.angles.roller, -rollers.angles.half
+    axis, half = rollers.faces * rollers.angles.roller, rollers.faces * rollers.angles.half
+    record["axis_angle"], record["cone_angle"] = -axis, -half
     record["length"], record["total_length"] = rollers.effective_length, rollers.length
     record["end_radius"] = rollers.ribs[0].contact.end_radius if rollers.ribs else np.inf
     record["bar_gap"] = record["end_gap"] = 0.5 * cage.pocket_clearance
@@ -101,7 +103,7 @@ def _lines(rollers: RollerBearing) -> FloatArray:
     """
     x = slice_positions(rollers.effective_length, SLICES)
     width = np.full(SLICES, rollers.effective_length / SLICES)
-    share = np.tan(rollers.angles.half) / (0.5 * rollers.diameter)  # of the radius, towards the large end at -x
+    share = rollers.faces * np.tan(rollers.angles.half) / (0.5 * rollers.diameter)  # of the radius, towards -x
     rings: tuple[tuple[Ring, float], ...] = (("inner", 1.0), ("outer", -1.0))
     drop = rollers.drops(SLICES)
     return np.array([[x, width, drop, rollers.radius(name) * (1.0 + sign * share * x)] for name, sign in rings])

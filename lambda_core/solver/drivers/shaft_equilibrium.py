@@ -23,11 +23,13 @@ from lambda_core.model.machine_model import GROUND, PLACES, BearingPart, Machine
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
 from lambda_core.solver.drivers.first_state import free_contact_angle
 from lambda_core.solver.drivers.held_ring import HeldRing
+from lambda_core.solver.drivers.held_rollers import HeldRollers, Ring
 from lambda_core.solver.drivers.link_forces import SolvedLink, link_forces
 from lambda_core.solver.drivers.loose_motion import loose_motion
 from lambda_core.solver.drivers.structure import static_rows, structure
 
 _GUESS = np.array([5e7, 1e8, 1e8, 1e3, 1e3])  # [N/m, N m/rad] of a bearing before its contacts are known
+_LOOSE = np.array([0.0, 1.0, 1.0, 1.0, 1.0])  # of rollers that nothing holds along x
 _ITERATIONS, _FRAMES, _TRIES = 100, 6, 20
 _CONVERGED, _ROUNDING = 1e-9, 1e-6  # residual over the loads: wanted; where the balls' own tolerance may end it
 _DAMPING, _LEAST_DAMPING = 1e-3, 1e-10  # of _GUESS
@@ -53,7 +55,7 @@ class ShaftState:
         Force and moment of each bearing on the shaft [N, N m].
     stiffness : float64[:, :, :], shape (bearings, 5, 5)
         Of each bearing alone.
-    rings : list of HeldRing
+    rings : list of HeldRing or HeldRollers
         At their last poses.
     drive_torque : float
         Of the coupling on the shaft [N m].
@@ -70,7 +72,7 @@ class ShaftState:
     bodies: FloatArray
     reactions: FloatArray
     stiffness: FloatArray
-    rings: list[HeldRing]
+    rings: list[Ring]
     drive_torque: float
     residual: float
     iterations: int
@@ -95,7 +97,7 @@ class _System:
     a rigid body leaves no rounding in them.
     """
 
-    def __init__(self, model: MachineModel, rings: list[HeldRing], kernels: Kernels) -> None:
+    def __init__(self, model: MachineModel, rings: list[Ring], kernels: Kernels) -> None:
         self.model, self.rings = model, rings
         rows = static_rows(model)
         self.size, count = rows.rings, rows.size
@@ -248,10 +250,7 @@ def solve_shaft(model: MachineModel, announce: Announce = None, kernels: SharedK
     if model.awaits_temperatures:
         raise SolverError(f"{model.name}: internal error: temperatures must be computed before the equilibrium")
     shared = kernels or SharedKernels(announce)
-    rings = []
-    for m, takes in ((bearing.model, bearing.takes) for bearing in model.bearings):
-        angle = free_contact_angle(m) if takes else m.geometry.resting_angle
-        rings.append(HeldRing(m, angle, 1000.0, shared.of(m), announce))
+    rings = [_ring(bearing, shared.of(bearing.model), announce) for bearing in model.bearings]
     system = _System(model, rings, shared.of(model.bearings[0].model))
     _refuse_loose(system)
     q = _first_guess(system)
@@ -279,10 +278,25 @@ def solve_shaft(model: MachineModel, announce: Announce = None, kernels: SharedK
     )
 
 
+def _ring(bearing: MountedBearing, kernels: Kernels, announce: Announce) -> Ring:
+    """Return a bearing by the pose of its inner ring."""
+    model = bearing.model
+    if model.rollers is not None:
+        return HeldRollers(model, model.rollers, kernels, announce)
+    angle = free_contact_angle(model) if bearing.takes else model.geometry.resting_angle
+    return HeldRing(model, angle, 1000.0, kernels, announce)
+
+
+def _springs(rings: list[Ring]) -> FloatArray:
+    """Return a stiffness of every bearing before its contacts are known, shape (bearings, 5, 5)."""
+    free = [isinstance(ring, HeldRollers) and not ring.holds_along for ring in rings]
+    return np.array([np.diag(_GUESS * _LOOSE if is_free else _GUESS) for is_free in free])
+
+
 def _first_guess(system: _System) -> FloatArray:
     """Return a state in which every loaded bearing is in contact: springs first, then the way to touching rings."""
     model = system.model
-    springs = np.array([np.diag(_GUESS)] * len(system.rings))
+    springs = _springs(system.rings)
     tangent, q = system.tangent(springs, system.start), system.start.copy()
     offset = np.zeros((len(system.rings), len(POSE)))
     for i, bearing in enumerate(model.bearings):
@@ -354,7 +368,7 @@ def _along(system: _System, q: FloatArray, move: FloatArray, unbalanced: FloatAr
 
 def _refuse_loose(system: _System) -> None:
     """Refuse a shaft or a body that nothing holds in a direction in which something pulls it."""
-    held = system.tangent(np.array([np.diag(_GUESS)] * len(system.rings)), system.start)
+    held = system.tangent(_springs(system.rings), system.start)
     held = held[np.ix_(system.free, system.free)]
     pull = system.elastic(system.start)[system.free]
     way = loose_motion(held, pull, system.arms[system.free], system.scale)

@@ -1,0 +1,125 @@
+"""One roller bearing of a machine at its operating point: the answer of one that is alone, from its pose there."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import get_args
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.roller_friction import OilState, RollerFriction, friction
+from lambda_core.formulas.loading import Ring
+from lambda_core.laws.context import Oil
+from lambda_core.model.roller_case import RollerModel, friction_parameters
+from lambda_core.results.bearing_summary import Contact
+from lambda_core.results.rating import Rating
+from lambda_core.results.roller_quasistatic import RollerQuasiStatic, SolvedRollers, roller_answer
+from lambda_core.results.verdict import limits_of
+from lambda_core.solver.drivers.held_rollers import HeldRollers
+
+_NOTE = "a_ISO of rollers is left out"
+
+
+@dataclass(frozen=True)
+class RollersOnShaft:
+    """A roller bearing at its pose in a machine.
+
+    Attributes
+    ----------
+    model : RollerModel
+        Geometry, oil and surfaces.
+    solved : SolvedRollers
+        Loads of slices and ribs, speeds, friction.
+    answer : RollerQuasiStatic
+        The same in the units of the interface.
+    rating : Rating
+        Lives and safety.
+    """
+
+    model: RollerModel
+    solved: SolvedRollers
+    answer: RollerQuasiStatic
+    rating: Rating
+
+    @property
+    def bearing(self) -> RollerBearing:
+        """Geometry."""
+        return self.model.bearing
+
+    @property
+    def largest_ring(self) -> Ring:
+        """The ring that the largest load stands at; the centrifugal force adds to the outer one."""
+        inner, outer = (float(load.sum(axis=1).max()) for load in (self.solved.state.inner, self.solved.state.outer))
+        return "inner" if inner > outer else "outer"
+
+    @property
+    def power(self) -> float | None:
+        """Of the friction [W]; None at rest."""
+        found = self.solved.friction
+        return None if found is None else found.total * abs(self.solved.motion.relative)
+
+    @property
+    def angles(self) -> list[float]:
+        """Smallest and largest contact angle of the raceways, sizes [deg]."""
+        return [math.degrees(self.bearing.angles.inner), math.degrees(self.bearing.angles.outer)]
+
+    def contacts(self) -> list[Contact]:
+        """Return every contact of a roller with a raceway, with the film of the slice that carries most."""
+        state, found, angles = self.solved.state, self.solved.friction, self.bearing.angles
+        loads = {"inner": state.inner, "outer": state.outer}
+        leans = {"inner": angles.inner, "outer": angles.outer}
+        return [
+            Contact(
+                ball=j + 1,
+                ring=ring,
+                azimuth_deg=math.degrees(float(azimuth)) % 360.0,
+                load_N=float(loads[ring][j].sum()),
+                contact_angle_deg=math.degrees(self.bearing.faces * leans[ring]),
+                film_um=_film(found, ring, j, loads[ring][j]),
+                capacitance_pF=None,
+            )
+            for j, azimuth in enumerate(state.azimuths)
+            for ring in get_args(Ring)
+        ]
+
+
+def _film(found: RollerFriction | None, ring: str, roller: int, loads: FloatArray) -> float | None:
+    if found is None or float(loads.max()) <= 0.0:
+        return None
+    return 1e6 * float(found.film[ring][roller, int(np.argmax(loads))])
+
+
+def rollers_on_shaft(ring: HeldRollers) -> RollersOnShaft:
+    """Return what a roller bearing answers at the last pose of its rings."""
+    model, bearing, motion, state = ring.model, ring.rollers, ring.motion, ring.state
+    oil = _oil_state(ring.oil)
+    given = friction_parameters(bearing, model.roughness, model.lubrication, model.oil_level)
+    solved = SolvedRollers(
+        state, motion, friction(bearing, state, motion, oil, given) if motion.relative != 0.0 else None
+    )
+    alone = RollerModel(
+        name=model.name, title=model.title, bearing=bearing, loads=np.zeros(5), held=(True,) * 5,
+        speeds=(motion.inner, motion.outer), oil=oil, friction=given, lubricant=ring.oil.name,
+        base_type=ring.oil.base_type, lubrication=model.lubrication, temperature=ring.oil.temperature,
+        slices=state.inner.shape[1], assumptions=model.assumptions,
+    )  # fmt: skip
+    answer = roller_answer(alone, solved)
+    rating = Rating(
+        basic_life_h=answer.basic_life_h,
+        reference_life_h=answer.reference_life_h,
+        equivalent_load_N=answer.equivalent_load_N,
+        static_safety=answer.static_safety,
+        viscosity_ratio=answer.viscosity_ratio,
+        skf_torque_Nmm=None,
+        schaeffler_torque_Nmm=None,
+        limits=limits_of(model),
+        notes=[_NOTE],
+    )
+    return RollersOnShaft(alone, solved, answer, rating)
+
+
+def _oil_state(oil: Oil) -> OilState:
+    return OilState(oil.viscosity, oil.density, oil.alpha_p, oil.beta, oil.thermal_conductivity)

@@ -1,0 +1,112 @@
+"""One roller bearing whose inner ring is held somewhere against the outer one: what it answers with, and how stiffly.
+
+The rollers are in the convex equilibrium of :mod:`lambda_core.elements.roller.roller_equilibrium`: laminae of ISO 16281
+on the raceways, points on the ribs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import POSE, SPIN
+from lambda_core.domain.errors import SolverError
+from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, balance, thrust_problem
+from lambda_core.elements.roller.roller_motion import RollerMotion, rolling_motion
+from lambda_core.laws.context import Oil
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.laws.law_context import ContactFrame
+from lambda_core.model.laws.time_functions import initial
+from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.drivers.first_state import FIRST_AZIMUTH, first_frame
+from lambda_core.solver.drivers.held_ring import HeldRing, held
+
+_HELD = (True,) * 5
+_MIRROR = np.array([-1.0, 1.0, 1.0, -1.0, -1.0])  # of a pose or a wrench, at the middle plane
+
+
+class HeldRollers:
+    """A roller bearing by the pose of its inner ring; the rollers find their places, without friction.
+
+    Parameters
+    ----------
+    model : BearingModel
+        The bearing; its ring's own boundary conditions and loads do not count.
+    rollers : RollerBearing
+        Of it.
+    kernels : Kernels, optional
+        Of the same laws, from another bearing.
+    """
+
+    def __init__(
+        self, model: BearingModel, rollers: RollerBearing, kernels: Kernels | None = None, announce: Announce = None
+    ) -> None:
+        self.model, self.rollers = model, rollers
+        self._kernels, self._announce = kernels or Kernels(model, announce), announce
+        self.frame: ContactFrame = first_frame(model)
+        oils = derive_oils(model, self._kernels, self.frame)
+        check_laws(model, self._kernels, self.frame, oils)
+        self.oil: Oil = oils[0]
+        inner, outer = (initial(body.dofs[SPIN].motion) for body in (model.inner_ring, model.outer_ring))
+        self.motion: RollerMotion = rolling_motion(rollers, inner, outer)
+        self._turned = np.ones(len(POSE)) if rollers.faces > 0 else _MIRROR
+        self._pose = np.zeros(len(POSE))
+        self._state: RollerEquilibrium | None = None
+
+    @property
+    def holds_along(self) -> bool:
+        """Whether ribs or cones hold the shaft along x on one side at least."""
+        return not all(thrust_problem(self.rollers, side) for side in (1.0, -1.0))
+
+    @property
+    def state(self) -> RollerEquilibrium:
+        """At the last pose, in the axes of the rollers: a along the thrust that they take."""
+        return self._balanced(self._pose) if self._state is None else self._state
+
+    def _balanced(self, pose: FloatArray) -> RollerEquilibrium:
+        try:
+            self._state = balance(
+                self.rollers,
+                np.zeros(len(POSE)),
+                held=_HELD,
+                displacement=self._turned * pose,
+                inertial=self.motion.inertial(self.rollers),
+                first_angle=FIRST_AZIMUTH,
+                near=self._state,
+            )
+        except ArithmeticError as error:
+            raise SolverError(f"{self.model.name}: {error}") from error
+        return self._state
+
+    def reaction(self, pose: Sequence[float]) -> FloatArray:
+        """Return force and moment of the bearing on its inner ring at a pose, shape (5,) [N, N m].
+
+        Raises
+        ------
+        SolverError
+            When the rollers find no equilibrium.
+        """
+        at = np.array(pose, dtype=float)
+        state = self._balanced(at)
+        self._pose = at
+        return -self._turned * state.loads
+
+    def stiffness(self) -> FloatArray:
+        """Return d(reaction)/d(pose) with its sign turned at the last pose, shape (5, 5)."""
+        found: FloatArray = self.state.stiffness * np.outer(self._turned, self._turned)
+        return found
+
+    def refresh(self) -> bool:
+        """Return False: cones touch at the same angles everywhere."""
+        return False
+
+    def equilibrium(self) -> Equilibrium:
+        """Return the equilibrium at the last pose with the friction of the rollers by the laws of the model."""
+        return solve(held(self.model, self._pose.tolist()), self._kernels, self._announce, strict=False)
+
+
+Ring = HeldRing | HeldRollers
