@@ -66,6 +66,8 @@ def rollers_of(
             )
     if not case.depth.cage:
         ledger.problem("depth.cage", "rollers in motion need their cage: full complements are computed by quasistatic")
+    for part in (name for name in type(case.elastic).model_fields if getattr(case.elastic, name) is not None):
+        ledger.problem(f"elastic.{part}", "rings and cages of rollers are rigid: leave it out")
     _refuse_parameters(case, ledger)
     ledger.check(case.name)
     assert rollers is not None  # else a problem says why

@@ -90,6 +90,7 @@ def test_what_cannot_be(
         ("NU 208", "0 N", '[models]\nfluid_drag = "none"\n', "the law's own values here"),
         ("NU 208", "0 N", "[forces.ball_inner.parameters.damping]\nx = 1\n", "forces.ball_inner.parameters.damping"),
         ("NU 208", "0 N", '[models]\nfilm_thickness = "chittenden"\n', "is a law of points"),
+        ("NU 208", "0 N", '[elastic.outer_ring]\nhousing_stiffness = "300 N/um"\n', "of rollers are rigid"),
     ],
 )
 def test_motion_says_what_it_does_not_follow(

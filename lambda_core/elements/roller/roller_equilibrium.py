@@ -297,7 +297,7 @@ class _Condensed:
     stiffness: FloatArray  # of the ring, rollers in equilibrium, (5, 5)
     diagonal: FloatArray  # of the ring, rollers where they are, (5,)
     follow: FloatArray  # how rollers move with the ring, sign turned, (Z, 3, 5)
-    settle: FloatArray  # step of the rollers to their own balance, sign turned, (Z, 3)
+    alone: FloatArray  # step of the rollers to their own balance, sign turned, (Z, 3)
     left: FloatArray  # on the ring, of that step, (5,)
 
 
@@ -314,7 +314,7 @@ def _condensed(springs: Springs, slope: FloatArray, carry: FloatArray, roller_le
         stiffness=ring - np.einsum("zip,ziq->pq", mixed, solved[:, :, :-1]),
         diagonal=np.diag(ring),
         follow=solved[:, :, :-1],
-        settle=solved[:, :, -1],
+        alone=solved[:, :, -1],
         left=np.einsum("zip,zi->p", mixed, solved[:, :, -1]),
     )
 
@@ -327,4 +327,4 @@ def _newton(condensed: _Condensed, free: NDArray[np.bool_], ring_left: FloatArra
         block = condensed.stiffness[np.ix_(index, index)]
         block = block + _SOFT * np.diag(np.maximum(condensed.diagonal[index], 1.0))
         step[index] = -np.linalg.solve(block, (ring_left - condensed.left)[index])
-    return step, -(condensed.settle + np.einsum("zip,p->zi", condensed.follow, step))
+    return step, -(condensed.alone + np.einsum("zip,p->zi", condensed.follow, step))
