@@ -121,8 +121,8 @@ def test_one_bearing_on_a_short_shaft_is_the_bearing_alone() -> None:
     pairs = [
         (found.max_load_N, alone.max_load_N),
         (found.max_pressure_GPa, alone.max_pressure_GPa),
-        (found.basic_rating_life_h, alone.basic_life_h),
-        (found.reference_rating_life_h, alone.reference_life_h),
+        (found.basic_life_h, alone.basic_life_h),
+        (found.reference_life_h, alone.reference_life_h),
         (found.static_safety, alone.static_safety),
         (found.viscosity_ratio, alone.viscosity_ratio),
         (found.film_um[0], alone.film_um[0]),
