@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.analysis.band.model_band import model_band
     from lambda_core.analysis.electric.bearing_currents import electric, film_from_capacitance
-    from lambda_core.analysis.rotor.machine_answers import modes
+    from lambda_core.analysis.rotor.api import modes
     from lambda_core.analysis.thermal.api import thermal, warm_up
     from lambda_core.discovery.manager import use_plugin
     from lambda_core.discovery.packages import plugins
     from lambda_core.domain.errors import CaseError, LambdaError, UsageError
     from lambda_core.export.fmu.unit_file import export_fmu
-    from lambda_core.export.report.pictures import animate, draw, report, view, views
+    from lambda_core.export.report.api import animate, draw, report, view, views
     from lambda_core.export.ross import ross_rotor
     from lambda_core.export.stiffness import write_stiffness
     from lambda_core.fitting.fit_case import fit
@@ -28,17 +28,29 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.fitting.traction_curve import traction
     from lambda_core.model.cases import builtin_cases, case, catalogue, init_case, save, schema
     from lambda_core.model.checking import check, describe
-    from lambda_core.runs.answers import cite, compare, result, side_by_side, summary
-    from lambda_core.runs.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
+    from lambda_core.runs.api import (
+        cite,
+        cross_check,
+        estimate,
+        iterate,
+        quasistatic,
+        result,
+        resume,
+        run,
+        side_by_side,
+        summary,
+        warmup,
+    )
+    from lambda_core.runs.compare import compare
+    from lambda_core.studies.api import study_check, study_resume, study_run, study_status, study_table
     from lambda_core.studies.choose import Choice, choose
     from lambda_core.studies.current_map import electric_map
     from lambda_core.studies.duty_cycle import duty
     from lambda_core.studies.in_python import study
     from lambda_core.studies.speed_curve import stribeck
-    from lambda_core.studies.study_runs import study_check, study_resume, study_run, study_status, study_table
 if TYPE_CHECKING:  # what the faces build on, and the classes that calls take and return
     from lambda_core.analysis.electric.api import check_discharges_file, write_discharges
-    from lambda_core.analysis.rotor.machine_answers import describe_machine
+    from lambda_core.analysis.rotor.api import describe_machine
     from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
     from lambda_core.analysis.rotor.machine_modes import MachineModes
     from lambda_core.analysis.rotor.machine_text import machine_warnings
@@ -59,7 +71,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.discovery.registry import Registry
     from lambda_core.discovery.survey import CheckCard, ModelCard, NoteCard, Verdict
     from lambda_core.elements.ball.geometry import Geometry
-    from lambda_core.export.report.pictures import machine_pictures, view_all, view_stem
+    from lambda_core.export.report.api import machine_pictures, view_all, view_stem
     from lambda_core.export.stiffness import stiffness_target
     from lambda_core.fitting.fitted_case import fitted_case
     from lambda_core.fitting.measured import add_measured, measured_series
@@ -83,6 +95,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.runs.estimate import Estimate, MachineEstimate
     from lambda_core.runs.plugin_trials import check_plugins, watch_problems
     from lambda_core.runs.progress import Progress
+    from lambda_core.studies.api import study_schema
     from lambda_core.studies.duty_cycle import DutyCycle
     from lambda_core.studies.folders import StudyStatus
     from lambda_core.studies.machine_duty import MachineDutyCycle
@@ -90,7 +103,6 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.studies.scheduler import StudyProgress
     from lambda_core.studies.speed_curve import stribeck_picture
     from lambda_core.studies.study_files import init_study, study_examples
-    from lambda_core.studies.study_runs import study_schema
 
 
 def _declared() -> list[dict[str, str]]:

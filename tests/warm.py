@@ -30,7 +30,7 @@ PROGRAM = "from lambda_cli.main import main; raise SystemExit(main())"
 _LOADED = """
 numba numpy scipy.integrate scipy.optimize h5py sqlalchemy.orm typer rich.progress
 matplotlib.figure matplotlib.backends.backend_svg matplotlib.backends.backend_agg
-lambda_cli.commands lambda_core.model.checking lambda_core.runs.simulation
+lambda_cli.commands lambda_core.model.checking lambda_core.runs.api
 lambda_core.runs.loop lambda_core.results.reader lambda_db.catalogue
 """
 _HAS_FORK = sys.platform == "linux"

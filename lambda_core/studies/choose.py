@@ -282,7 +282,7 @@ def _viscosity(
 ) -> float | None:
     """Return the kinematic viscosity of the oil in operation [m2/s], as one solved bearing has it."""
     from lambda_core.results.quasistatic import QuasiStatic
-    from lambda_core.runs.simulation import quasistatic
+    from lambda_core.runs.api import quasistatic
 
     known = [row for row in rows if row.kind == "deep groove" and row.pitch_diameter is not None and row.dynamic_rating]
     if not known:
@@ -314,7 +314,7 @@ def _candidate(row: BearingRow, shared: dict[str, Any], announce: Callable[[str]
     """Solve one bearing and judge it."""
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.results.rating import life_that_counts
-    from lambda_core.runs.simulation import quasistatic
+    from lambda_core.runs.api import quasistatic
 
     sizes = (row.bore_diameter, row.outside_diameter, row.width)
     bore, outside, width = (round(1e3 * size.value, 6) for size in sizes)

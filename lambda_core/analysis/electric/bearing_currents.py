@@ -71,7 +71,7 @@ def electric(
         return found if len(found.bearings) > 1 else found.first
     if not is_machine(source):
         return electric_of_model(model_of(source, overrides), announce, window=window)  # type: ignore[arg-type]
-    from lambda_core.analysis.rotor.machine_answers import machine_of
+    from lambda_core.analysis.rotor.api import machine_of
     from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 
     machine = machine_of(source, overrides)  # type: ignore[arg-type]
@@ -141,7 +141,7 @@ def _alone(
     if not is_machine(source):
         refuse_bearing(bearing)
         return model_of(source, overrides)  # type: ignore[arg-type]
+    from lambda_core.analysis.rotor.api import machine_of
     from lambda_core.analysis.rotor.bearing_alone import bearing_alone
-    from lambda_core.analysis.rotor.machine_answers import machine_of
 
     return bearing_alone(machine_of(source, overrides), bearing, announce)  # type: ignore[arg-type]

@@ -149,7 +149,7 @@ def thermal_pictures(
 
 
 def _loop(source: Any, overrides: Iterable[str], announce: Callable[[str], None] | None) -> MachineLoop:
-    from lambda_core.analysis.rotor.machine_answers import machine_of
+    from lambda_core.analysis.rotor.api import machine_of
     from lambda_core.analysis.thermal.machine_temperatures import MachineLoop, without_temperatures
 
     return MachineLoop(without_temperatures(machine_of(source, overrides)), announce)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from lambda_core.analysis.rotor.machine_answers import machine_of
+from lambda_core.analysis.rotor.api import machine_of
 from lambda_core.analysis.thermal.feedback import INLET_STEP, LENGTH_STEP, Loop, Steady, clearance_at, inlet_at
 from lambda_core.analysis.thermal.losses import Announce, Point, point_of
 from lambda_core.analysis.thermal.operating import averaged_losses

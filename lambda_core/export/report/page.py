@@ -128,7 +128,7 @@ def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) ->
 
 def _start_of(result: Result) -> tuple[Any, Any] | None:
     """Return model and equilibrium of the case of a machine's run; None where it cannot be solved any more."""
-    from lambda_core.analysis.rotor.machine_answers import machine_equilibrium, machine_of
+    from lambda_core.analysis.rotor.api import machine_equilibrium, machine_of
     from lambda_core.case.case_io import toml_tables
 
     try:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
 from lambda_core.domain.files import check_folder, check_new, check_target
 from lambda_core.model.checking import check
-from lambda_core.runs.answers import result
-from lambda_core.studies.study_runs import study_status
+from lambda_core.runs.api import result
+from lambda_core.studies.api import study_status
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -319,7 +319,7 @@ def report(
     runs = [one for one, chapter in zip(sources, chapters, strict=True) if chapter.kind == "run"]
     compared: tuple[Table, ...] = ()
     if len(runs) > 1:
-        from lambda_core.runs.answers import side_by_side
+        from lambda_core.runs.api import side_by_side
 
         compared = comparison_tables(side_by_side(runs), cover.units)
     text = document(chapters, cover, compared)
@@ -360,7 +360,7 @@ def _case_chapter(source: str | PathLike[str], bearing: str | None, cover: Cover
     from lambda_core.discovery.manager import registry
     from lambda_core.export.report.chapters import case_chapter
     from lambda_core.export.report.page import machine_drawings
-    from lambda_core.runs.simulation import quasistatic
+    from lambda_core.runs.api import quasistatic
 
     refuse_bearing(bearing)
     if not is_machine(Path(source)):
