@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, ForceOption, JsonOption, SetOption, Units, UnitsOption
+from lambda_cli.options import BearingOption, CaseArgument, ForceOption, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 from lambda_core.domain.errors import PartialResultError
 from lambda_core.domain.files import check_folder, check_new
@@ -30,6 +30,7 @@ def fit(
     measured: MeasuredArgument,
     vary: VaryOption,
     changes: SetOption = None,
+    bearing: BearingOption = None,
     predict: Annotated[
         Path | None,
         typer.Option("--predict", metavar="OTHER.csv", help="Predict measured points that the fit does not use."),
@@ -57,7 +58,7 @@ def fit(
     if draw is not None:
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
-        found = api.fit(case, measured, vary, changes or (), predict=predict, announce=speaker.say)
+        found = api.fit(case, measured, vary, changes or (), bearing=bearing, predict=predict, announce=speaker.say)
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
     if out is not None:
         typer.echo(str(api.fitted_case(case, found, out, changes or (), overwrite=force)), err=True)

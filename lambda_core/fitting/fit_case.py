@@ -11,8 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lambda_core.analysis.band.graded import varied
-from lambda_core.analysis.band.quantities import CONDITIONS, MEASURED
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
@@ -33,6 +31,7 @@ from lambda_core.fitting.report import (
     SuggestedPoint,
     known,
 )
+from lambda_core.fitting.subjects import Subject, subject_of
 from lambda_core.fitting.uncertainty import correlations
 
 if TYPE_CHECKING:
@@ -48,6 +47,7 @@ def fit(
     vary: Sequence[str],
     overrides: Iterable[str] = (),
     *,
+    bearing: str | None = None,
     predict: str | Path | Measurements | None = None,
     suggest: bool = True,
     announce: Announce | None = None,
@@ -60,10 +60,14 @@ def fit(
         The case, as for :func:`check`. Columns of the measurements replace its speed, loads and temperatures.
     measured : path-like or Measurements
         CSV file: one operating point per line, columns with units such as ``speed [1/min]``, ``radial load [kN]``,
-        ``oil temperature [degC]``, ``friction torque [N mm]`` and errors such as ``friction torque error [%]``.
+        ``oil temperature [degC]``, ``friction torque [N mm]`` and errors such as ``friction torque error [%]``. Of a
+        machine also ``left friction torque [N mm]`` of the bearing "left", and options such as
+        ``loads.belt.force_z [N]``.
     vary : sequence of str
         Parameters: the path or its end ("loss_factor"), with a range where none is published
         ("tau_eyring=3 MPa..10 MPa").
+    bearing : str, optional
+        One of a machine's: columns and parameters without a name are those of this one.
     predict : path-like or Measurements, optional
         Measured points that the fit does not see, to be compared with its predictions.
     suggest : bool
@@ -81,18 +85,12 @@ def fit(
     UsageError, CaseError, SolverError
         With a sentence about the parameters, a line of the file, or a point without an equilibrium.
     """
-    from lambda_core.case.case_io import apply_overrides
-    from lambda_core.case.case_writer import standalone_toml
-    from lambda_core.model.cases import case_of
-    from lambda_core.model.checking import resolve
-
     begin = time.perf_counter()
-    data = measured if isinstance(measured, Measurements) else read_measurements(measured)
-    case = apply_overrides(case_of(source), overrides)
-    model = resolve(case, is_static=True)
     if not vary:
         raise UsageError("nothing to fit: name a parameter, for example --vary loss_factor")
-    problem = CaseProblem(standalone_toml(case), data, [varied(model, text) for text in vary])
+    subject = subject_of(source, overrides, bearing)
+    data = measured if isinstance(measured, Measurements) else read_measurements(measured, subject.words)
+    problem = CaseProblem(subject, data, [subject.varied(text) for text in vary])
     if announce is not None:
         announce(f"fitting {len(problem.parameters)} parameters to {len(problem.entries)} measured values")
     try:
@@ -108,21 +106,21 @@ def fit(
         raise UsageError(f"{data.name}: {error}") from None
     suggestion = _suggestion(problem, found) if suggest and not found.is_interrupted else None
     sizes = {} if found.is_interrupted else discrepancy_sizes(problem, found)
-    report = _report(model.name, model.title, data, problem, found, suggestion, sizes)
-    unseen = [] if predict is None or found.is_interrupted else _unseen(problem, found, sizes, predict)
+    report = _report(subject, data, problem, found, suggestion, sizes)
+    unseen = [] if predict is None or found.is_interrupted else _unseen(subject, problem, found, sizes, predict)
     return report.model_copy(update={"predictions": unseen, "seconds": time.perf_counter() - begin})
 
 
 def _unseen(
-    problem: CaseProblem, found: Fit, sizes: dict[str, float], source: str | Path | Measurements
+    subject: Subject, problem: CaseProblem, found: Fit, sizes: dict[str, float], source: str | Path | Measurements
 ) -> list[PredictedPoint]:
     """Return measured points that the fit has not seen with their predictions."""
-    data = source if isinstance(source, Measurements) else read_measurements(source)
+    data = source if isinstance(source, Measurements) else read_measurements(source, subject.words)
     asked = problem.elsewhere(data)
     values, _, new = predicted(problem, found, sizes, asked)
     return [
         PredictedPoint(
-            **_where(data, entry),
+            **_where(subject, data, entry),
             measured=float(asked.data.values[i]),
             predicted=float(values[i]),
             band=[float(low), float(high)],
@@ -132,14 +130,14 @@ def _unseen(
     ]
 
 
-def _where(data: Measurements, entry: Entry) -> dict[str, Any]:
+def _where(subject: Subject, data: Measurements, entry: Entry) -> dict[str, Any]:
     """Return line, label, conditions and quantity of a measured value."""
     return {
         "line": data.lines[entry.row],
         "label": data.labels[entry.row],
         "conditions": {name: float(column[entry.row]) for name, column in data.conditions.items()},
         "quantity": entry.quantity,
-        "unit": MEASURED[entry.quantity].unit,
+        "unit": subject.words.measured[entry.quantity].unit,
     }
 
 
@@ -156,7 +154,7 @@ def _suggestion(problem: CaseProblem, found: Fit) -> SuggestedPoint | None:
     best = next_point(jacobian, slopes, found.parameters)
     conditions = points[int(solved[best.index])]
     return SuggestedPoint(
-        conditions={name: show(value, CONDITIONS[name].quantity, 4) for name, value in conditions.items()},
+        conditions={name: show(value, problem.quantities[name], 4) for name, value in conditions.items()},
         combination=best.worst.weights,
         spread_before=best.before,
         spread_after=best.after,
@@ -164,8 +162,7 @@ def _suggestion(problem: CaseProblem, found: Fit) -> SuggestedPoint | None:
 
 
 def _report(
-    case: str,
-    title: str,
+    subject: Subject,
     data: Measurements,
     problem: CaseProblem,
     found: Fit,
@@ -178,8 +175,8 @@ def _report(
     is_known, degrees = found.data.is_error_known, found.degrees
     chi_square = float(np.sum(found.standardised**2)) / degrees if is_known and degrees > 0 else None
     return FitReport(
-        case=case,
-        title=title,
+        case=subject.name,
+        title=subject.title,
         file=data.name,
         sha256=data.sha256,
         date=datetime.date.today().isoformat(),
@@ -198,7 +195,8 @@ def _report(
             ParameterCombination(weights=d.weights, spread=known(d.spread), is_determined=d.is_determined)
             for d in found.directions
         ],
-        points=_points(data, problem, found, sizes),
+        condition_quantities=problem.quantities,
+        points=_points(subject, data, problem, found, sizes),
         predictions=[],
         discrepancy_pct={name: 100.0 * size for name, size in sizes.items()},
         next_point=suggestion,
@@ -242,7 +240,9 @@ def _parameters(problem: CaseProblem, found: Fit) -> list[FittedParameter]:
     return rows
 
 
-def _points(data: Measurements, problem: CaseProblem, found: Fit, sizes: dict[str, float]) -> list[FittedPoint]:
+def _points(
+    subject: Subject, data: Measurements, problem: CaseProblem, found: Fit, sizes: dict[str, float]
+) -> list[FittedPoint]:
     quantile = found.quantile()
     own = quantile * found.prediction_deviation(found.jacobian)
     new = quantile * found.prediction_deviation(found.jacobian, found.errors)
@@ -252,7 +252,7 @@ def _points(data: Measurements, problem: CaseProblem, found: Fit, sizes: dict[st
     standardised, left_out, outliers = found.standardised, found.left_out, found.outliers
     return [
         FittedPoint(
-            **_where(data, entry),
+            **_where(subject, data, entry),
             measured=float(found.data.values[i]),
             error=float(found.errors[i] * found.scale),
             predicted=float(found.predicted[i]),

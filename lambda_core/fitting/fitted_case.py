@@ -10,12 +10,18 @@ from lambda_core.domain.written_values import DIGITS
 from lambda_core.fitting.report_text import compact
 
 if TYPE_CHECKING:
+    from typing import TypeVar
+
     from lambda_core.case.case import Case
+    from lambda_core.case.machine import MachineCase
+    from lambda_core.case.written import Written
     from lambda_core.fitting.report import FitReport
+
+    C = TypeVar("C", bound=Written)
 
 
 def fitted_case(
-    source: str | Path | Mapping[str, Any] | Case,
+    source: str | Path | Mapping[str, Any] | Case | MachineCase,
     report: FitReport,
     path: str | Path,
     overrides: Iterable[str] = (),
@@ -46,10 +52,9 @@ def fitted_case(
         When the file exists or cannot be written.
     """
     from lambda_core.case.builtin import builtin_text, is_builtin
-    from lambda_core.case.case_io import apply_overrides, case_text
+    from lambda_core.case.case_io import case_text, read_case
     from lambda_core.case.case_writer import save_case
     from lambda_core.domain.files import check_new
-    from lambda_core.model.cases import case_of
 
     target = check_new(Path(path), overwrite)
     original = None
@@ -58,12 +63,12 @@ def fitted_case(
         original = (
             case_text(Path(source)) if is_file else builtin_text(str(source)) if is_builtin(str(source)) else None
         )
-    case = with_fit(apply_overrides(case_of(source), overrides), report)
+    case = with_fit(read_case(source, overrides), report)
     save_case(case, target, original)
     return target
 
 
-def with_fit(case: Case, report: FitReport) -> Case:
+def with_fit(case: C, report: FitReport) -> C:
     """Return the case with the fitted values, an assumption for each, and the section `fit`.
 
     A parameter that the data do not determine keeps its value; the section has its range as a standard deviation, and

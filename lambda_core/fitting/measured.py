@@ -266,7 +266,7 @@ def _points(one: _Loaded, band: bool) -> list[ComparedPoint]:
     data, case = one.measurements, case_of(one.series.case)
     text, found = standalone_toml(case), []
     for row, line in enumerate(data.lines):
-        changes = [condition_change(name, float(column[row])) for name, column in data.conditions.items()]
+        changes = [condition_change(data.set_by[name], float(column[row])) for name, column in data.conditions.items()]
         names = [name for name, values in data.measured.items() if math.isfinite(values[row])]
         bands = band_of(ready_model(case, changes, is_static=True), names) if band else None
         predicted = point_values(text, changes, names).mean(axis=0)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lambda_core.analysis.band.quantities import ERROR, LABEL, OPERATING_POINTS, Vocabulary
+from lambda_core.analysis.band.quantities import ERROR, LABEL, OPERATING_POINTS, Condition, Vocabulary
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.csv_rows import csv_rows
 from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
@@ -36,6 +36,8 @@ class Measurements:
         Names of the points, empty where there are none.
     conditions : dict of str to float64[:]
         Operating conditions in SI.
+    set_by : dict of str to Condition
+        What each of them sets.
     condition_errors : dict of str to float64[:]
         Their standard deviations in SI; absent where they are exact.
     measured : dict of str to float64[:]
@@ -51,6 +53,7 @@ class Measurements:
     lines: tuple[int, ...]
     labels: tuple[str, ...]
     conditions: dict[str, FloatArray]
+    set_by: dict[str, Condition]
     condition_errors: dict[str, FloatArray] = field(default_factory=dict)
     measured: dict[str, FloatArray] = field(default_factory=dict)
     errors: dict[str, FloatArray] = field(default_factory=dict)
@@ -69,6 +72,7 @@ class _Column:
     unit: str
     quantity: str
     header: str
+    condition: Condition | None = None
 
 
 def read_measurements(path: str | Path, words: Vocabulary = OPERATING_POINTS) -> Measurements:
@@ -149,20 +153,27 @@ def _columns(line: int, header: list[str], problems: list[Problem], words: Vocab
 
 def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabulary) -> _Column | None:
     """Return what one column holds, None after a mistake."""
-    conditions, measured = vocabulary.conditions, vocabulary.measured
+    measured = vocabulary.measured
     match = _HEADER.match(text)
-    words, unit = (match[1].casefold(), match[2]) if match else ("", None)
+    written, unit = (match[1], match[2]) if match else ("", None)
+    words = written.casefold()
     if words == LABEL:
         return _Column("label", LABEL, "", "", text)
-    name, is_error = words.removesuffix(ERROR), words.endswith(ERROR)
-    known = [*conditions, *measured]
-    if name not in known:
+    is_error = words.endswith(ERROR)
+    name = words.removesuffix(ERROR)
+    condition = vocabulary.condition(name, unit or "")
+    if condition is None and "." in name:  # the path of an option; names in it may have capitals
+        name = written[: len(written) - len(ERROR)] if is_error else written
+        condition = vocabulary.condition(name, unit or "")
+    if condition is None and name not in measured:
+        known = [*vocabulary.conditions, *measured]
         close = nearest(name, known) or known
         problems.append(Problem(where, f'"{text}" is not a known column; nearest: {", ".join(close)}'))
         return None
-    quantity = conditions[name].quantity if name in conditions else measured[name].quantity
-    if is_error and name in conditions:
-        quantity = conditions[name].error_quantity
+    if condition is not None:
+        quantity = condition.error_quantity if is_error else condition.quantity
+    else:
+        quantity = measured[name].error_quantity if is_error else measured[name].quantity
     units = units_of(quantity)
     if unit is None:
         first = next(iter(units))
@@ -170,17 +181,18 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
             Problem(where, f'"{text}" has no unit: write "{words} [{first}]" (allowed: {", ".join(units)})')
         )
         return None
-    if unit == _SHARE and is_error and name in measured:
+    if unit == _SHARE and is_error and condition is None:
+        if quantity != measured[name].quantity:
+            problems.append(Problem(where, f'"{text}": an error of a temperature is no share: write "{words} [K]"'))
+            return None
         return _Column("share", name, unit, "", text)
     try:
         parse(f"1 {unit}", quantity)
     except ValueError as error:
         problems.append(Problem(where, f'"{text}": {str(error).split(": ", 1)[-1]}'))
         return None
-    kind = "condition" if name in conditions else "measured"
-    return _Column(
-        ("condition error" if name in conditions else "error") if is_error else kind, name, unit, quantity, text
-    )
+    kinds = ("measured", "error") if condition is None else ("condition", "condition error")
+    return _Column(kinds[is_error], name, unit, quantity, text, condition)
 
 
 def _values(
@@ -222,8 +234,10 @@ def _value(where: str, cell: str, column: _Column, problems: list[Problem], word
             message = f'"{cell}" is not a number: write it without quotes, units or words'
         problems.append(Problem(where, f"{column.header}: {message}"))
         return math.nan
-    known = words.measured
-    return from_si(value, column.quantity, known[column.name].unit) if column.name in known else value
+    if column.condition is not None:
+        return value
+    known = words.measured[column.name]
+    return from_si(value, column.quantity, known.error_unit if column.kind == "error" else known.unit)
 
 
 def _measurements(
@@ -259,6 +273,7 @@ def _measurements(
         tuple(lines),
         labels,
         groups["condition"],
+        {column.name: column.condition for column in columns if column.kind == "condition" and column.condition},
         groups["condition error"],
         groups["measured"],
         groups["error"],

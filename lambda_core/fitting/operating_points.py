@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lambda_core.analysis.band.quantities import CONDITIONS
+from lambda_core.analysis.band.quantities import Condition
 from lambda_core.analysis.band.readings import READ, read_values
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, LambdaError, SolverError, UsageError
@@ -14,9 +14,8 @@ from lambda_core.model.bearing_model import BearingModel
 from lambda_core.studies.job import kernels_of, resolve_point, with_temperatures
 
 
-def condition_change(name: str, value: float) -> str:
+def condition_change(condition: Condition, value: float) -> str:
     """Return the change of the case that sets an operating condition, from SI."""
-    condition = CONDITIONS[name]
     unit = next(iter(UNITS[condition.quantity]))
     return f"{condition.path}={from_si(value, condition.quantity, unit):.{DIGITS}g} {unit}"
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lambda_core.analysis.band.quantities import CONDITIONS
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.units import UNITS, from_si
 from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
@@ -39,11 +38,11 @@ def _values(report: FitReport, quantity: str) -> Panel:
     points = [point for point in report.points if point.quantity == quantity]
     names = [name for name in points[0].conditions if _moves(report, name)]
     first = names[0] if names else ""
-    axis = _axis(first) if first else Axis("point")
-    x = _column(points, first) if first else np.arange(1.0, 1.0 + len(points))
+    axis = _axis(report, first) if first else Axis("point")
+    x = _column(report, points, first) if first else np.arange(1.0, 1.0 + len(points))
     groups: dict[tuple[str, ...], list[int]] = {}
     for index, point in enumerate(points):
-        key = tuple(_shown(name, point.conditions[name]) for name in names[1:] if "temperature" not in name)
+        key = tuple(_shown(report, name, point.conditions[name]) for name in names[1:] if "temperature" not in name)
         groups.setdefault(key, []).append(index)
     series: list[Series] = []
     for number, (key, rows) in enumerate(groups.items(), 1):
@@ -59,30 +58,33 @@ def _values(report: FitReport, quantity: str) -> Panel:
 
 
 def _residuals(report: FitReport, name: str) -> Panel:
-    x = _column(report.points, name)
+    x = _column(report, report.points, name)
     y = np.array([point.standardised_residual for point in report.points])
     marks = tuple(Mark("", value) for value in (-_LIMIT, _LIMIT))
     series = Series(name, x, y, "points", unlisted=True)
-    return Panel("", _axis(name), Axis("residual", "standard deviations"), (series,), marks)
+    return Panel("", _axis(report, name), Axis("residual", "standard deviations"), (series,), marks)
 
 
 def _moves(report: FitReport, name: str) -> bool:
     return len({point.conditions[name] for point in report.points}) > 1
 
 
-def _unit(name: str) -> str:
-    return _UNITS.get(name, next(iter(UNITS[CONDITIONS[name].quantity])))
+def _unit(name: str, quantity: str) -> str:
+    return _UNITS.get(name, next(iter(UNITS[quantity])))
 
 
-def _axis(name: str) -> Axis:
-    return Axis(name, _unit(name))
+def _axis(report: FitReport, name: str) -> Axis:
+    return Axis(name, _unit(name, report.condition_quantities[name]))
 
 
-def _column(points: list[FittedPoint], name: str) -> FloatArray:
-    quantity, unit = CONDITIONS[name].quantity, _unit(name)
+def _column(report: FitReport, points: list[FittedPoint], name: str) -> FloatArray:
+    quantity = report.condition_quantities[name]
+    unit = _unit(name, quantity)
     return np.array([from_si(point.conditions[name], quantity, unit) for point in points])
 
 
-def _shown(name: str, value: float) -> str:
-    number = from_si(value, CONDITIONS[name].quantity, _unit(name))
-    return f"{name} {number:.4g} {_unit(name)}" if math.isfinite(number) else name
+def _shown(report: FitReport, name: str, value: float) -> str:
+    quantity = report.condition_quantities[name]
+    unit = _unit(name, quantity)
+    number = from_si(value, quantity, unit)
+    return f"{name} {number:.4g} {unit}" if math.isfinite(number) else name

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.analysis.band.model_band import Effects
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import LambdaError
 from lambda_core.fitting.discrepancy import Place, Prediction, coordinates, predict, sizes_known_before
@@ -18,12 +17,9 @@ def discrepancy_sizes(problem: CaseProblem, found: Fit) -> dict[str, float]:
     0 where nothing that has a range changes the quantity.
     """
     kinds = [entry.quantity for entry in problem.entries]
-    fitted = [graded.path for graded in problem.varied]
 
     def effects_at(row: int) -> dict[str, float]:
-        effects = Effects(problem.model_at(row, found.values), tuple(dict.fromkeys(kinds)), without=fitted)
-        variances = sum((effect.variance for effect in effects.all()), np.zeros(len(effects.names)))
-        return dict.fromkeys(kinds, 0.0) | dict(zip(effects.names, np.sqrt(variances).tolist(), strict=True))
+        return dict.fromkeys(kinds, 0.0) | problem.law_deviations(row, found.values)
 
     try:
         return sizes_known_before(effects_at, found.predicted, kinds)

@@ -10,15 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from lambda_core.analysis.band.graded import Graded
-from lambda_core.analysis.band.quantities import CONDITIONS
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.fitting.least_squares import Data
 from lambda_core.fitting.measurements import Measurements
-from lambda_core.fitting.operating_points import at_line, condition_change, point_values
+from lambda_core.fitting.operating_points import at_line, condition_change
 from lambda_core.fitting.parameters import Parameter
-from lambda_core.model.bearing_model import BearingModel
-from lambda_core.studies.job import resolve_point, with_temperatures
+from lambda_core.fitting.subjects import Subject
 
 _STEP = 0.05  # of a parameter's spread before the fit, for slopes: above the scatter of the equilibrium's iteration
 _MOST_CONDITIONS = 3  # that candidates of the next point combine
@@ -39,16 +37,16 @@ class CaseProblem:
 
     Parameters
     ----------
-    case_toml : str
-        The case that the conditions and parameters change.
+    subject : Subject
+        What the conditions and parameters change.
     measurements : Measurements
         What was measured.
     varied : sequence of Graded
         Parameters of the fit.
     """
 
-    def __init__(self, case_toml: str, measurements: Measurements, varied: Sequence[Graded]) -> None:
-        self._case, self._measurements, self.varied = case_toml, measurements, tuple(varied)
+    def __init__(self, subject: Subject, measurements: Measurements, varied: Sequence[Graded]) -> None:
+        self._subject, self._measurements, self.varied = subject, measurements, tuple(varied)
         _refuse_twice(self.varied, measurements)
         self.parameters = [_parameter(graded) for graded in self.varied]
         self.entries = [
@@ -73,6 +71,11 @@ class CaseProblem:
         return len(self._known)
 
     @property
+    def quantities(self) -> dict[str, str]:
+        """Physical quantity of each operating condition."""
+        return {name: condition.quantity for name, condition in self._measurements.set_by.items()}
+
+    @property
     def data(self) -> Data:
         """Measured values with their errors, stacked row by row."""
         m = self._measurements
@@ -81,6 +84,8 @@ class CaseProblem:
         if any(known) and not all(known):
             missing = sorted({e.quantity for e, is_known in zip(self.entries, known, strict=True) if not is_known})
             raise UsageError(f'{m.name}: give errors for all quantities or none; "{missing[0]} error [%]" is missing')
+        if not all(known) and (warm := [name for name in m.measured if name.endswith("temperature")]):
+            raise UsageError(f'{m.name}: a temperature needs its error: add a column "{warm[0]} error [K]"')
         errors, is_known = np.ones_like(values), all(known)
         for index, entry in enumerate(self.entries):
             if entry.quantity in m.errors:
@@ -135,21 +140,25 @@ class CaseProblem:
         """Return the operating conditions of each measured value, SI."""
         return [self._conditions[entry.row] for entry in self.entries]
 
-    def model_at(self, row: int, values: FloatArray) -> BearingModel:
-        """Return the model of the case at the operating point of one measured value."""
+    def law_deviations(self, row: int, values: FloatArray) -> dict[str, float]:
+        """Return how far laws and ranges that are not fitted may move each quantity at the point of a value.
+
+        Relative standard deviations; a quantity that they do not move is left out.
+        """
         changes = self._changes(values, self._conditions[self.entries[row].row])
-        return with_temperatures(resolve_point(self._case, changes))
+        fitted = [graded.path for graded in self.varied]
+        return self._subject.deviations(changes, tuple(dict.fromkeys(e.quantity for e in self.entries)), fitted)
 
     def elsewhere(self, measurements: Measurements) -> CaseProblem:
         """Return the same problem for other measurements."""
-        return CaseProblem(self._case, measurements, self.varied)
+        return CaseProblem(self._subject, measurements, self.varied)
 
     def candidates(self) -> list[dict[str, float]]:
         """Return operating points that could be measured next: corners of and beyond what was measured."""
         levels = {}
         for name, column in list(self._measurements.conditions.items())[:_MOST_CONDITIONS]:
             low, high = float(column.min()), float(column.max())
-            if CONDITIONS[name].quantity == "temperature":
+            if self._measurements.set_by[name].quantity == "temperature":
                 levels[name] = (low - _WARMER, high + _WARMER)
             elif low > 0.0:
                 levels[name] = (_LESS * low, _MORE * high)
@@ -185,7 +194,7 @@ class CaseProblem:
 
     def _changes(self, values: FloatArray, conditions: dict[str, float]) -> tuple[str, ...]:
         """Return what the case is changed by at one operating point."""
-        own = [condition_change(name, value) for name, value in conditions.items()]
+        own = [condition_change(self._measurements.set_by[name], value) for name, value in conditions.items()]
         pairs = zip(self.varied, values.tolist(), strict=True)
         return (*own, *(change for graded, value in pairs for change in graded.changes(value)))
 
@@ -200,7 +209,7 @@ class CaseProblem:
                 found = self._known[kind, *key]
                 break
         else:
-            found = point_values(self._case, changes, names, one=one)
+            found = self._subject.values(changes, names, one=one)
             self._known["one" if one else "all", *key] = found
         mean: FloatArray = found[: 1 if one else None].mean(axis=0)
         return mean
@@ -208,7 +217,7 @@ class CaseProblem:
 
 def _refuse_twice(varied: Sequence[Graded], measurements: Measurements) -> None:
     """Refuse a parameter that is named twice, or that a column sets."""
-    columns = {CONDITIONS[name].path: name for name in measurements.conditions}
+    columns = {condition.path: name for name, condition in measurements.set_by.items()}
     for index, graded in enumerate(varied):
         if graded.path in columns:
             raise UsageError(

@@ -107,6 +107,7 @@ class FitReport(Record):
     posterior_correlation: list[list[float]] = Field(description="of all parameters, with the ranges of held ones")
     combinations: list[ParameterCombination] = Field(description="best determined first")
     tests: list[PatternTest] = Field(description="clearest pattern first")
+    condition_quantities: dict[str, str] = Field(description="physical quantity of each operating condition")
     points: list[FittedPoint] = Field(description="measured values, in the order of the file")
     predictions: list[PredictedPoint] = Field(description="points of a second file that the fit has not seen")
     discrepancy_pct: dict[str, float] = Field(

@@ -200,7 +200,7 @@ def _equilibrium(model: BearingModel) -> Equilibrium:
 
 
 @lru_cache(maxsize=1)
-def _shared_kernels() -> SharedKernels:
+def shared_kernels() -> SharedKernels:
     """Return the compiled laws of machines in this process."""
     from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels
 
@@ -223,7 +223,7 @@ def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) ->
     if isinstance(model, MachineModel):
         from lambda_core.studies.machine_responses import machine_point
 
-        solved = machine_point(model, _shared_kernels())
+        solved = machine_point(model, shared_kernels())
         rows = {name: value for name, (value, _, _) in machine_columns(model, solved.equilibria, names).items()}
         return evaluate(names, solved, rows, known)
     found = _equilibrium(model)

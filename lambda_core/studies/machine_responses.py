@@ -22,7 +22,7 @@ from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKerne
 from lambda_core.studies.responses import RATED, RESPONSES, DynamicPoint, Number, Response, StaticPoint, of_fields
 
 if TYPE_CHECKING:
-    from lambda_core.analysis.rotor.machine_modes import MachineModes
+    from lambda_core.analysis.rotor.machine_modes import MachineModes, ModeAtSpeed
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.equilibrium import Equilibrium
 
@@ -54,6 +54,14 @@ class MachinePoint:
         from lambda_core.analysis.rotor.machine_modes import modes_of
 
         return modes_of(self.model, self.state)
+
+    @cached_property
+    def modes_at_speed(self) -> list[ModeAtSpeed]:
+        """Natural frequencies at the speed of the point, by rising frequency."""
+        from lambda_core.analysis.rotor.machine_modes import modes_at_speed
+
+        found = modes_at_speed(self.model, self.state, self.equilibria)
+        return sorted(found, key=lambda mode: mode.frequency_Hz)
 
     @cached_property
     def circuit(self) -> Mapping[str, CurrentNumbers]:

@@ -60,7 +60,7 @@ class Graded:
     @property
     def short(self) -> str:
         """Name for tables."""
-        return self.path.removeprefix("parameters.")
+        return self.path.removeprefix("bearings.").replace("parameters.", "")
 
     def written(self, number: float) -> str | float:
         """Return a value as it stands in a case."""
@@ -76,7 +76,14 @@ class Graded:
     def changes(self, number: float) -> tuple[str, ...]:
         """Return the changes of the case that set a value, and keep the law that it belongs to."""
         value = f"{self.path}={self.scale.text(number)}"
-        return (f"models.{self.path.split('.')[1]}={self.law}", value) if self.law else (value,)
+        if not self.law:
+            return (value,)
+        before, _, rest = self.path.rpartition("parameters.")  # of a bearing of a machine: bearings.NAME.
+        return (f"{before}models.{rest.split('.')[0]}={self.law}", value)
+
+    def example(self) -> str:
+        """Return how a range is given."""
+        return f'{self.path}="{_example(self)}"'
 
 
 @dataclass(frozen=True)
@@ -138,12 +145,9 @@ def varied(model: BearingModel, specification: str) -> Graded:
         raise UsageError(f'--vary: "{name}" names several parameters: write {" or ".join(sorted(matching))}')
     found = every[matching[0]]
     if equals:
-        return _given(found, ends)
+        return given_range(found, ends)
     if found.path not in ranged:
-        raise UsageError(
-            f"--vary: {found.path} has no published range: give one, for example --vary "
-            f'{found.path}="{_example(found)}"'
-        )
+        raise UsageError(f"--vary: {found.path} has no published range: give one, for example --vary {found.example()}")
     return found
 
 
@@ -152,7 +156,7 @@ def _example(entry: Graded) -> str:
     return f"{entry.scale.text(0.5 * middle)}{_BETWEEN}{entry.scale.text(2.0 * middle)}"
 
 
-def _given(entry: Graded, ends: str) -> Graded:
+def given_range(entry: Graded, ends: str) -> Graded:
     """Return a parameter with a range of the user."""
     low, between, high = ends.partition(_BETWEEN)
     wrong = UsageError(f'--vary {entry.path}: "{ends}" is not a range: write LOW..HIGH, for example {_example(entry)}')

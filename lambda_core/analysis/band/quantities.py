@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+
+from lambda_core.domain.units import UNITS
 
 
 @dataclass(frozen=True)
@@ -43,9 +45,24 @@ class Measured:
     quantity: str
     unit: str
 
+    @property
+    def error_quantity(self) -> str:
+        """Physical quantity of its error."""
+        return error_quantity(self.quantity)
+
+    @property
+    def error_unit(self) -> str:
+        """Unit in which its error is fitted."""
+        return self.unit if self.error_quantity == self.quantity else next(iter(UNITS[self.error_quantity]))
+
+
+def error_quantity(quantity: str) -> str:
+    """Return the physical quantity of an error of a quantity."""
+    return "temperature_difference" if quantity == "temperature" else quantity
+
 
 def _condition(path: str, quantity: str) -> Condition:
-    return Condition(path, quantity, "temperature_difference" if quantity == "temperature" else quantity)
+    return Condition(path, quantity, error_quantity(quantity))
 
 
 CONDITIONS: dict[str, Condition] = {
@@ -59,6 +76,8 @@ CONDITIONS: dict[str, Condition] = {
     "inner ring temperature": _condition("bearing.temperatures.inner_ring", "temperature"),
     "outer ring temperature": _condition("bearing.temperatures.outer_ring", "temperature"),
 }
+# Temperatures of a case: conditions where it gives them, measured where it computes them.
+TEMPERATURES = ("oil temperature", "inner ring temperature", "outer ring temperature")
 MEASURED: dict[str, Measured] = {
     "friction torque": Measured("friction_torque_Nmm", "moment", "N mm"),
     "power loss": Measured("power_loss_W", "power", "W"),
@@ -68,6 +87,12 @@ MEASURED: dict[str, Measured] = {
     "displacement y": Measured("inner_ring_displacement_um.y", "small_length", "um"),
     "displacement z": Measured("inner_ring_displacement_um.z", "small_length", "um"),
 }
+
+
+def no_option(path: str, unit: str) -> Condition | None:
+    """Return the condition of a column that is named by an option of a case; None, as there is no case."""
+    del path, unit
+    return None
 
 
 @dataclass(frozen=True)
@@ -82,12 +107,20 @@ class Vocabulary:
         A header, for messages.
     most : int
         Largest number of lines.
+    option : callable
+        Returns the condition of a column that is named by the path of an option, from this and its unit; None where
+        there is no such option.
     """
 
     conditions: Mapping[str, Condition]
     measured: Mapping[str, Measured]
     example: str
     most: int = 2000
+    option: Callable[[str, str], Condition | None] = no_option
+
+    def condition(self, name: str, unit: str = "") -> Condition | None:
+        """Return the operating condition that a column holds."""
+        return self.conditions.get(name) or (self.option(name, unit) if "." in name else None)
 
 
 OPERATING_POINTS = Vocabulary(CONDITIONS, MEASURED, '"speed [1/min],radial load [kN],friction torque [N mm]"')

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from lambda_core.analysis.band.quantities import MEASURED
+from lambda_core.case.case_io import toml_tables
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.units import from_si, parse
 from lambda_core.formulas.life import life_hours, reference_rating_life
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.model.bearing_model import BearingModel
@@ -92,6 +96,18 @@ def _displacement(axis: int) -> Callable[[Equilibrium], float]:
     return lambda found: 1e6 * float(found.displacement[axis])
 
 
+def _temperature(*place: str) -> Callable[[Equilibrium], float]:
+    """Return the reader of a temperature that was found, which the case of the model has [degC]."""
+
+    def read(found: Equilibrium) -> float:
+        value: Any = toml_tables(found.context.model.case_toml, found.context.model.name)
+        for part in place:
+            value = value[part]
+        return from_si(parse(value, "temperature"), "temperature", "degC")
+
+    return read
+
+
 READ: Mapping[str, Callable[[Equilibrium], float]] = {
     "friction torque": _torque,
     "power loss": lambda found: float(found.losses.sum()),
@@ -100,4 +116,6 @@ READ: Mapping[str, Callable[[Equilibrium], float]] = {
     "capacitance": _capacitance,
     "rating life": _life,
     **{f"displacement {axis}": _displacement(index) for index, axis in enumerate("xyz")},
+    "oil temperature": _temperature("lubricant", "temperature"),
+    **{f"{ring} ring temperature": _temperature("bearing", "temperatures", f"{ring}_ring") for ring in RINGS},
 }

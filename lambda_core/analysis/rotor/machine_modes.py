@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.results.answer import Answer, dataset, drawn
 from lambda_core.results.record import INTERFACE, Record
+from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 
 _CAMPBELL = 9  # speeds
@@ -155,6 +157,12 @@ def modes_of(model: MachineModel, state: ShaftState) -> MachineModes:
             "critical speeds, natural frequencies over speed: undamped, bearings as stiff as at this operating point"
         ],
     )  # fmt: skip
+
+
+def modes_at_speed(model: MachineModel, state: ShaftState, equilibria: Sequence[Equilibrium]) -> list[ModeAtSpeed]:
+    """Return the natural frequencies at the speed of an equilibrium, damped by the bearings."""
+    dampings = bearing_damping(model, equilibria)
+    return _modes(modes_at(model, supported(model, state), model.speed, damped(model, state, dampings)))
 
 
 def six(matrix: FloatArray) -> list[list[float]]:

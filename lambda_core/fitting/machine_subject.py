@@ -1,0 +1,269 @@
+"""Fit a machine, or one of its bearings: its columns, its parameters, its predictions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lambda_core.analysis.band.graded import Graded, given_range, varied
+from lambda_core.analysis.band.model_band import Effects
+from lambda_core.analysis.band.quantities import CONDITIONS, TEMPERATURES, Condition, Measured
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import SolverError, UsageError
+from lambda_core.domain.units import from_si, parse
+from lambda_core.domain.written_values import Scale, scale_of
+from lambda_core.fitting.subjects import law_deviations, vocabulary
+from lambda_core.studies.job import point_model, with_temperatures
+
+if TYPE_CHECKING:
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.studies.machine_responses import MachinePoint
+
+_SHARED = ("speed", "oil temperature", "oil level")  # conditions that are those of all bearings
+_MODES = 8
+_OF_MACHINE = {
+    "friction torque": Measured("friction_torque_Nmm", "moment", "N mm"),
+    "power loss": Measured("power_loss_W", "power", "W"),
+    "largest deflection": Measured("max_deflection_um", "small_length", "um"),
+    "first critical speed": Measured("first_critical_speed_rpm", "rotational_speed", "1/min"),
+    **{f"natural frequency {n}": Measured(f"modes.{n}", "frequency", "Hz") for n in range(1, _MODES + 1)},
+    **{f"bending frequency {n}": Measured(f"bending.{n}", "frequency", "Hz") for n in range(1, _MODES + 1)},
+}
+_OF_BEARING = {
+    "friction torque": Measured("friction_torque_Nmm", "moment", "N mm"),
+    "power loss": Measured("power_loss_W", "power", "W"),
+    "radial load": Measured("radial_load_N", "force", "N"),
+    "axial load": Measured("axial_load_N", "force", "N"),
+    "minimum film": Measured("min_film_um", "small_length", "um"),
+    "capacitance": Measured("bearing_capacitance_nF", "capacitance", "nF"),
+    **{f"displacement {axis}": Measured(f"displacement_um.{axis}", "small_length", "um") for axis in "xyz"},
+    **{f"stiffness {axis}": Measured(f"stiffness.{axis}", "stiffness", "N/um") for axis in "xyz"},
+}
+_PLACES = {
+    "oil temperature": ("lubricant", "temperature"),
+    "inner ring temperature": ("temperatures", "inner_ring"),
+    "outer ring temperature": ("temperatures", "outer_ring"),
+}
+
+
+class MachineSubject:
+    """A machine, or one of its bearings.
+
+    Parameters
+    ----------
+    source, overrides
+        The case of the machine.
+    bearing : str, optional
+        Columns without the name of a bearing, and parameters, are those of this one.
+    """
+
+    def __init__(self, source: Any, overrides: Iterable[str], bearing: str | None) -> None:
+        from lambda_core.analysis.rotor.bearing_alone import bearing_number
+        from lambda_core.case.case_io import toml_tables
+        from lambda_core.case.machine import MachineCase
+        from lambda_core.model.resolve_machine import resolve_machine
+
+        self._machine = resolve_machine(source, overrides)
+        self._tables = toml_tables(self._machine.case_toml, self._machine.name)
+        if bearing is not None:
+            bearing_number(self._machine, bearing)
+        self._bearing = bearing
+        names = [one.name for one in self._machine.bearings]
+        self.name = self._machine.name if bearing is None else f"{self._machine.name}-{bearing}"
+        self.title = self._machine.name if bearing is None else f"{bearing} of {self._machine.name}"
+        self._readers = _readers(names, bearing)
+        conditions = _conditions(names, bearing)
+        is_computed = self._machine.awaits_temperatures
+        computed = [name for name in conditions if name.endswith(TEMPERATURES)] if is_computed else []
+        measured = {name: one for name, (_, one) in self._readers.items()}
+        self._readers |= {
+            name: (_owner(name, names, bearing), Measured("", "temperature", "degC")) for name in computed
+        }
+        self.words = vocabulary(conditions, measured, MachineCase, computed)
+
+    def varied(self, specification: str) -> Graded:
+        """Return the parameter that a text names.
+
+        A parameter of the bearings is that of all of them, with ``bearings.NAME.`` before it or for one bearing that of
+        this one. Any other number of the machine needs a range.
+        """
+        name, equals, ends = specification.partition("=")
+        path, own = name.strip(), self._bearing
+        for one in self._machine.bearings:
+            if path.startswith(f"bearings.{one.name}."):
+                path, own = path.removeprefix(f"bearings.{one.name}."), one.name
+        known = {one.name: one.model for one in self._machine.bearings}
+        refused: UsageError | None = None
+        for owner in known if own is None else (own,):
+            local = f"bearing.{path}" if own is not None and path in _values(self._tables, ("bearings", own)) else path
+            try:
+                found = varied(known[owner], f"{local}{equals}{ends}")
+            except UsageError as error:
+                refused = refused or error
+                continue
+            return replace(found, path=self._place(found.path, own), models=())
+        return self._option(name.strip(), equals, ends, refused)
+
+    def _place(self, path: str, bearing: str | None) -> str:
+        """Return where in the machine's case stands what stands at `path` in that of a bearing."""
+        first, _, rest = path.partition(".")
+        if first in ("loads", "operation"):
+            raise UsageError(f'--vary: a machine has no {path}: name an option such as "loads.NAME.force_z"')
+        if bearing is not None:
+            return f"bearings.{bearing}.{rest if first == 'bearing' else path}"
+        if first == "bearing":
+            names = " or ".join(f"bearings.{one.name}.{rest}" for one in self._machine.bearings)
+            raise UsageError(f"--vary: {rest} is that of one bearing: write {names}")
+        return path
+
+    def _option(self, path: str, equals: str, ends: str, refused: UsageError | None) -> Graded:
+        """Return an option of the machine that stands in its case as a number."""
+        value: Any = self._tables
+        for part in path.split("."):
+            value = value.get(part) if isinstance(value, Mapping) else None
+        try:
+            read = None if value is None else scale_of([value])
+        except ValueError:
+            read = None
+        if read is None:
+            more = f"; or name a number that stands in the case of {self._machine.name}"
+            raise UsageError(f"{refused}{more}") if refused is not None else UsageError(f"--vary: no {path}{more}")
+        scale, (number,) = read
+        entry = Graded(path, number, math.nan, math.nan, Scale(scale.unit), "", "")
+        if not equals:
+            raise UsageError(f"--vary: {path} has no published range: give one, for example --vary {entry.example()}")
+        return given_range(entry, ends)
+
+    def values(self, changes: Sequence[str], names: Sequence[str], *, one: bool) -> FloatArray:
+        """Return predicted quantities, one row: balls stand as in the machine's equilibrium."""
+        del one
+        point = _solved(self._machine.case_toml, tuple(changes))
+        return np.array([[self._read(point, name) for name in names]])
+
+    def _read(self, point: MachinePoint, name: str) -> float:
+        owner, measured = self._readers[name]
+        number = _temperature(point, owner, name) if not measured.response else _number(point, owner, measured.response)
+        if number is None or not math.isfinite(number):
+            raise SolverError(f"the equilibrium has no {name}")
+        return number
+
+    def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
+        """Return the relative standard deviation of each quantity that the laws of the bearings decide.
+
+        Torques and losses of all bearings err together, as those of their laws do; how stiff and how loaded the machine
+        is counts as known.
+        """
+        from lambda_core.analysis.rotor.bearing_alone import alone_under_load
+
+        point, found, own = _solved(self._machine.case_toml, tuple(changes)), {}, tuple(fitted)
+        sizes: dict[tuple[str, str], float] = {}
+        for number, one in enumerate(point.model.bearings):
+            wanted = [name for name in names if self._readers[name][0] in ("", one.name)]
+            kinds = [kind for kind in _BANDED if any(name.endswith(kind) for name in wanted)]
+            if not kinds:
+                continue
+            prefix = f"bearings.{one.name}."
+            local = [path.removeprefix(prefix) for path in own]
+            without = [*local, *(f"bearing.{path}" for path in local)]
+            effects = Effects(alone_under_load(point.model, point.state, number), kinds, without=without)
+            sizes |= {(one.name, kind): size for kind, size in law_deviations(effects).items()}
+        for name in names:
+            owner, measured = self._readers[name]
+            kind = next((kind for kind in _BANDED if name.endswith(kind)), "")
+            if owner:
+                found[name] = sizes.get((owner, kind), 0.0)
+            elif kind:
+                each = {one.name: _number(point, one.name, measured.response) or 0.0 for one in point.model.bearings}
+                found[name] = sum(each[one] * sizes.get((one, kind), 0.0) for one in each) / sum(each.values())
+        return found
+
+
+_BANDED = ("friction torque", "power loss", "minimum film", "capacitance")
+
+
+def _readers(names: Sequence[str], bearing: str | None) -> dict[str, tuple[str, Measured]]:
+    """Return owner and meaning of each measured quantity; the owner of one of the machine is empty."""
+    found: dict[str, tuple[str, Measured]] = {}
+    for name in names:
+        found |= {f"{name.casefold()} {quantity}": (name, one) for quantity, one in _OF_BEARING.items()}
+    own = _OF_MACHINE if bearing is None else _OF_BEARING
+    return {quantity: (bearing or "", one) for quantity, one in own.items()} | found
+
+
+def _conditions(names: Sequence[str], bearing: str | None) -> dict[str, Condition]:
+    """Return what columns set: for all bearings, and with its name before it for one."""
+    found = {name: CONDITIONS[name] for name in _SHARED}
+    for name in names:
+        for quantity, place in _PLACES.items():
+            one = replace(CONDITIONS[quantity], path=".".join(("bearings", name, *place)))
+            found[f"{name.casefold()} {quantity}"] = one
+            if name == bearing:
+                found[quantity] = one
+    return found
+
+
+def _owner(column: str, names: Sequence[str], bearing: str | None) -> str:
+    """Return the bearing that a temperature is that of."""
+    named = [name for name in names if column.startswith(f"{name.casefold()} ")]
+    return named[0] if named else bearing or names[0]
+
+
+def _values(tables: Mapping[str, Any], path: Sequence[str]) -> Mapping[str, Any]:
+    for part in path:
+        tables = tables.get(part, {})
+    return tables
+
+
+@lru_cache(maxsize=4)
+def _solved(case_toml: str, changes: tuple[str, ...]) -> MachinePoint:
+    """Solve a machine; the last points are kept, as several quantities are read from one."""
+    from lambda_core.studies.job import shared_kernels
+    from lambda_core.studies.machine_responses import machine_point
+
+    model: MachineModel = with_temperatures(point_model(case_toml, changes))  # type: ignore[assignment]
+    return machine_point(model, shared_kernels())
+
+
+def _temperature(point: MachinePoint, bearing: str, column: str) -> float:
+    """Return a temperature that was found, which the case of the point has [degC]."""
+    from lambda_core.case.case_io import toml_tables
+
+    place = next(place for quantity, place in _PLACES.items() if column.endswith(quantity))
+    found = _values(toml_tables(point.model.case_toml, point.model.name), ("bearings", bearing, place[0]))[place[1]]
+    return from_si(parse(found, "temperature"), "temperature", "degC")
+
+
+def _number(point: MachinePoint, bearing: str, response: str) -> float | None:
+    """Return a number of a machine, or of one of its bearings."""
+    from lambda_core.studies.responses import responses_of
+
+    kind, _, which = response.partition(".")
+    if kind in _OTHER:
+        return _OTHER[kind](point, bearing, which)
+    own = f"{bearing}.{response}" if bearing else response
+    read = responses_of(point.model)[own].static
+    assert read is not None
+    return read(point)  # type: ignore[arg-type]
+
+
+def _mode(point: MachinePoint, bearing: str, which: str, kind: str = "") -> float | None:
+    del bearing
+    rising = [mode.frequency_Hz for mode in point.modes_at_speed if kind in ("", mode.kind)]
+    return rising[int(which) - 1] if int(which) <= len(rising) else None
+
+
+def _stiffness(point: MachinePoint, bearing: str, axis: str) -> float:
+    index = "xyz".index(axis)
+    return 1e-6 * point.summary.bearing(bearing).stiffness[index][index]
+
+
+_OTHER: Mapping[str, Callable[[Any, str, str], float | None]] = {
+    "modes": _mode,
+    "bending": lambda point, bearing, which: _mode(point, bearing, which, "bending"),
+    "stiffness": _stiffness,
+}

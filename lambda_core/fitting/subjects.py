@@ -1,0 +1,135 @@
+"""Subjects of a fit: one bearing, a machine, or one bearing of a machine; words, parameters, predictions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from lambda_core.analysis.band.graded import Graded, varied
+from lambda_core.analysis.band.model_band import Effects
+from lambda_core.analysis.band.quantities import (
+    CONDITIONS,
+    MEASURED,
+    TEMPERATURES,
+    Condition,
+    Measured,
+    Vocabulary,
+    error_quantity,
+)
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.units import units_of
+from lambda_core.domain.written_values import quantities
+from lambda_core.fitting.operating_points import point_values
+from lambda_core.studies.job import resolve_point, with_temperatures
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+    from lambda_core.case.case import Case
+
+
+class Subject(Protocol):
+    """A bearing or a machine that is fitted."""
+
+    name: str
+    title: str
+    words: Vocabulary
+
+    def varied(self, specification: str) -> Graded:
+        """Return the parameter that ``PATH`` or ``PATH=LOW..HIGH`` names; UsageError where there is none."""
+
+    def values(self, changes: Sequence[str], names: Sequence[str], *, one: bool) -> FloatArray:
+        """Return predicted quantities of the changed case, shape (positions of the balls, names)."""
+
+    def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
+        """Return the relative standard deviation of each quantity by the ranges of all that is not fitted."""
+
+
+def subject_of(
+    source: str | Path | Mapping[str, Any] | Case, overrides: Iterable[str] = (), bearing: str | None = None
+) -> Subject:
+    """Return what a case is to a fit; UsageError where there is no such bearing."""
+    from lambda_core.case.case_io import apply_overrides, is_machine, refuse_bearing
+    from lambda_core.model.cases import case_of
+
+    if is_machine(source):
+        from lambda_core.fitting.machine_subject import MachineSubject
+
+        return MachineSubject(source, overrides, bearing)
+    refuse_bearing(bearing)
+    return BearingSubject(apply_overrides(case_of(source), overrides))
+
+
+class BearingSubject:
+    """One bearing."""
+
+    def __init__(self, case: Case) -> None:
+        from lambda_core.case.case import Case
+        from lambda_core.case.case_writer import standalone_toml
+        from lambda_core.model.checking import resolve
+
+        self._model = resolve(case, is_static=True)
+        self._toml = standalone_toml(case)
+        self.name, self.title = self._model.name, self._model.title
+        is_computed = case.operation.temperatures == "computed"
+        self.words = vocabulary(CONDITIONS, MEASURED, Case, TEMPERATURES if is_computed else ())
+
+    def varied(self, specification: str) -> Graded:
+        """Return the parameter that a text names."""
+        return varied(self._model, specification)
+
+    def values(self, changes: Sequence[str], names: Sequence[str], *, one: bool) -> FloatArray:
+        """Return predicted quantities at several positions of the balls."""
+        return point_values(self._toml, changes, names, one=one)
+
+    def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
+        """Return the relative standard deviation of each quantity."""
+        return law_deviations(
+            Effects(with_temperatures(resolve_point(self._toml, tuple(changes))), names, without=fitted)
+        )
+
+
+def law_deviations(effects: Effects) -> dict[str, float]:
+    """Return the relative standard deviation of results by all effects."""
+    variances = sum((effect.variance for effect in effects.all()), np.zeros(len(effects.names)))
+    return dict(zip(effects.names, np.sqrt(variances).tolist(), strict=True))
+
+
+def vocabulary(
+    conditions: Mapping[str, Condition],
+    measured: Mapping[str, Measured],
+    root: type[BaseModel],
+    computed: Sequence[str],
+) -> Vocabulary:
+    """Return the names of columns for a case.
+
+    Parameters
+    ----------
+    root : type
+        The case's class, whose options may be columns, too.
+    computed : sequence of str
+        Conditions that are results of this case: measured quantities.
+    """
+    found = {name: Measured("", conditions[name].quantity, "degC") for name in computed}
+    kept = {name: condition for name, condition in conditions.items() if name not in computed}
+    example = '"speed [1/min],friction torque [N mm]"'
+    return Vocabulary(kept, {**measured, **found}, example, option=partial(option_condition, root))
+
+
+def option_condition(root: type[BaseModel], path: str, unit: str) -> Condition | None:
+    """Return the condition of a column that is named by the path of an option; None where there is no such option."""
+    from lambda_core.case.option import quantity_of
+    from lambda_core.domain.option_tree import field_at, model_at
+
+    *parents, name = path.split(".")
+    parent = model_at(root, parents)
+    if parent is None or field_at(root, path) is None:
+        return None
+    declared = quantity_of(parent, name)
+    fitting = sorted(one for one in quantities(f"1 {unit}") if unit in units_of(one)) if unit else []
+    quantity = declared or (fitting[0] if fitting else "")
+    return Condition(path, quantity, error_quantity(quantity)) if quantity else None
