@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 
 from lambda_core.plugins import Axis, Column, NotApplicable, Panel, Series, StudyTable, ViewData
@@ -86,5 +88,5 @@ def _others(table: StudyTable, x: Column) -> list[str]:
 def _curve(x: Column, response: Column, rows: list[int], label: str) -> Series:
     places, values = positions(x)[rows], response.numbers()[rows]
     order = np.argsort(places)
-    style = "line" if x.numeric else "points"
+    style: Literal["line", "points"] = "line" if x.numeric else "points"
     return Series(label or response.label, places[order], values[order], style, unlisted=not label)
