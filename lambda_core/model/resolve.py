@@ -32,6 +32,7 @@ from lambda_core.model.bearing_model import (
     Depth,
     Output,
 )
+from lambda_core.model.bodies.possible_bodies import check_possible
 from lambda_core.model.bodies.resolve_bodies import (
     Inertia,
     check_bodies,
@@ -59,7 +60,6 @@ from lambda_core.model.laws.law_packages import law_called, with_packages
 from lambda_core.model.laws.resolve_laws import LawResolver, ModelSource
 from lambda_core.model.laws.resolve_links import resolve_links, resolve_markers
 from lambda_core.model.laws.resolve_states import check_states
-from lambda_core.model.laws.time_functions import peak, time_function
 from lambda_core.model.laws.time_laws import resolve_time_laws, signals_of
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.rollers_in_motion import as_balls, rollers_of, with_rollers
@@ -68,10 +68,6 @@ from lambda_core.model.settings.resolve_solver import resolve_solver
 from lambda_core.model.settings.resolve_thermal import check_thermal
 from lambda_core.model.settings.resolve_watch import WatchSource, resolve_events, resolve_observers
 from lambda_core.views.observer import Event, Observer
-
-# [m/s] on the pitch circle: a ring of steel would be under rho v^2 = 7.9 GPa of hoop stress (Timoshenko and Goodier,
-# Theory of Elasticity, rotating rings), three times what bearing steel bears.
-FASTEST = 1000.0
 
 
 class PluginSource(ModelSource, WatchSource, Protocol):
@@ -151,7 +147,8 @@ def resolve(
     cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, materials["cage"], ledger)
     inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
     elastic = resolve_elastic(case, geometry, (cage, inertias["cage"].mass), materials, ledger)
-    _check_spins(case, geometry, ledger)
+    bodies = {name: resolve_body(name, case, inertias[name]) for name in BODIES}
+    check_possible(case, geometry, bodies, ledger)
     solver = resolve_solver(case, geometry, laws, ledger, is_static=is_static)
     names = (designation, oil.name, *(material.name for material in materials.values()), cage_row.name)
     check_states(laws, observers, ledger)
@@ -172,10 +169,10 @@ def resolve(
         roughness=case.surface.roughness,
         starvation=case.lubricant.starvation,
         gravity=(case.gravity.x, case.gravity.y, case.gravity.z),
-        inner_ring=resolve_body("inner_ring", case, inertias["inner_ring"]),
-        outer_ring=resolve_body("outer_ring", case, inertias["outer_ring"]),
+        inner_ring=bodies["inner_ring"],
+        outer_ring=bodies["outer_ring"],
         cage=cage,
-        cage_body=resolve_body("cage", case, inertias["cage"]),
+        cage_body=bodies["cage"],
         laws={**laws, **more},
         depth=Depth(case.depth.cage, case.depth.strips, case.depth.rows),
         solver=solver,
@@ -275,17 +272,6 @@ def _settings(case: Case, ledger: Ledger) -> None:
         else:
             ledger.record(f"{prefix}.{name}", value, quantity, "default", "assumed")
             ledger.assume(sentence.format(show(value, quantity)) if "{}" in sentence else sentence)
-
-
-def _check_spins(case: Case, geometry: Geometry, ledger: Ledger) -> None:
-    """Refuse prescribed spins at which rings and cage would fly apart."""
-    highest = 2.0 * FASTEST / geometry.pitch_diameter
-    spins: dict[str, Any] = {"operation.speed": case.operation.speed}
-    for name in BODIES:
-        spins[f"bodies.{name}.spin.motion"] = getattr(getattr(case.bodies, name).spin, "motion", None)
-    for place, motion in spins.items():
-        if peak(time_function(motion)) > highest:
-            ledger.problem(place, f"is too fast: steel bursts far below {show(highest, 'rotational_speed', 3)}")
 
 
 def case_hash(model: BearingModel) -> str:

@@ -87,7 +87,7 @@ def test_the_valid_case_is_valid(problems: Problems) -> None:
         (
             {"loads": {"radial": {"kind": "table", "points": [["1 s", "0 N"], ["1 s", "5 N"]]}}},
             "loads.radial",
-            "the times of a table must increase",
+            "the times must increase",
         ),
         ({"loads": {"radial": {"kind": "table"}}}, "loads.radial", "give either points or file"),
         ({"loads": {"radial": {"kind": "table", "file": "no.csv"}}}, "loads.radial", 'cannot read "no.csv"'),

@@ -17,6 +17,7 @@ from lambda_core.model.bearing_model import Body, Cage, DofState, TimeFunction
 from lambda_core.model.laws.time_functions import added, scaled, time_function
 from lambda_core.model.ledger import Ledger
 
+LEAST_SHARE = 1e-6  # of what the geometry of a body has; with less it would follow noise
 MOST_MASS = 1e9  # [kg] of one body; the heaviest rotors ever turned weigh 1e6 kg
 Vector = tuple[TimeFunction, TimeFunction, TimeFunction]
 
@@ -179,6 +180,9 @@ def resolve_inertia(name: str, spec: InnerRing | OuterRing | CageBody, estimate:
             ledger.record(f"{path}.{field}", value, quantity, "estimated from the geometry", "derived")
         else:
             ledger.given(f"{path}.{field}", written, quantity)
+            if written < LEAST_SHARE * value:
+                least = show(LEAST_SHARE * value, quantity, 3)
+                ledger.problem(f"{path}.{field}", f"{written:g} is below {least}, a millionth of its geometry's")
         numbers.append(value if written is None else written)
     return Inertia(*numbers)
 

@@ -1,0 +1,55 @@
+"""Bodies and motions that no bearing has are refused before anything is solved, with the place of the mistake."""
+
+from __future__ import annotations
+
+import tomllib
+from typing import Any
+
+import pytest
+
+from lambda_core import api
+from lambda_core.model.machine_templates import geared_shaft
+
+CASE = "6208-axial-1300"  # balls of 11.9 mm on 60 mm; the ring weighs 0.111 kg
+MISTAKES = [
+    ("inner_ring.mass", "1e-300 kg", "inner_ring.mass", "is below 1.11e-07 kg, a millionth"),
+    ("cage.polar_inertia", "1e-300 kg m2", "cage.polar_inertia", "is below 2.29e-11 kg m2"),
+    (
+        "inner_ring.unbalance",
+        "1e9 g mm",
+        "inner_ring.unbalance",
+        "10 pitch diameters from the axis: at most 66.8 kg mm",
+    ),
+    ("cage.y", '{ motion = "50 mm" }', "cage.y.motion", "reaches 50 mm: from 5.96 mm on pockets pass their balls"),
+    ("cage.tilt_z", '{ motion = "-100 deg" }', "cage.tilt_z.motion", "reaches 100 deg"),
+    ("inner_ring.y", '{ motion = "50 mm" }', "inner_ring.y.motion", "from 11.9 mm on raceways pass each other"),
+    ("outer_ring.spin", '{ motion = "1e9 rpm" }', "outer_ring.spin.motion", "steel bursts"),
+]
+
+
+@pytest.mark.parametrize(("option", "value", "where", "words"), MISTAKES)
+def test_a_body_or_motion_that_no_bearing_has_is_refused(option: str, value: str, where: str, words: str) -> None:
+    """A cage 50 mm from its bearing ran to its end; masses of 1e-300 kg ended in steps that were too small."""
+    with pytest.raises(api.CaseError) as caught:
+        api.check(CASE, [f"bodies.{option}={value}"])
+    (problem,) = caught.value.problems
+    assert problem.where == f"bodies.{where}"
+    assert words in problem.message
+
+
+@pytest.mark.parametrize(("option", "value", "where", "words"), [row for row in MISTAKES if "inner_ring.y" not in row])
+def test_so_it_is_in_a_machine(option: str, value: str, where: str, words: str) -> None:
+    body, name = option.split(".")
+    case: dict[str, Any] = tomllib.loads(geared_shaft("box"))
+    written = tomllib.loads(f"v = {value}")["v"] if value.startswith("{") else value
+    case["bearings"]["left"][body] = {name: written}
+    with pytest.raises(api.CaseError) as caught:
+        api.check(case)
+    (problem,) = caught.value.problems
+    assert problem.where == f"bearings.left.{where}"
+
+
+def test_bodies_that_move_together_may_move_far() -> None:
+    shaken = '{ motion = { kind = "harmonic", amplitude = "50 mm", frequency = "2 Hz" } }'
+    api.check(CASE, [f"bodies.outer_ring.y={shaken}"])  # the inner ring is free to follow
+    api.check(CASE, [f"bodies.{body}.y={shaken}" for body in ("outer_ring", "inner_ring", "cage")])
