@@ -19,7 +19,7 @@ from lambda_core.analysis.band.quantities import Condition, Measured, Vocabulary
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.roles import ROLES
-from lambda_core.domain.units import parse
+from lambda_core.domain.units import parse, show
 from lambda_core.fitting.measurements import Measurements, read_measurements
 from lambda_core.formulas.hertz import hertz_contact, load_at_pressure
 from lambda_core.model.bearing_model import BearingModel
@@ -30,6 +30,10 @@ BALL = 19.05e-3  # diameter, that of usual traction machines [m]
 _BEARING = "SKF 6208"  # brings steel, and the laws of the oil; its geometry counts for nothing
 _ELEMENT = "ball_inner"
 RATIOS = tuple(np.concatenate([[0.0], np.geomspace(1e-4, 0.5, 60)]).tolist())
+# Discs yield from 4 GPa on, and none runs at more than some 100 m/s; films of slower ones are too thin to be measured.
+PRESSURES, SPEEDS = (1e6, 1e10), (1e-4, 1e3)  # [Pa], [m/s]
+LARGEST_RATIO = 20.0  # difference of both speeds over their mean; 2 where one surface stands still
+LARGEST_TRACTION = 1.0
 _RINGS = 24  # of the contact, by Gauss' rule over the square of the radius
 _RESULTS = 8  # room for the results of a law without cells
 _ROUNDS, _CLOSED = 60, 1e-6  # of the loop of temperature and traction
@@ -158,8 +162,13 @@ def traction(
     points = None if measured is None else _measured(read_measurements(measured, COLUMNS))
     contact_pressure, inlet = _read("pressure", pressure, "pressure"), _read("temperature", temperature, "temperature")
     mean_speed = _read("speed", speed, "velocity")
-    if not mean_speed > 0.0 or not contact_pressure > 0.0:
-        raise UsageError("--pressure and --speed must be above zero")
+    for option, value, (low, high), quantity in (
+        ("pressure", contact_pressure, PRESSURES, "pressure"),
+        ("speed", mean_speed, SPEEDS, "velocity"),
+    ):
+        if not low <= value <= high:
+            ends = f"{show(low, quantity)} to {show(high, quantity)}"
+            raise UsageError(f"--{option} {show(value, quantity, 4)}: no traction machine runs there; allowed: {ends}")
     ratios = np.array(RATIOS)
     if points is not None:
         ratios = np.unique(np.concatenate([ratios, points.slide_roll_ratio]))
@@ -203,6 +212,13 @@ def _measured(data: Measurements) -> MeasuredTraction:
         raise UsageError(f'{data.name}: no column "{_RATIO} [%]": add one')
     if bool(np.any(data.conditions[_RATIO] < 0.0)):
         raise UsageError(f"{data.name}: a slide-roll ratio is negative: write its size")
+    for name, column, most in (
+        (_RATIO, data.conditions[_RATIO], LARGEST_RATIO),
+        (_TRACTION, np.abs(values), LARGEST_TRACTION),
+    ):
+        if bool(np.any(column > most)):
+            line = data.lines[int(np.argmax(column > most))]
+            raise UsageError(f"{data.name} line {line}: a {name} is above {most:g}: is the unit in the header right?")
     error = data.errors.get(_TRACTION)
     if error is None and _TRACTION in data.shares:
         error = data.shares[_TRACTION] * np.abs(values)

@@ -67,6 +67,33 @@ def test_mistakes_have_their_line(tmp_path: Path) -> None:
         api.traction("FVA 333", "1.2 GPa", "60 degC", "3 m/s")
 
 
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({1: "1e30 Pa"}, r"--pressure 1e\+21 GPa: no traction machine runs there; allowed: 1 MPa to 10 GPa"),
+        ({1: "-1 GPa"}, "--pressure -1 GPa"),
+        ({3: "1e30 m/s"}, "--speed .* allowed: "),
+        ({3: "0 m/s"}, "--speed 0 m/s"),
+    ],
+)
+def test_conditions_of_no_traction_machine_are_refused(change: dict[int, str], words: str) -> None:
+    """They gave a table of zeros."""
+    with pytest.raises(UsageError, match=words):
+        api.traction(*(change.get(i, value) for i, value in enumerate(POINT)))
+
+
+@pytest.mark.parametrize(
+    ("row", "words"),
+    [("5,1e300", "a traction coefficient is above 1: is the unit"), ("1e300,0.05", "a slide-roll ratio is above 20")],
+)
+def test_a_measured_value_of_a_wrong_unit_is_refused(row: str, words: str, tmp_path: Path) -> None:
+    """The sum of its squares went over the largest number."""
+    path = tmp_path / "rig.csv"
+    path.write_text(f"slide-roll ratio [%],traction coefficient [-]\n1,0.02\n{row}\n", encoding="utf-8")
+    with pytest.raises(UsageError, match=f"rig.csv line 3: {words}"):
+        api.traction(*POINT, measured=path)
+
+
 def test_parameters_of_a_law_change_it_alone() -> None:
     one, other = api.traction(*POINT), api.traction(*POINT, parameters={"tau_eyring": "4 MPa"})
     assert max(other.coefficient["ree-eyring"]) < max(one.coefficient["ree-eyring"])
