@@ -17,7 +17,7 @@ from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
 from lambda_core.domain.units import from_si, misread, parse, units_of
 
-_LARGEST = 4 * 2**20  # [byte] of a file
+_LARGEST = 16 * 2**20  # [byte] of a file
 _HEADER = re.compile(r"^\s*(.*?)\s*(?:\[\s*(.*?)\s*\])?\s*$")
 _SHARE = "%"  # unit of an error as a share of the value
 

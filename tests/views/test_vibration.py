@@ -63,3 +63,25 @@ def test_a_measured_signal_stands_with_the_computed_one(radial_run: Result, tmp_
     file.write_text("time [s],acceleration [m/s2]\n0,1\n0.1,2\n0.5,1\n")
     with pytest.raises(UsageError, match="evenly spaced"):
         api.view(radial_run, "vibration", {"measured": str(file)})
+
+
+def test_a_measured_signal_without_a_spectrum_is_refused(radial_run: Result, tmp_path: Path) -> None:
+    """An empty cell made a spectrum of nothing, and a short signal blamed the run's averaging window."""
+    file = tmp_path / "rig.csv"
+    rows = [f"{0.001 * k},{k % 3},{k}" for k in range(40)]
+    rows[9] = "0.009,,4"
+    file.write_text("\n".join(["time [s],acceleration [m/s2],velocity [mm/s]", *rows]), encoding="utf-8")
+    with pytest.raises(UsageError, match="rig.csv line 11: acceleration is empty"):
+        api.view(radial_run, "vibration", {"measured": str(file)})
+    api.view(radial_run, "vibration", {"measured": str(file), "motion": "velocity"})
+    file.write_text("\n".join(["time [s],acceleration [m/s2],velocity [mm/s]", *rows[:5]]), encoding="utf-8")
+    with pytest.raises(UsageError, match="rig.csv: 5 samples are too few for a spectrum: 32 at least"):
+        api.view(radial_run, "vibration", {"measured": str(file)})
+
+
+def test_a_measured_signal_of_the_most_lines_is_read(radial_run: Result, tmp_path: Path) -> None:
+    """200 000 lines are allowed, and 4 MiB were."""
+    file = tmp_path / "rig.csv"
+    rows = [f"{2e-5 * k:.9f},{k % 7:.9f}" for k in range(200_000)]
+    file.write_text("\n".join(["time [s],acceleration [m/s2]", *rows]), encoding="utf-8")
+    assert len(api.view(radial_run, "vibration", {"measured": str(file)}).panels) == 3

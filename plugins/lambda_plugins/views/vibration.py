@@ -25,7 +25,7 @@ from lambda_core.plugins import (
     View,
     ViewData,
 )
-from lambda_plugins.views.common import BODY, averaging, integration, source, spectrum, speeds, trace
+from lambda_plugins.views.common import BODY, SHORTEST_SPECTRUM, averaging, integration, source, spectrum, speeds, trace
 
 _STILL = 1e-12  # [m] below this a ring does not move
 _WIDTH = 3.5  # times the highest characteristic frequency: end of the spectra
@@ -145,6 +145,11 @@ def _read(options: VibrationOptions) -> _Signal:
     steps = np.diff(time)
     if time.size < 2 or not np.all(steps > 0.0) or np.ptp(steps) > 0.01 * steps.mean():
         raise UsageError(f"{data.name}: the times of a signal must be evenly spaced and rise")
+    if not np.all(np.isfinite(values)):
+        line = data.lines[int(np.argmin(np.isfinite(values)))]
+        raise UsageError(f"{data.name} line {line}: {options.motion} is empty: a signal has a value at every time")
+    if values.size < SHORTEST_SPECTRUM:
+        raise UsageError(f"{data.name}: {values.size} samples are too few for a spectrum: {SHORTEST_SPECTRUM} at least")
     return _Signal(data.name, time - time[0], values, "reference")
 
 
