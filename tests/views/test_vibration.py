@@ -71,11 +71,11 @@ def test_a_measured_signal_without_a_spectrum_is_refused(radial_run: Result, tmp
     rows = [f"{0.001 * k},{k % 3},{k}" for k in range(40)]
     rows[9] = "0.009,,4"
     file.write_text("\n".join(["time [s],acceleration [m/s2],velocity [mm/s]", *rows]), encoding="utf-8")
-    with pytest.raises(UsageError, match="rig.csv line 11: acceleration is empty"):
+    with pytest.raises(UsageError, match=r"rig\.csv line 11: acceleration is empty"):
         api.view(radial_run, "vibration", {"measured": str(file)})
     api.view(radial_run, "vibration", {"measured": str(file), "motion": "velocity"})
     file.write_text("\n".join(["time [s],acceleration [m/s2],velocity [mm/s]", *rows[:5]]), encoding="utf-8")
-    with pytest.raises(UsageError, match="rig.csv: 5 samples are too few for a spectrum: 32 at least"):
+    with pytest.raises(UsageError, match=r"rig\.csv: 5 samples are too few for a spectrum: 32 at least"):
         api.view(radial_run, "vibration", {"measured": str(file)})
 
 
