@@ -75,6 +75,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.export.stiffness import stiffness_target
     from lambda_core.fitting.fitted_case import fitted_case
     from lambda_core.fitting.measured import add_measured, measured_series
+    from lambda_core.fitting.overlay import with_measured
     from lambda_core.fitting.report import FitReport
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.cases import draft, templates

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -52,6 +53,12 @@ BandOption = Annotated[
     typer.Option("--band", help="model: also compute the 90 % model band; none: skip it and save a second."),
 ]
 BearingOption = Annotated[str | None, typer.Option("--bearing", metavar="NAME", help="Bearing of a machine.")]
+OverlayOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--measured", metavar="FILE.csv", help='Measured points for the pictures, in columns such as "speed [1/min]".'
+    ),
+]
 ForceOption = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")]
 WorkersOption = Annotated[
     int | None, typer.Option("--workers", min=1, metavar="N", help="Processes; default: every processor.")

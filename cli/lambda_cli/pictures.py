@@ -31,6 +31,12 @@ def picture_kind() -> Any:
     return renderable.Image
 
 
+def check_overlay(measured: Path | None, draw: Path | None) -> None:
+    """Refuse measured points where no picture is drawn; UsageError."""
+    if measured is not None and draw is None:
+        raise UsageError("--measured adds points to the picture: give --draw DIR, too")
+
+
 def print_picture(path: Path, kind: Any) -> None:
     """Print a picture, as wide as the terminal."""
     from rich.console import Console

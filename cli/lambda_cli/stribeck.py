@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import BearingOption, CaseArgument, JsonOption, SetOption, Units, UnitsOption
+from lambda_cli.options import BearingOption, CaseArgument, JsonOption, OverlayOption, SetOption, Units, UnitsOption
+from lambda_cli.pictures import check_overlay
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.files import check_folder
 
@@ -27,6 +28,7 @@ def stribeck(
         Path | None,
         typer.Option("--draw", metavar="DIR", help="Also write the picture (svg and png) into this folder."),
     ] = None,
+    measured: OverlayOption = None,
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
@@ -39,6 +41,7 @@ def stribeck(
     from lambda_core import api
 
     chosen = [_rpm(text) for text in speeds or ()]
+    check_overlay(measured, draw)
     if draw is not None:
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
@@ -49,8 +52,10 @@ def stribeck(
     if draw is not None:
         from lambda_core.views.other_units import in_units
 
-        for path in api.draw(in_units(api.stribeck_picture(found), units.system), draw, api.view_stem([str(case)])):
-            typer.echo(str(path), err=True)
+        pictures = [api.stribeck_picture(found)]
+        for picture in pictures if measured is None else api.with_measured(pictures, measured):
+            for path in api.draw(in_units(picture, units.system), draw, api.view_stem([str(case)])):
+                typer.echo(str(path), err=True)
 
 
 def _rpm(text: str) -> float:

@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import JsonOption, SetOption, Units, UnitsOption
+from lambda_cli.options import JsonOption, OverlayOption, SetOption, Units, UnitsOption
+from lambda_cli.pictures import check_overlay
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.files import check_folder
 
@@ -26,6 +27,7 @@ def thermal(
     draw: Annotated[
         Path | None, typer.Option("--draw", metavar="DIR", help="Also write pictures (svg and png) into this folder.")
     ] = None,
+    measured: OverlayOption = None,
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
@@ -42,6 +44,7 @@ def thermal(
     from lambda_core.domain.errors import PartialResultError
     from lambda_core.views.other_units import in_units
 
+    check_overlay(measured, draw)
     if draw is not None:
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
@@ -52,7 +55,7 @@ def thermal(
         views = api.thermal_pictures(found)
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))
     if draw is not None:
-        for view in views:
+        for view in views if measured is None else api.with_measured(views, measured):
             for path in api.draw(in_units(view, units.system), draw, api.view_stem([source])):
                 typer.echo(str(path), err=True)
     if course is not None and course.reason:

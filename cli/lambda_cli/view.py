@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from lambda_cli.options import BearingOption, JsonOption, Units, UnitsOption
+from lambda_cli.options import BearingOption, JsonOption, OverlayOption, Units, UnitsOption
 from lambda_cli.pictures import picture_kind, print_picture
 from lambda_core.domain.files import check_folder
 
@@ -32,10 +32,7 @@ def view(
     options: Annotated[
         list[str] | None, typer.Option("--set", metavar="OPTION=VALUE", help="Option of the view (see --list).")
     ] = None,
-    measured: Annotated[
-        Path | None,
-        typer.Option("--measured", metavar="FILE.csv", help='Measured signal, for the view "vibration".'),
-    ] = None,
+    measured: OverlayOption = None,
     bearing: BearingOption = None,
     shown: Annotated[
         bool, typer.Option("--show", help="Print the pictures in a terminal with kitty's graphics or sixel; no files.")
@@ -55,12 +52,15 @@ def view(
         return
     sources, name = _sorted_out(words or [])
     chosen = dict(_pairs(options or []))
-    if measured is not None:
-        chosen, name = {**chosen, "measured": str(measured)}, name or "vibration"
+    name = name or ("vibration" if measured is not None and _is_vibration(measured) else "")
+    if name == "vibration" and measured is not None:
+        chosen, measured = {**chosen, "measured": str(measured)}, None
     kind = picture_kind() if shown and not as_json else None
     if not (as_json or kind or out.is_file()):  # of a file the drawing says what it would write instead
         check_folder(out, made=True)
     data = [api.view(sources, name, chosen, bearing=bearing)] if name else list(_all(sources, bearing))
+    if measured is not None:
+        data = api.with_measured(data, measured)
     if as_json:
         plain = [one.as_dict() for one in data]
         typer.echo(json.dumps(plain[0] if name else {"version": 1, "views": plain}, indent=2, allow_nan=False))
@@ -76,6 +76,15 @@ def view(
                     print_picture(path, kind)
                 else:
                     typer.echo(str(path))
+
+
+def _is_vibration(measured: Path) -> bool:
+    """Tell whether a file holds a signal of a vibration, by its first line with columns."""
+    if not measured.is_file():
+        return False
+    lines = measured.read_text(encoding="utf-8", errors="replace").splitlines()
+    head = next((line.casefold() for line in lines if line.strip() and not line.lstrip().startswith("#")), "")
+    return "time" in head and any(word in head for word in ("acceleration", "velocity", "displacement"))
 
 
 def _drawn(data: ViewData, out: Path, stem: str, formats: tuple[str, ...], alone: bool) -> list[Path]:

@@ -19,6 +19,7 @@ from lambda_core.domain.units import from_si, misread, parse, units_of
 
 _LARGEST = 16 * 2**20  # [byte] of a file
 _HEADER = re.compile(r"^\s*(.*?)\s*(?:\[\s*(.*?)\s*\])?\s*$")
+_LISTED = 16  # most names that an error lists
 _SHARE = "%"  # unit of an error as a share of the value
 
 
@@ -167,7 +168,7 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
         condition = vocabulary.condition(name, unit or "")
     if condition is None and name not in measured:
         known = [*vocabulary.conditions, *measured]
-        close = nearest(name, known) or known
+        close = nearest(name, known) or known[:_LISTED]
         problems.append(Problem(where, f'"{text}" is not a known column; nearest: {", ".join(close)}'))
         return None
     if condition is not None:

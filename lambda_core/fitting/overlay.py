@@ -1,0 +1,128 @@
+"""Add measured series to pictures: the columns of a file have the names of the axes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from lambda_core.analysis.band.quantities import CONDITIONS, Condition, Measured, Vocabulary, error_quantity
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.units import from_si, units_of
+from lambda_core.domain.written_values import quantities
+from lambda_core.fitting.measurements import Measurements, read_measurements
+from lambda_core.views.chart import Axis, Panel, Series, ViewData
+
+_MOST = 200_000  # lines
+_PLAIN = ("ratio", "-")  # quantity and unit of an axis without one
+_BAND = "± one standard deviation"
+
+
+def with_measured(pictures: Sequence[ViewData], measured: str | Path) -> list[ViewData]:
+    """Add a measured series to every picture that has axes for it.
+
+    Parameters
+    ----------
+    pictures : sequence of ViewData
+        From :func:`view`, :func:`stribeck_picture`, :func:`thermal_pictures` and so on.
+    measured : path-like
+        CSV file: one column has the name of a horizontal axis, such as ``speed [1/min]`` or ``time [s]``; others have
+        those of vertical axes, such as ``friction torque [N mm]``, or of a line and its axis, such as
+        ``outer ring temperature [degC]``. Columns of errors are drawn as bars.
+
+    Returns
+    -------
+    list of ViewData
+        Pictures with the series; those without axes for it are left out.
+
+    Raises
+    ------
+    UsageError
+        When no picture has axes for it, or the file cannot be read.
+    CaseError
+        With every mistake of the file and its line.
+    """
+    panels = [panel for picture in pictures for panel in picture.panels if isinstance(panel, Panel)]
+    words = _vocabulary(panels)
+    data = read_measurements(measured, words)
+    found = []
+    for picture in pictures:
+        drawn = tuple(_drawn(panel, data) if isinstance(panel, Panel) else panel for panel in picture.panels)
+        if any(new is not old for new, old in zip(drawn, picture.panels, strict=True)):
+            found.append(replace(picture, panels=drawn, notes=(*picture.notes, f"measured: {data.name}")))
+    if not found:
+        over = " or ".join(f'"{name}"' for name in words.conditions)
+        raise UsageError(f"{data.name}: no picture has {', '.join(data.measured)} over what is given: {over} is needed")
+    return found
+
+
+def _vocabulary(panels: Iterable[Panel]) -> Vocabulary:
+    """Return the names of columns that panels have axes for."""
+    conditions: dict[str, Condition] = {}
+    measured: dict[str, Measured] = {}
+    example = ""
+    for panel in panels:
+        x, y = _physical(panel.x), _physical(panel.y)
+        if x is None or y is None:
+            continue
+        across, up = _across(panel), _up(panel)
+        conditions |= {name: Condition("", x[0], error_quantity(x[0])) for name in across}
+        for name in up:
+            measured.setdefault(name, Measured("", *y))
+        example = example or f'"{across[0]} [{x[1]}],{next(iter(up))} [{y[1]}]"'
+    for name in measured:
+        conditions.pop(name, None)
+    if not example:
+        raise UsageError(
+            "these pictures have no axes for a measured series: name a view with a value over time or speed"
+        )
+    return Vocabulary(conditions, measured, example, _MOST)
+
+
+def _physical(axis: Axis) -> tuple[str, str] | None:
+    """Return quantity and unit of an axis; None for one of names or of a unit that no file has."""
+    if axis.categories or not axis.label:
+        return None
+    if not axis.unit:
+        return _PLAIN
+    known = sorted(one for one in quantities(f"1 {axis.unit}") if axis.unit in units_of(one))
+    return (known[0], axis.unit) if known else None
+
+
+def _across(panel: Panel) -> list[str]:
+    """Return the names of the horizontal axis: its label, and for an option of a case what it is called in a fit."""
+    label = panel.x.label.casefold()
+    return [*(name for name, one in CONDITIONS.items() if one.path == label), label]
+
+
+def _up(panel: Panel) -> dict[str, str]:
+    """Return the names of the vertical axis, and for each the line that it is about."""
+    label = panel.y.label.casefold()
+    lines = {f"{one.name.casefold()} {label}": one.name for one in panel.series if one.name and not one.unlisted}
+    return {label: "", **lines}
+
+
+def _drawn(panel: Panel, data: Measurements) -> Panel:
+    """Return a panel with the measured points that belong into it."""
+    x, y = _physical(panel.x), _physical(panel.y)
+    if x is None or y is None:
+        return panel
+    at = next((data.conditions[name] for name in _across(panel) if name in data.conditions), None)
+    if at is None:
+        return panel
+    places = np.array([from_si(float(one), *x) for one in at])
+    more = []
+    for name, line in _up(panel).items():
+        values = data.measured.get(name)
+        if values is None:
+            continue
+        known = np.isfinite(values)
+        error = data.errors.get(name, data.shares[name] * np.abs(values) if name in data.shares else None)
+        low, high = (None, None) if error is None else ((values - error)[known], (values + error)[known])
+        words = f"{line}, measured" if line else f"measured, {data.name}"
+        role = next((one.role for one in panel.series if one.name == line and one.role), "reference")
+        band = _BAND if error is not None else ""
+        more.append(Series(words, places[known], values[known], "points", role, low, high, band))
+    return replace(panel, series=(*panel.series, *more)) if more else panel

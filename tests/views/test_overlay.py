@@ -1,0 +1,99 @@
+"""Measured points in pictures: columns find their axes by name, in the unit of the axis."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lambda_cli.main import main
+
+from lambda_core import api
+from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.results.reader import Result
+from lambda_core.views.chart import Axis, Panel, Series, ViewData
+
+
+def _temperatures() -> ViewData:
+    time = np.array([0.0, 60.0])
+    rings = tuple(Series(f"{ring} ring", time, np.array([20.0, 60.0]), role=ring) for ring in ("inner", "outer"))
+    loss = Series("loss", time, np.array([10.0, 8.0]))
+    axis = Axis("time", "min")
+    return ViewData(
+        "temperatures", "Temperatures", "case",
+        (
+            Panel("temperatures", axis, Axis("temperature", "degC"), rings),
+            Panel("power loss", axis, Axis("power loss", "W"), (loss,)),
+            Panel("over speed", Axis("speed", "1/min"), Axis("power loss", "W"), (loss,)),
+        ),
+    )  # fmt: skip
+
+
+def _file(folder: Path, text: str) -> Path:
+    path = folder / "rig.csv"
+    path.write_text(text)
+    return path
+
+
+def test_points_stand_in_the_unit_of_the_axis_with_their_errors(tmp_path: Path) -> None:
+    text = (
+        "time [s],outer ring temperature [K],outer ring temperature error [K],power loss [kW],power loss error [%]\n"
+        "600,303.15,2,0.009,10\n1800,313.15,2,,10\n"
+    )
+    (found,) = api.with_measured([_temperatures()], _file(tmp_path, text))
+    warm, loss, speed = found.panels
+    assert isinstance(warm, Panel)
+    assert isinstance(loss, Panel)
+    outer = warm.series[-1]
+    assert (outer.name, outer.kind, outer.role) == ("outer ring, measured", "points", "outer")
+    np.testing.assert_allclose(outer.x, [10.0, 30.0])
+    np.testing.assert_allclose(outer.y, [30.0, 40.0])
+    assert outer.low is not None
+    np.testing.assert_allclose(outer.low, [28.0, 38.0])
+    np.testing.assert_allclose(loss.series[-1].y, [9.0])
+    assert loss.series[-1].high is not None
+    np.testing.assert_allclose(loss.series[-1].high, [9.9])
+    assert isinstance(speed, Panel)
+    assert len(speed.series) == 1
+    assert "measured: rig.csv" in found.notes
+
+
+def test_pictures_without_axes_for_the_file_are_left_out(tmp_path: Path) -> None:
+    other = ViewData("film", "Film", "case", (_temperatures().panels[2],))
+    found = api.with_measured([other, _temperatures()], _file(tmp_path, "time [s],temperature [degC]\n60,30\n"))
+    assert [one.view for one in found] == ["temperatures"]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("time [s],torque [N mm]\n1,2\n", 'line 1, column 2       "torque [N mm]" is not a known column'),
+        ("time [s],temperature [W]\n1,2\n", "W is not a unit of temperature"),
+        ("time [s],temperature [degC]\n1,2\n2,x\n", "line 3, column 2"),
+        ("speed [rpm],temperature [degC]\n1,2\n", "rig.csv: no picture has temperature over what is given"),
+    ],
+)
+def test_a_file_that_fits_no_axis_is_refused(text: str, said: str, tmp_path: Path) -> None:
+    with pytest.raises((CaseError, UsageError)) as caught:
+        api.with_measured([_temperatures()], _file(tmp_path, text))
+    assert said in str(caught.value)
+
+
+def test_measured_capacitance_stands_in_the_view_of_a_run(radial_run: Result, tmp_path: Path) -> None:
+    time = float(radial_run["time"][-1])
+    file = _file(tmp_path, f"time [s],capacitance [nF]\n{0.8 * time},0.9\n{time},0.95\n")
+    (found,) = api.with_measured([api.view(radial_run, "capacitance")], file)
+    last = found.panels[-1]
+    assert isinstance(last, Panel)
+    np.testing.assert_allclose(last.series[-1].y, [900.0, 950.0])
+    assert main(["view", str(radial_run.path), "capacitance", "--measured", str(file), "--out", str(tmp_path)]) == 0
+    assert list(tmp_path.glob("*-capacitance.svg"))
+
+
+def test_measured_torque_stands_in_the_curve_over_speed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = _file(tmp_path, "speed [1/min],friction torque [N m]\n800,1.1\n")
+    arguments = ["stribeck", "6319-cp10-1500", "--speed", "500 rpm", "--speed", "1500 rpm", "-q"]
+    assert main([*arguments, "--draw", str(tmp_path / "pictures"), "--measured", str(file)]) == 0
+    assert "rig.csv" in (tmp_path / "pictures" / "6319-cp10-1500-stribeck.svg").read_text()
+    assert main([*arguments, "--measured", str(file)]) == 2
+    assert "--draw DIR" in capsys.readouterr().err
