@@ -2,6 +2,6 @@
 
 import sys
 
-from lambda_cli.main import main
+from lambda_cli.start import main
 
 sys.exit(main())

@@ -208,6 +208,8 @@ def corrupted(seed: int, number: int, folder: Path) -> Said:
     """Damage a result and ask for what it says: the same as before, or a word about the damage."""
     pick = random.Random(seed * 1_000_003 + number)
     arguments = pick.choice(_READS)
+    if arguments[0] == "view" and _part(folder).endswith(OF_MACHINES):
+        arguments = (*arguments, "--bearing", "left")
     source = half(folder) if arguments[0] == "resume" or pick.random() < 0.3 else undisturbed_result(folder)
     before = _answers(source, folder, arguments)
     data = bytearray(source.read_bytes())

@@ -84,7 +84,7 @@ def test_the_wheel_works_from_another_folder(installed: Path, tmp_path: Path) ->
 def test_the_script_and_the_entry_points_are_declared(installed: Path) -> None:
     (info,) = installed.glob("lambda_bearing-*.dist-info")
     entry_points = (info / "entry_points.txt").read_text()
-    assert "lambda-bearing = lambda_cli.main:main" in entry_points
+    assert "lambda-bearing = lambda_cli.start:main" in entry_points
     assert "[lambda_bearing.plugins]" in entry_points
     assert (installed / "bin" / "lambda-bearing").exists()
 

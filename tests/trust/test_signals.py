@@ -6,7 +6,9 @@ import json
 import os
 import signal
 import subprocess
+import sys
 import time
+import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import h5py
 import numpy as np
 import pytest
+from lambda_cli import start
 from lambda_cli.interrupt import second_signal_ends
 from trust.answering import time_of
 from warm import PROGRAM
@@ -223,6 +226,26 @@ def test_c2_4_what_was_stopped_is_packed_for_half_a_second_at_most(
     with h5py.File(path) as file:
         assert file["load"].compression is None
     assert len(api.result(path)["load"]) > 0
+
+
+@pytest.mark.parametrize("moment", ["import", "begin"])
+def test_ctrl_c_while_the_program_starts_ends_in_one_line(
+    moment: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It printed the traceback of whatever was being imported, or of the thread that waits for signals."""
+
+    def interrupted() -> int:
+        raise KeyboardInterrupt
+
+    class Interrupted:
+        def __getattr__(self, name: str) -> Any:
+            return interrupted() if moment == "import" else interrupted
+
+    monkeypatch.setitem(sys.modules, "lambda_cli.main", Interrupted())  # type: ignore[arg-type]
+    assert start.main() == 130
+    assert capsys.readouterr().err == "interrupted\n"
+    script = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8"))
+    assert script["project"]["scripts"]["lambda-bearing"] == "lambda_cli.start:main"
 
 
 def test_c2_4_an_interruption_that_a_destructor_drops_is_heard_again() -> None:
