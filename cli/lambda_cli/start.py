@@ -1,4 +1,4 @@
-"""Where the program begins: nothing is imported yet, so that Ctrl+C ends it in one line at once."""
+"""Begin the program: nothing is imported yet, so that Ctrl+C ends it in one line at once."""
 
 from __future__ import annotations
 
