@@ -1,7 +1,8 @@
 """Put the numbers of a reproduction into docs/validation.md: ``python docs/tools/validation.py RESULT.json``.
 
-RESULT.json is what ``lambda-bearing reproduce all --json``, or that of one experiment, prints. Bars and tables between
-the marks are written anew; the text about them is written by hand.
+RESULT.json is what ``lambda-bearing reproduce all --json``, or that of one experiment, prints, or
+``lambda-bearing measured compare --json``. Bars and tables between the marks are written anew; the text about them is
+written by hand.
 """
 
 from __future__ import annotations
@@ -68,16 +69,44 @@ def _sentence(data: Table) -> str:
     return data.caption[:1].upper() + data.caption[1:]
 
 
+def measured(compared: list[dict[str, Any]]) -> list[str]:
+    """Return a row for every measured series."""
+    rows = []
+    for one in compared:
+        series, points = one["series"], len(one["points"])
+        errors = one["reason"]
+        if points:
+            largest = max((p["predicted"] / p["measured"] - 1.0 for p in one["points"]), key=abs)
+            errors = (
+                f"mean {one['mean_error_pct']:+.1f} %, mean size {one['mean_absolute_error_pct']:.1f} %, "
+                f"largest {100.0 * largest:+.0f} %"
+            )
+        inside = "no band" if one["inside"] is None else f"{one['inside']} of {points} inside"
+        rows.append([cell(text) for text in (
+            series["name"], series["title"], series["source"], series["uncertainty"], errors, inside if points else "-",
+        )])  # fmt: skip
+    return table(("series", "what", "source", "uncertainty", "error without any fit", "90 % model band"), rows)
+
+
+def put(text: str, mark: str, lines: list[str]) -> str:
+    """Return the page with other lines between the marks of a part."""
+    begin, end = f"<!-- {mark}:begin -->\n", f"<!-- {mark}:end -->\n"
+    head, _, rest = text.partition(begin)
+    return f"{head}{begin}\n" + "\n".join(lines).rstrip() + f"\n\n{end}{rest.partition(end)[2]}"
+
+
 def main(arguments: list[str]) -> int:
     """Write the parts that the result has."""
-    found = chapters(read(json.loads(Path(arguments[0]).read_text(encoding="utf-8"))))
+    given = json.loads(Path(arguments[0]).read_text(encoding="utf-8"))
     text = PAGE.read_text(encoding="utf-8")
+    if "compared" in given:
+        PAGE.write_text(put(text, "measured", measured(given["compared"])), encoding="utf-8")
+        return 0
+    found = chapters(read(given))
     for mark in ("bars", *(c.name for c in found)):
-        begin, end = f"<!-- {mark}:begin -->\n", f"<!-- {mark}:end -->\n"
-        head, _, rest = text.partition(begin)
         chapter = [c for c in found if c.name == mark]
-        lines = part(chapter[0]) if chapter else merged(rest.partition(end)[0], found)
-        text = f"{head}{begin}\n" + "\n".join(lines).rstrip() + f"\n\n{end}{rest.partition(end)[2]}"
+        between = text.partition(f"<!-- {mark}:begin -->\n")[2].partition(f"<!-- {mark}:end -->\n")[0]
+        text = put(text, mark, part(chapter[0]) if chapter else merged(between, found))
     PAGE.write_text(text, encoding="utf-8")
     return 0
 

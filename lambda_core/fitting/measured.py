@@ -7,6 +7,7 @@ import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, unknown_name
 from lambda_core.domain.files import user_data_folder
 from lambda_core.fitting.measurements import Measurements, parse_measurements, read_measurements
-from lambda_core.fitting.operating_points import condition_change, point_values
+from lambda_core.fitting.operating_points import condition_change, point_values, roller_values
 from lambda_core.fitting.scores import interval_score
 from lambda_core.results.record import INTERFACE, Record
 
@@ -34,7 +35,9 @@ class MeasuredSeries(Record):
 
     name: str = ""
     title: str
-    case: str = Field(default="", description="case that it is compared with; empty where the program has none")
+    case: str | dict[str, Any] = Field(
+        default="", description="case that it is compared with, by name or as tables; empty where there is none"
+    )
     bearing: str = Field(default="", description="what was measured, where there is no case")
     source: str
     licence: str
@@ -112,14 +115,27 @@ def measured_series() -> list[MeasuredSeries]:
     Returns
     -------
     list of MeasuredSeries
-        Those of the program, then those that were added, each with its source, licence, reading and uncertainty.
+        Those of the program, of plugins, and those that were added, each with its source, licence, reading and
+        uncertainty. Of two with one name the first is taken.
     """
-    found = []
-    for folder in (files(__package__).joinpath(_FOLDER), _own_folder()):
+    found: dict[str, MeasuredSeries] = {}
+    for folder in _folders():
         entries = folder.iterdir() if folder.is_dir() else ()
         names = sorted(entry.name for entry in entries if entry.name.endswith(".toml"))
-        found += [_read(folder.joinpath(name).read_text(encoding="utf-8"), name) for name in names]
-    return found
+        read = [_read(folder.joinpath(name).read_text(encoding="utf-8"), name) for name in names]
+        found |= {series.name: series for series in read if series.name not in found}
+    return list(found.values())
+
+
+def _folders() -> list[Traversable]:
+    """Return the folders of series: those of the program, of plugins, and that of the user.
+
+    A plugin has them in the folder ``measured`` of the catalogue rows that it brings (hook `lambda_data`).
+    """
+    from lambda_core.discovery.manager import registry
+
+    brought = [folder / "measured" for _, folder in registry().data_folders]
+    return [files(__package__).joinpath(_FOLDER), *brought, _own_folder()]
 
 
 def _own_folder() -> Path:
@@ -173,7 +189,7 @@ def compare_measured(
         Names of :func:`measured_series`, or files of one's own: a TOML file with the same entries next to a CSV file of
         the same name. All of the program when empty.
     band : bool
-        Compute the 90 % model band at every point.
+        Compute the 90 % model band at every point; roller bearings have none.
     announce : callable, optional
         Called with a sentence for every series.
 
@@ -215,17 +231,17 @@ def _load(name: str) -> _Loaded:
     known = {series.name: series for series in measured_series()}
     if name not in known:
         raise UsageError(unknown_name("measured series", name, known))
-    own = _own_folder() / f"{name}.csv"
-    if own.is_file():
-        return _Loaded(known[name], read_measurements(own))
-    text = files(__package__).joinpath(_FOLDER, f"{name}.csv").read_text(encoding="utf-8")
-    return _Loaded(known[name], parse_measurements(text, f"{name}.csv"))
+    folder = next(one for one in _folders() if one.joinpath(f"{name}.toml").is_file())
+    points = folder.joinpath(f"{name}.csv")
+    if not points.is_file():
+        raise UsageError(f"measured series {name}: {name}.csv with its points is missing next to {name}.toml")
+    return _Loaded(known[name], parse_measurements(points.read_text(encoding="utf-8"), f"{name}.csv"))
 
 
 def _compared(one: _Loaded, band: bool) -> ComparedSeries:
     series = one.series
     if not series.case:
-        return _not_computed(series, f"{series.bearing} cannot be simulated yet")
+        return _not_computed(series, f"there is no case for it: {series.bearing}")
     try:
         points = _points(one, band)
     except LambdaError as error:
@@ -233,7 +249,7 @@ def _compared(one: _Loaded, band: bool) -> ComparedSeries:
     measured, predicted = (np.array([getattr(p, name) for p in points]) for name in ("measured", "predicted"))
     errors = 100.0 * (predicted / measured - 1.0)
     inside, score = None, None
-    if band:
+    if all(point.band for point in points):
         low, high = (np.array([point.band[end] for point in points]) for end in (0, 1))
         inside = int(np.sum((low <= measured) & (measured <= high)))
         score = float(np.mean(interval_score(low, high, measured) / np.abs(measured)))
@@ -262,14 +278,18 @@ def _not_computed(series: MeasuredSeries, reason: str) -> ComparedSeries:
 def _points(one: _Loaded, band: bool) -> list[ComparedPoint]:
     from lambda_core.case.case_writer import standalone_toml
     from lambda_core.model.cases import case_of
+    from lambda_core.model.roller_case import roller_model
 
     data, case = one.measurements, case_of(one.series.case)
     text, found = standalone_toml(case), []
     for row, line in enumerate(data.lines):
         changes = [condition_change(data.set_by[name], float(column[row])) for name, column in data.conditions.items()]
         names = [name for name, values in data.measured.items() if math.isfinite(values[row])]
-        bands = band_of(ready_model(case, changes, is_static=True), names) if band else None
-        predicted = point_values(text, changes, names).mean(axis=0)
+        rollers = roller_model(case, changes)
+        bands = band_of(ready_model(case, changes, is_static=True), names) if band and rollers is None else None
+        predicted = (
+            point_values(text, changes, names).mean(axis=0) if rollers is None else roller_values(rollers, names)
+        )
         for name, value in zip(names, predicted.tolist(), strict=True):
             ends = bands.band(name) if bands is not None else None
             found.append(

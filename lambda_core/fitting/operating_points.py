@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from lambda_core.analysis.band.quantities import Condition
 from lambda_core.analysis.band.readings import READ, read_values
@@ -12,6 +15,9 @@ from lambda_core.domain.units import UNITS, from_si
 from lambda_core.domain.written_values import DIGITS
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.studies.job import kernels_of, resolve_point, with_temperatures
+
+if TYPE_CHECKING:
+    from lambda_core.model.roller_case import RollerModel
 
 
 def condition_change(condition: Condition, value: float) -> str:
@@ -47,6 +53,22 @@ def point_values(case_toml: str, changes: Sequence[str], names: Sequence[str], *
 def model_values(model: BearingModel, names: Sequence[str], *, one: bool = False) -> FloatArray:
     """Return measured quantities as a resolved model predicts them; see :func:`point_values`."""
     return read_values(model, kernels_of(model), [READ[name] for name in names], one=one)
+
+
+def roller_values(model: RollerModel, names: Sequence[str]) -> FloatArray:
+    """Return measured quantities as a roller bearing predicts them; UsageError for one that it does not have."""
+    from lambda_core.results.roller_quasistatic import roller_quasistatic
+
+    found = roller_quasistatic(model)
+    torque, speed = found.friction_torque_Nmm, abs(model.speeds[0] - model.speeds[1])
+    values: dict[str, float] = {}
+    if torque is not None:
+        values |= {"friction torque": torque, "power loss": 1e-3 * torque * speed}
+    values |= {f"displacement {axis}": found.inner_ring_displacement_um[i] for i, axis in enumerate("xyz")}
+    missing = [name for name in names if name not in values]
+    if missing:
+        raise UsageError(f"{model.name}: a roller bearing at this point has no {missing[0]}: {', '.join(values)}")
+    return np.array([values[name] for name in names])
 
 
 def at_line(error: LambdaError, file: str, line: int) -> LambdaError:

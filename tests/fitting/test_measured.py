@@ -10,6 +10,7 @@ from lambda_cli.main import main
 from lambda_syla2026.published import MEASURED, TABLE_4
 
 from lambda_core import api
+from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
 
 
@@ -28,10 +29,52 @@ def test_the_6319_is_the_printed_table_and_near_it() -> None:
     assert one.mean_absolute_error_pct < 10.0
 
 
-def test_series_of_bearings_without_a_model_have_the_reason() -> None:
-    found = api.compare_measured(["32216-axial"]).compared[0]
-    assert found.reason == "tapered roller bearing 32216 cannot be simulated yet"
+def test_series_without_a_case_have_the_reason() -> None:
+    found = api.compare_measured(["lm12700-axial"]).compared[0]
+    assert found.reason.startswith("there is no case for it: tapered roller bearing LM12700, oil SAE 75W")
     assert found.mean_error_pct is None
+
+
+@pytest.mark.parametrize(("name", "most"), [("32216-axial", 16.0), ("32216-combined", 17.0), ("32008-axial", 20.0)])
+def test_tapered_bearings_are_compared_without_a_band(name: str, most: float) -> None:
+    found = api.compare_measured([name])
+    (one,) = found.compared
+    assert one.mean_absolute_error_pct is not None
+    assert one.mean_absolute_error_pct < most
+    assert one.inside is None
+    assert "inside" not in found.text()
+
+
+def test_the_page_about_validation_has_the_errors_of_today() -> None:
+    page = (Path(__file__).parents[2] / "docs/validation.md").read_text(encoding="utf-8")
+    rows = page.partition("<!-- measured:begin -->")[2].partition("<!-- measured:end -->")[0].splitlines()
+    for one in api.compare_measured(band=False).compared:
+        (row,) = (row for row in rows if row.startswith(f"| {one.series.name} |"))
+        if one.reason:
+            assert one.reason in row
+            continue
+        assert f"mean size {one.mean_absolute_error_pct:.1f} %" in row
+
+
+def test_a_plugin_brings_series_next_to_its_catalogue_rows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "measured"
+    folder.mkdir()
+    (folder / "rig.toml").write_text(
+        'title = "rig"\nsource = "us"\nlicence = "CC0"\nhow_read = "sensor"\nuncertainty = "2 %"\n'
+        '[case]\nname = "own"\nbearing = { designation = "SKF 6208" }\noperation = { speed = "1500 rpm" }\n'
+        'lubricant = { name = "FVA3", temperature = "60 degC" }\nloads = { radial = "2 kN" }\n'
+    )
+    (folder / "rig.csv").write_text("speed [1/min],friction torque [N mm]\n1500,50\n")
+    (folder / "6319-friction.toml").write_text((folder / "rig.toml").read_text())  # a name that is taken
+    monkeypatch.setattr(registry(), "data_folders", (("rig-plugin", tmp_path),))
+    names = [series.name for series in api.measured_series()]
+    assert names.count("6319-friction") == 1
+    (one,) = api.compare_measured(["rig"], band=False).compared
+    assert one.series.case != ""
+    assert 30.0 < one.points[0].predicted < 100.0
+    (folder / "rig.csv").unlink()
+    with pytest.raises(UsageError, match=r"rig\.csv with its points is missing"):
+        api.compare_measured(["rig"])
 
 
 def test_a_series_of_ones_own_is_compared_with_its_band(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
