@@ -43,7 +43,7 @@ def deflection(machine: MachineData, options: Options) -> ViewData:
     )  # fmt: skip
     notes = (
         "arrows: forces of the bearings on the shaft in the vertical plane",
-        "the bending moment is what the right side of a cut does to the left one",
+        "bending moment: moment of the right part on the left part at each cut",
     )
     return ViewData("shaft", "A shaft in its bearings", _source(report), panels, 1, notes)
 

@@ -223,4 +223,5 @@ def _arrows(axes: Any, arrows: Arrows) -> None:
         scale=size / _ARROW_SHARE,
         zorder=4,
     )
-    axes.quiverkey(drawn, 0.78, 1.05, size, f"{size:.2g} {arrows.unit}", labelpos="E", fontproperties={"size": 10})
+    length = f"{float(f'{size:.2g}'):g} {arrows.unit}"
+    axes.quiverkey(drawn, 0.78, 1.05, size, length, labelpos="E", fontproperties={"size": 10})
