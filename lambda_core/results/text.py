@@ -256,12 +256,9 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
             "inner ring", _place(found.inner_ring_displacement_um, units), f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad"
         ),
         *(line("" if i else "shape of rings", *_bent(bent, units)) for i, bent in enumerate(found.ring_shapes)),
-        line("friction torque", shown(found, "friction_torque_Nmm", units), "(without cage)"),
-        *breakdown_lines(found.friction_breakdown_Nmm, units),
-        *([line("power loss", shown(found, "power_loss_W", units))] if found.power_loss_W is not None else []),
+        *_friction_lines(found, units),
         *rating_lines(found.rating, units, found.reference_life_h_band),
-        line("ball orbit", f"{shown(found, 'orbit_speed_ratio')} of inner ring"),
-        line("film", shown(found, "film_um", units), f"Lambda {shown(found, 'film_parameter')}"),
+        *_motion_lines(found, units),
         line("shoulders", *(_margin(edge, units) for edge in found.shoulders)),
         *([line("capacitance", found.capacitance_note)] if found.capacitance_note else []),
         *other_lines(found, units),
@@ -271,6 +268,25 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
         *assumption_lines(found.assumptions),
     ]
     return "\n".join(wrapped(lines, width))
+
+
+def _friction_lines(found: QuasiStatic, units: UnitSystem) -> list[str]:
+    """Return torque, its parts and the power; at rest there are none."""
+    if found.friction_torque_Nmm is None:
+        return [line("friction torque", "none: nothing turns")]
+    loss = [line("power loss", shown(found, "power_loss_W", units))] if found.power_loss_W is not None else []
+    torque = line("friction torque", shown(found, "friction_torque_Nmm", units), "(without cage)")
+    return [torque, *breakdown_lines(found.friction_breakdown_Nmm, units), *loss]
+
+
+def _motion_lines(found: QuasiStatic, units: UnitSystem) -> list[str]:
+    """Return the balls' orbit and the films that they roll up; at rest there are none."""
+    if found.friction_torque_Nmm is None:
+        return []
+    return [
+        line("ball orbit", f"{shown(found, 'orbit_speed_ratio')} of inner ring"),
+        line("film", shown(found, "film_um", units), f"Lambda {shown(found, 'film_parameter')}"),
+    ]
 
 
 def line(head: str, *parts: str) -> str:

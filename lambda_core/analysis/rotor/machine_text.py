@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from lambda_core.model.machine_model import MachineModel
 
 _HEAD, _COLUMN = 24, 14
+_AT_REST, _NO_LIFE = "none: nothing turns", "none: no bearing has a rating life"
 _FAR = 10  # times the running speed: critical speeds beyond it are counted only
 
 
@@ -153,6 +154,14 @@ def _band_lines(report: MachineEquilibrium) -> list[str]:
     return [f"{'' if i else 'model band':<{HEAD}}{text}" for i, text in enumerate([sum_, *sources])]
 
 
+def _torque(report: MachineEquilibrium) -> str:
+    """Return the torque of all bearings, or the bearings whose torque is unknown."""
+    if report.friction_torque_Nmm is not None:
+        return f"{_digits(report.friction_torque_Nmm)} N mm of all bearings"
+    unknown = [one.name for one in report.bearings if one.friction_torque_Nmm is None]
+    return f"unknown: no steady motion was found in {', '.join(unknown)}"
+
+
 def _grouped(speed: float) -> str:
     """Write a speed to five digits, without an exponent."""
     return f"{float(f'{speed:.5g}'):.0f}" if speed >= 1e5 else f"{speed:.5g}"
@@ -168,12 +177,13 @@ def _shaft_lines(report: MachineEquilibrium) -> list[str]:
         ((y * y + z * z) ** 0.5, place)
         for (y, z), place in zip(report.bending_moment_Nm, report.cut_positions_mm, strict=True)
     )
-    life = NONE if report.system_life_h is None else hours(report.system_life_h)
+    resting = report.speed_rpm == 0.0
+    life = f"{hours(report.system_life_h)} (L_10rh of all bearings)" if report.system_life_h is not None else _NO_LIFE
     lines = [
         f"{'deflection':<{HEAD}}{largest[0]:.3g} um at {largest[1]:.4g} mm",
         f"{'bending moment':<{HEAD}}{moment[0]:.4g} N m at {moment[1]:.4g} mm",
-        f"{'system life':<{HEAD}}{life} (L_10rh of all bearings)",
-        f"{'friction torque':<{HEAD}}{_digits(report.friction_torque_Nmm)} N mm of all bearings",
+        f"{'system life':<{HEAD}}{_AT_REST if resting else life}",
+        f"{'friction torque':<{HEAD}}{_AT_REST if resting else _torque(report)}",
         *_band_lines(report),
         f"{'drive torque':<{HEAD}}{_digits(report.drive_torque_Nm)} N m",
     ]
