@@ -58,7 +58,7 @@ def _tables(found: Anchors) -> tuple[Table, ...]:
         (
             r.series,
             str(r.bearings),
-            *(_with_range(spread) for spread in (r.contacts, r.with_drag, r.skf, r.skf_with_drag)),
+            *(_with_range(spread) for spread in (r.contacts, r.with_drag, r.skf, r.skf_with_drag, r.over_skf)),
         )
         for r in found.rated
     )
@@ -83,7 +83,7 @@ def _tables(found: Anchors) -> tuple[Table, ...]:
         ),
         Table(
             "loss at SKF's printed reference speeds over q_r A_r of ISO 15312: median (90 % of the bearings)",
-            ("series", "bearings", "contacts", "with drag", "SKF's model", "SKF's with drag"),
+            ("series", "bearings", "contacts", "with drag", "SKF's model", "SKF's with drag", "with drag over SKF's"),
             rated,
         ),
         Table("anchored parameter set: what differs from the blind one", ("option", "value", "source"), chosen),

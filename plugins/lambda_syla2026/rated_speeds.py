@@ -29,6 +29,9 @@ class Rated(Record):
     with_drag: list[float] = Field(description="the same with SKF's drag of an oil bath")
     skf: list[float] = Field(description="the same of SKF's friction model without drag")
     skf_with_drag: list[float] = Field(description="the same of SKF's friction model with drag")
+    over_skf: list[float] = Field(
+        description="median, 5 % and 95 % of the loss with drag over that of SKF's friction model with drag"
+    )
 
 
 def rated_speeds(runner: JobRunner) -> tuple[list[Rated], int]:
@@ -67,8 +70,8 @@ def _plans() -> tuple[list[tuple[str, tuple[str, ...]]], int]:
 
 
 def _rated(series: str, answers: list[JobResult]) -> Rated:
-    def spread(*names: str) -> list[float]:
-        ratios = [sum(answer[name] for name in names) / answer["heat"] for answer in answers]
+    def spread(*names: str, over: tuple[str, ...] = ("heat",)) -> list[float]:
+        ratios = [sum(answer[name] for name in names) / sum(answer[name] for name in over) for answer in answers]
         return np.quantile(ratios, (0.5, 0.05, 0.95)).tolist() if ratios else []
 
     return Rated(
@@ -78,19 +81,25 @@ def _rated(series: str, answers: list[JobResult]) -> Rated:
         with_drag=spread("contacts", "drag"),
         skf=spread("skf"),
         skf_with_drag=spread("skf", "skf drag"),
+        over_skf=spread("contacts", "drag", over=("skf", "skf drag")),
     )
 
 
 def rated_bars(found: list[Rated]) -> list[str]:
-    """Say whether the median lies inside the bar, without drag and with it."""
+    """Say whether the medians lie inside the bar: of the contacts over the heat, with drag over SKF's model.
+
+    No bar is held against the heat with the drag of an oil bath: SKF's own model exceeds it about as much.
+    """
     if not found:
         return []
     first, lines = found[0], []
-    for what, spread in (("of the contacts", first.contacts), ("with SKF's drag", first.with_drag)):
-        median, low, high = spread
+    for what, (median, low, high) in (
+        ("of the contacts over ISO 15312's heat", first.contacts),
+        ("with drag over that of SKF's model with drag", first.over_skf),
+    ):
         verdict = "met" if BAR[0] <= median <= BAR[1] else "missed"
         lines.append(
-            f"{verdict}: {first.bearings} bearings at SKF's reference speeds, loss {what} over ISO 15312's heat: "
+            f"{verdict}: {first.bearings} bearings at SKF's reference speeds, loss {what}: "
             f"median {median:.2f}, 90 % within {low:.2f} to {high:.2f}, bar {BAR[0]:g} to {BAR[1]:g}"
         )
     return lines

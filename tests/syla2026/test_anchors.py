@@ -15,7 +15,7 @@ from lambda_syla2026.readings import axial_load as READ
 
 from lambda_core.studies.job import resolve_point
 
-HEAT = {"contacts": 90.0, "drag": 60.0, "skf drag": 20.0, "heat": 100.0}
+HEAT = {"contacts": 90.0, "drag": 60.0, "skf drag": 50.0, "heat": 100.0}
 PARTS = {"rolling": 30.0, "hysteresis": 10.0, "sliding": 20.0, "spin": 5.0, "skf rolling": 50.0, "skf sliding": 40.0}
 
 
@@ -61,8 +61,11 @@ def test_bias_and_scatter_of_known_ratios() -> None:
     blind = found.spreads[-1]
     assert (blind.parameters, blind.bias_pct) == ("blind", pytest.approx(-30.0))
     assert "met: 0.515/0.525 grooves" in found.bars[0]
-    assert [bar.split(":")[0] for bar in found.bars[-2:]] == ["met", "missed"]
+    assert [bar.split(":")[0] for bar in found.bars[-2:]] == ["met", "met"]
     assert found.rated[0].with_drag == pytest.approx([1.5] * 3)
+    # The bar with drag is held against SKF's model with drag, 100 + 50, and not against the heat of 100.
+    assert found.rated[0].over_skf == pytest.approx([1.0] * 3)
+    assert "with drag over that of SKF's model with drag" in found.bars[-1]
     titles = [table.caption for table in chapter(found, ()).tables]
     assert len(titles) == len(set(titles)) == 7
     for p in found.populations:
