@@ -65,6 +65,8 @@ def init(
 
     given = {"loads.radial": radial, "loads.axial": axial, "operation.speed": speed, "lubricant.name": oil}
     changes = [f"{path}={value}" for path, value in given.items() if value is not None]
+    if any(mark in name for mark in "/\\"):
+        raise api.UsageError(f'"{name}" is a path: give a name alone, and the file with --out "{name}"')
     name = name.removesuffix(".toml")  # whoever names the file means the case in it
     target = api.init_case(name, start, out, overwrite=force, bearing=bearing, template=template, changes=changes)
     remember(target)

@@ -133,7 +133,7 @@ def init_case(
     if start is not None:
         other = "a bearing" if template is None else "a template"
         raise UsageError(f"a new case starts from a case or from {other}, not from both")
-    text = _template_text(name, template, bearing)
+    text = _template_text(name, template, bearing, _given_radial(changes))
     if template == GEARED_SHAFT:
         import tomllib
 
@@ -151,8 +151,19 @@ def init_case(
     return write_new(changed, text, target, overwrite)
 
 
-def _template_text(name: str, template: str | None, bearing: str | None) -> str:
-    """Return the commented case of a template, or of a bearing in any machine."""
+def _given_radial(changes: Sequence[str]) -> float | None:
+    """Return the radial load [N] among changes; None where there is none, or no load, which is refused later."""
+    from lambda_core.domain.units import parse
+
+    given = dict(change.partition("=")[::2] for change in changes)
+    try:
+        return parse(given["loads.radial"].strip(' "'), "force")
+    except (KeyError, ValueError):
+        return None
+
+
+def _template_text(name: str, template: str | None, bearing: str | None, radial: float | None = None) -> str:
+    """Return the commented case of a template, or of a bearing in any machine, under a radial load [N]."""
     from contextlib import closing
 
     from lambda_core.catalogue.designation import designated
@@ -173,8 +184,8 @@ def _template_text(name: str, template: str | None, bearing: str | None) -> str:
         if rollers is not None:
             if template is not None:
                 raise UsageError(f"templates of machines are for balls: leave out --template with {bearing}")
-            return fresh_roller_case(name, rollers)
-        return fresh_case(name, *designated(opened, bearing or kind.bearing), kind)
+            return fresh_roller_case(name, rollers, radial)
+        return fresh_case(name, *designated(opened, bearing or kind.bearing), kind, radial)
 
 
 def templates() -> dict[str, str]:

@@ -43,16 +43,24 @@ _MEASURED = 'or a measured value such as "14 um"'
 HALF_LOADED = 1.216
 
 
-def fresh_case(name: str, bearing: BearingRow, read: Designation, machine: MachineTemplate = GENERAL) -> str:
+def fresh_case(
+    name: str,
+    bearing: BearingRow,
+    read: Designation,
+    machine: MachineTemplate = GENERAL,
+    given: float | None = None,
+) -> str:
     """Write the text of a case for a bearing in a machine: loads by its rating, everything else default.
 
-    Suffixes of the designation stay in it and decide what they stand for.
+    Suffixes of the designation stay in it and decide what they stand for. A `given` radial load [N] takes the place of
+    that by the rating, and the axial load follows from it.
     """
     rating = bearing.dynamic_rating
-    radial = machine.load * (rating.value if rating else _NO_RATING)
+    radial = machine.load * (rating.value if rating else _NO_RATING) if given is None else abs(given)
     part = "a tenth of C" if machine.load == 0.1 else f"{machine.load:.2g} of C"
     share = f"{part} = {rating.value / 1e3:.4g} kN" if rating else "the catalogue has no load rating"
     oil, load, speed = machine.about
+    about = f"{share}; {load}" if given is None else load
     share_of, why = _thrust(machine, bearing)
     return _TEXT.format(
         kind=kinds()[bearing.kind].title,
@@ -63,7 +71,7 @@ def fresh_case(name: str, bearing: BearingRow, read: Designation, machine: Machi
         clearance=_clearance(machine, bearing, read),
         oil=_told(f'name = "{machine.oil}"', oil),
         temperature=_told(f'temperature = "{machine.temperature} degC"', ""),
-        radial=_told(f'radial = "{_newton(radial)}"', f"{share}; {load}"),
+        radial=_told(f'radial = "{_newton(radial)}"', about),
         axial=_told(f'axial = "{_newton(share_of * radial)}"', why),
         speed=_told(f'speed = "{_speed(machine, bearing):.4g} rpm"', speed),
         tail=machine.tail,

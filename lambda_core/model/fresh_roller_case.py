@@ -22,7 +22,7 @@ name = "FVA3"
 temperature = "60 degC"
 
 [loads]
-radial = "{radial:.3g} kN"       # a tenth of C = {rating:.4g} kN
+radial = "{radial:.3g} kN"{share}
 axial = "{axial:.3g} kN"        # {why}
 
 [operation]
@@ -38,11 +38,15 @@ _SHARE = 0.1  # of C that a new case is loaded with
 _HALF_LOADED = 1.3
 
 
-def fresh_roller_case(name: str, found: RollerDesignation) -> str:
-    """Return the text of a case for a roller bearing: loads by its rating, everything else default."""
+def fresh_roller_case(name: str, found: RollerDesignation, given: float | None = None) -> str:
+    """Return the text of a case for a roller bearing: loads by its rating, everything else default.
+
+    A `given` radial load [N] takes the place of that by the rating, and the axial load follows from it.
+    """
     row = found.row
     rating = 1e-3 * row.dynamic_rating.value
-    radial, axial, why = _SHARE * rating, 0.0, "along the shaft; NU and N take none, NJ and NUP through their ribs"
+    radial = _SHARE * rating if given is None else 1e-3 * abs(given)
+    axial, why = 0.0, "along the shaft; NU and N take none, NJ and NUP through their ribs"
     if row.contact_angle is not None:
         axial = _HALF_LOADED * math.tan(row.contact_angle.value) * radial
         why = "along the shaft; with less the bearing alone opens"
@@ -55,6 +59,6 @@ def fresh_roller_case(name: str, found: RollerDesignation) -> str:
         clearance="" if row.contact_angle is not None or found.clearance else _CLEARANCE,
         radial=radial,
         axial=axial,
-        rating=rating,
+        share=f"       # a tenth of C = {rating:.4g} kN" if given is None else "",
         why=why,
     )

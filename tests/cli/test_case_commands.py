@@ -6,6 +6,7 @@ import json
 import re
 import subprocess
 import sys
+import tomllib
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ from lambda_core import api
 from lambda_core.case.builtin import builtin_cases
 from lambda_core.case.case_io import load_case
 from lambda_core.domain.errors import PartialResultError, SolverError
+from lambda_core.domain.units import parse
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.model.machine_templates import MACHINES
 
@@ -254,6 +256,34 @@ def test_init_takes_load_speed_and_oil_on_its_line(call: Call, tmp_path: Path, m
     code, _, err = call("init", "box", "--template", "geared-shaft", "--speed", "10 rpm")
     assert code == 2
     assert "go with --bearing" in err
+
+
+@pytest.mark.parametrize("bearing", ["SKF 7208 BEP", "SKF 32208"])
+def test_the_axial_load_of_a_new_case_follows_from_a_given_radial_one(
+    bearing: str, call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The axial load was that of a tenth of C, and the comment called the given load a tenth of C."""
+    monkeypatch.chdir(tmp_path)
+    assert call("init", "usual", "--bearing", bearing)[0] == 0
+    assert call("init", "light", "--bearing", bearing, "--radial", "500 N")[0] == 0
+    text = Path("light.toml").read_text(encoding="utf-8")
+    assert "a tenth of C" not in text
+    files = [tomllib.loads(Path(f"{name}.toml").read_text(encoding="utf-8")) for name in ("usual", "light")]
+    axial, radial = ([parse(file["loads"][name], "force") for file in files] for name in ("axial", "radial"))
+    assert radial[1] == pytest.approx(500.0)
+    ratios = [one / other for one, other in zip(axial, radial, strict=True)]
+    assert ratios[0] == pytest.approx(ratios[1], rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["../x.toml", "a/b.toml", "a\\b"])
+def test_a_path_as_the_name_of_a_case_is_told_the_option(
+    name: str, call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    code, _, err = call("init", name)
+    assert code == 2
+    assert f'"{name}" is a path: give a name alone, and the file with --out "{name}"' in err
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_load_that_points_up_is_said_to(call: Call) -> None:
