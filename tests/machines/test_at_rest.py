@@ -1,4 +1,4 @@
-"""What stands still has no torque, no films and no life: texts name the reason in place of dashes."""
+"""Give reasons, not dashes, for what stands still: it has no torque, no films and no life."""
 
 from __future__ import annotations
 
