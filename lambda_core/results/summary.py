@@ -296,7 +296,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
 
 
 def _of_rollers(found: BearingSummary, result: Result) -> BearingSummary:
-    """Return the summary without what holds for balls alone: shoulders, capacitance, limits of tilt and pressure."""
+    """Return the summary without what holds for balls alone: shoulders, limits of tilt and pressure."""
     left_out = {"rating life", "capacitance", "bearing capacitance"}
     band = result.model_band
     if band is not None:
@@ -305,10 +305,6 @@ def _of_rollers(found: BearingSummary, result: Result) -> BearingSummary:
     beyond = [] if verdict is None or verdict.met else [verdict.sentence]
     changes: dict[str, Any] = {
         "shoulders": [],
-        "contact_capacitance_pF": [],
-        "bearing_capacitance_nF": None,
-        "capacitance_note": "",
-        "contacts": [contact.model_copy(update={"capacitance_pF": None}) for contact in found.contacts],
         "warnings": [*result.case_warnings, *tolerance_warning(settings_of(result).tolerance), *beyond],
     }
     return found.model_copy(update=changes).with_band(band)
@@ -403,9 +399,10 @@ def contact_list(state: Mapping[str, NDArray[np.float64]]) -> list[Contact]:
 
 
 def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64]) -> str:
-    """Say which contacts have no capacitance, shape (ball, ring), and so why the bearing may have none.
+    """Say which contacts have no capacitance, shape (element, ring), and so why the bearing may have none.
 
-    Contacts of loaded balls are counted apart from those that hold no more than a ball's weight and centrifugal force.
+    Contacts under load are counted apart from those that hold no more than the weight and the centrifugal force of a
+    ball or a roller.
     """
     touching = load > 0.0
     shorted = np.isinf(capacitance) & touching
@@ -414,12 +411,12 @@ def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64]
     loaded = touching & carries(load[:, 0])[:, None]
     counts = [
         f"{np.count_nonzero(shorted & group)} of {np.count_nonzero(group)} {what}"
-        for group, what in ((loaded, "contacts of loaded balls"), (touching & ~loaded, "of the others"))
+        for group, what in ((loaded, "contacts under load"), (touching & ~loaded, "of the others"))
         if group.any()
     ]
     both = bool(shorted.all(axis=1).any())
     return f"{' and '.join(counts)} shorted: film parameter below {SHORTED:g}, metal touches" + (
-        ", some balls' at both rings: the bearing is no capacitor" if both else ""
+        ", at both rings of some: the bearing is no capacitor" if both else ""
     )
 
 

@@ -108,13 +108,14 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
     add_contact(raceway, 0, j, bundle)
     losses[:] = 0.0
     named, cells = losses_of(losses, bundle.raceways.size), cells_of(bundle.cells, 0, 1, bundle.grid.shape[1])
-    raceway_losses(raceway, kin, system, grid_of(bundle.grid), contact, cells, named)
+    grid = grid_of(bundle.grid)
+    raceway_losses(raceway, kin, system, grid, contact, cells, named)
     for i in range(MECHANISMS * bundle.raceways.size):
         sample.contact_loss += losses[i]
         rates[i] += losses[i]
     if delta <= 0.0:
         return 1
-    return contact_capacitance(raceway, kin, laws, bundle, shorted, touching, sample)
+    return contact_capacitance(raceway, kin, laws, bundle, grid, cells, shorted, touching, sample)
 
 
 @helper

@@ -47,6 +47,8 @@ class CircuitBearing:
         What laws may look at, of the inner and the outer contact; lengths that change with the load are NaN.
     roughness : float
         Composite rms roughness [m].
+    of_lines : bool
+        Whether its contacts are lines of rollers.
     """
 
     name: str
@@ -56,6 +58,7 @@ class CircuitBearing:
     geometry: Mapping[str, float]
     contexts: tuple[Context, Context]
     roughness: float
+    of_lines: bool = False
 
 
 def electric_model(options: Electric | None, name: str) -> ElectricModel:
@@ -78,7 +81,8 @@ def of_model(model: BearingModel) -> CircuitBearing:
     """Return a resolved model with its circuit; a case without the section gets the defaults."""
     chosen = model.electric or electric_model(None, model.name)
     materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
-    return _circuit_bearing("bearing", model.name, chosen, model.geometry, materials, model.oil, model.roughness)
+    found = _circuit_bearing("bearing", model.name, chosen, model.geometry, materials, model.oil, model.roughness)
+    return dataclasses.replace(found, of_lines=model.rollers is not None)
 
 
 def of_machine(machine: MachineModel) -> list[CircuitBearing]:
@@ -89,9 +93,8 @@ def of_machine(machine: MachineModel) -> list[CircuitBearing]:
         model = mounted.model
         own = dataclasses.replace(chosen, options=own_options(chosen.options, mounted.name))
         materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
-        found.append(
-            _circuit_bearing(mounted.name, machine.name, own, model.geometry, materials, model.oil, model.roughness)
-        )
+        one = _circuit_bearing(mounted.name, machine.name, own, model.geometry, materials, model.oil, model.roughness)
+        found.append(dataclasses.replace(one, of_lines=model.rollers is not None))
     return found
 
 
@@ -115,7 +118,9 @@ def of_run(result: Result, options: Electric | None) -> CircuitBearing:
         name: value if name in ("name", "base_type") else float(value) for name, value in model["oil"].items()
     }
     chosen = electric_model(options, str(result.path))
-    return _circuit_bearing("bearing", result.case, chosen, geometry, materials, Oil(**oil), float(model["roughness"]))
+    roughness = float(model["roughness"])
+    found = _circuit_bearing("bearing", result.case, chosen, geometry, materials, Oil(**oil), roughness)
+    return dataclasses.replace(found, of_lines=model.get("rollers") is not None)
 
 
 def _circuit_bearing(

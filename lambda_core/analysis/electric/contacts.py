@@ -45,12 +45,17 @@ class Contacts:
         Of the rings about the shaft axis [rad].
     load, film, film_minimum, film_parameter : float64[:, :, :]
         [N]; central and minimum film, 0 without load [m]; Lambda [-].
+    pressure : float64[:, :, :]
+        Largest one, 0 without load [Pa].
     semi_a, semi_b, entrainment : float64[:, :, :]
-        Semi-axes across and along rolling [m]; mean surface speed along rolling [m/s].
+        Semi-axes across and along rolling, of a line half its length and half its width [m]; mean surface speed along
+        rolling [m/s].
     hertz, capacitance : float64[:, :, :]
         Of the Hertzian area; of the whole contact, inf where asperities short it [F].
     roughness : float
         Composite rms roughness [m].
+    of_lines : bool
+        Whether the contacts are lines of rollers, not ellipses.
     origin : str
         Where the films come from, for people.
     """
@@ -63,6 +68,7 @@ class Contacts:
     film: FloatArray
     film_minimum: FloatArray
     film_parameter: FloatArray
+    pressure: FloatArray
     semi_a: FloatArray
     semi_b: FloatArray
     entrainment: FloatArray
@@ -70,6 +76,7 @@ class Contacts:
     capacitance: FloatArray
     roughness: float
     origin: str
+    of_lines: bool = False
 
     @property
     def ball_count(self) -> int:
@@ -88,8 +95,14 @@ class Contacts:
 
     @property
     def area(self) -> FloatArray:
-        """Hertzian area of each contact [m2]."""
-        return np.asarray(math.pi * self.semi_a * self.semi_b)
+        """Hertzian area of each contact [m2].
+
+        Of an ellipse pi a b. Of a line F/(pi/4 p_max): Hertz's mean pressure across a line is pi/4 of the largest
+        (Johnson 1985, Contact Mechanics, eq. 4.45).
+        """
+        if not self.of_lines:
+            return np.asarray(math.pi * self.semi_a * self.semi_b)
+        return np.asarray(self.load / np.maximum(0.25 * math.pi * self.pressure, 1.0))
 
     def part(self, rows: slice) -> Contacts:
         """Return some of the samples."""
@@ -124,6 +137,7 @@ _CHANNELS = {
     "film": "film_central",
     "film_minimum": "film_minimum",
     "film_parameter": "film_parameter",
+    "pressure": "max_pressure",
     "semi_a": "semi_axis_a",
     "semi_b": "semi_axis_b",
     "entrainment": "entrainment",
@@ -133,7 +147,9 @@ _CHANNELS = {
 CHANNELS = ("time", "body_spin_angle", "ball_azimuth", *_CHANNELS.values())  # that the circuit reads of a run
 
 
-def contacts_of_samples(samples: Mapping[str, FloatArray], roughness: float, origin: str) -> Contacts:
+def contacts_of_samples(
+    samples: Mapping[str, FloatArray], roughness: float, origin: str, *, of_lines: bool = False
+) -> Contacts:
     """Return the contacts in the samples of a run, channel -> array."""
     angle = samples["body_spin_angle"]
     return Contacts(
@@ -143,6 +159,7 @@ def contacts_of_samples(samples: Mapping[str, FloatArray], roughness: float, ori
         outer_angle=angle[:, 1],
         roughness=roughness,
         origin=origin,
+        of_lines=of_lines,
         **{name: samples[channel] for name, channel in _CHANNELS.items()},
     )
 
@@ -158,7 +175,8 @@ def contacts_of_run(result: Result) -> Contacts:
     samples = {name: result[name] for name in CHANNELS}
     if samples["time"].size < 3:
         raise UsageError(f"{result.path}: fewer than three samples")
-    return contacts_of_samples(samples, float(result.model["roughness"]), f"the run {result.path.name}")
+    roughness, origin = float(result.model["roughness"]), f"the run {result.path.name}"
+    return contacts_of_samples(samples, roughness, origin, of_lines=result.model.get("rollers") is not None)
 
 
 def equilibria(
@@ -187,6 +205,7 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
     from lambda_core.solver.records import CONTACT_CHANNELS
 
     model = found[0].context.model
+    elements = "balls" if model.rollers is None else "rollers"
     z, phases = model.geometry.balls, len(found)
     orbit = float(np.mean([e.orbit for e in found]))
     inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
@@ -215,7 +234,8 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
         inner_angle=inner * time,
         outer_angle=outer * time,
         roughness=model.roughness,
-        origin=f"quasi-static equilibria at {phases} positions of the balls",
+        origin=f"quasi-static equilibria at {phases} positions of the {elements}",
+        of_lines=model.rollers is not None,
         **parts,
     )
 

@@ -90,7 +90,8 @@ class Live:
         if not len(each[0]["time"]):
             return self._nothing()
         new = [
-            contacts_of_samples(samples, one.roughness, "") for samples, one in zip(each, self._bearings, strict=True)
+            contacts_of_samples(samples, one.roughness, "", of_lines=one.of_lines)
+            for samples, one in zip(each, self._bearings, strict=True)
         ]
         earlier: Sequence[Contacts | None] = self._waiting or [None] * len(new)
         self._waiting = waiting = [one.after(before) for one, before in zip(new, earlier, strict=True)]

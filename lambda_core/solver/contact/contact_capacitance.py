@@ -8,7 +8,8 @@ from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY, gap_capaci
 from lambda_core.solver.arrays.fault_roles import CAPACITANCE, PERMITTIVITY
 from lambda_core.solver.contact.contact_kinematics import contact_wrench
 from lambda_core.solver.faults import report
-from lambda_core.solver.layout import cells_of, grid_of, helper, part
+from lambda_core.solver.layout import cells_of, helper, part
+from lambda_core.solver.records import LINE
 
 _gap_capacitance = helper(gap_capacitance)
 
@@ -25,16 +26,13 @@ def bulk_permittivity(raceway, laws, bundle):
 
 
 @helper
-def contact_capacitance(raceway, kin, laws, bundle, shorted, touching, sample):
-    """Write the capacitance of the Hertzian area and of the contact [F], which is at least that of two that touch."""
+def contact_capacitance(raceway, kin, laws, bundle, grid, cells, shorted, touching, sample):
+    """Write the capacitance of the Hertzian area and of the contact [F], which is at least that of two that touch.
+
+    `grid` and `cells` are those of the contact in scratch: an ellipse's, or the slices of a line.
+    """
     scratch, par, where = bundle.scratch[0], bundle.par, raceway.parameters
-    contact, cells, grid, out, oil = (
-        scratch.contact[0],
-        cells_of(bundle.cells, 0, 1, bundle.grid.shape[1]),
-        grid_of(bundle.grid),
-        scratch.out[:],
-        raceway.oil,
-    )
+    contact, out, oil = scratch.contact[0], scratch.out[:], raceway.oil
     temp, p, eps, rho = cells.temperature, cells.pressure, cells.friction, cells.density
     h, ring = contact.film_central, raceway.number
     temp[:] = oil.temperature
@@ -51,10 +49,11 @@ def contact_capacitance(raceway, kin, laws, bundle, shorted, touching, sample):
     hertz = VACUUM_PERMITTIVITY * total * a * b / h
     bulk = bulk_permittivity(raceway, laws, bundle)
     rx, e = raceway.radius_x, raceway.modulus
+    across = raceway.radius_y if raceway.kind == LINE else rx  # W = F/(E' R_x L) of a line, F/(E' R_x^2) of a point
     u = oil.viscosity * abs(kin.entrainment_t) / (e * rx)
     out[0] = np.nan
     status = laws.capacitance(
-        hertz, h, a, b, rx, raceway.radius_y, u, oil.alpha_p * e, load / (e * rx * rx), bulk,
+        hertz, h, a, b, rx, raceway.radius_y, u, oil.alpha_p * e, load / (e * rx * across), bulk,
         part(par, where.capacitance), out,
     )  # fmt: skip
     if status != 1 or not abs(out[0]) < np.inf:

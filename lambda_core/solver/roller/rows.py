@@ -15,6 +15,7 @@ from lambda_core.solver.motion.bearing_sums import powers_of_bearing
 from lambda_core.solver.motion.energy import contact_energy
 from lambda_core.solver.motion.force_elements import drag_force
 from lambda_core.solver.records import CONTACT_SAMPLE, LINE, ROLLER
+from lambda_core.solver.roller.capacitance import in_series, loaded_capacitance, open_line
 from lambda_core.solver.roller.kinematics import apply_roller_wrench, line_kinematics, rib_kinematics
 from lambda_core.solver.roller.line import closest, line_energy, line_losses, line_wrench
 from lambda_core.solver.roller.motion import from_own, roller_energy, roller_rates
@@ -209,7 +210,7 @@ def _show(kin, contact, sample):
 
 
 @helper
-def _channels(roller, j, row, raceway, bundle, values, losses, rates):
+def _channels(roller, j, row, raceway, bundle, shorted, values, losses, rates):
     """Write the channels of one contact; adds its forces and losses as the right-hand side does."""
     scratch, system = bundle.scratch[0], bundle.system[0]
     ring, kin = bundle.bodies_now[raceway.body], scratch.kinematics[0]
@@ -219,6 +220,11 @@ def _channels(roller, j, row, raceway, bundle, values, losses, rates):
     if not delta < np.inf:
         return 0
     sample.contact_angle, sample.film_temperature = contact_angle(kin, raceway), raceway.oil.temperature
+    touching = open_line(raceway, kin, delta, bundle)
+    if touching < -0.5:
+        return 0
+    if delta <= 0.0:
+        sample.capacitance = touching
     if delta <= -near(raceway, system):
         return 1
     if _wrench_here(raceway, j, bundle) != 1:
@@ -231,12 +237,18 @@ def _channels(roller, j, row, raceway, bundle, values, losses, rates):
     for i in range(MECHANISMS * bundle.raceways.size):
         sample.contact_loss += losses[i]
         rates[i] += losses[i]
-    return 1
+    if delta <= 0.0:
+        return 1
+    return loaded_capacitance(raceway, kin, bundle, shorted, touching, sample)
 
 
 def observe(stage, y, r, bundle, shorted, contacts, pockets, losses, rates):
-    """Write what a sample shows of a row of rollers; returns 0, which stands for no capacitance, or -1 on a fault."""
-    row, rollers = bundle.rows[r], rollers_of(y, bundle.rows[r])
+    """Write what a sample shows of a row of rollers; returns the capacitance of its rollers [F], or -1 on a fault.
+
+    Contacts of a roller with one ring are parallel, its rings in series.
+    """
+    row, rollers, total = bundle.rows[r], rollers_of(y, bundle.rows[r]), 0.0
+    body = bundle.raceways[row.first_raceway].body
     for i in range(row.balls):
         j = row.first_ball + i
         if stage == POCKETS:
@@ -248,9 +260,13 @@ def observe(stage, y, r, bundle, shorted, contacts, pockets, losses, rates):
                     return -1.0
             store(pockets[j], on_roller.force)
             continue
+        one, other = 0.0, 0.0
         for k in range(row.raceways):
             raceway = bundle.raceways[row.first_raceway + k]
-            if _channels(rollers[i], j, row, raceway, bundle, contacts[j, k], losses, rates) != 1:
+            if _channels(rollers[i], j, row, raceway, bundle, shorted, contacts[j, k], losses, rates) != 1:
                 bundle.scratch[0].fault.ball = j
                 return -1.0
-    return 0.0
+            found = contacts[j, k].view(CONTACT_SAMPLE)[0].capacitance
+            one, other = (one + found, other) if raceway.body == body else (one, other + found)
+        total += in_series(one, other)
+    return total
