@@ -9,6 +9,9 @@ from pathlib import Path
 import yaml
 
 from lambda_core import __version__
+from lambda_core.discovery.manager import registry
+from lambda_core.elements.ball.kinds import kinds
+from lambda_core.elements.roller.roller_kinds import roller_kinds
 from lambda_core.plugins import METHOD_API, ROLE_API, VIEW_API
 from lambda_core.results import citation
 from lambda_core.results.file_format import LAYOUT
@@ -58,3 +61,23 @@ def test_the_house_plan_names_every_package_and_room() -> None:
     rooms = {path.name for path in (ROOT / "lambda_core").iterdir() if (path / "__init__.py").exists()}
     for room in rooms:
         assert f"`{room}" in text, room
+
+
+def test_the_first_pages_name_every_kind_of_bearing() -> None:
+    """README and site said "deep-groove ball bearings only" when there were angular contact ones."""
+    counts = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
+    balls, rollers = kinds(), {kind.title.split()[0].lower() for kind in roller_kinds().values()}
+    index = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
+    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    rows = dict(re.findall(r"^\| (ball|roller) bearings \| (.*) \|$", index, re.M))
+    assert f"[{counts[len(balls)]} kinds]" in rows["ball"]
+    assert not [name for name in balls if name not in rows["ball"]]
+    assert f"Ball bearings of {counts[len(balls)]} kinds" in readme
+    for text in (rows["roller"], readme):
+        assert not [kind for kind in rollers if kind not in text]
+    catalogued = {row.kind for row in registry().catalogue().bearings("", 10_000)}
+    assert catalogued == set(balls)
+    page = re.sub(r"[ -]+", " ", (ROOT / "docs" / "kinds.md").read_text(encoding="utf-8").lower())
+    assert not [name for name in balls if name.replace("-", " ") not in page]
+    words = (ROOT / "pyproject.toml").read_text(encoding="utf-8") + readme + index
+    assert not re.search(r"ball bearings only|only (deep[- ]groove )?ball bearings", words, re.I)
