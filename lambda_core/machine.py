@@ -274,5 +274,5 @@ def _section(piece: str | Mapping[str, Any]) -> dict[str, Any]:
     words: Iterable[str] = (word.strip() for word in piece.split(" x "))
     values = [word for word in words if word]
     if len(values) not in (2, 3):
-        raise UsageError(f'"{piece}" is no piece of a shaft; write "length x diameter": "30 mm x 40 mm"')
+        raise UsageError(f'"{piece}" is not a section of a shaft; write "length x diameter": "30 mm x 40 mm"')
     return dict(zip(("length", "diameter", "bore"), values, strict=False))

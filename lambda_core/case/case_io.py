@@ -103,7 +103,7 @@ def read_tables(source: Source, folder: Path | None = None) -> Tables:
         return Tables(dict(source), str(source.get("name", "case")), folder)
     if not isinstance(source, str | PathLike):
         if not hasattr(source, "written"):
-            raise UsageError(f"{type(source).__name__} is no case: {_SOURCES}")
+            raise UsageError(f"{type(source).__name__} is not a case: {_SOURCES}")
         return Tables(source.written(), source.name, source.folder)
     path = Path(source)
     if path.is_file():

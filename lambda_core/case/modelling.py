@@ -22,7 +22,7 @@ def _finite(given: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
     for role, values in given.items():
         for name, value in values.items():
             if isinstance(value, float) and not math.isfinite(value):
-                raise ValueError(f"{role}.{name}: {value} is no finite number")
+                raise ValueError(f"{role}.{name}: {value} is not a finite number")
     return given
 
 

@@ -92,7 +92,7 @@ def check_folder(folder: Path, target: Path | None = None, *, made: bool = False
         while made and not place.exists():
             place = place.parent
         if not place.is_dir():
-            reason = "is no folder" if place.exists() else "does not exist"
+            reason = "is not a folder" if place.exists() else "does not exist"
             raise UsageError(f"cannot write {target}: the folder {place} {reason}")
         with NamedTemporaryFile(prefix=".lambda-bearing-", dir=place):
             pass

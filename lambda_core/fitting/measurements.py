@@ -184,7 +184,9 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
         return None
     if unit == _SHARE and is_error and condition is None:
         if quantity != measured[name].quantity:
-            problems.append(Problem(where, f'"{text}": an error of a temperature is no share: write "{words} [K]"'))
+            problems.append(
+                Problem(where, f'"{text}": the error of a temperature must have a unit: write "{words} [K]"')
+            )
             return None
         return _Column("share", name, unit, "", text)
     try:

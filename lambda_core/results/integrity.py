@@ -81,14 +81,14 @@ def is_cut(path: Path) -> bool:
 def check_model(model: Any) -> None:
     """Raise ValueError where a model, read back as plain data, lacks what every use of a result asks it for."""
     if not isinstance(model, dict):
-        raise ValueError("its model is no table")
+        raise ValueError("its model is not a table")
     for part, kind in (("geometry", Geometry), ("solver", Solver)):
         table = model.get(part)
         needed = {field.name for field in fields(kind) if field.default is MISSING}
         if not isinstance(table, Mapping) or not needed <= set(table) <= {field.name for field in fields(kind)}:
             raise ValueError(f"the {part} of its model is not whole")
         if wrong := [name for name, value in table.items() if name not in _WORDS and not _is_number(value)]:
-            raise ValueError(f"{part}.{wrong[0]} of its model is no number")
+            raise ValueError(f"{part}.{wrong[0]} of its model is not a number")
     depth = model.get("depth")
     if not isinstance(depth, Mapping) or "cage" not in depth or not _is_number(model.get("roughness")):
         raise ValueError("its model is not whole")

@@ -33,7 +33,7 @@ def texts_of(item: h5py.Dataset, names: Iterable[str]) -> dict[str, str]:
     """
     found = {name: item.attrs[name] for name in names if h5a.exists(item.id, name.encode())}
     if any(not isinstance(text, str) for text in found.values()):
-        raise TypeError(f"the {' or '.join(found)} of {item.name} is no text")
+        raise TypeError(f"the {' or '.join(found)} of {item.name} is not a text")
     return found
 
 

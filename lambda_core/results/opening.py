@@ -38,7 +38,7 @@ def opened(path: Path) -> Iterator[h5py.File]:
     if not path.is_file():
         what = "does not exist"
         if path.exists():
-            what = "is a folder, not a result file" if path.is_dir() else "is no regular file"
+            what = "is a folder, not a result file" if path.is_dir() else "is not a regular file"
         raise ResultError(f"{path} {what}")
     try:
         file = open_for_reading(path)
@@ -79,7 +79,7 @@ def check_alone(file: h5py.File) -> None:
         return name if away else None
 
     if name := file.visititems_links(elsewhere):
-        raise ResultError(f"{file.filename} is no result of a run: {printable(name)} stands somewhere else")
+        raise ResultError(f"{file.filename} is not a result of a run: {printable(name)} is a link or external data")
 
 
 def channels_of(group: h5py.Group) -> Iterator[tuple[Channel, dict[str, str]]]:

@@ -34,7 +34,7 @@ class Rows:
         counts = {name: fields[name] for name in ("samples", "records", "circuit", "discharges")}
         each = {name: {str(key): n for key, n in fields[name].items()} for name in ("revolutions", "events")}
         if not all(type(n) is int and n >= 0 for group in (counts, *each.values()) for n in group.values()):
-            raise ValueError("its counts of rows are no numbers")
+            raise ValueError("its counts of rows are not numbers")
         return Rows(**counts, revolutions=each["revolutions"], events=each["events"])
 
 

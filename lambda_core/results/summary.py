@@ -416,7 +416,7 @@ def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64]
     ]
     both = bool(shorted.all(axis=1).any())
     return f"{' and '.join(counts)} shorted: film parameter below {SHORTED:g}, metal touches" + (
-        ", at both rings of some: the bearing is no capacitor" if both else ""
+        ", for some balls at both rings: the bearing has no capacitance" if both else ""
     )
 
 

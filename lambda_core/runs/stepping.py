@@ -200,7 +200,7 @@ class Stepping(Iterator[Step]):
         couple: Coupling = "force",
     ) -> None:
         if interval is not None and not 0.0 < interval < math.inf:
-            raise UsageError(f"{interval:g} s between steps is no time: give a positive number of seconds")
+            raise UsageError(f"the interval between steps is {interval:g} s: it must be positive and finite")
         if interval is not None and not exact:
             model = _in_steps(model, interval)
         self._coupled: Coupled

@@ -247,7 +247,7 @@ def map_axes(table: StudyTable, folder: Path) -> tuple[list[float], list[float]]
     missing = [name for name in UNITS if not any(one == name or one.endswith(f".{name}") for one in known)]
     if {column.name for column in table.parameters} != set(wanted) or table.design != "crossed" or missing:
         raise UsageError(
-            f"{folder} is no map of bearing currents: that is a crossed study of {SPEED} and {TEMPERATURE} with the "
+            f"{folder} is not a map of bearing currents, a crossed study of {SPEED} and {TEMPERATURE} with the "
             f"responses {', '.join(UNITS)}"
         )
     speed, temperature = (

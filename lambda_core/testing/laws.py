@@ -33,7 +33,7 @@ AnyLaw = Law | Callable[..., int] | str  # a law, the function below @law(...), 
 def _model(model: AnyLaw) -> Law:
     found = registry().model(*split_label(model)) if isinstance(model, str) else law_of(model)
     if found is None:
-        raise TypeError(f"{getattr(model, '__name__', model)} is no law: write @law(role, name, ...) above it")
+        raise TypeError(f"{getattr(model, '__name__', model)} is not a law: write @law(role, name, ...) above it")
     return found
 
 

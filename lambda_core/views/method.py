@@ -155,7 +155,9 @@ class MethodRow:
 
     def __post_init__(self) -> None:
         if self.unit not in GROUP_UNITS[self.group]:
-            raise ValueError(f'"{self.unit}" is no unit of {self.group}; allowed: {", ".join(GROUP_UNITS[self.group])}')
+            raise ValueError(
+                f'"{self.unit}" is not a unit of {self.group}; allowed: {", ".join(GROUP_UNITS[self.group])}'
+            )
 
 
 @dataclass(frozen=True)
@@ -247,7 +249,7 @@ def evaluate_methods(methods: Iterable[Method], inputs: MethodInputs | RollerMet
                 if not isinstance(row, MethodRow):
                     raise PluginError(f"{what} returns a row that is a {type(row).__name__}, not a MethodRow")
                 if not isinstance(row.value, int | float | np.number):
-                    raise PluginError(f"{what} returns {row.group} {row.name} = {row.value!r}, which is no number")
+                    raise PluginError(f"{what} returns {row.group} {row.name} = {row.value!r}, which is not a number")
             answers.append(MethodAnswer(method, table))
         except NotApplicable as error:
             answers.append(MethodAnswer(method, None, str(error)))

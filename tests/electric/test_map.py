@@ -161,7 +161,7 @@ def test_map_refuses_what_is_none(tmp_path: Path, alone: Path, capsys: pytest.Ca
     study = {"name": "s", "case": CASE, "responses": ["max_load_N"], "parameters": parameters}
     api.study_run(study, tmp_path / "s", executor="here")
     assert main(["electric-map", str(tmp_path / "s"), "--quiet"]) == 2
-    assert "is no map of bearing currents" in capsys.readouterr().err
+    assert "is not a map of bearing currents" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -175,7 +175,7 @@ def test_unknown_row_names_the_nearest(methods: dict[str, Method]) -> None:
 
 
 def test_unit_of_another_group_is_refused() -> None:
-    with pytest.raises(ValueError, match='"pF" is no unit of friction'):
+    with pytest.raises(ValueError, match='"pF" is not a unit of friction'):
         MethodRow("friction", "total", 1.0, "pF")
 
 

@@ -86,7 +86,7 @@ def test_plugins_check_tries_all_that_is_no_law(file: Path) -> None:
     assert "returns float64" in told["no-bool"]
     assert "lod" in told["no-view"]
     assert "no_such_number" in told["no-section"]
-    assert "which is no number" in told["no-method"]
+    assert "which is not a number" in told["no-method"]
     assert (cards["sound"].ok, cards["empty"].ok) == (True, True)
     assert "returns no finite number as loss_sum" in cards["empty"].warnings[0]
     assert not cards["sound"].warnings

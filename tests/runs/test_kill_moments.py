@@ -232,7 +232,7 @@ def test_a_part_of_another_kind_is_damage(kind: Kind, what: str, tmp_path: Path)
             group = file[f"bearings/{first}/revolutions"]
             del group["time"]
             group["time"] = ["a"]
-    with pytest.raises(api.UsageError, match=r"is damaged|is no text"):
+    with pytest.raises(api.UsageError, match=r"is damaged|is not a text"):
         asked_and_gone_on(path, first)
 
 

@@ -80,7 +80,7 @@ def test_a_spring_that_another_program_is_shares_the_load() -> None:
 
 
 @pytest.mark.parametrize(
-    ("interval", "words"), [(0.0, "no time"), (-1e-3, "no time"), (math.nan, "no time"), (math.inf, "no time")]
+    ("interval", "words"), [(value, "must be positive and finite") for value in (0.0, -1e-3, math.nan, math.inf)]
 )
 def test_intervals_without_sense_are_refused(interval: float, words: str) -> None:
     with pytest.raises(UsageError, match=words):

@@ -333,7 +333,7 @@ def test_a4_a_prepare_that_prints_and_leaves_is_a_sentence(capsys: pytest.Captur
     ("rows", "words"),
     [
         ((3,), "a row that is a int, not a MethodRow"),
-        ((MethodRow("friction", "total", "much", "N mm"),), "friction total = 'much', which is no number"),  # type: ignore[arg-type]
+        ((MethodRow("friction", "total", "much", "N mm"),), "friction total = 'much', which is not a number"),  # type: ignore[arg-type]
     ],
 )
 def test_a4_rows_of_a_wrong_kind_are_named(rows: Any, words: str) -> None:

@@ -12,7 +12,7 @@ from lambda_core.domain.errors import UsageError
 
 @pytest.mark.parametrize("source", [True, 1, None, 2.5, b"bytes"])
 def test_a_source_that_is_no_case_is_named(source: Any) -> None:
-    with pytest.raises(UsageError, match=rf"{type(source).__name__} is no case: give a file"):
+    with pytest.raises(UsageError, match=rf"{type(source).__name__} is not a case: give a file"):
         api.check(source)
 
 

@@ -60,5 +60,5 @@ def test_c4_an_oil_that_is_no_liquid_is_refused(temperature: str) -> None:
 @pytest.mark.parametrize("value", ["inf", "nan"])
 def test_a_parameter_without_end_is_refused(value: str) -> None:
     """It had ended as a bug where the case was written into the result."""
-    with pytest.raises(CaseError, match="no finite number"):
+    with pytest.raises(CaseError, match="not a finite number"):
         api.check(CASE, [f"parameters.rolling_resistance.thermal_coefficient={value}"])

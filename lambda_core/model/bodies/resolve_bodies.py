@@ -135,9 +135,7 @@ def resolve_cage(
     ):
         if not size < limit:
             shown = show(size, "length", 4), show(limit, "length", 4)
-            ledger.problem(
-                f"bodies.cage.{name}", f"{shown[0]} is no size of a cage: it must be smaller than {shown[1]}"
-            )
+            ledger.problem(f"bodies.cage.{name}", f"{shown[0]} is too large: it must be smaller than {shown[1]}")
             thickness = width = ball
     mass = material.density * row.fill.value * math.pi * pitch * thickness * width * geometry.rows
     width += geometry.row_distance

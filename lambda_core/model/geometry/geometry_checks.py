@@ -27,7 +27,7 @@ def check_geometry(geometry: Geometry, races: tuple[float | None, float | None],
     say = ledger.problem
 
     if not abs(g.clearance) < ball:
-        say("bearing.clearance", f"{mm(g.clearance)} is no clearance of balls of {mm(ball)}")
+        say("bearing.clearance", f"{mm(g.clearance)} is not possible for balls of {mm(ball)}")
         return
     if not g.bore_diameter < pitch < g.outside_diameter:
         say(
