@@ -92,7 +92,7 @@ def fit(
     data = measured if isinstance(measured, Measurements) else read_measurements(measured, subject.words)
     problem = CaseProblem(subject, data, [subject.varied(text) for text in vary])
     if announce is not None:
-        announce(f"fitting {len(problem.parameters)} parameters to {len(problem.entries)} measured values")
+        announce(f"fitting to {len(problem.entries)} measured values; parameters: {len(problem.parameters)}")
     try:
         found = fit_values(
             problem.predict,

@@ -132,8 +132,8 @@ def _next(report: FitReport, units: UnitSystem) -> list[str]:
         return []
     where = ", ".join(f"{name} {units.sentence(value)}" for name, value in point.conditions.items())
     names = " and ".join(point.combination)
-    gain = f"from {point.spread_before:.2f} to {point.spread_after:.2f} of what was known before"
-    return [f"next point to measure: {where}; it narrows {names} {gain}"]
+    gain = f"from {point.spread_before:.2f} to {point.spread_after:.2f} of their range before the fit"
+    return [f"next point to measure: {where}; it reduces the uncertainty of {names} {gain}"]
 
 
 def _table(rows: Sequence[Sequence[str]]) -> list[str]:

@@ -63,8 +63,8 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
         report, done = taken
         moving += done
     log.warning(
-        "the axial velocities of the balls differ from their paths by %.0f %% of the largest (%g %% are allowed): the "
-        "friction of this equilibrium is less exact",
+        "the axial velocities of the balls deviate from their paths by %.0f %% of the largest velocity "
+        "(more than %g %%): the friction torque of this equilibrium is less accurate",
         100.0 * change / across,
         100.0 * PATH_TOLERANCE,
     )
