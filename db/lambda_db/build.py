@@ -143,7 +143,11 @@ def build_file(folder: Path, name: str, plugin_folders: list[Path]) -> Path:
             fill(connection, plugin_folders)
         engine.dispose()
         target = folder / f"{name}-{_digest(temporary)}.sqlite"
-        os.replace(temporary, target)
+        try:
+            os.replace(temporary, target)
+        except PermissionError:  # Windows replaces no open file: another process reads the same content there
+            if not target.is_file():
+                raise
         _prune(folder)
     finally:
         temporary.unlink(missing_ok=True)

@@ -268,7 +268,7 @@ def _open(folder: Path) -> Pack:
 
 def _manifest(file: Path) -> Any:
     try:
-        text = file.read_text()
+        text = file.read_text(encoding="utf-8")
     except OSError:
         raise _UnusableError("this installation has none") from None
     try:

@@ -12,8 +12,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from lambda_db import build
 from lambda_db.catalogue import open_catalogue
 from lambda_db.engine import WRITTEN
+from lambda_db.models import Base
 from lambda_db.paths import cache_folder
 from lambda_db.seed_files import BUILT_IN, fingerprint
 from lambda_db.shadows import shadows
@@ -229,3 +231,21 @@ def test_paths_come_from_the_environment(cache: Path, monkeypatch: pytest.Monkey
     assert cache_folder() == cache
     monkeypatch.delenv("LAMBDA_BEARING_CACHE")
     assert "lambda-bearing" in str(cache_folder())
+
+
+def test_on_windows_a_catalogue_that_another_process_reads_is_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Windows replaces no open file; the file under the name of a digest has the same content anyway."""
+    monkeypatch.setattr(build, "fill", lambda connection, folders: Base.metadata.create_all(connection))
+    first = build.build_file(tmp_path, "catalogue-x", [])
+
+    def refused(source: str | Path, target: str | Path) -> None:
+        raise PermissionError(13, "the process cannot access the file because it is being used by another process")
+
+    monkeypatch.setattr(os, "replace", refused)
+    assert build.build_file(tmp_path, "catalogue-x", []) == first
+    assert [path.name for path in tmp_path.iterdir()] == [first.name]
+    first.unlink()
+    with pytest.raises(PermissionError):
+        build.build_file(tmp_path, "catalogue-x", [])
