@@ -50,7 +50,7 @@ _SERIES = "time [s],bearing voltage [V]\n0,0\n0.0001,5\n0.0002,0\n"
 
 @cache
 def machines() -> tuple[dict[str, Any], ...]:
-    """Return the machines that hostile values are put into: gears, a network, a circuit, a preloaded pair."""
+    """Return the machines that hostile values are put into: gears, a network, a circuit, laws, held rings and cages."""
     box = tomllib.loads(geared_shaft("box"))
     warm = {"conductances": "harris", "ambient": "20 degC"}
     seal = {"at": "160 mm", "z": {"stiffness": "1 N/um", "damping": "200 N s/m"}}
@@ -59,7 +59,13 @@ def machines() -> tuple[dict[str, Any], ...]:
     motor["bearings"]["left"] = motor["bearings"].pop("drive_end")
     fitted = copy.deepcopy(box) | {"bearings": {**box["bearings"]}}
     fitted["bearings"]["left"] = {**box["bearings"]["left"], "models": {"traction": "eyring"}}
-    return box | extra, motor, fitted
+    held = copy.deepcopy(box)
+    held["bearings"]["left"] |= {
+        "inner_ring": {"mass": "0.2 kg", "unbalance": "20 g mm"},
+        "outer_ring": {"spin": {"motion": "-300 rpm"}, "mass": "0.3 kg", "polar_inertia": "300 kg mm2"},
+        "cage": {"y": {"motion": "0.05 mm"}, "z": "2 N/um", "spin": "free", "mass": "30 g"},
+    }
+    return box | extra, motor, fitted, held, held
 
 
 def places(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
