@@ -14,6 +14,7 @@ from lambda_cli.main import main
 
 from lambda_core import api
 from lambda_core.case.case_io import builtin_cases
+from lambda_core.domain.errors import SolverError
 from lambda_core.model.checks.operating_limits import applied_load, heating_factor, operating_warnings
 from lambda_core.results.verdict import limits_of
 
@@ -89,6 +90,12 @@ def test_the_verdict_asks_a_preloaded_bearing_for_no_minimum_load(motor: Path) -
     unloaded = api.check(motor, ["loads.radial=0 N", "loads.axial=0 N"])
     assert limits_of(unloaded).minimum_load_N == pytest.approx(423.0)
     assert limits_of(api.check(motor, ["bearing.clearance=-5 um"])).minimum_load_N is None
+
+
+def test_an_impossible_load_is_the_reason_why_no_equilibrium_is_found(motor: Path) -> None:
+    """The message asked whether the ring is held."""
+    with pytest.raises(SolverError, match=r"P0 = 1e[+]13 N is above the static load rating C0 = 24 kN"):
+        api.quasistatic(motor, ["loads.radial=1e13 N"], band=False)
 
 
 def test_the_heating_factor_is_that_of_the_law_at_epicyclic_rolling(motor: Path) -> None:

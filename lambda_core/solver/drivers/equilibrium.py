@@ -315,10 +315,9 @@ def _no_equilibrium(context: SolverContext, report: StaticReport, *, friction: b
             "angles were found, a steady motion of the balls was not: "
             f"{_limitless(context) or 'try a speed or temperature nearby, or a run, which needs none'}"
         )
-    return (
-        f"no quasi-static equilibrium without friction {how_far}: is every free degree of freedom of the ring held by "
-        "a load or a support?"
-    )
+    held = "is every free degree of freedom of the ring held by a load or a support?"
+    beyond = "; ".join([*operating_warnings(context.model), held])
+    return f"no quasi-static equilibrium without friction {how_far}: {beyond}"
 
 
 def _limitless(context: SolverContext) -> str:
