@@ -262,9 +262,9 @@ def export_rows(
 
 @app.command()
 def accept(json: JsonOption = False) -> None:
-    """Accept your own catalogue as it is now, after you have changed it with another tool.
+    """Accept your own catalogue after a change with another tool.
 
-    Every row has a digest, so that a change that no command here has made is named and its file left out until then.
+    The program names every row that another tool has changed and ignores the file until you accept it.
     """
     from lambda_db.paths import user_database
     from lambda_db.user import accept as seal
@@ -280,7 +280,7 @@ def accept(json: JsonOption = False) -> None:
 
 @app.command()
 def check(json: JsonOption = False) -> None:
-    """Look for rows that contradict themselves or each other; exit 3 when one cannot be used."""
+    """Check the catalogue for contradictions; exit code 3 if a row cannot be used."""
     from dataclasses import asdict
 
     from lambda_db.check import check_catalogue

@@ -9,7 +9,7 @@ import typer
 
 from lambda_core.domain.processes import command_line
 
-_HELP = "Use the laws of a file, too; may be repeated. Without it no file is read but those of your plugin folder."
+_HELP = "Also use the laws of this file; may be repeated."
 
 
 _taken: list[str] = []  # files that this command was given

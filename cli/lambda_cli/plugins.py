@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from lambda_core.api import CheckCard, ModelCard
 
-app = typer.Typer(no_args_is_help=True, add_completion=False, help="Models, methods and views that plugins bring.")
+app = typer.Typer(no_args_is_help=True, add_completion=False, help="List, show, check and create plugins.")
 
 
 def _table(*columns: str) -> Table:
@@ -43,7 +43,7 @@ def list_plugins(
     role: Annotated[str, typer.Option(help="Only the models of one role.")] = "",
     as_json: JsonOption = False,
 ) -> None:
-    """List everything installed, with its distribution; plugins that are not in use, and why."""
+    """List all plugins with their distribution, and the reasons for those not in use."""
     from lambda_cli.commands import renamed
     from lambda_core import api
     from lambda_core.api import NoteCard
@@ -75,7 +75,7 @@ def show(
         str,
         typer.Argument(
             metavar="ROLE/NAME",
-            help="For example traction/ree-eyring; ree-eyring is enough where one role alone has it. Or FILE.py, or a "
+            help="For example traction/ree-eyring; ree-eyring is enough if only one role has it. Or FILE.py, or a "
             "package: all of its laws.",
         ),
     ],
@@ -145,11 +145,11 @@ def _show_card(card: ModelCard) -> None:
 def new(
     name: Annotated[str, typer.Argument(metavar="NAME", help="Lower case and hyphens, for example my-traction.")],
     folder: Annotated[
-        Path, typer.Option("--in", metavar="FOLDER", help="Where the package's folder is made.")
+        Path, typer.Option("--in", metavar="FOLDER", help="Folder in which to create the package.")
     ] = Path(),
     as_json: JsonOption = False,
 ) -> None:
-    """Write a small plugin package to start from: law, method, view, rows, command, tests."""
+    """Create a small plugin package with a law, method, view, rows, command and tests."""
     from lambda_core import api
 
     files = api.new_plugin(name, folder)
@@ -165,11 +165,11 @@ def new(
 def check(
     names: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[NAME]...", help="Packages, roles, ROLE/NAME or FILE.py; everything when left out."),
+        typer.Argument(metavar="[NAME]...", help="Packages, roles, ROLE/NAME or FILE.py; default: everything."),
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Try models against the contract of their role; exit 3 when one does not keep it."""
+    """Test models against the rules of their role; exit code 3 if one fails."""
     from lambda_core import api
     from lambda_core.api import Verdict
     from lambda_core.domain.plugin_errors import PluginError

@@ -62,7 +62,7 @@ def run(
 
 
 def limits(duration: str | None, max_wall: str | None) -> list[str]:
-    """Return the overrides that the options stand for."""
+    """Return the overrides that the options mean."""
     found = {"solver.duration": duration, "solver.max_wall": max_wall}
     return [f"{path}={value}" for path, value in found.items() if value is not None]
 

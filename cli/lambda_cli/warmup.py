@@ -9,10 +9,10 @@ from lambda_cli.talk import QuietOption
 
 
 def warmup(as_json: JsonOption = False, quiet: QuietOption = False) -> None:
-    """Compile the solver and every installed law ahead of the first run, into the user's cache.
+    """Compile the solver and every installed law before the first run.
 
-    Takes half a minute to a minute on two cores, a second or two when everything is there.
-    Exit code 3 when a law cannot be compiled; all others are.
+    Takes half a minute to a minute on two cores, a second or two if everything is compiled.
+    Exit code 3 if a law cannot be compiled; the command compiles all others.
     """
     from lambda_core import api
 

@@ -11,12 +11,10 @@ import typer
 
 def gui(
     case: Annotated[
-        str | None, typer.Argument(metavar="[CASE]", help="Case file (TOML) or built-in case; asks without one.")
+        str | None, typer.Argument(metavar="[CASE]", help="Case file (TOML) or built-in case; default: choose one.")
     ] = None,
-    serve: Annotated[bool, typer.Option("--serve", help="Serve it to a browser instead.")] = False,
-    host: Annotated[
-        str, typer.Option("--host", metavar="ADDRESS", help="With --serve: address; others than this machine's warn.")
-    ] = "localhost",
+    serve: Annotated[bool, typer.Option("--serve", help="Serve the builder to a browser.")] = False,
+    host: Annotated[str, typer.Option("--host", metavar="ADDRESS", help="With --serve: address.")] = "localhost",
     port: Annotated[int, typer.Option("--port", min=1, max=65535, help="With --serve: port.")] = 8000,
     units: Annotated[
         str,
@@ -25,14 +23,14 @@ def gui(
             metavar="[si|us]",
             envvar="LAMBDA_BEARING_UNITS",
             show_envvar=False,
-            help="Units of what is shown.",
+            help="Units of the display.",
         ),
     ] = "si",
 ) -> None:
-    """Build cases, run them and look at results in the terminal.
+    """Build and run cases and view results in the terminal.
 
-    Without CASE it offers an empty model, the case files of this folder and the built-in cases. With --serve open
-    the address that it prints in a browser; end it with Ctrl+C.
+    Without CASE the builder offers an empty model, the case files of this folder and the built-in cases. With --serve
+    open the printed address in a browser; Ctrl+C ends the builder.
     """
     from lambda_core.domain.unit_systems import unit_system
 
