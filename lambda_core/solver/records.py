@@ -90,6 +90,7 @@ KINEMATICS = record(
     ("outward", f8),  # component of n away from the ring's axis
     ("line_tilt", f8),  # of a line contact: between roller and raceway, in the plane of the bearing's axis [rad]
     ("line_tilt_rate", f8),  # [rad/s]
+    ("line_skew", f8),  # of a roller's axis to the raceway's generatrix [rad]
     ("entrainment_slope", f8),  # of entrainment_t along the line [1/s]
 )
 LINE_DRIVERS = (*DRIVERS, "line_tilt", "line_tilt_rate", "entrainment_slope")  # what a line contact depends on

@@ -105,7 +105,7 @@ def line_kinematics(roller, ring, row, raceway, kin):
     sign = 1.0 if dot(generatrix, s_) > 0.0 else -1.0
     kin.penetration, kin.line_tilt, kin.reach = delta, sign * dot(n, generatrix), row.ball_radius
     _write(roller, ring, row, (c, s), axis, centre, lever, (t, s_, n), s_, kin)
-    kin.rise_t = sign * dot(own, t)  # skew of the roller's axis to the raceway's generatrix
+    kin.line_skew = sign * dot(own, t)
     return delta
 
 

@@ -115,7 +115,7 @@ def _lean_on(kin, moment, wrench):
     force couple of the tangential force F rho = M skew, on roller and ring at the roller's centre, keeps the ring's
     spin free of it: together they are the slope of the contacts' energy.
     """
-    skew, reach = kin.rise_t, kin.reach
+    skew, reach = kin.line_skew, kin.reach
     rho = math.sqrt(kin.arm[1] * kin.arm[1] + kin.arm[2] * kin.arm[2]) - reach * kin.outward
     force = kin.outward * moment * skew / rho
     wrench.force[0] += force
