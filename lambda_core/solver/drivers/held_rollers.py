@@ -21,11 +21,12 @@ from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
-from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve, solve_near
 from lambda_core.solver.drivers.first_state import FIRST_AZIMUTH, first_frame
 from lambda_core.solver.drivers.held_ring import HeldRing, held
 
 _HELD = (True,) * 5
+_TILTS = 3  # from this place of a pose on
 _MIRROR = np.array([-1.0, 1.0, 1.0, -1.0, -1.0])  # of a pose or a wrench, at the middle plane
 
 
@@ -105,8 +106,19 @@ class HeldRollers:
         return False
 
     def equilibrium(self) -> Equilibrium:
-        """Return the equilibrium at the last pose with the friction of the rollers by the laws of the model."""
-        return solve(held(self.model, self._pose.tolist()), self._kernels, self._announce, strict=False)
+        """Return the equilibrium at the last pose with the friction of the rollers by the laws of the model.
+
+        Friction skews the rollers of a tilted ring, and the way there starts from a straight one: straight into the
+        tilted pose it is lost in some places.
+        """
+        there, straight = held(self.model, self._pose.tolist()), [*self._pose[:_TILTS].tolist(), 0.0, 0.0]
+        if self._pose[_TILTS:].any():
+            try:
+                near = solve(held(self.model, straight), self._kernels, self._announce)
+                return solve_near(there, near, self._kernels)
+            except SolverError:
+                pass  # the pose itself may have one, or says what is wrong
+        return solve(there, self._kernels, self._announce, strict=False)
 
 
 Ring = HeldRing | HeldRollers
