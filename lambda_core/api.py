@@ -28,20 +28,9 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.fitting.traction_curve import traction
     from lambda_core.model.cases import builtin_cases, case, catalogue, init_case, save, schema
     from lambda_core.model.checking import check, describe
-    from lambda_core.runs.api import (
-        cite,
-        cross_check,
-        estimate,
-        iterate,
-        quasistatic,
-        result,
-        resume,
-        run,
-        side_by_side,
-        summary,
-        warmup,
-    )
+    from lambda_core.runs.api import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.runs.compare import compare
+    from lambda_core.runs.stored import cite, result, side_by_side, summary
     from lambda_core.studies.api import study_check, study_resume, study_run, study_status, study_table
     from lambda_core.studies.choose import Choice, choose
     from lambda_core.studies.current_map import electric_map

@@ -1,4 +1,4 @@
-"""Solve, run, resume and cross-check a case; open, summarise and cite results."""
+"""Solve, run, resume and cross-check a case, and estimate what a run takes."""
 
 from __future__ import annotations
 
@@ -11,122 +11,24 @@ from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.model.checking import check
 from lambda_core.results.answer import answers
 from lambda_core.runs.rerun import ready, rerun
+from lambda_core.runs.stored import result
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
-    from os import PathLike
+    from collections.abc import Callable, Iterable, Mapping
 
     from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
     from lambda_core.case.case import Case
     from lambda_core.case.machine import MachineCase
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
-    from lambda_core.results.citation import Citation
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.results.reader import Result
     from lambda_core.results.roller_quasistatic import RollerQuasiStatic
-    from lambda_core.results.side_by_side import SideBySide
-    from lambda_core.results.summary import Summary
     from lambda_core.runs.crosscheck import CrossCheck
     from lambda_core.runs.estimate import Estimate, MachineEstimate
     from lambda_core.runs.progress import Progress
     from lambda_core.runs.stepping import Stepping
     from lambda_core.runs.warmup import Warmup
-
-
-def result(path: str | PathLike[str], bearing: str | None = None) -> Result:
-    """Open a result file: finished, still growing, or left behind by a killed process.
-
-    Parameters
-    ----------
-    path : path-like
-        The file, or a result.
-    bearing : str, optional
-        Look at this bearing of a machine; default: at the only one, or at the machine.
-
-    Returns
-    -------
-    Result
-        Reads from the file what it is asked for.
-
-    Raises
-    ------
-    UsageError
-        When the file does not exist, is not a result, or is damaged.
-    """
-    from lambda_core.results.reader import Result
-
-    if isinstance(path, Result):
-        return path if bearing is None else path.of_bearing(bearing)
-
-    return Result(path, bearing).rerun_by(rerun)
-
-
-def side_by_side(paths: Sequence[str | PathLike[str]]) -> SideBySide:
-    """Compare several results: the options in which their cases differ, and the numbers that follow.
-
-    Parameters
-    ----------
-    paths : sequence of path-like
-        Two or more results or their files.
-
-    Returns
-    -------
-    SideBySide
-        Differing options as written, key numbers with units.
-
-    Raises
-    ------
-    UsageError
-        For fewer than two, or a file that is no result or holds no samples yet.
-    """
-    from lambda_core.results.side_by_side import side_by_side as put
-
-    return put([result(path) for path in paths])
-
-
-def summary(path: str | PathLike[str]) -> Summary:
-    """Return the averages and the end state of a result (the machine interface).
-
-    Parameters
-    ----------
-    path : path-like
-        Result file, or a result.
-
-    Returns
-    -------
-    Summary
-        Numbers in the units of their names.
-
-    Raises
-    ------
-    UsageError
-        When the file is no result or holds no samples yet.
-    """
-    return result(path).summary()
-
-
-def cite(path: str | PathLike[str]) -> Citation:
-    """Return the references of exactly the laws and data that a result used, and of the program.
-
-    Parameters
-    ----------
-    path : path-like
-        Result file, or a result.
-
-    Returns
-    -------
-    Citation
-        Read from the file: it does not need the plugins that were used.
-
-    Raises
-    ------
-    UsageError
-        When the file does not exist, is not a result, or is damaged.
-    """
-    from lambda_core.results.citation import citation
-
-    return citation(result(path))
 
 
 @answers

@@ -165,7 +165,7 @@ class QueuedRun:
 
 
 def _code_of_run(result: Path) -> int:
-    from lambda_core.runs.api import summary
+    from lambda_core.runs.stored import summary
 
     try:
         found = summary(result)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
 from lambda_core.domain.files import check_folder, check_new, check_target
 from lambda_core.model.checking import check
-from lambda_core.runs.api import result
+from lambda_core.runs.stored import result
 from lambda_core.studies.api import study_status
 
 if TYPE_CHECKING:
@@ -319,7 +319,7 @@ def report(
     runs = [one for one, chapter in zip(sources, chapters, strict=True) if chapter.kind == "run"]
     compared: tuple[Table, ...] = ()
     if len(runs) > 1:
-        from lambda_core.runs.api import side_by_side
+        from lambda_core.runs.stored import side_by_side
 
         compared = comparison_tables(side_by_side(runs), cover.units)
     text = document(chapters, cover, compared)
