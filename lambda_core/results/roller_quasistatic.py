@@ -23,7 +23,7 @@ from lambda_core.elements.roller.roller_life import lamina_life, roller_basic_li
 from lambda_core.elements.roller.roller_motion import RollerMotion, rolling_motion
 from lambda_core.elements.roller.roller_ratings import lamina_ratings, roller_equivalent_load, roller_static_load
 from lambda_core.formulas.life import life_hours, reference_viscosity
-from lambda_core.formulas.loading import CARRYING
+from lambda_core.formulas.loading import CARRYING, carries
 from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
 from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
@@ -67,7 +67,9 @@ class RollerQuasiStatic(Answer):
     heat_factor: float | None = Field(description="of inlet heating on the rolling resistance")
     supply_factor: float | None = Field(description="of replenishment on the rolling resistance")
     cage_speed_ratio: float | None = Field(description="of rollers that do not slide, over the inner ring's speed")
-    film_um: list[float] = Field(description="smallest and largest central film of the raceways under load")
+    film_um: list[float] = Field(
+        description="smallest and largest central film, of slices with more than 1 % of the largest load"
+    )
     film_parameter: float | None = Field(description="smallest film over roughness of the raceways")
     rib_load_N: float = Field(description="largest load of a rib")
     rib_pressure_GPa: float
@@ -140,7 +142,9 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
     state, motion, turning = solved.state, solved.motion, solved.friction is not None
     found = solved.friction or RollerFriction()
     carried = np.maximum(state.inner.sum(axis=1), state.outer.sum(axis=1))
-    films = np.concatenate([film[np.isfinite(film)] for film in found.film.values()]) if turning else np.zeros(0)
+    loads = {"inner": state.inner, "outer": state.outer}  # of every slice; light ones at the ends float on thick films
+    films = [film[np.isfinite(film) & carries(loads[ring])] for ring, film in found.film.items()]
+    carrying = np.concatenate(films) if turning else np.zeros(0)
     radial, axial = float(np.hypot(state.loads[1], state.loads[2])), abs(float(state.loads[0]))
     limit = _limit(model, radial, motion)
     x, y, z, tilt_y, tilt_z = (float(value) for value in state.ring)
@@ -160,7 +164,7 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
         heat_factor=found.heat_factor if turning else None,
         supply_factor=found.supply_factor if turning else None,
         cage_speed_ratio=motion.cage / motion.inner if motion.inner != 0.0 else None,
-        film_um=[1e6 * float(films.min()), 1e6 * float(films.max())] if len(films) else [],
+        film_um=[1e6 * float(carrying.min()), 1e6 * float(carrying.max())] if carrying.size else [],
         film_parameter=finite(min(found.film_parameter.values(), default=math.nan)),
         rib_load_N=float(state.ribs.max(initial=0.0)),
         rib_pressure_GPa=1e-9 * found.rib_pressure,
