@@ -44,7 +44,7 @@ def test_a_machine_is_saved_with_its_comments(box: Path) -> None:
     api.save(api.case(box).with_(shaft={"temperature": "50 degC"}), box)
     text = box.read_text()
     assert 'temperature = "50 degC"' in text
-    assert "# Gears: forces follow from power (or torque) and geometry." in text
+    assert "# Gears: the program computes the tooth forces from power (or torque) and geometry." in text
 
 
 def test_what_is_about_one_bearing_refuses_machines(box: Path) -> None:

@@ -20,7 +20,7 @@ def nine() -> Any:
     tables = SimpleNamespace(
         rows=np.array([(L.NB,)], dtype=[("size", int)]), system=np.array([(9 * L.NB,)], dtype=[("tail", int)])
     )
-    return SimpleNamespace(model=SimpleNamespace(geometry=geometry), bundle=tables)
+    return SimpleNamespace(model=SimpleNamespace(geometry=geometry, rollers=None), bundle=tables)
 
 
 def start() -> Any:
@@ -47,4 +47,4 @@ def test_an_iteration_that_does_not_settle_says_so(swing: bool, caplog: pytest.L
     follow_paths(given, start(), np.zeros(1, dtype=[("orbit", float)]), solve)
     told = [record.getMessage() for record in caplog.records]
     assert bool(told) == swing
-    assert all("differ from their paths by" in text for text in told)
+    assert all("deviate from their paths by" in text for text in told)

@@ -163,7 +163,7 @@ def test_c3_a_strangers_result_shows_nothing_of_other_files(
     secret.write_text(SECRET, encoding="utf-8")
     with h5py.File(stranger, "r+") as file:
         tamper(file, secret)
-    with pytest.raises(ResultError, match="no result of a run"):
+    with pytest.raises(ResultError, match="not a result of a run"):
         Result(stranger)
     assert main(["show", str(stranger), "--assumptions"]) == 2
     said = capsys.readouterr()
