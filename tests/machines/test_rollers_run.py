@@ -58,5 +58,5 @@ def test_a_run_has_the_friction_of_its_equilibrium(name: str, tmp_path: Path) ->
     assert abs(found.energy_residual) < 1e-3
     assert found.friction_torque_Nmm == pytest.approx(still.friction_torque_Nmm, rel=0.15)
     for bearing in WITH_ROLLERS[name]:
-        one = found.bearing(bearing)
+        one = found.bearings[bearing]
         assert one.cage_speed_ratio == pytest.approx(one.epicyclic_ratio, rel=0.02)
