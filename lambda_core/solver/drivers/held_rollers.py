@@ -7,6 +7,7 @@ on the raceways, points on the ribs.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 
 import numpy as np
 
@@ -113,11 +114,9 @@ class HeldRollers:
         """
         there, straight = held(self.model, self._pose.tolist()), [*self._pose[:_TILTS].tolist(), 0.0, 0.0]
         if self._pose[_TILTS:].any():
-            try:
+            with suppress(SolverError):  # else the pose itself has one, or says what is wrong
                 near = solve(held(self.model, straight), self._kernels, self._announce)
                 return solve_near(there, near, self._kernels)
-            except SolverError:
-                pass  # the pose itself may have one, or says what is wrong
         return solve(there, self._kernels, self._announce, strict=False)
 
 
