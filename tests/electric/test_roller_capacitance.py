@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +13,19 @@ from lambda_core.results.reader import Result
 
 PERMITTIVITY = 2.2  # the law constant's default
 SMOOTH = ["surface.roughness=0.02 um", "models.permittivity=constant", "solver.duration=3 ms"]
+
+MOTOR = {
+    "name": "motor",
+    "operation": {"speed": "3000 rpm"},
+    "lubricant": {"name": "FVA3", "temperature": "70 degC"},
+    "surface": {"roughness": "0.02 um"},
+    "shaft": {"sections": [{"length": "280 mm", "diameter": "40 mm"}]},
+    "bearings": {
+        "drive": {"designation": "SKF NU 208 ECP", "at": "20 mm"},
+        "other": {"designation": "SKF 6308", "at": "260 mm"},
+    },
+    "loads": {"belt": {"at": "5 mm", "force_z": "-3 kN"}},
+}
 
 
 @pytest.fixture(scope="module")
@@ -61,20 +73,13 @@ def test_a_bearing_with_rollers_stands_in_a_circuit(run: Result) -> None:
     assert abs(outcome.charge_residual) < 1e-6
 
 
-def test_a_motor_of_rollers_and_balls_has_one_circuit(tmp_path: Path) -> None:
-    case = {
-        "name": "motor",
-        "operation": {"speed": "3000 rpm"},
-        "lubricant": {"name": "FVA3", "temperature": "70 degC"},
-        "surface": {"roughness": "0.02 um"},
-        "shaft": {"sections": [{"length": "280 mm", "diameter": "40 mm"}]},
-        "bearings": {
-            "drive": {"designation": "SKF NU 208 ECP", "at": "20 mm"},
-            "other": {"designation": "SKF 6308", "at": "260 mm"},
-        },
-        "loads": {"belt": {"at": "5 mm", "force_z": "-3 kN"}},
-    }
-    outcome = api.electric(case).outcome
+def test_a_motor_of_rollers_and_balls_has_one_circuit() -> None:
+    outcome = api.electric(MOTOR).outcome
     assert set(outcome.bearings) == {"drive", "other"}
     assert min(outcome.bearings["drive"].bearing_capacitance_pF) > 0.0
     assert abs(outcome.energy_residual) < 1e-6
+
+
+def test_rollers_at_rest_pass_nothing() -> None:
+    with pytest.raises(api.UsageError, match="at rest no roller passes"):
+        api.electric(MOTOR, ["operation.speed=0 rpm"])

@@ -210,8 +210,8 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
     orbit = float(np.mean([e.orbit for e in found]))
     inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
     relative = orbit - outer
-    if relative == 0.0:
-        raise UsageError("at rest no ball passes: give the bearing a speed")
+    if inner == outer or relative == 0.0:  # rollers of rings at rest may creep by rounding
+        raise UsageError(f"at rest no {elements[:-1]} passes: give the bearing a speed")
     pitch = 2.0 * math.pi / (z * abs(relative))
     length = default_duration(found) if duration is None else duration
     count = max(math.ceil(length / pitch * phases), 1)
