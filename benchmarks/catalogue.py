@@ -83,6 +83,6 @@ def measure(effort: Effort) -> Section:
         ("opening the built catalogue", 1e3 * found["open_s"]),
         ("a search, median", found["search_ms_median"]),
         ("a search, slowest", found["search_ms_worst"]),
-        (f"a search, slowest, with {USER_ROWS} rows of one's own", found["search_ms_worst_own_rows"]),
+        (f"a search, slowest, with {USER_ROWS} user rows", found["search_ms_worst_own_rows"]),
     )
     return Section("catalogue", (Table("Catalogue", ("what", "ms"), rows),))

@@ -110,8 +110,8 @@ def studies(effort: Effort) -> tuple[Table, tuple[Target, ...]]:
         ("study", "points", "workers", "wall s", "points per s", "one worker's time over all", "workers busy"),
         tuple(rows),
         (
-            "Wall time with the start of the workers; everything was compiled. Efficiency: time that workers have a "
-            "point in hand over wall time times workers.",
+            "Wall time with the start of the workers; everything was compiled. Efficiency: time that workers spend "
+            "on points over wall time times workers.",
         ),
     )
     return table, tuple(targets)
@@ -128,10 +128,10 @@ def measure(effort: Effort) -> Section:
         alone = alone or seconds
         rows.append((count, 1e3 * seconds, count * alone / seconds, alone / seconds))
     table = Table(
-        f"Processes side by side, {MIDDLE.name}",
+        f"Parallel processes, {MIDDLE.name}",
         ("processes", "until all are done ms", "times the work of one", "efficiency"),
         tuple(rows),
-        ("Wall time, the best of several rounds; other users of the machine count against it.",),
+        ("Wall time, the best of several rounds; load by other users lowers the efficiency.",),
     )
     found, targets = studies(effort)
     return Section("parallel", (table, found), targets)

@@ -73,7 +73,7 @@ def measure(effort: Effort) -> Section:
         f"One evaluation, {MIDDLE.name}",
         ("grid", "contacts under load", "right-hand side us", "Jacobian us", "factorisation us", "solve us"),
         tuple(rows),
-        ("Compiled loops at states of one cage revolution: nothing of Python is in these times.",),
+        ("Compiled loops at states of one cage revolution, without calls from Python.",),
     )
     return Section("parts", (table, _profile(effort, costs)))
 
@@ -84,7 +84,7 @@ def _contacts(start: Equilibrium) -> int:
 
 
 def _profile(effort: Effort, costs: dict[str, float]) -> Table:
-    """Split a simulated second of a whole run into its parts."""
+    """Split the time of a simulated second into its parts."""
     model = MIDDLE.model()
     start = solve(model)
     horizon = Horizon(0.0, effort.pick(1, 3))
@@ -137,5 +137,5 @@ def _around(
         ("records: reading the running integrals", records, 1e6 * record, records * record),
         ("records: calls from Python into the integrator", records, 1e6 * call, records * call),
         ("result file, checkpoints, progress", None, None, left),
-        ("whole run", None, None, run),
+        ("complete run", None, None, run),
     ]

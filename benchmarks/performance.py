@@ -1,4 +1,4 @@
-"""A whole report: as text, as data, and as the measured part of docs/performance.md."""
+"""Write a report as text, JSON and part of docs/performance.md."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ VERSION = 1  # of the JSON
 
 @dataclass
 class Report:
-    """Everything that one call measured."""
+    """Hold all measurements of one call."""
 
     machine: dict[str, str]
     clock: str
@@ -38,7 +38,7 @@ class Report:
         return plain
 
     def circumstances(self) -> str:
-        """Return the sentence without which no number means anything."""
+        """Return clock, date, machine, versions and load in one sentence."""
         clock = {"wall": "Wall time", "cpu": "Processor time of the measuring thread, not wall time"}[self.clock]
         loads = [self.load, *(section.load for section in self.sections)]
         told = [load for load in loads if math.isfinite(load)]
@@ -57,7 +57,7 @@ def section_text(section: Section) -> str:
 
 
 def report_text(report: Report) -> str:
-    """Return what comes after the sections."""
+    """Return the targets and the circumstances of the measurement."""
     parts = [as_text(target_table(report.targets))] if report.targets else []
     return "\n\n".join([*parts, report.circumstances()])
 
@@ -66,7 +66,7 @@ def markdown(report: Report) -> str:
     """Return the measured part of the page."""
     parts = [report.circumstances()]
     if report.targets:
-        parts.append(as_markdown(_renamed(target_table(report.targets), "What was aimed at, what was reached"), 2))
+        parts.append(as_markdown(_renamed(target_table(report.targets), "Targets and results"), 2))
     parts.append("## Measurements")
     for section in report.sections:
         parts += [as_markdown(table) for table in section.tables]
@@ -76,7 +76,7 @@ def markdown(report: Report) -> str:
 
 
 def write(report: Report, page: Path = PAGE) -> None:
-    """Put the measurements between the two marks of the page; what people wrote around them stays.
+    """Put the measurements between the two marks of the page; the text around them stays.
 
     Raises
     ------

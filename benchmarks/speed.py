@@ -91,7 +91,7 @@ def measure(effort: Effort) -> Section:
             f"{horizon.discarded + horizon.averaged:g} cage revolutions from the quasi-static equilibrium, the last "
             f"{horizon.averaged:g} averaged. Accurate: raceway loss within {100 * accuracy.RACEWAY:g} %, cage speed "
             f"within {100 * accuracy.CAGE:g} % of the reference, energy residual at most {accuracy.ENERGY:g}. Samples "
-            "are turned into channels within these times, files are not written.",
+            "are converted to channels within these times; no files are written.",
         ),
     )
     return Section("speed", (table, _complete_runs(effort)), tuple(targets))
@@ -108,7 +108,7 @@ def _targets(point: Point, found: list[Run], reference: Outcome) -> list[Target]
 
 
 def _complete_runs(effort: Effort) -> Table:
-    """Time the default run with everything that belongs to it: records, result file, checkpoints."""
+    """Time the default run with records, result file and checkpoints."""
     rows = []
     for point in (cases.MIDDLE,) if effort.quick else (cases.SLOW, cases.MIDDLE):
         model = point.model()
@@ -129,7 +129,7 @@ def _complete_runs(effort: Effort) -> Table:
             )
         )
     return Table(
-        "The same as a whole run, with records, result file and checkpoints",
+        "Complete run, with records, result file and checkpoints",
         ("point", "wall s/s", "wall ms/rev", "energy residual"),
         tuple(rows),
     )

@@ -94,6 +94,6 @@ def measure(effort: Effort) -> Section:
         f"Start of lambda-bearing run {DEFAULT}",
         ("start", "compiling s", "first step after s", "1 ms simulated after s"),
         tuple(rows),
-        ("New processes, wall time. Cold includes building the catalogue; parts are compiled side by side.",),
+        ("New processes, wall time. Cold includes building the catalogue; parts are compiled in parallel.",),
     )
     return Section("startup", (table, commands), (*targets, *budgets))

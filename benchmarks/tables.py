@@ -13,7 +13,7 @@ Cell = str | float | int | None
 
 @dataclass(frozen=True)
 class Table:
-    """Measured numbers; units stand in the names of the columns."""
+    """Hold measured numbers; the column names contain the units."""
 
     title: str
     columns: tuple[str, ...]
@@ -23,7 +23,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Target:
-    """A figure that was aimed at and the one that was reached; `at_least` turns the comparison round."""
+    """Compare a figure with its limits; `at_least` makes them lower limits."""
 
     what: str
     unit: str
@@ -50,7 +50,7 @@ class Target:
 
 @dataclass(frozen=True)
 class Section:
-    """What one benchmark found; `missing` says why it could not measure."""
+    """Hold the tables of one benchmark, or the reason why they are `missing`."""
 
     name: str
     tables: tuple[Table, ...] = ()

@@ -102,28 +102,23 @@ def test_linked_pages_exist() -> None:
 def test_the_output_shown_is_what_a_run_prints(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The shown lines, in order; the torque within both confidence bands (the cage is chaotic), rounded to 10 N mm."""
+    """Compare lines and numbers as on a page, but for the energy residual: it is rounding of a chaotic motion."""
     shown = blocks()[1]
+    assert {"friction torque", "rating life", "film", "energy residual"} <= set(_labels(shown))
     monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(ROOT / "docs" / "tools")
+    from page_examples import compare
+
     assert main(["run", "6319-cp10-1500"]) == 0
     printed = capsys.readouterr()
-    labels = _labels(shown)
-    assert [label for label in _labels(printed.out) if label in labels] == labels
-    assert {"friction torque", "rating life", "film", "energy residual"} <= set(labels)
-    (mean, band), (mean_now, band_now) = _torque(shown), _torque(printed.out)
-    assert abs(mean - mean_now) <= 1.5 * (band + band_now) + 0.002 * mean + 10.0
-    assert printed.err.splitlines()[0] in shown
+    expected = re.sub(r"(?m)^(energy residual).*", r"\1 ...", shown).splitlines()
+    printed_lines = (printed.err + printed.out).splitlines()
+    assert compare([*expected, "..."], printed_lines) is not None, printed.out
 
 
 def _labels(text: str) -> list[str]:
-    """Return what stands in front of each line of a summary; continued lines are indented."""
+    """Return the first words of each line of a summary; continued lines are indented."""
     return [found[1] for line in text.splitlines() if (found := re.match(r"([a-z][a-z ]*?)  ", line))]
-
-
-def _torque(text: str) -> tuple[float, float]:
-    found = re.search(r"^friction torque  ([\d .]+) N mm .*\n  scatter +± ([\d .]+) N mm", text, re.MULTILINE)
-    assert found is not None
-    return float(found[1].replace(" ", "")), float(found[2].replace(" ", ""))
 
 
 @pytest.mark.parametrize("channel", [*CHANNELS, *INTEGRALS], ids=lambda channel: channel.name)
