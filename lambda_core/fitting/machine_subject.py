@@ -139,10 +139,13 @@ class MachineSubject:
             raise UsageError(f"--vary: {path} has no published range: give one, for example --vary {entry.example()}")
         return given_range(entry, ends)
 
-    def values(self, changes: Sequence[str], names: Sequence[str], *, one: bool) -> FloatArray:
+    def values(
+        self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
+    ) -> FloatArray:
         """Return predicted quantities, one row: balls stand as in the machine's equilibrium."""
         del one
-        point = _solved(self._machine.case_toml, tuple(changes))
+        moved = [change for graded, number in parameters for change in graded.changes(number)]
+        point = _solved(self._machine.case_toml, (*changes, *moved))
         return np.array([[self._read(point, name) for name in names]])
 
     def _read(self, point: MachinePoint, name: str) -> float:

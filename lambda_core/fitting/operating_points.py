@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lambda_core.analysis.band.changed import is_of_laws, with_value_of_laws
+from lambda_core.analysis.band.graded import Graded
 from lambda_core.analysis.band.quantities import Condition
 from lambda_core.analysis.band.readings import READ, read_values
 from lambda_core.domain.arrays import FloatArray
@@ -14,10 +17,13 @@ from lambda_core.domain.errors import CaseError, LambdaError, SolverError, Usage
 from lambda_core.domain.units import UNITS, from_si
 from lambda_core.domain.written_values import DIGITS
 from lambda_core.model.bearing_model import BearingModel
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve, solve_near
 from lambda_core.studies.job import kernels_of, resolve_point, with_temperatures
 
 if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
+
+_KEPT = 256  # points
 
 
 def condition_change(condition: Condition, value: float) -> str:
@@ -46,13 +52,74 @@ def point_values(case_toml: str, changes: Sequence[str], names: Sequence[str], *
     CaseError, SolverError
         When the case is not valid with these changes, or has no equilibrium.
     """
-    model = with_temperatures(resolve_point(case_toml, tuple(changes)))
-    return model_values(model, names, one=one)
+    return _Point(with_temperatures(resolve_point(case_toml, tuple(changes)))).values(names, one=one)
 
 
-def model_values(model: BearingModel, names: Sequence[str], *, one: bool = False) -> FloatArray:
-    """Return measured quantities as a resolved model predicts them; see :func:`point_values`."""
-    return read_values(model, kernels_of(model), [READ[name] for name in names], one=one)
+class OperatingPoints:
+    """Predictions of a case whose parameters of laws move: the rest of each operating point is resolved once.
+
+    Each prediction is searched from the equilibrium of the case's own laws at its point, never from that of the
+    prediction before: equal parameters have equal predictions.
+
+    Parameters
+    ----------
+    case_toml : str
+        The case.
+    """
+
+    def __init__(self, case_toml: str) -> None:
+        self._toml = case_toml
+        self._points: OrderedDict[tuple[str, ...], _Point] = OrderedDict()
+
+    def values(
+        self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
+    ) -> FloatArray:
+        """Return measured quantities under changes of the case and other parameters; see :func:`point_values`."""
+        options = [
+            change for graded, number in parameters if not is_of_laws(graded) for change in graded.changes(number)
+        ]
+        point = self._point((*changes, *options))
+        if point is None:  # temperatures follow the losses
+            every = [change for graded, number in parameters for change in graded.changes(number)]
+            return point_values(self._toml, (*changes, *every), names, one=one)
+        model = point.model
+        for graded, number in parameters:
+            if is_of_laws(graded):
+                model = with_value_of_laws(model, graded, number)
+        return point.values(names, model, one=one)
+
+    def _point(self, changes: tuple[str, ...]) -> _Point | None:
+        """Return the point with the case's own laws; None where their parameters decide its temperatures."""
+        if changes not in self._points:
+            model = resolve_point(self._toml, changes)
+            if model.thermal is not None:
+                return None
+            self._points[changes] = _Point(model)
+            if len(self._points) > _KEPT:
+                self._points.popitem(last=False)
+        self._points.move_to_end(changes)
+        return self._points[changes]
+
+
+class _Point:
+    """An operating point: its model, and the equilibria of that found so far."""
+
+    def __init__(self, model: BearingModel) -> None:
+        self.model = model
+        self._solved: dict[float, Equilibrium] = {}
+
+    def values(self, names: Sequence[str], moved: BearingModel | None = None, *, one: bool) -> FloatArray:
+        """Return measured quantities as the model, or one that differs in parameters of laws only, predicts them."""
+        model = self.model if moved is None else moved
+        kernels = kernels_of(model)
+
+        def solved(phase: float) -> Equilibrium:
+            if phase not in self._solved:
+                self._solved[phase] = solve(self.model, kernels, phase=phase)
+            own = self._solved[phase]
+            return own if model is self.model else solve_near(model, own, kernels)
+
+        return read_values(solved, [READ[name] for name in names], one=one)
 
 
 def roller_values(model: RollerModel, names: Sequence[str]) -> FloatArray:

@@ -63,7 +63,7 @@ class CaseProblem:
             {name: float(values[row]) for name, values in measurements.conditions.items()}
             for row in range(len(measurements))
         ]
-        self._known: dict[tuple[str, ...], FloatArray] = {}
+        self._known: dict[tuple[str | float, ...], FloatArray] = {}
 
     @property
     def solved(self) -> int:
@@ -145,9 +145,13 @@ class CaseProblem:
 
         Relative standard deviations; a quantity that they do not move is left out.
         """
-        changes = self._changes(values, self._conditions[self.entries[row].row])
+        changes = self._changes(self._conditions[self.entries[row].row])
+        pairs = zip(self.varied, values.tolist(), strict=True)
+        moved = [change for graded, number in pairs for change in graded.changes(number)]
         fitted = [graded.path for graded in self.varied]
-        return self._subject.deviations(changes, tuple(dict.fromkeys(e.quantity for e in self.entries)), fitted)
+        return self._subject.deviations(
+            (*changes, *moved), tuple(dict.fromkeys(e.quantity for e in self.entries)), fitted
+        )
 
     def elsewhere(self, measurements: Measurements) -> CaseProblem:
         """Return the same problem for other measurements."""
@@ -192,24 +196,23 @@ class CaseProblem:
             answers.append(dict(zip(self._asked[row], found.tolist(), strict=True)))
         return np.array([answers[entry.row][entry.quantity] for entry in self.entries])
 
-    def _changes(self, values: FloatArray, conditions: dict[str, float]) -> tuple[str, ...]:
+    def _changes(self, conditions: dict[str, float]) -> tuple[str, ...]:
         """Return what the case is changed by at one operating point."""
-        own = [condition_change(self._measurements.set_by[name], value) for name, value in conditions.items()]
-        pairs = zip(self.varied, values.tolist(), strict=True)
-        return (*own, *(change for graded, value in pairs for change in graded.changes(value)))
+        return tuple(condition_change(self._measurements.set_by[name], value) for name, value in conditions.items())
 
     def _value(
         self, values: FloatArray, conditions: dict[str, float], names: tuple[str, ...], *, one: bool
     ) -> FloatArray:
         """Return the quantities at one operating point; equal ones are computed once."""
-        changes = self._changes(values, conditions)
-        key = (*changes, *names)
+        changes, numbers = self._changes(conditions), values.tolist()
+        key = (*changes, *numbers, *names)
         for kind in ("all", "one") if one else ("all",):
             if (kind, *key) in self._known:
                 found = self._known[kind, *key]
                 break
         else:
-            found = self._subject.values(changes, names, one=one)
+            parameters = list(zip(self.varied, numbers, strict=True))
+            found = self._subject.values(changes, parameters, names, one=one)
             self._known["one" if one else "all", *key] = found
         mean: FloatArray = found[: 1 if one else None].mean(axis=0)
         return mean

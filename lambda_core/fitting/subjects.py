@@ -23,7 +23,7 @@ from lambda_core.analysis.band.quantities import (
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.units import units_of
 from lambda_core.domain.written_values import quantities
-from lambda_core.fitting.operating_points import point_values
+from lambda_core.fitting.operating_points import OperatingPoints
 from lambda_core.studies.job import resolve_point, with_temperatures
 
 if TYPE_CHECKING:
@@ -42,7 +42,9 @@ class Subject(Protocol):
     def varied(self, specification: str) -> Graded:
         """Return the parameter that ``PATH`` or ``PATH=LOW..HIGH`` names; UsageError where there is none."""
 
-    def values(self, changes: Sequence[str], names: Sequence[str], *, one: bool) -> FloatArray:
+    def values(
+        self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
+    ) -> FloatArray:
         """Return predicted quantities of the changed case, shape (positions of the balls, names)."""
 
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
@@ -74,6 +76,7 @@ class BearingSubject:
 
         self._model = resolve(case, is_static=True)
         self._toml = standalone_toml(case)
+        self._points = OperatingPoints(self._toml)
         self.name, self.title = self._model.name, self._model.title
         is_computed = case.operation.temperatures == "computed"
         self.words = vocabulary(CONDITIONS, MEASURED, Case, TEMPERATURES if is_computed else ())
@@ -82,9 +85,11 @@ class BearingSubject:
         """Return the parameter that a text names."""
         return varied(self._model, specification)
 
-    def values(self, changes: Sequence[str], names: Sequence[str], *, one: bool) -> FloatArray:
+    def values(
+        self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
+    ) -> FloatArray:
         """Return predicted quantities at several positions of the balls."""
-        return point_values(self._toml, changes, names, one=one)
+        return self._points.values(changes, parameters, names, one=one)
 
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
         """Return the relative standard deviation of each quantity."""

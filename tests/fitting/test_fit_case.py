@@ -10,9 +10,11 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
+from lambda_core.case.case_writer import case_toml
 from lambda_core.domain.errors import CaseError, SolverError, UsageError
 from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.operating_points import point_values
+from lambda_core.fitting.subjects import subject_of
 
 CASE = "6319-cp10-1500"
 HEADER = "speed [1/min],radial load [kN],oil temperature [degC],friction torque [N mm],friction torque error [%]"
@@ -24,8 +26,6 @@ TRUTH = ("parameters.elastic_hysteresis.loss_factor=0.04", "parameters.traction.
 def rows() -> list[str]:
     """Return lines of a file of measurements that the case predicts with other parameters, without noise."""
     text = api.case(CASE)
-    from lambda_core.case.case_writer import case_toml
-
     found = []
     for speed, load, temperature in POINTS:
         at = (f"operation.speed={speed} rpm", f"loads.radial={load} kN", f"lubricant.temperature={temperature} degC")
@@ -136,3 +136,23 @@ def test_a_mistake_in_the_file_ends_the_command_with_its_line(
     data.write_text("speed [1/min];friction torque [N mm]\n500;1,5\n")
     assert main(["fit", CASE, str(data), "--vary", "loss_factor"]) == 3
     assert "line 2, column 2" in capsys.readouterr().err
+
+
+def test_points_resolved_once_agree_with_the_changed_case() -> None:
+    """Parameters of laws, the roughness and an option move away and back: equal parameters have equal predictions."""
+    subject = subject_of(CASE)
+    varied = [
+        subject.varied(text) for text in ("loss_factor", "tau_eyring", "surface.roughness", "lubricant.temperature")
+    ]
+    at, names = (
+        ("operation.speed=1000 rpm", "loads.radial=16 kN"),
+        ("friction torque", "minimum film", "displacement z"),
+    )
+    found = []
+    for numbers in ((0.04, 6.0, 0.14, 60.0), (0.02, 4.0, 0.1, 66.0), (0.04, 6.0, 0.14, 60.0)):
+        moved = [change for graded, number in zip(varied, numbers, strict=True) for change in graded.changes(number)]
+        found.append(subject.values(at, list(zip(varied, numbers, strict=True)), names, one=False))
+        anew = point_values(case_toml(api.case(CASE)), (*at, *moved), names)
+        np.testing.assert_allclose(found[-1], anew, rtol=1e-7)
+    np.testing.assert_array_equal(found[0], found[2])
+    assert np.abs(found[1] / found[0] - 1.0).max() > 0.1

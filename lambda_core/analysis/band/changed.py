@@ -11,13 +11,23 @@ from lambda_core.model.bearing_model import BearingModel, ChosenLaw
 ROUGHNESS = "surface.roughness"
 
 
+def is_of_laws(graded: Graded) -> bool:
+    """Tell whether a parameter is one of laws or of what only laws see, and leaves the normal forces as they are."""
+    return bool(graded.law) or graded.path == ROUGHNESS
+
+
 def with_value(model: BearingModel, graded: Graded, number: float, resolver: Resolver) -> BearingModel:
     """Return a model with another value of a parameter of a law, of its roughness, or of an option of its case."""
+    if is_of_laws(graded):
+        return with_value_of_laws(model, graded, number)
+    return resolved_anew(model, graded.changes(number), resolver)
+
+
+def with_value_of_laws(model: BearingModel, graded: Graded, number: float) -> BearingModel:
+    """Return a model with another value of a parameter of which :func:`is_of_laws` is True."""
     if graded.law:
         return _with_parameter(model, graded, number)
-    if graded.path == ROUGHNESS:
-        return replace(model, roughness=graded.si(number))
-    return resolved_anew(model, graded.changes(number), resolver)
+    return replace(model, roughness=graded.si(number))
 
 
 def _with_parameter(model: BearingModel, graded: Graded, number: float) -> BearingModel:

@@ -219,8 +219,11 @@ class Effects:
 
     def values_at_all_positions(self) -> FloatArray:
         """Return the results of the model, averaged over the positions of the balls."""
-        readers = [self._readers[name] for name in self.names]
-        found: FloatArray = read_values(self._model, self._kernels, readers, self._base).mean(axis=0)
+
+        def solved(phase: float) -> Equilibrium:
+            return self._base if phase == self._base.phase else solve(self._model, self._kernels, phase=phase)
+
+        found: FloatArray = read_values(solved, [self._readers[name] for name in self.names]).mean(axis=0)
         return found
 
     def all(self) -> Iterator[Effect]:

@@ -16,10 +16,8 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.domain.units import from_si, parse
 from lambda_core.formulas.life import life_hours, reference_rating_life
 from lambda_core.formulas.loading import CARRYING
-from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.checks.operating_limits import ratings
-from lambda_core.solver.drivers.compiled_laws import Kernels
-from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.records import CONTACT_CHANNELS
 
 # Positions of the balls in pitches, equally weighted: half a pitch mirrors the other under a radial load, and two
@@ -35,18 +33,12 @@ _SAME = 1e-6  # relative spread of the loads below which the position of the bal
 
 
 def read_values(
-    model: BearingModel,
-    kernels: Kernels,
-    readers: Sequence[Callable[[Equilibrium], float]],
-    first: Equilibrium | None = None,
-    *,
-    one: bool = False,
+    solved: Callable[[float], Equilibrium], readers: Sequence[Callable[[Equilibrium], float]], *, one: bool = False
 ) -> FloatArray:
-    """Return what readers find in the equilibria at several positions of the balls; `first` where that is known."""
+    """Return what readers find in the equilibria at several positions of the balls, which `solved` returns."""
     found = []
     for position in POSITIONS[:1] if one else POSITIONS:
-        equilibrium = first or solve(model, kernels, phase=position)
-        first = None
+        equilibrium = solved(position)
         found.append([reader(equilibrium) for reader in readers])
         loads = equilibrium.contacts[:, 0, _LOAD]
         if np.ptp(loads) <= _SAME * loads.max():
