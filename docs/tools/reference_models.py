@@ -29,7 +29,7 @@ are set with `parameters.ROLE.NAME`. A parameter marked *lubricant* comes from t
 
 
 def models_page() -> str:
-    """Return the whole page."""
+    """Return the page."""
     models = registry()
     lines = [_INTRODUCTION]
     for role in ROLES.values():
@@ -47,7 +47,7 @@ def _own(models: Registry, kind: str, name: str) -> bool:
 def _role(role: Role) -> str:
     carried = ", ".join(md.code(element) for element in role.elements)
     arguments = ", ".join(argument.name for argument in role.arguments)
-    return f"{role.summary[0].upper()}{role.summary[1:]}. Carried by {carried}.\n\n`{role.name}({arguments})`"
+    return f"{role.summary[0].upper()}{role.summary[1:]}. Force elements: {carried}.\n\n`{role.name}({arguments})`"
 
 
 def _law(card: ModelCard, law: Law) -> list[str]:

@@ -1,8 +1,8 @@
-"""Put the numbers of a reproduction into docs/validation.md: ``python docs/tools/validation.py RESULT.json``.
+"""Write the tables of docs/validation.md: ``python docs/tools/validation.py RESULT.json``.
 
-RESULT.json is what ``lambda-bearing reproduce all --json``, or that of one experiment, prints, or
-``lambda-bearing measured compare --json``. Bars and tables between the marks are written anew; the text about them is
-written by hand.
+RESULT.json is the output of ``lambda-bearing reproduce all --json``, of one experiment, or of
+``lambda-bearing measured compare --json``. The tables between the
+marks are renewed; the text is written by hand.
 """
 
 from __future__ import annotations
@@ -26,18 +26,18 @@ LEFT_OUT = ("blind parameter set", "boundary of altered running")
 
 
 def summary(found: list[Chapter]) -> list[str]:
-    """Return every bar of every experiment as one table."""
+    """Return the limits of all experiments as one table."""
     rows = []
     for chapter in found:
         for bar in chapter.bars:
             verdict, _, what = bar.partition(": ")
             if verdict.startswith(("met", "missed")):
                 rows.append([chapter.title.partition(":")[0], cell(what), verdict])
-    return table(("experiment", "bar and what was found", "verdict"), rows)
+    return table(("experiment", "result and limit", "verdict"), rows)
 
 
 def read(data: dict[str, Any]) -> Reproduction:
-    """Return a reproduction; that of one experiment is printed without its name and what belongs to several."""
+    """Return a reproduction, also from the output of one experiment."""
     if "workers" not in data:
         general = {name: data.pop(name) for name in ("files", "effort", "failed")}
         data = {general["effort"][0]["experiment"]: data, **general, "unconverged": {}, "workers": 1}
@@ -45,7 +45,7 @@ def read(data: dict[str, Any]) -> Reproduction:
 
 
 def merged(text: str, found: list[Chapter]) -> list[str]:
-    """Return the table of bars: new rows for the experiments that were found, what stands there for the others."""
+    """Return the table of limits with new rows for the experiments found."""
     new = summary(found)
     named = {chapter.title.partition(":")[0] for chapter in found}
     old = [line for line in text.splitlines() if line.startswith("| ")][1:]
@@ -85,7 +85,7 @@ def measured(compared: list[dict[str, Any]]) -> list[str]:
         rows.append([cell(text) for text in (
             series["name"], series["title"], series["source"], series["uncertainty"], errors, inside if points else "-",
         )])  # fmt: skip
-    return table(("series", "what", "source", "uncertainty", "error without any fit", "90 % model band"), rows)
+    return table(("series", "content", "source", "uncertainty", "error without a fit", "90 % model band"), rows)
 
 
 def put(text: str, mark: str, lines: list[str]) -> str:
@@ -96,7 +96,7 @@ def put(text: str, mark: str, lines: list[str]) -> str:
 
 
 def main(arguments: list[str]) -> int:
-    """Write the parts that the result has."""
+    """Write the parts of the page that the result has."""
     given = json.loads(Path(arguments[0]).read_text(encoding="utf-8"))
     text = PAGE.read_text(encoding="utf-8")
     if "compared" in given:

@@ -20,7 +20,7 @@ def _role(role: Role) -> str:
         f"### {role.name}",
         "",
         f"{role.summary[0].upper()}{role.summary[1:]}{'; elementwise' if role.elementwise else ''}. "
-        f"Carried by {', '.join(role.elements)}.",
+        f"Force elements: {', '.join(role.elements)}.",
         "",
         f"`{role.name}({', '.join(argument.name for argument in role.arguments)})`",
         "",
@@ -29,7 +29,7 @@ def _role(role: Role) -> str:
     ]
     for argument in role.arguments:
         kind = {"f": "float", "a": "array"}[argument.kind] + (", output" if argument.output else "")
-        kind += ", may be left out" if argument.optional else ""
+        kind += ", optional" if argument.optional else ""
         meaning = "; ".join(role.outputs) if argument.meaning == "results" else argument.meaning
         lines.append(f"| `{argument.name}` | {kind} | {meaning} |")
     return "\n".join([*lines, ""])
@@ -42,7 +42,7 @@ def quantities_markdown() -> str:
 
 
 def renewed(page: str) -> str:
-    """Return a page with the parts between its marks replaced by what the code has today."""
+    """Return a page with the generated parts between its marks renewed."""
     for mark, made in (("roles", roles_markdown), ("quantities", quantities_markdown)):
         begin, end = f"<!-- {mark}:begin -->\n", f"<!-- {mark}:end -->\n"
         if begin in page:

@@ -64,15 +64,15 @@ def _tables(found: Anchors) -> tuple[Table, ...]:
     )
     chosen = tuple((path, value or "-", source) for path, value, source in P.anchored_set())
     tables = [
-        Table("torque over SKF's less one [%]", head, spread),
-        Table("the same by bearing [%]", ("", *(f"{s.parameters}, {s.grooves}" for s in found.spreads)), bearings),
+        Table("deviation of the torque from SKF's model [%]", head, spread),
+        Table("deviation by bearing [%]", ("", *(f"{s.parameters}, {s.grooves}" for s in found.spreads)), bearings),
         Table(
-            "random cases: torque over SKF's",
+            "random cases: torque over that of SKF's model",
             ("set", "cases", "number", "median", "range", "rolling", "sliding"),
             random,
         ),
         Table(
-            f"axial load added to radial, {AXIAL[0]} under {AXIAL[2]:g} N at {AXIAL[3]:g} 1/min: over that without",
+            f"axial load added, {AXIAL[0]} under {AXIAL[2]:g} N radial at {AXIAL[3]:g} 1/min: over no axial load",
             ("F_a/F_r", "rolling", "M_rr", "sliding", "M_sl", "total", "SKF", "Schaeffler's M_1", "total over SKF's"),
             axial,
         ),
@@ -86,7 +86,7 @@ def _tables(found: Anchors) -> tuple[Table, ...]:
             ("series", "bearings", "contacts", "with drag", "SKF's model", "SKF's with drag", "with drag over SKF's"),
             rated,
         ),
-        Table("anchored parameter set: what differs from the blind one", ("option", "value", "source"), chosen),
+        Table("anchored parameter set: differences from the blind set", ("option", "value", "source"), chosen),
     ]
     return tuple(table for table in tables if table.rows)
 

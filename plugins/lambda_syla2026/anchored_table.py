@@ -215,13 +215,13 @@ def _lambda_row(runner: JobRunner, runs: Sequence[JobResult]) -> dict[str, float
 
 def _bars(found: AnchoredTable) -> list[str]:
     def bar(name: str, value: float, limit: float) -> str:
-        return f"{'met' if abs(value) <= limit else 'missed'}: anchored, {name}: {value:.3g} %, bar {limit:g} %"
+        return f"{'met' if abs(value) <= limit else 'missed'}: anchored, {name}: {value:.3g} %, limit {limit:g} %"
 
     return [
         bar("six points, mean error", found.error_pct, 8.5),
         bar("six points, largest error", found.worst_pct, 16.0),
         f"{'met' if found.inside_band >= 5 else 'missed'}: anchored, {found.inside_band} of 6 measurements inside the "
-        "90 % band, bar 5",
+        "90 % band, limit 5",
         *(bar(f"tau_e fitted on {c.fitted_on}, six points", c.six_points_pct, 8.0) for c in found.calibrations),
         *(bar(f"tau_e fitted on {c.fitted_on}, predicted row", c.predicted_row_pct, 8.5) for c in found.calibrations),
         bar("dynamic against quasi-static friction", largest(found.friction_difference_pct), 1.0),

@@ -295,11 +295,11 @@ def _bars(spreads: Sequence[Spread]) -> list[str]:
         if (s.parameters, s.grooves) != ("default", USUAL):
             continue
         what = f"{s.grooves} grooves, {s.points} points"
-        lines.append(_verdict(abs(s.bias_pct) <= 5.0, f"{what}: bias {s.bias_pct:+.1f} %, bar +-5 %"))
-        lines.append(_verdict(s.rms_pct <= 10.0, f"{what}: rms {s.rms_pct:.1f} %, bar 10 %"))
+        lines.append(_verdict(abs(s.bias_pct) <= 5.0, f"{what}: bias {s.bias_pct:+.1f} %, limit +-5 %"))
+        lines.append(_verdict(s.rms_pct <= 10.0, f"{what}: rms {s.rms_pct:.1f} %, limit 10 %"))
         for name, biases in (("load", s.by_load_pct), ("speed", s.by_speed_pct)):
             trend = max(biases.values()) - min(biases.values())
-            lines.append(_verdict(trend <= 10.0, f"{what}: trend with {name} {trend:.1f} % over the range, bar 10 %"))
+            lines.append(_verdict(trend <= 10.0, f"{what}: trend with {name} {trend:.1f} % over the range, limit 10 %"))
     return lines
 
 
@@ -308,7 +308,7 @@ def _population_bars(populations: Sequence[Population]) -> list[str]:
         _verdict(
             0.85 <= p.median <= 1.15 and p.lowest >= 1.0 / 1.8 and p.highest <= 1.8,
             f"{p.cases} random cases, {p.name}: median {p.median:.3f}, {p.lowest:.2f} to {p.highest:.2f}, "
-            "bar median 0.85 to 1.15, none beyond a factor of 1.8",
+            "limits: median 0.85 to 1.15, none beyond a factor of 1.8",
         )
         for p in populations
         if p.parameters == "default"
@@ -323,6 +323,6 @@ def _stribeck_bars(points: Sequence[Stribeck]) -> list[str]:
     near = all(abs(p.ratio - 1.0) <= 0.3 for p in inside)
     case = f"Stribeck, {STRIBECK[0]} under {STRIBECK[2]}, VG 68, 60 degC"
     return [
-        _verdict(near, f"{case}, over SKF's at {speeds} 1/min: {ratios}, bar 0.7 to 1.3"),
+        _verdict(near, f"{case}, over SKF's at {speeds} 1/min: {ratios}, limit 0.7 to 1.3"),
         _verdict(falls, f"{case}: torque falls with speed up to {STRIBECK_BAR:g} 1/min"),
     ]

@@ -160,17 +160,17 @@ def _bars(found: Mapping[str, list[float]]) -> list[str]:
         ),
         verdict(
             all(19.0 <= value <= 21.0 for value in ratio),
-            f"film outer over inner +{min(ratio):.1f} to +{max(ratio):.1f} %; paper {FILM_RATIO:g} %, bar 19 to 21 %",
+            f"film outer over inner +{min(ratio):.1f} to +{max(ratio):.1f} %; paper {FILM_RATIO:g} %, limit 19 to 21 %",
         ),
         verdict(
             all(9.0 <= value <= 14.0 for value in below),
             f"outer capacitance {min(below):.1f} to {max(below):.1f} % below inner; paper "
-            f"{OUTER_BELOW_INNER[0]:g} to {OUTER_BELOW_INNER[1]:g} %, bar 9 to 14 %",
+            f"{OUTER_BELOW_INNER[0]:g} to {OUTER_BELOW_INNER[1]:g} %, limit 9 to 14 %",
         ),
         verdict(
             all(10.0 <= value <= 19.0 for value in over),
             f"full model {min(over):.1f} to {max(over):.1f} % above the isothermal analytical one; paper 14 % inner, "
-            "10 to 13 % outer, bar 10 to 19 %",
+            "10 to 13 % outer, limit 10 to 19 %",
         ),
     ]
 

@@ -86,9 +86,9 @@ def _rated(series: str, answers: list[JobResult]) -> Rated:
 
 
 def rated_bars(found: list[Rated]) -> list[str]:
-    """Say whether the medians lie inside the bar: of the contacts over the heat, with drag over SKF's model.
+    """Compare both medians with their limits.
 
-    No bar is held against the heat with the drag of an oil bath: SKF's own model exceeds it about as much.
+    There is no limit for the heat with the drag of an oil bath: SKF's own model exceeds it about as much.
     """
     if not found:
         return []
@@ -100,6 +100,6 @@ def rated_bars(found: list[Rated]) -> list[str]:
         verdict = "met" if BAR[0] <= median <= BAR[1] else "missed"
         lines.append(
             f"{verdict}: {first.bearings} bearings at SKF's reference speeds, loss {what}: "
-            f"median {median:.2f}, 90 % within {low:.2f} to {high:.2f}, bar {BAR[0]:g} to {BAR[1]:g}"
+            f"median {median:.2f}, 90 % within {low:.2f} to {high:.2f}, limit {BAR[0]:g} to {BAR[1]:g}"
         )
     return lines

@@ -221,10 +221,10 @@ def _bars(
     details: Sequence[Detail],
     found: Sequence[Sensitivity],
 ) -> list[str]:
-    """Say which bars are met and by how much others are missed."""
+    """Compare each figure with its limit."""
 
     def bar(name: str, value: float, limit: float) -> str:
-        short = f"{name}: {value:.3g} %, bar {limit:g} %"
+        short = f"{name}: {value:.3g} %, limit {limit:g} %"
         return f"met: {short}" if value < limit else f"missed by {value - limit:.1f}: {short}"
 
     torque = np.array([p.simulated_Nmm for p in points]).reshape(2, 3)
@@ -233,7 +233,7 @@ def _bars(
     loads = abs(largest([d.load_difference_pct for d in details]))
     lines = [
         bar("blind, six points", errors["blind"], 12.0),
-        f"{'met' if inside >= 5 else 'missed'}: {inside} of 6 measurements inside the 90 % band, bar 5",
+        f"{'met' if inside >= 5 else 'missed'}: {inside} of 6 measurements inside the 90 % band, limit 5",
         *(bar(f"calibrated on {c.fitted_on}, six points", c.six_points_pct, 8.5) for c in calibrations),
         *(bar(f"calibrated on {c.fitted_on}, predicted row", c.predicted_row_pct, 8.5) for c in calibrations),
         f"{'met' if rises else 'missed'}: torque rises with speed and load in every step",
@@ -243,7 +243,7 @@ def _bars(
     if errors["blind"] >= 12.0:
         best = sorted(found, key=lambda s: -max(abs(s.low_change_pct), abs(s.high_change_pct)))[:3]
         names = ", ".join(f"{s.name} ({s.effect})" for s in best)
-        lines.append(f"the torque hangs most on: {names}; it is too low where these terms dominate")
+        lines.append(f"largest effects on the torque: {names}; the torque is too low where these terms dominate")
     return lines
 
 
@@ -254,17 +254,17 @@ def _notes(quick: bool) -> list[str]:
         "miss of the blind one was known, from no measured torque of this table",
         "oil temperatures of the anchored set are from the printed SKF row",
         "Scheuermann's hysteresis law is not shown: its constants are not published",
-        "calibrations with other laws are quasi-static plus what the blind runs add; they change no default",
+        "calibrations with other laws are quasi-static plus the share of the blind runs; they change no default",
         "quasi-static torques are means over half a ball pitch",
         "sensitivities to quasi-static parameters are differences of quasi-static solutions, those of the cage of runs",
     ]
     if quick:
-        notes.append("quick: laws and calibrations are quasi-static plus what the blind runs add")
+        notes.append("quick: laws and calibrations are quasi-static plus the share of the blind runs")
     return notes
 
 
 def rows_of(found: Table4) -> list[tuple[str, list[float], float]]:
-    """Return name, six torques and mean error of everything that stands in the table, the measurement first."""
+    """Return name, six torques and mean error of every row of the table, the measurement first."""
     rows = [("measured", [point.measured_Nmm for point in found.points], 0.0)]
     errors = found.mean_absolute_error_pct
     rows.append(("blind", [point.simulated_Nmm for point in found.points], errors["blind"]))

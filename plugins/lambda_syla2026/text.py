@@ -1,4 +1,4 @@
-"""The tables of the reproduction: the same rows in a terminal and on the page."""
+"""Make the tables of the reproduction, for terminal and page."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def number(value: float | None, digits: int = 1) -> str:
 
 
 def marked(words: str) -> str:
-    """Mark what came of a point without a result."""
+    """Mark a point without a result."""
     return _NAN.sub(LOST, words)
 
 
@@ -52,7 +52,7 @@ def _free(tau: float) -> str:
 
 
 def table4_tables(found: Table4) -> tuple[Table, ...]:
-    """Torque by method with errors, what stands behind each point, calibrations, sensitivities."""
+    """Return torques, errors, details of each point, calibrations and sensitivities."""
     hot = tuple((f"{t['temperature_degC']:g}", number(t["error_pct"])) for t in found.temperatures)
     return (
         _torque(found),
@@ -66,7 +66,7 @@ def table4_tables(found: Table4) -> tuple[Table, ...]:
 
 
 def _anchored(found: AnchoredTable) -> tuple[Table, ...]:
-    """The anchored set: temperatures, band and parts; what its temperatures stand on; calibrations."""
+    """Return temperatures, bands, parts and calibrations of the anchored set."""
     points = tuple(
         (p.label, f"{heat:.1f}", f"{low:.0f} to {high:.0f}", number(difference, 2),
          *(f"{value:.0f}" for value in parts.values()))
@@ -89,17 +89,17 @@ def _anchored(found: AnchoredTable) -> tuple[Table, ...]:
             points,
         ),
         Table(
-            "rows that the temperatures were not taken from, over the blind torque without drag: scatter about a plane "
-            "in ln n and ln F [%]",
+            "printed rows of other programs over the blind torque without drag: scatter about a plane in ln n and "
+            "ln F [%]",
             ("temperatures", *UNUSED),
             residuals,
         ),
         Table(
-            "anchored, tau_e alone fitted; errors [%], quasi-static plus what the runs add",
+            "anchored, tau_e alone fitted; errors [%], quasi-static plus the share of the runs",
             ("fitted on", "tau_e MPa", "free fit MPa", "own row", "predicted row", "six points"),
             fits,
         ),
-        Table("mean deviation from LaMBDA's printed row, without drag as there [%]", ("set", "%"), own),
+        Table("mean deviation from LaMBDA's printed row, both without drag [%]", ("set", "%"), own),
     )
 
 
@@ -167,13 +167,13 @@ def _effects(found: Table4) -> Table:
 
 
 def blind_table() -> Table:
-    """The parameter file: value, range, source."""
+    """Return the parameter file: value, range, source."""
     rows = tuple((e.path, e.value, " to ".join(e.range) or ", ".join(e.alternatives), e.source) for e in blind_set())
     return Table("blind parameter set", ("option", "value", "range", "source"), rows)
 
 
 def fig5_tables(found: Fig5) -> tuple[Table, ...]:
-    """Resonances, boundaries with brackets, slopes, steps of the load, variations, dynamics and quasi-static."""
+    """Return the tables of Fig. 5."""
     tables = [_resonances(found), _boundaries(found), _slopes(found), _rises(found)]
     if found.variations:
         rows = tuple((v.what, v.criterion, *(number(r, 2) for r in v.ratios)) for v in found.variations)
@@ -228,7 +228,7 @@ def _rises(found: Fig5) -> Table:
         for s in found.steps
     )  # fmt: skip
     return Table(
-        "from load to load: rise of the boundary, geometric mean over the declared frequencies",
+        "rise of the boundary with the load, geometric mean over the declared frequencies",
         ("variant", "criterion", "F_stat kN", "m/s2", "rise %", "standard error %", "frequencies that rise"),
         rows,
     )
@@ -241,14 +241,14 @@ def _parting(found: Fig5) -> Table:
         for a in found.apart
     )  # fmt: skip
     return Table(
-        "where dynamics and quasi-static solution part: variant A, 5 kN, 8.9 Hz",
+        "run against quasi-static solution: variant A, 5 kN, 8.9 Hz",
         ("acceleration m/s2", "friction without cage %", "largest load %", "cage N mm"),
         rows,
     )
 
 
 def fig7_tables(found: Fig7) -> tuple[Table, ...]:
-    """Contacts and bearing, simulated and analytical."""
+    """Return contacts and bearing, simulated and analytical."""
     contacts = tuple(
         (f"{c.load_N:g}", c.ring, number(c.ball_load_N), number(c.contact_angle_deg, 2), number(c.area_mm2, 4),
          number(c.film_um, 3), number(c.hertz_pF, 2), number(c.dynamic_hertz_pF, 2), number(c.analytical_pF, 2),

@@ -159,7 +159,7 @@ def _step(low: Sequence[BoundaryPoint], high: Sequence[BoundaryPoint]) -> Step:
 
 
 def bars(points: Sequence[BoundaryPoint], resonances: Sequence[Resonances], frequencies: Sequence[float]) -> list[str]:
-    """Say which of the paper's trends are met, line by line where not."""
+    """Compare the boundaries with the trends of the paper."""
     found = lines(points)
     lowest = min(min(r.frequency_Hz, r.cage_Hz, r.ball_Hz) for r in resonances)
     ring = min(r.frequency_Hz for r in resonances)
@@ -205,7 +205,7 @@ def with_error(value: float | None, error: float | None, digits: int = 2) -> str
 
 
 def _load_bar(points: Sequence[BoundaryPoint], criterion: str) -> str:
-    """Say whether the boundary over the declared range moves up with the load: its mean, in every step of the load.
+    """Check that the mean boundary rises with every step of the load.
 
     A rise counts when it is more than twice its standard error; frequencies at which the boundary falls are named.
     """
