@@ -118,7 +118,7 @@ def _say_rollers(model: RollerModel, units: Units, *, as_json: bool) -> None:
     if as_json:
         values = [asdict(value) for value in model.values]
         found = {"version": 1, "valid": True, "case": model.name, "title": model.title, "values": values}
-        typer.echo(json.dumps({**found, "assumptions": list(model.assumptions)}, indent=2))
+        typer.echo(json.dumps({**found, "warnings": model.warnings, "assumptions": list(model.assumptions)}, indent=2))
     else:
         typer.echo("\n".join(wrapped(units.system.sentence(model.text()).splitlines(), columns())))
 

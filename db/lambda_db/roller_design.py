@@ -19,6 +19,7 @@ class RollerDesign(Base):
         *named("designation", "maker", "catalogue_source", "geometry_source"),
         one_of("kind", tuple(RIBS)),
         *positive("bore_diameter_mm", "width_mm", "dynamic_rating_kN", "static_rating_kN", "fatigue_limit_kN"),
+        *positive("limiting_speed_rpm"),
         *positive("roller_diameter_mm", "effective_length_mm", "rib_height_mm", "profile_scale", "profile_length_mm"),
         check(
             "outside_over_bore",
@@ -73,6 +74,7 @@ class RollerDesign(Base):
     dynamic_rating_kN: Mapped[float]
     static_rating_kN: Mapped[float]
     fatigue_limit_kN: Mapped[float | None]
+    limiting_speed_rpm: Mapped[float | None]
     catalogue_source: Mapped[str]
     catalogue_grade: Mapped[str]
     roller_count: Mapped[int]

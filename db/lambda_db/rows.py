@@ -113,7 +113,7 @@ def bearing_row(row: Bearing, candidates: Iterable[Candidate], sources: Sources)
 # Columns of a roller bearing that share the source and grade of the catalogue, and those of the inner geometry.
 _ROLLER_CATALOGUE = (
     *("bore_diameter_mm", "outside_diameter_mm", "width_mm"),
-    *("dynamic_rating_kN", "static_rating_kN", "fatigue_limit_kN"),
+    *("dynamic_rating_kN", "static_rating_kN", "fatigue_limit_kN", "limiting_speed_rpm"),
 )
 _ROLLER_GEOMETRY = (
     *("roller_count", "roller_diameter_mm", "roller_length_mm", "effective_length_mm", "pitch_diameter_mm"),

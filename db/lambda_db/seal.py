@@ -22,7 +22,8 @@ _ADDED = {
     "bearing": (
         *("kind", "contact_angle_deg", "angle_source", "angle_grade"),
         *("row_distance_mm", "row_distance_source", "row_distance_grade", "row_distance_status"),
-    )
+    ),
+    "roller_design": ("limiting_speed_rpm",),
 }
 ACCEPT = "lambda-bearing db accept"
 

@@ -19,9 +19,9 @@ from lambda_db.seed_tables import VIEWED
 from lambda_db.soundness import ADVICE, UNREADABLE, DamagedError, check_sound, is_damage, is_denied, reason_of
 
 
-def _renew_bearings(connection: Connection) -> None:
-    """Make the table of bearings again with the columns and constraints of today, its rows in it."""
-    name, table = "bearing", Base.metadata.tables["bearing"]
+def _renew(connection: Connection, name: str) -> None:
+    """Make a table again with the columns and constraints of today, its rows in it."""
+    table = Base.metadata.tables[name]
     found = [row[1] for row in connection.exec_driver_sql(f"PRAGMA table_info({name})")]
     if len(found) == len(table.columns):  # an earlier step has made it
         return
@@ -33,7 +33,7 @@ def _renew_bearings(connection: Connection) -> None:
 
 
 def _with_seal(connection: Connection) -> None:
-    _renew_bearings(connection)  # what is sealed are the columns and tables of today
+    _renew(connection, "bearing")  # what is sealed are the columns and tables of today
     Base.metadata.tables["roller_design"].create(connection, checkfirst=True)
     create_seal(connection)
 
@@ -47,11 +47,12 @@ def _with_rollers(connection: Connection) -> None:
 MIGRATIONS: dict[int, Callable[[Connection], None]] = {
     1: lambda connection: Base.metadata.tables["suffix"].create(connection),
     2: _with_seal,
-    3: _renew_bearings,
-    4: _renew_bearings,
+    3: lambda connection: _renew(connection, "bearing"),
+    4: lambda connection: _renew(connection, "bearing"),
     5: _with_rollers,
+    6: lambda connection: _renew(connection, "roller_design"),
 }
-SCHEMA_VERSION = 6
+SCHEMA_VERSION = 7
 
 
 @contextmanager

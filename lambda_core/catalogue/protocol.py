@@ -100,6 +100,7 @@ class RollerRow(Frozen):
     dynamic_rating: Value  # C [N]
     static_rating: Value  # C0 [N]
     fatigue_limit: Value | None = None  # Cu [N]
+    limiting_speed: Value | None = None  # [rad/s]
     roller_count: Value
     roller_diameter: Value  # mean
     roller_length: Value

@@ -29,6 +29,7 @@ from lambda_core.elements.roller.roller_ratings import (
 from lambda_core.model.bearing_model import ResolvedValue
 from lambda_core.model.bodies.resolve_materials import is_grease, lubrication_of, resolve_lubricant, resolve_oil_level
 from lambda_core.model.checks.oil_table import OilLaw, coefficients_of
+from lambda_core.model.checks.operating_limits import speed_warning
 from lambda_core.model.laws.time_functions import initial, time_function
 from lambda_core.model.ledger import Ledger
 
@@ -95,9 +96,14 @@ class RollerModel:
     assumptions: tuple[str, ...]
     values: tuple[ResolvedValue, ...] = ()
 
+    @property
+    def warnings(self) -> list[str]:
+        """What is beyond a limit of the catalogue before anything is solved."""
+        return list(speed_warning(abs(self.speeds[0] - self.speeds[1]), self.bearing.limiting_speed))
+
     def text(self) -> str:
-        """Return what the bearing is made of, where every value comes from, and what is assumed."""
-        lines = [self.title, "", "values"]
+        """Return what the bearing is made of, warnings, where every value comes from, and what is assumed."""
+        lines = [self.title, *(f"WARNING  {sentence}" for sentence in self.warnings), "", "values"]
         for value in self.values:
             number = value.value
             if not isinstance(number, str):
@@ -247,6 +253,7 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
             end_radius=rollers.end_radius or 0.0,
             rib_roughness=rollers.rib_roughness,
             series=row.series if row else "",
+            limiting_speed=row.limiting_speed.value if row and row.limiting_speed else None,
             **_profile(rollers, row, number["roller_diameter"], ledger),
         )
     except ValueError as error:

@@ -7,7 +7,7 @@ for contacts with raceways, points for those of their ends with ribs, their own 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -22,6 +22,8 @@ from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import thrust_problem
 from lambda_core.elements.roller.roller_friction import SKF_CONSTANTS, skf_kind
 from lambda_core.model.bearing_model import BearingModel, ChosenLaw, ResolvedValue
+from lambda_core.model.geometry.resolve_geometry import is_of_grooves
+from lambda_core.model.laws.law_defaults import law_sentences, record_law
 from lambda_core.model.laws.time_functions import initial, time_function
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.roller_case import STRAIGHT, roller_geometry, roller_title
@@ -160,7 +162,7 @@ def with_rollers(
         if role in DEFAULT_LINE_MODELS and found.contact == "point":
             problem = Problem(f"models.{role}", f'"{name}" is a law of points: the contacts of rollers are lines')
             raise CaseError(case.name, [problem])
-        return ChosenLaw(found, found.parameters(), {})
+        return ChosenLaw(found, found.parameters(), dict.fromkeys(found.parameters.model_fields, "default"))
 
     lines = {role: chosen(role, getattr(case.models, role) or name) for role, name in DEFAULT_LINE_MODELS.items()}
     laws = dict(model.laws)
@@ -175,19 +177,44 @@ def with_rollers(
         laws[element] = {**laws[element], **lines, "supply": supply}
     laws["ball_cage"] = {"cage_contact": chosen("cage_contact", _POCKET)}
     laws["fluid_drag"] = {"fluid_drag": chosen("fluid_drag", _NO_DRAG)}
+    values, told = _of_laws(model, laws, case)
     ratings = tuple(
         ResolvedValue(f"bearing.{name}", getattr(rollers, name), "force", "of the rollers", "", "given")
         for name in ("dynamic_rating", "static_rating", "fatigue_limit")
     )
+    if rollers.limiting_speed is not None:
+        speed = ("bearing.limiting_speed", rollers.limiting_speed, "rotational_speed")
+        ratings = (*ratings, ResolvedValue(*speed, "catalogue", "", "published"))
     return replace(
         model,
         laws=laws,
         geometry=replace(model.geometry, ribs=_ribs(rollers)),
         title=title,
         rollers=rollers if model.mounting is None else with_clearance(rollers, model.geometry.clearance),
-        assumptions=(*model.assumptions, *assumptions),
-        values=(*model.values, *ratings),
+        assumptions=(*told, *assumptions),
+        values=(*values, *ratings),
     )
+
+
+def _of_laws(
+    model: BearingModel, laws: Mapping[str, Mapping[str, ChosenLaw]], case: Case
+) -> tuple[tuple[ResolvedValue, ...], tuple[str, ...]]:
+    """Return values and assumptions of the model with those of the rollers' laws; grooves of balls are left out."""
+    ledger, changed = Ledger(), set()
+    for element, role in ((e, r) for e, roles in laws.items() for r in roles):
+        if laws[element][role] is not model.laws.get(element, {}).get(role):
+            changed |= {f"forces.{element}.{kind}.{role}" for kind in ("models", "parameters")}
+            if element not in RIBS.values() and element not in RIBS:
+                given = getattr(case.models, role, None) is not None
+                record_law(ledger, element, role, laws[element][role], "given" if given else "default")
+    for value in model.values:
+        if ".".join(value.path.split(".")[:4]) not in changed and not is_of_grooves(value.path):
+            ledger.values.append(value)
+    before, now = law_sentences(model.laws), law_sentences(laws)
+    for sentence in (*model.assumptions, *now):
+        if (sentence in now or sentence not in before) and not is_of_grooves(sentence):
+            ledger.assume(sentence)
+    return tuple(ledger.values), tuple(ledger.assumptions)
 
 
 def facing(model: BearingModel, rollers: RollerBearing, side: int) -> BearingModel:
@@ -209,4 +236,5 @@ def _with_constant(supply: ChosenLaw, k_z: float) -> ChosenLaw:
     """Return a law of supply with SKF's geometry constant K_Z of these rollers, where it has one."""
     if "k_z" not in type(supply.parameters).model_fields:
         return supply
-    return replace(supply, parameters=supply.parameters.model_copy(update={"k_z": k_z}))
+    origins = {**supply.origins, "k_z": "SKF, Rolling bearings (2018), Friction: K_Z of these rollers"}
+    return replace(supply, parameters=supply.parameters.model_copy(update={"k_z": k_z}), origins=origins)

@@ -34,7 +34,10 @@ if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
 
 _RPM = 30.0 / math.pi
-_LEAST_KAPPA = 0.1  # of ISO 281's a_ISO
+_ASSUMED = (
+    "rollers roll without sliding; the cage is left out",
+    "one position of the rollers, one at azimuth 0: at others the torque of few loaded rollers differs by a tenth",
+)
 
 
 class RollerLoad(Record):
@@ -145,7 +148,7 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
     loads = {"inner": state.inner, "outer": state.outer}  # of every slice; light ones at the ends float on thick films
     films = [film[np.isfinite(film) & carries(loads[ring])] for ring, film in found.film.items()]
     carrying = np.concatenate(films) if turning else np.zeros(0)
-    radial, axial = float(np.hypot(state.loads[1], state.loads[2])), abs(float(state.loads[0]))
+    radial, axial = state.carried
     limit = _limit(model, radial, motion)
     x, y, z, tilt_y, tilt_z = (float(value) for value in state.ring)
     total = found.total
@@ -178,7 +181,7 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
         rollers=_rollers(bearing, state),
         warnings=_warnings(model, state, axial, limit),
         iterations=state.steps,
-        assumptions=[*model.assumptions, "rollers roll without sliding; the cage is left out"],
+        assumptions=[*model.assumptions, *_ASSUMED],
     )
 
 
@@ -290,7 +293,7 @@ def _rollers(bearing: RollerBearing, state: RollerEquilibrium) -> list[RollerLoa
 
 def _warnings(model: RollerModel, state: RollerEquilibrium, axial: float, limit: AxialLimit | None) -> list[str]:
     """Return what is beyond a limit."""
-    found = []
+    found = model.warnings
     pressure = _pressure(model.bearing, state, model)
     if pressure > HIGHEST_ROLLER_PRESSURE:
         found.append(f"contact pressure {1e-9 * pressure:.3g} GPa is above the 4 GPa of the static rating (ISO 76)")

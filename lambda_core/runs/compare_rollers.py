@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -24,8 +23,7 @@ def compare_rollers(
     contamination : float, optional
         e_C of ISO 281, for modified lives.
     """
-    loads = solved.state.loads
-    radial, axial = math.hypot(loads[1], loads[2]), abs(float(loads[0]))
+    radial, axial = solved.state.carried
     inputs = RollerMethodInputs(
         title=model.title,
         bearing=model.bearing,

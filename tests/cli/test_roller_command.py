@@ -62,6 +62,25 @@ def test_too_much_thrust_is_a_warning(tmp_path: Path, capsys: pytest.CaptureFixt
     assert "above the permissible" in capsys.readouterr().out
 
 
+def test_thrust_alone_has_no_radial_load(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Rounding leaves forces of 1e-12 N, which are no load: no life and no static safety follow from them."""
+    assert main(["quasistatic", case(tmp_path, "NJ 208", "500 N"), "--json", "--set", 'loads.radial="0 N"']) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert "radial 0 N, axial 500 N" in found["headline"]
+    assert found["equivalent_load_N"] == 0.0
+    assert found["static_safety"] is None
+
+
+@pytest.mark.parametrize("verb", ["check", "quasistatic"])
+def test_a_speed_above_the_limiting_one_is_a_warning(
+    verb: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([verb, case(tmp_path, "NU 208"), "--set", 'operation.speed="60000 rpm"']) == 0
+    assert "60000 rpm is above the limiting speed of the bearing in the catalogue, 11000 rpm" in capsys.readouterr().out
+    assert main([verb, case(tmp_path, "NU 208"), "--set", 'operation.speed="10000 rpm"']) == 0
+    assert "limiting" not in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("designation", "axial", "more", "message"),
     [

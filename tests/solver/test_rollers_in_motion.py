@@ -267,3 +267,16 @@ def test_the_torque_converges(name: str, tmp_path: Path) -> None:
     assert found.energy_residual is not None
     assert abs(found.energy_residual) < 1e-3
     assert found.cage_speed_ratio == pytest.approx(found.epicyclic_ratio, rel=0.02)
+
+
+def test_values_and_assumptions_are_those_of_rollers() -> None:
+    """No grooves or shoulders; laws of lines in the place of those of points, with SKF's constant of these rollers."""
+    model = api.check(CASE)
+    told, values = "\n".join(model.assumptions), {value.path: value for value in model.values}
+    assert not any(word in told for word in ("groove radius", "shoulder", "spherical-pocket", "loss-factor:", "k_z"))
+    assert "elastic_hysteresis johnson-line: loss_factor 0.03" in told
+    assert "rings and rolling elements of 100Cr6" in told
+    assert not any(path.startswith(("bearing.groove_", "bearing.shoulder_")) for path in values)
+    assert values["forces.ball_inner.models.film_thickness"].value == "moes-line"
+    assert values["forces.ball_inner.parameters.supply.k_z"].value == 5.1
+    assert values["forces.ball_cage.models.cage_contact"].value == "roller-pocket"

@@ -363,7 +363,7 @@ def _rollers(model: MachineModel, state: ShaftState, index: int, ring: HeldRolle
         film_um=answer.film_um,
         contacts=found.contacts(),
         verdict=judged,
-        warnings=[*answer.warnings, *operating_warnings(bearing.model, on_shaft=True)],
+        warnings=list(dict.fromkeys([*answer.warnings, *operating_warnings(bearing.model, on_shaft=True)])),
     )
 
 

@@ -89,6 +89,8 @@ class RollerBearing:
         Composite rms roughness of ribs and ends [m]: Wingertszahn et al. 2023, Lubricants 11, 369.
     faces : int
         Direction of a along x of the shaft, 1 or -1: where thrust on the shaft points that presses the rollers.
+    limiting_speed : float or None
+        Of the catalogue [rad/s].
     """
 
     kind: str
@@ -116,6 +118,7 @@ class RollerBearing:
     rib_roughness: float = 0.24e-6
     series: str = ""
     faces: int = 1
+    limiting_speed: float | None = None
 
     def __post_init__(self) -> None:
         """Refuse what cannot be built.

@@ -61,6 +61,14 @@ class RollerEquilibrium:
     steps: int
     stiffness: FloatArray
 
+    @property
+    def carried(self) -> tuple[float, float]:
+        """Radial and axial load that the rollers take [N]; zero where it is below what the balance leaves."""
+        largest = max(float(part.max(initial=0.0)) for part in (self.inner, self.outer, self.ribs))
+        found = float(np.hypot(self.loads[1], self.loads[2])), abs(float(self.loads[0]))
+        radial, axial = (0.0 if load < _SETTLED * largest else load for load in found)
+        return radial, axial
+
 
 @dataclass(frozen=True)
 class Springs:

@@ -67,7 +67,7 @@ def resolve_material(
     else:
         ledger.record(where, row.name, "", "cage type" if part == "cage" else "default", "assumed")
         if part != "cage":
-            ledger.assume(f"rings and balls of {row.name} where the case names no other material")
+            ledger.assume(f"rings and rolling elements of {row.name} where the case names no other material")
     numbers = [ledger.row(f"{where}.{name}", getattr(row, name), quantity) for name, quantity in _QUANTITIES.items()]
     return PartMaterial(Material(row.name, *numbers), row.thermal_expansion.value)
 
@@ -149,7 +149,7 @@ def resolve_oil_level(lubricant: Lubricant, row: LubricantRow | None, ball_diame
         ledger.given("lubricant.oil_level", lubricant.oil_level, "length")
     else:
         ledger.record("lubricant.oil_level", lubricant.oil_level, "length", "default", "assumed")
-        ledger.assume("oil level at the centre of the lowest ball")
+        ledger.assume("oil level at the centre of the lowest rolling element")
     return lubricant.oil_level
 
 

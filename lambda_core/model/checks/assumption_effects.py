@@ -22,7 +22,7 @@ _EFFECTS: tuple[tuple[str, str], ...] = (
     ),
     (
         "load and life",
-        r"^(bearing|normal_contact|materials)\b|clearance|shoulder|rings and balls|contact angle|preload|e_C |C_0|fit",
+        r"^(bearing|normal_contact|materials)\b|clearance|shoulder|rolling elements|contact angle|preload|e_C |C_0|fit",
     ),
     ("temperature", r"temperature|heat|thermal"),
     ("motion", r"mass|inertia|tilt|gravity"),

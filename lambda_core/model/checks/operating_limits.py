@@ -94,7 +94,11 @@ def relative_speed(model: BearingModel) -> float:
 
 
 def _speed(model: BearingModel) -> Iterator[str]:
-    limit, speed = known_value(model, "bearing.limiting_speed"), relative_speed(model)
+    yield from speed_warning(relative_speed(model), known_value(model, "bearing.limiting_speed"))
+
+
+def speed_warning(speed: float, limit: float | None) -> Iterator[str]:
+    """Say where a speed is above the limiting one of the catalogue [rad/s]."""
     if limit is not None and speed > limit:
         rpm, most = (f"{value * 30.0 / math.pi:.0f} rpm" for value in (speed, limit))
         yield f"{rpm} is above the limiting speed of the bearing in the catalogue, {most}"

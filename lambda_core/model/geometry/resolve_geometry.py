@@ -278,3 +278,8 @@ def _groove(picker: Picker, ring: str, ball: float) -> float:
         picker.ledger.record(path, radius, "length", f"usual conformity {usual:g} D_w", "assumed")
         picker.ledger.assume(f"{ring} groove radius {usual:g} D_w: usual conformity")
     return radius
+
+
+def is_of_grooves(text: str) -> bool:
+    """Return whether a path of a value, or an assumption, is about grooves or shoulders, which rollers have none of."""
+    return text.startswith(("bearing.groove_", "bearing.shoulder_", "shoulder diameters:")) or " groove radius " in text

@@ -9,6 +9,36 @@ from collections.abc import Mapping
 from typing import Any
 
 from lambda_core.model.bearing_model import ChosenLaw
+from lambda_core.model.ledger import Ledger, Status
+
+_WEAK = ("grade C)", "grade D)")  # how the origin of an estimate ends
+
+
+def law_sentences(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> list[str]:
+    """Return a sentence for each default and each weak value of the oil; `laws` by element and role."""
+    found = []
+    for roles in laws.values():
+        for role, law in roles.items():
+            written = law.parameters.model_dump(mode="json")
+            found += default_sentences(role, law, written)
+            found += [
+                f"{role} {law.model.name}: {key} {short(written[key])}, {origin}"
+                for key, origin in law.origins.items()
+                if origin.endswith(_WEAK)
+            ]
+    return found
+
+
+def record_law(ledger: Ledger, element: str, role: str, law: ChosenLaw, chosen_by: Status) -> None:
+    """Record a law and its parameters with their origins."""
+    source = law.model.distribution or "built-in"
+    ledger.record(f"forces.{element}.models.{role}", law.model.name, "", source, chosen_by)
+    for key, value in law.parameters.model_dump(mode="json").items():
+        origin = law.origins[key]
+        weak: Status = "assumed" if origin.endswith(_WEAK) else "published"
+        status: Status = "given" if origin == "case" else "default" if origin == "default" else weak
+        plain: float | str = value if isinstance(value, int | float | str) else str(value)
+        ledger.record(f"forces.{element}.parameters.{role}.{key}", plain, "", origin, status)
 
 
 def default_sentences(role: str, law: ChosenLaw, written: Mapping[str, Any]) -> list[str]:

@@ -21,12 +21,11 @@ from lambda_core.domain.roles import CAGE, DEFAULT_MODELS, MOTION_ROLES
 from lambda_core.laws.law import Law
 from lambda_core.laws.parameter import kind_defaults
 from lambda_core.model.bearing_model import ChosenLaw
-from lambda_core.model.laws.law_defaults import default_sentences, short
+from lambda_core.model.laws.law_defaults import law_sentences, record_law, short
 from lambda_core.model.laws.law_packages import law_called
 from lambda_core.model.ledger import Ledger, Status
 
 NONE = "none"
-_WEAK = ("grade C)", "grade D)")  # how the origin of an estimate ends
 BALL_BALL = "ball-ball"  # takes the place of the pockets when there is no cage
 CONSTANT = "constant"  # permittivity law that needs no data
 CAVITY_DRAG = "cavity-mixture"  # default law of drag where the balls run in a mixture of oil and air
@@ -314,22 +313,6 @@ class LawResolver:
         """Turn defaults and weak lubricant data into sentences, one per value, with source and grade."""
         for element, roles in laws.items():
             for role, law in roles.items():
-                written = law.parameters.model_dump(mode="json")
-                self._record(element, role, law, written)
-                for sentence in default_sentences(role, law, written):
-                    self.ledger.assume(sentence)
-                for key, origin in law.origins.items():
-                    if origin.endswith(_WEAK):
-                        self.ledger.assume(f"{role} {law.model.name}: {key} {short(written[key])}, {origin}")
-
-    def _record(self, element: str, role: str, law: ChosenLaw, written: Mapping[str, Any]) -> None:
-        source = law.model.distribution or "built-in"
-        self.ledger.record(
-            f"forces.{element}.models.{role}", law.model.name, "", source, self._chosen_by(element, role)
-        )
-        for key, value in written.items():
-            origin = law.origins[key]
-            weak: Status = "assumed" if origin.endswith(_WEAK) else "published"
-            status: Status = "given" if origin == "case" else "default" if origin == "default" else weak
-            plain: float | str = value if isinstance(value, int | float | str) else str(value)
-            self.ledger.record(f"forces.{element}.parameters.{role}.{key}", plain, "", origin, status)
+                record_law(self.ledger, element, role, law, self._chosen_by(element, role))
+        for sentence in law_sentences(laws):
+            self.ledger.assume(sentence)
