@@ -17,7 +17,8 @@ from lambda_core.domain.errors import CaseError, LambdaError, SolverError, Usage
 from lambda_core.domain.units import UNITS, from_si
 from lambda_core.domain.written_values import DIGITS
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.solver.drivers.equilibrium import Equilibrium, solve, solve_near
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.drivers.near_equilibrium import solve_near
 from lambda_core.studies.job import kernels_of, resolve_point, with_temperatures
 
 if TYPE_CHECKING:

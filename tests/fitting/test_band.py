@@ -14,7 +14,7 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
-from lambda_core.analysis.band.changed import with_value
+from lambda_core.analysis.band.changed import is_of_laws, with_value
 from lambda_core.analysis.band.graded import graded_parameters
 from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.case.case_io import validate_case
@@ -25,7 +25,8 @@ from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.scores import interval_score
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.results.model_band import FIELDS, ModelBand
-from lambda_core.solver.drivers.equilibrium import solve, solve_near
+from lambda_core.solver.drivers.equilibrium import solve
+from lambda_core.solver.drivers.near_equilibrium import solve_near
 
 # Table 4 of Syla et al. 2026, and the oil temperatures that its SKF row has (docs/validation.md).
 POINTS = {
@@ -194,17 +195,27 @@ def test_a_machine_has_the_bands_of_its_bearings() -> None:
     assert alone.around(found.bearings[0].friction_torque_Nmm) == pytest.approx(each[0])
 
 
-@pytest.mark.parametrize("path", ["loss_factor", "tau_eyring", "surface.roughness", "lubricant.temperature"])
+@pytest.mark.parametrize("path", ["loss_factor", "tau_eyring", "roughness", "lubricant.temperature", "clearance"])
 def test_a_changed_model_is_the_resolved_changed_case(path: str) -> None:
     """The short way of the band, from the solution of the case, ends where the long way does."""
     model = api.resolve(api.case("6319-cp10-1500"), is_static=True)
     graded = next(entry for entry in graded_parameters(model) if entry.path.endswith(path))
     moved = with_value(model, graded, graded.high, partial(api.resolve, is_static=True))
     near = solve(model, phase=0.125)
-    short = solve_near(moved, near) if graded.law else solve(moved, phase=0.125)
+    short = solve_near(moved, near, is_of_laws=is_of_laws(graded))
     long = solve(api.resolve(api.case("6319-cp10-1500", graded.changes(graded.high)), is_static=True), phase=0.125)
     np.testing.assert_allclose(short.losses, long.losses, rtol=1e-6, atol=1e-9)
     np.testing.assert_allclose(short.displacement, long.displacement, rtol=1e-6, atol=1e-12)
+
+
+@pytest.mark.parametrize("load", ["loads.radial=300 N", "loads.axial=3 kN"])
+def test_a_search_that_changes_nothing_stays_where_it_is(load: str) -> None:
+    """Which unloaded balls the cage drives was once decided anew, and they found another steady motion."""
+    model = api.resolve(api.case("6319-cp10-1500", ("operation.speed=5000 rpm", load)), is_static=True)
+    near = solve(model, phase=0.125)
+    again = solve_near(model, near)
+    assert again.iterations <= 1
+    np.testing.assert_allclose(again.state, near.state, rtol=1e-9, atol=1e-12)
 
 
 def test_a_study_tells_the_band_of_its_case(tmp_path: Path) -> None:

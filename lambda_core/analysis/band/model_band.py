@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lambda_core.analysis.band.changed import as_loaded, resolved_anew, with_laws, with_value
+from lambda_core.analysis.band.changed import as_loaded, is_of_laws, resolved_anew, with_laws, with_value
 from lambda_core.analysis.band.graded import Exchange, Resolver, exchanges, graded_parameters, varied
 from lambda_core.analysis.band.readings import POSITIONS, READ, UNITS_OF, read_values
 from lambda_core.domain.arrays import FloatArray
@@ -20,7 +20,8 @@ from lambda_core.domain.errors import CaseError, LambdaError, SolverError
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results.model_band import COVERAGE, QUANTITIES, Band, Contributor, MachineBand, ModelBand
 from lambda_core.solver.drivers.compiled_laws import Kernels
-from lambda_core.solver.drivers.equilibrium import Equilibrium, solve, solve_near
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.drivers.near_equilibrium import solve_near
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
@@ -208,9 +209,6 @@ class Effects:
         self._base = solve(model, self._kernels, phase=POSITIONS[0])
         self.names = tuple(name for name in quantities if self._has(name))
         self._values = self._read(self._base)
-        # Balls that no ring loads have several steady motions, and a search leaves one for another: the results of
-        # searches from the equilibrium are held against those of one that changes nothing.
-        self._near = self._read(solve_near(model, self._base, self._kernels))
         self._fit = parse_case(model.case_toml, model.name).fit
         fitted = [row.path for row in self._fit.parameters] if self._fit is not None else []
         self._without = {*without, *fitted}
@@ -250,7 +248,7 @@ class Effects:
                 moved = graded.models or [
                     with_value(self._model, graded, end, resolver) for end in (graded.low, graded.high)
                 ]
-                ends = [self._logarithms(as_loaded(one, self._model), near=bool(graded.law)) for one in moved]
+                ends = [self._logarithms(as_loaded(one, self._model), near=is_of_laws(graded)) for one in moved]
             except (CaseError, SolverError) as error:
                 self.left_out.append(f"{graded.short} is left out: {_first(error)}")
                 continue
@@ -353,9 +351,9 @@ class Effects:
         With `near` only laws differ; with `other` they are other laws, which have kernels of their own.
         """
         kernels = Kernels(model) if other else self._kernels
-        found = solve_near(model, self._base, kernels) if near else solve(model, kernels, phase=POSITIONS[0])
+        found = solve_near(model, self._base, kernels, is_of_laws=near)
         with np.errstate(divide="ignore", invalid="ignore"):
-            ratio = np.log(self._read(found) / (self._near if near else self._values))
+            ratio = np.log(self._read(found) / self._values)
         return np.where(np.isfinite(ratio), ratio, 0.0)
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
@@ -47,6 +48,10 @@ _FRAME_TOLERANCE = 1e-4  # [rad] change of the frozen contact angle that ends th
 MAX_ITERATIONS = {False: 5000, True: 1000}
 _ITERATIONS_PER_CALL = 50  # some hundredths of a second
 _FRESH_STARTS, _FRESH_ITERATIONS = 3, 300  # with friction, where the first attempt stalls
+# First step in pseudo-time [s]; from a state near the equilibrium; and that of Newton's method, with which the
+# continuation ends.
+_FIRST_STEP, _NEAR_STEP, _NEWTON_STEP = 1e-6, 1e-2, 1.0
+_BEGUN = 1e-9  # iterations of a search that has begun and has done none
 # Last step without friction, over the states' scales, below which only balls that carry nothing still creep along their
 # grooves, nanometres an iteration: friction, which holds them, can start from there.
 _CREEP = 1e-4
@@ -137,7 +142,7 @@ def solve(
         context = assemble(model, kernels, frame, oils)
         if state is None:
             state = first_state(context, phase)
-        _without_friction(compiled, context, state)
+        without_friction(compiled, context, state)
         contacts, _ = contact_channels(compiled, context, state)
         new = mean_frame(model.geometry, contacts, frame)
         change = max(abs(a - b) for a, b in zip(new.angles, frame.angles, strict=True))
@@ -146,7 +151,7 @@ def solve(
             break
     context = assemble(model, kernels, frame, oils)
     assert state is not None
-    creeps = _without_friction(compiled, context, state)
+    creeps = without_friction(compiled, context, state)
     roll(model, frame, L.elements_in(context.bundle, state), contacts)
     smooth, converged = state.copy(), True
     try:
@@ -162,40 +167,10 @@ def solve(
         state, converged, report = smooth, False, np.zeros(1, dtype=STATIC_REPORT)
         report["orbit"] = smooth[L.BVT] / smooth[L.BR]
     channels = contact_channels(compiled, context, state)
-    return _solution(context, state, channels, report, phase=phase, converged=converged)
+    return solution(context, state, channels, report, phase=phase, converged=converged)
 
 
-def solve_near(model: BearingModel, near: Equilibrium, kernels: Kernels | None = None) -> Equilibrium:
-    """Find the equilibrium of a model whose laws differ from those of a solved one, from its solution.
-
-    Normal forces are as good as the same: contact frame and first state are those of the solution, which saves most of
-    the work of :func:`solve`. A model whose state has another size, or that has no solution near, is solved anew.
-
-    Parameters
-    ----------
-    near : Equilibrium
-        Of the same bearing under the same loads.
-
-    Raises
-    ------
-    SolverError
-        As :func:`solve`.
-    """
-    frame, kernels = near.context.frame, kernels or Kernels(model)
-    oils = derive_oils(model, kernels, frame)
-    check_laws(model, kernels, frame, oils)
-    compiled, context = core(None), assemble(model, kernels, frame, oils)
-    if context.size != near.state.size:
-        return solve(model, kernels, phase=near.phase)
-    state = near.state.copy()
-    try:
-        report = continue_static(compiled, context, state, friction=True)
-    except SolverError:
-        return solve(model, kernels, phase=near.phase)
-    return _solution(context, state, contact_channels(compiled, context, state), report, phase=near.phase)
-
-
-def _solution(
+def solution(
     context: SolverContext,
     state: FloatArray,
     channels: tuple[FloatArray, FloatArray],
@@ -223,8 +198,19 @@ def _solution(
     )
 
 
-def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *, friction: bool) -> StaticReport:
+def continue_static(
+    compiled: Core,
+    context: SolverContext,
+    state: FloatArray,
+    *,
+    friction: bool,
+    is_near: bool = False,
+    driven: NDArray[np.int64] | None = None,
+) -> StaticReport:
     """Run the continuation from `state`, in place; returns its report.
+
+    From a state that `is_near` the equilibrium it begins with longer steps, and ends at once where it stands in it.
+    Which balls are `driven` by the cage is decided in the state where it is not known.
 
     With friction it begins anew where it stalls, as methods with a memory are restarted (Powell 1977, Math. Program.
     12, 241): a ball at a kink of its friction narrows the limit on its own steps to nothing, and the step in
@@ -233,10 +219,16 @@ def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *
     """
     system = context.bundle.system[0]
     system["friction_on"], system["guides_on"], system["drag_azimuths"] = int(friction), 0, _DRAG_AZIMUTHS
-    attempts = [MAX_ITERATIONS[friction], *([_FRESH_ITERATIONS] * _FRESH_STARTS if friction else [])]
+    attempts = [(MAX_ITERATIONS[friction], _NEAR_STEP if is_near else _FIRST_STEP)]
+    attempts += [(_FRESH_ITERATIONS, _FIRST_STEP)] * (_FRESH_STARTS if friction else 0)
     spent = 0.0
-    for most in attempts:
-        status, report = _attempt(compiled, context, state, most)
+    if is_near:
+        there = state.copy()
+        status, report = _attempt(compiled, context, there, 1, _NEWTON_STEP, driven)
+        if status == Status.OK:
+            state[:], attempts, spent = there, [], 1.0
+    for most, step in attempts:
+        status, report = _attempt(compiled, context, state, most, step, driven)
         spent += report["iterations"][0]
         if status in (Status.OK, Status.REFUSED) or (friction and _limitless(context)):
             break
@@ -250,14 +242,23 @@ def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *
     return report
 
 
-def _attempt(compiled: Core, context: SolverContext, state: FloatArray, most: int) -> tuple[int, StaticReport]:
-    """Run the continuation from `state`, in place, until it ends or has done its iterations."""
+def _attempt(
+    compiled: Core,
+    context: SolverContext,
+    state: FloatArray,
+    most: int,
+    step: float,
+    driven: NDArray[np.int64] | None,
+) -> tuple[int, StaticReport]:
+    """Run the continuation from `state`, in place, until it ends or has done its iterations.
+
+    `step` is the first one in pseudo-time [s].
+    """
     report, last = np.zeros(1, dtype=STATIC_REPORT), np.zeros(state.size)
-    balls = context.model.geometry.balls
-    trust, held = np.ones(balls), np.zeros(balls, dtype=np.int64)
-    status: int = Status.UNFINISHED
-    while status == Status.UNFINISHED and report["iterations"][0] < most:  # a signal is heard between two calls
-        status = compiled.solve_static(
+    trust, held = np.ones(context.driven.size), context.driven
+
+    def advance(iterations: int) -> int:
+        found: int = compiled.solve_static(
             compiled.evaluate_pointer,
             compiled.jacobian_pointer,
             context.bundle,
@@ -269,12 +270,20 @@ def _attempt(compiled: Core, context: SolverContext, state: FloatArray, most: in
             trust,
             held,
             report,
-            _ITERATIONS_PER_CALL,
+            iterations,
         )
+        return found
+
+    status: int = advance(0)  # begins the search, and decides which balls the cage drives
+    report["pseudo_step"], report["iterations"] = step, _BEGUN
+    if driven is not None:
+        held[:] = driven
+    while status == Status.UNFINISHED and report["iterations"][0] < most:  # a signal is heard between two calls
+        status = advance(min(_ITERATIONS_PER_CALL, most))
     return status, report
 
 
-def _without_friction(compiled: Core, context: SolverContext, state: FloatArray) -> SolverError | None:
+def without_friction(compiled: Core, context: SolverContext, state: FloatArray) -> SolverError | None:
     """Find the equilibrium of the normal forces, in place; return what is missing where unloaded balls still creep."""
     try:
         continue_static(compiled, context, state, friction=False)

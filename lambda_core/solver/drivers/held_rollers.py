@@ -22,9 +22,10 @@ from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
-from lambda_core.solver.drivers.equilibrium import Equilibrium, solve, solve_near
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.first_state import FIRST_AZIMUTH, first_frame
 from lambda_core.solver.drivers.held_ring import HeldRing, held
+from lambda_core.solver.drivers.near_equilibrium import solve_near
 
 _HELD = (True,) * 5
 _TILTS = 3  # from this place of a pose on

@@ -66,8 +66,10 @@ class SolverContext:
     scale: FloatArray
     blocks: Any = field(init=False)
     factors: Any = field(init=False)
+    driven: NDArray[np.int64] = field(init=False)  # balls that the cage drives, in the last search for an equilibrium
 
     def __post_init__(self) -> None:
+        self.driven = np.zeros(int(self.bundle.system[0]["balls"]), dtype=np.int64)
         self.blocks = make_blocks(self.bundle)
         coupled, size = self.blocks.cross.shape[0], self.blocks.a.shape[1]
         _, rollers = roller_code(core(), bool((self.bundle.rows["kind"] == R.ROLLERS).any()))

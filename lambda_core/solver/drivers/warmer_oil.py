@@ -55,7 +55,9 @@ def from_warmer_oil(context: SolverContext, start: FloatArray, solve: Solve) -> 
 
 
 def _warmed(context: SolverContext, by: float) -> SolverContext:
-    """Return the same with warmer oil [K]."""
+    """Return the same with warmer oil [K]; searches note in the same place which balls the cage drives."""
     oil = context.model.oil
     model = dataclasses.replace(context.model, oil=dataclasses.replace(oil, temperature=oil.temperature + by))
-    return assemble(model, context.kernels, context.frame, derive_oils(model, context.kernels, context.frame))
+    found = assemble(model, context.kernels, context.frame, derive_oils(model, context.kernels, context.frame))
+    found.driven = context.driven
+    return found

@@ -1,0 +1,65 @@
+"""Quasi-static equilibria of changed models, from that of a solved one."""
+
+from __future__ import annotations
+
+from lambda_core.domain.errors import SolverError
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
+from lambda_core.solver.drivers.compiled_laws import Kernels, check_laws, derive_oils
+from lambda_core.solver.drivers.equilibrium import (
+    Equilibrium,
+    contact_channels,
+    continue_static,
+    mean_frame,
+    solution,
+    solve,
+    without_friction,
+)
+from lambda_core.solver.drivers.solver_context import assemble
+
+
+def solve_near(
+    model: BearingModel, near: Equilibrium, kernels: Kernels | None = None, *, is_of_laws: bool = True
+) -> Equilibrium:
+    """Find the equilibrium of a changed model from that of a solved one.
+
+    Contact frame, first state, and the balls that the cage drives are those of the solution, which saves most of the
+    work of :func:`solve`, and keeps balls that no ring loads in the same of several steady motions. A model whose state
+    has another size, that has no solution near, or one in which the cage drives other balls, is solved anew.
+
+    Parameters
+    ----------
+    near : Equilibrium
+        Of the same bearing under the same loads.
+    is_of_laws : bool
+        Whether only laws differ, or what only they see: then normal forces are as good as the same. Otherwise these and
+        the balls that the cage drives are found anew, and the balls start with their speeds in the solution.
+
+    Raises
+    ------
+    SolverError
+        As :func:`solve`.
+    """
+    frame, kernels = near.context.frame, kernels or Kernels(model)
+    oils = derive_oils(model, kernels, frame)
+    check_laws(model, kernels, frame, oils)
+    compiled, context = core(None), assemble(model, kernels, frame, oils)
+    if context.size != near.state.size:
+        return solve(model, kernels, phase=near.phase)
+    state = near.state.copy()
+    try:
+        if not is_of_laws:
+            without_friction(compiled, context, state)
+            frame = mean_frame(model.geometry, contact_channels(compiled, context, state)[0], frame)
+            context = assemble(model, kernels, frame, oils)
+            now, before = L.elements_in(context.bundle, state), L.elements_in(context.bundle, near.state)
+            now["velocity"], now["spin"] = before["velocity"], before["spin"]
+        are_balls = model.rollers is None
+        driven = near.context.driven if is_of_laws and are_balls else None
+        report = continue_static(compiled, context, state, friction=True, is_near=are_balls, driven=driven)
+    except SolverError:
+        return solve(model, kernels, phase=near.phase)
+    if are_balls and (context.driven != near.context.driven).any():
+        return solve(model, kernels, phase=near.phase)
+    return solution(context, state, contact_channels(compiled, context, state), report, phase=near.phase)
