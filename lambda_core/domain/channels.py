@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 RINGS = ("inner", "outer")
 ARCS = ("inner +x", "inner -x", "outer +x", "outer -x")  # of four-point contact, by the shaft's thrust that they take
+RIBS = ("inner +x", "inner -x", "outer +x", "outer -x")  # of rollers, by the end of the roller that they touch
 # Below this film parameter metal touches metal and shorts the contact: asperities carry more than 1 % of the load there
 # (Zhou and Hoeprich 1991 with the constants of the raceways of Wingertszahn et al. 2023), whatever law friction uses.
 SHORTED = 2.03
@@ -36,6 +37,8 @@ LOSSES = (
 DIMENSIONS: dict[str, tuple[str, ...]] = {
     "ring": RINGS,
     "arc": ARCS,
+    "rib": RIBS,
+    "lean": ("tilt", "skew"),
     "body": ("inner ring", "outer ring", "cage"),
     "axis": ("x", "y", "z"),
     "tilt": ("y", "z"),
@@ -119,4 +122,13 @@ ARC_CHANNELS: tuple[Channel, ...] = tuple(
     Channel(f"arc_{channel.name}", ("ball", "arc"), channel.unit, f"{channel.meaning}; of each arc")
     for channel in CHANNELS
     if channel.name in _BY_ARC
+)
+ROLLER_CHANNELS: tuple[Channel, ...] = (
+    Channel(
+        "roller_lean",
+        ("ball", "lean"),
+        "rad",
+        "angles of each roller's axis: tilt in the bearing's axial plane, outwards at +x, and skew along the orbit",
+    ),
+    Channel("rib_load", ("ball", "rib"), "N", "normal force of each rib on each roller; 0 where there is no rib"),
 )

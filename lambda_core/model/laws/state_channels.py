@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from lambda_core.domain.channels import ARC_CHANNELS, CHANNELS, Channel
+from lambda_core.domain.channels import ARC_CHANNELS, CHANNELS, ROLLER_CHANNELS, Channel
 from lambda_core.domain.elements import BODIES, RACEWAYS
 from lambda_core.laws.state import ROLE, State
 
@@ -61,7 +61,8 @@ def element_channels(dim: str, what: str) -> tuple[Channel, ...]:
 
 def result_channels(model: BearingModel) -> tuple[Channel, ...]:
     """Return what every sample of a run of the model carries."""
-    return (*CHANNELS, *arc_channels(model), *state_channels(model), *wave_channels(model), *_of_elements(model))
+    own = arc_channels(model) if model.rollers is None else ROLLER_CHANNELS
+    return (*CHANNELS, *own, *state_channels(model), *wave_channels(model), *_of_elements(model))
 
 
 def _of_elements(model: BearingModel) -> tuple[Channel, ...]:

@@ -17,7 +17,7 @@ from lambda_core.solver.core import Core
 from lambda_core.solver.drivers.contact_memory import channels_of_states
 from lambda_core.solver.drivers.element_forces import element_forces, named_forces
 from lambda_core.solver.drivers.equilibrium import fault_sentence
-from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring
+from lambda_core.solver.drivers.ring_values import contacts_by_ring, loads_of_ribs, losses_by_ring
 from lambda_core.solver.drivers.roller_tables import spin_in_space
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.tables import running
@@ -109,6 +109,9 @@ def channels_of(
     for channel in arc_channels(context.model):
         i = CONTACT_CHANNELS.index(channel.name.removeprefix("arc_"))
         channels[channel.name] = contacts[:, :, :, i].copy()
+    if context.model.rollers is not None:
+        channels["roller_lean"] = balls["tilt"].copy()
+        channels["rib_load"] = loads_of_ribs(geometry, contacts)
     tails = states[:n, context.size - context.bundle.states.size :]
     channels |= channels_of_states(context.model, tails) | wave_values(everything, context.model)
     if context.assembly.links:

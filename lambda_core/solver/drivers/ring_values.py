@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.channels import LOSSES, RINGS
+from lambda_core.domain.channels import LOSSES, RIBS, RINGS
 from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.elements.ball.raceways import raceways, raceways_of_a_ball
 from lambda_core.solver.arrays import bundle as L
@@ -45,6 +45,16 @@ def contacts_by_ring(geometry: Geometry, contacts: FloatArray) -> FloatArray:
         most = np.argmax(arcs[..., _LOAD], axis=-1)[..., None, None]
         found[..., ring, :] = np.take_along_axis(arcs, most, axis=-2)[..., 0, :]
         found[..., ring, _SUMMED] = contacts[..., rings == ring, :][..., _SUMMED].sum(axis=-2)
+    return found
+
+
+def loads_of_ribs(geometry: Geometry, contacts: FloatArray) -> FloatArray:
+    """Return the loads of the ribs on each roller, shape (..., Z, 4) as channels.RIBS has them [N]."""
+    found = np.zeros((*contacts.shape[:-2], len(RIBS)))
+    for place, raceway in enumerate(raceways_of_a_ball(geometry)):
+        if raceway.end:
+            name = f"{RINGS[raceway.ring]} {'+x' if raceway.end > 0 else '-x'}"
+            found[..., RIBS.index(name)] = contacts[..., place, _LOAD]
     return found
 
 

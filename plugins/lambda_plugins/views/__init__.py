@@ -27,6 +27,7 @@ def register_views(register: Callable[[View], None]) -> None:
         operating_point,
         ring,
         ring_shape,
+        rollers,
         study,
         vibration,
     )
@@ -43,6 +44,7 @@ def register_views(register: Callable[[View], None]) -> None:
         cage,
         ring,
         ring_shape,
+        rollers,
         capacitance,
         electric,
         machine,

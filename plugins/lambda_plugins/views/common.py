@@ -54,6 +54,11 @@ def source(run: RunData) -> str:
     return "   ".join(filter(None, (f"{run.case}: {run.title}", *loads, parts[-1], clearance)))
 
 
+def has_rollers(run: RunData) -> bool:
+    """Tell whether the elements of a run are rollers."""
+    return any(channel.name == "roller_lean" for channel in run.channels)
+
+
 def require_cage(run: RunData) -> None:
     """Refuse runs without a cage."""
     if not run.model["depth"]["cage"]:

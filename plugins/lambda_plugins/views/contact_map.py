@@ -25,7 +25,7 @@ from lambda_core.plugins import (
     View,
     ViewData,
 )
-from lambda_plugins.views.common import source
+from lambda_plugins.views.common import has_rollers, source
 
 if TYPE_CHECKING:
     from lambda_core.solver.drivers.contact_field import ContactField
@@ -52,6 +52,8 @@ class Choice(Options):
 
 def contact_map(run: RunData, options: Choice) -> ViewData:
     """Maps over one contact ellipse, computed from the recorded state by the contact pipeline itself."""
+    if has_rollers(run):
+        raise NotApplicable("rollers touch along lines: the view line-contact shows them")
     row, sample = _moment(run, options.time)
     index = 0 if options.ring == "inner" else 1
     balls = sample["load"].shape[0]
