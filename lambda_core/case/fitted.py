@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
+from pydantic import ValidationError, model_validator
+
 from lambda_core.case.option import Section, option
 
 
@@ -24,3 +29,34 @@ class FitOrigin(Section):
     count: int = option(description="number of measured values", ge=1)
     parameters: list[FittedValue] = option([], "the fitted values")
     correlation: list[list[float]] = option([], "correlation of the fitted values, in their order")
+
+    @model_validator(mode="after")
+    def _has_all_correlations(self) -> FitOrigin:
+        count = len(self.parameters)
+        if [len(row) for row in self.correlation] != [count] * count:
+            raise ValueError(f"correlation needs {count} rows of {count} numbers: one for each of the fitted values")
+        return self
+
+
+def fit_of_part(fit: object, place: Callable[[str], str]) -> dict[str, Any]:
+    """Return the table `fit` with the values that a part of a machine has, nothing where it has none or `fit` is wrong.
+
+    Errors and correlations of these values are the same whatever the others are: a marginal distribution.
+
+    Parameters
+    ----------
+    fit : object
+        Plain table of the machine.
+    place : callable
+        Where in the case of the part stands what stands at a path of the machine; empty where it is not there.
+    """
+    try:
+        known = FitOrigin.model_validate(fit)
+    except ValidationError:
+        return {}
+    kept = [i for i, row in enumerate(known.parameters) if place(row.path)]
+    if not kept:
+        return {}
+    rows = [{**known.parameters[i].model_dump(), "path": place(known.parameters[i].path)} for i in kept]
+    matrix = [[known.correlation[i][j] for j in kept] for i in kept]
+    return {"fit": {**known.model_dump(), "parameters": rows, "correlation": matrix}}

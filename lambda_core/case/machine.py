@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from functools import partial
 from typing import Any, ClassVar, Literal
 
 from pydantic import ValidationInfo, field_validator, model_validator
 
 from lambda_core.case.elastic import Elastic
 from lambda_core.case.electric import MachineElectric
-from lambda_core.case.fitted import FitOrigin
+from lambda_core.case.fitted import FitOrigin, fit_of_part
 from lambda_core.case.holding import SeatTilt, SeatTranslation
 from lambda_core.case.machine_parts import (
     Connection,
@@ -312,7 +313,8 @@ def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
         shared = tables.get(table, {})
         found[table] = {**(shared if isinstance(shared, Mapping) else {}), **given[table]}
     thermal = _own_thermal(tables, given)
-    return found | _own_oil(tables, given) | ({"thermal": thermal} if thermal else {})
+    found |= _own_oil(tables, given) | ({"thermal": thermal} if thermal else {})
+    return found | fit_of_part(tables.get("fit"), partial(_place_in_bearing, tables, name))
 
 
 def _own_oil(tables: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
@@ -346,3 +348,17 @@ def place_in_machine(tables: Mapping[str, Any], name: str, where: str) -> str:
     table = own.get(first) if first in (*REPLACED, "lubricant", "thermal") else None
     is_replaced = isinstance(table, Mapping) and (not rest or rest[0] in table)
     return f"bearings.{name}.{where}" if first in OWN or is_replaced else where
+
+
+def _place_in_bearing(tables: Mapping[str, Any], name: str, path: str) -> str:
+    """Return where in the tables of a bearing stands what stands at `path` of the machine; empty where it is not there.
+
+    What bearings have of their own takes the place of what they share.
+    """
+    own = path.removeprefix(f"bearings.{name}.")
+    first = own.split(".")[0]
+    if own == path:
+        return path if first in SHARED and place_in_machine(tables, name, path) == path else ""
+    if first in Bearing.model_fields:
+        return f"bearing.{own}"
+    return own if first in (*OWN, *REPLACED, "lubricant") else ""

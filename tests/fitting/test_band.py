@@ -18,7 +18,9 @@ from lambda_core.analysis.band.changed import is_of_laws, with_value
 from lambda_core.analysis.band.graded import graded_parameters
 from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.case.case_io import validate_case
+from lambda_core.case.machine import bearing_tables
 from lambda_core.discovery.manager import registry
+from lambda_core.domain.errors import CaseError
 from lambda_core.domain.number_text import rounded
 from lambda_core.export.report.band_table import model_bands
 from lambda_core.fitting.measurements import parse_measurements
@@ -144,6 +146,45 @@ def test_the_errors_of_a_fit_replace_the_ranges(tmp_path: Path) -> None:
     assert "elastic_hysteresis.loss_factor" not in {c.name for c in after.contributors}
     assert "law of elastic_hysteresis" not in {c.name for c in after.contributors}
     assert after.half_width_pct < 0.9 * before.half_width_pct
+
+
+def test_a_fitted_machine_hands_its_bearings_their_part_of_the_fit() -> None:
+    """Of three fitted values the left bearing has two, the right one has one: it has its own value of the other."""
+    row = {"value": 0.03, "standard_error": 0.001}
+    paths = ("parameters.elastic_hysteresis.loss_factor", "bearings.left.clearance", "bearings.left.support.z")
+    units = ("", "um", "N/um")
+    fit = {
+        "file": "rig.csv", "sha256": "0", "date": "2026-01-01", "count": 9,
+        "parameters": [{**row, "path": path, "unit": unit} for path, unit in zip(paths, units, strict=True)],
+        "correlation": [[1.0, 0.5, 0.2], [0.5, 1.0, 0.1], [0.2, 0.1, 1.0]],
+    }  # fmt: skip
+    tables = {**tomllib.loads(geared_shaft("box")), "fit": fit}
+    left = bearing_tables(tables, "left")["fit"]
+    assert [one["path"] for one in left["parameters"]] == [paths[0], "bearing.clearance"]
+    assert left["correlation"] == [[1.0, 0.5], [0.5, 1.0]]
+    assert [one["path"] for one in bearing_tables(tables, "right")["fit"]["parameters"]] == [paths[0]]
+    tables["bearings"]["right"]["parameters"] = {"elastic_hysteresis": {"loss_factor": 0.02}}
+    assert "fit" not in bearing_tables(tables, "right")
+    with pytest.raises(CaseError, match="3 rows of 3 numbers"):
+        api.check({**tables, "fit": {**fit, "correlation": [[1.0]]}})
+
+
+def test_the_errors_of_a_fitted_machine_replace_the_ranges() -> None:
+    """One value of both bearings: the law that it belongs to is kept, and its range does not count."""
+    tables = tomllib.loads(geared_shaft("box"))
+    value = {"path": "parameters.elastic_hysteresis.loss_factor", "value": 0.03, "standard_error": 0.001}
+    origin = {"file": "rig.csv", "sha256": "0", "date": "2026-01-01", "count": 9}
+    tables["parameters"] = {"elastic_hysteresis": {"loss_factor": 0.03}}
+    before = api.model_band(tables, quantities=TORQUE)
+    after = api.model_band(
+        {**tables, "fit": {**origin, "parameters": [value], "correlation": [[1.0]]}}, quantities=TORQUE
+    )
+    for name in ("left", "right"):
+        wide, narrow = (found.bearings[name].band("friction torque") for found in (before, after))
+        assert "fitted values" in {c.name for c in narrow.contributors} or narrow.half_width_pct < wide.half_width_pct
+        assert not {"elastic_hysteresis.loss_factor", "law of elastic_hysteresis"} & {
+            c.name for c in narrow.contributors
+        }
 
 
 def test_the_command_prints_the_band_and_writes_it_as_json(capsys: pytest.CaptureFixture[str]) -> None:

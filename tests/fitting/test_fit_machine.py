@@ -41,7 +41,7 @@ def measured(subject: Subject) -> Measurements:
     rows = [head]
     for speed, force in LOADS:
         at = (f"operation.speed={speed} rpm", f"loads.belt.force_z={force} N", *TRUTH)
-        torque, frequency = subject.values(at, NAMES, one=False)[0]
+        torque, frequency = subject.values(at, (), NAMES, one=False)[0]
         rows.append(f"{speed},{force},{torque:.8g},2,{frequency:.8g},1")
     return parse_measurements("\n".join(rows), "rig.csv", subject.words)
 
@@ -85,7 +85,7 @@ def test_the_fitted_machine_has_the_values_and_their_origin(
 def test_natural_frequencies_and_stiffness_are_those_of_modes(machine: str, subject: Subject) -> None:
     found = api.modes(tomllib.loads(machine))
     names = ("natural frequency 2", "right stiffness z")
-    frequency, stiffness = subject.values((), names, one=False)[0]
+    frequency, stiffness = subject.values((), (), names, one=False)[0]
     assert frequency == pytest.approx(sorted(mode.frequency_Hz for mode in found.modes)[1], rel=1e-9)
     assert stiffness == pytest.approx(1e-6 * found.bearings[1].stiffness[2][2], rel=1e-9)
 
@@ -93,9 +93,9 @@ def test_natural_frequencies_and_stiffness_are_those_of_modes(machine: str, subj
 def test_columns_of_one_bearing_need_no_name(machine: str, subject: Subject) -> None:
     own = subject_of(tomllib.loads(machine), bearing="left")
     names = ("friction torque", "left friction torque", "right friction torque")
-    short, left, right = own.values((), names, one=False)[0]
+    short, left, right = own.values((), (), names, one=False)[0]
     assert short == left
-    assert subject.values((), ("friction torque",), one=False)[0, 0] == pytest.approx(left + right)
+    assert subject.values((), (), ("friction torque",), one=False)[0, 0] == pytest.approx(left + right)
 
 
 def test_parameters_of_one_bearing_are_its_own(machine: str) -> None:
@@ -108,7 +108,7 @@ def test_temperatures_that_a_machine_computes_are_measured_quantities(machine: s
     text = machine.replace("[operation]", '[operation]\ntemperatures = "computed"')
     own = subject_of(tomllib.loads(text), bearing="left")
     assert "inner ring temperature" not in own.words.conditions
-    inner, outer = own.values((), ("inner ring temperature", "left outer ring temperature"), one=False)[0]
+    inner, outer = own.values((), (), ("inner ring temperature", "left outer ring temperature"), one=False)[0]
     assert 20.0 < outer < inner < 150.0
     warm = parse_measurements("speed [rpm],inner ring temperature [degC]\n3000,60\n", "rig.csv", own.words)
     with pytest.raises(UsageError, match=r'add a column "inner ring temperature error \[K\]"'):
