@@ -1,8 +1,8 @@
 """The program from its wheel on every Python here: ``python tests/smoke.py [--whole] [--others | 3.12 ...]``.
 
 Needs nothing but Python. For each version that is found: a new environment, the wheel with the tested versions of its
-dependencies, a quasi-static solution by what it needs of the solver, the same again by the code that the first process
-kept, a check of laws, the builder's first picture; with ``--whole`` the complete solver and a short run too.
+dependencies, Numba's reading of the solver and the laws, the forces on all bodies, the same again by the code that the
+first process kept, a check of laws, the builder's first picture; with ``--whole`` the complete solver and a short run.
 """
 
 from __future__ import annotations
@@ -25,18 +25,41 @@ WHOLE = "--whole"
 CASE = "6208-axial-1300"
 INSTALL, COMMAND = 900.0, 1200.0  # [s] at most on a busy machine, the second with compiling; alone it is a tenth
 PIP = ["-m", "pip", "--disable-pip-version-check"]
-# Machine code belongs to one version of Python, and integrating in time is a third of the compiling: here the solver
-# is put together without it.
-STATIC = f"""
+# Machine code belongs to one version of Python, and compiling the complete solver takes minutes. What differs from one
+# Python to the next is its bytecode: Numba reads that of every function of the solver and of all laws, and compiles the
+# forces on all bodies. Looking for garbage would take a sixth of the time.
+FORCES = f"""
+import gc
+gc.disable()
+import numpy as np
+from numba.core.compiler import run_frontend
 from lambda_core import api
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.roles import ROLES
+from lambda_core.laws.jit.reach import reach
 from lambda_core.solver import core, entry
-needed = ("wrench", "tangent", "evaluate", "jacobian", "solve_static", "observe")
+from lambda_core.solver.arrays.bundle import power_count
+from lambda_core.solver.drivers.compiled_laws import Kernels, derive_oils
+from lambda_core.solver.drivers.first_state import first_frame, first_state
+from lambda_core.solver.drivers.solver_context import assemble
+from lambda_core.solver.roller import units
+starts = [unit for unit, _ in (*entry.UNITS.values(), *units.UNITS.values())]
+starts += [law.kernel for role in ROLES for law in registry().models(role).values()]
+read = {{getattr(one, "py_func", one) for start in starts for one in (start, *reach(start, lenient=True).helpers)}}
+for function in read:
+    run_frontend(function)
+needed = ("wrench", "tangent", "evaluate")
 compiled = []
 def find(name):
     return core.Unit(*entry.call_and_pointer(name, compiled.append)) if name in needed else core.Unit(None, None)
 core._loaded[""] = core.Core.of(find)
-found = api.quasistatic("{CASE}")
-print(found.max_load_N, found.friction_torque_Nmm, len(compiled), "compiled")
+model = api.check("{CASE}")
+kernels, frame = Kernels(model), first_frame(model)
+context = assemble(model, kernels, frame, derive_oils(model, kernels, frame))
+state = first_state(context)
+slope, powers = np.zeros(state.size), np.zeros(power_count(context.bundle))
+assert core.core().evaluate(0.0, state, context.bundle, slope, powers, 1) == 1
+print(abs(slope).max(), abs(powers).max(), len(read), "functions", len(compiled), "compiled")
 """
 PAINT = f"""
 from lambda_gui.app import BuilderApp
@@ -83,8 +106,8 @@ class Smoke:
     def faults(self, *, is_complete: bool) -> list[str]:
         """Return what does not work."""
         found: list[str] = []
-        first = self._tried(found, "equilibrium", [self.python, "-c", STATIC], "compiled")
-        second = self._tried(found, "equilibrium by kept code", [self.python, "-c", STATIC], " 0 compiled")
+        first = self._tried(found, "forces", [self.python, "-c", FORCES], "compiled")
+        second = self._tried(found, "forces by kept code", [self.python, "-c", FORCES], " 0 compiled")
         if first.split()[:2] != second.split()[:2]:
             found.append(f"kept code gives {second} instead of {first}")
         self._tried(found, "plugins check", [self._program, "plugins", "check", "damping"], "ok  damping/cubic")

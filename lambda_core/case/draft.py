@@ -6,6 +6,7 @@ import tomllib
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, get_origin
 
@@ -157,8 +158,7 @@ class Draft:
 
     def _is_dof(self, keys: Keys) -> bool:
         """Tell whether a degree of freedom stands at a place, which may be written short."""
-        table = model_at(self.root, keys) if keys else None
-        return table is not None and issubclass(table, Dof)
+        return _stands_dof(self.root, keys)
 
     # -- what it means --
 
@@ -210,6 +210,12 @@ class Draft:
             return self.path.read_text(encoding="utf-8-sig") != self.original
         except (OSError, UnicodeDecodeError):
             return True
+
+
+@lru_cache(maxsize=4096)  # an editor asks for every option of a case after every change
+def _stands_dof(root: type[BaseModel], keys: Keys) -> bool:
+    table = model_at(root, keys) if keys else None
+    return table is not None and issubclass(table, Dof)
 
 
 def _inner(value: Any, key: str) -> Any:
