@@ -238,6 +238,7 @@ class LifeFactorNumbers(NamedTuple):
 
 
 RADIAL_BALL = LifeFactorNumbers(2.5671, 0.83, 1.0 / 3.0, -9.3, 2.2649, 1.9987)  # ISO 281:2007, 9.3.3.2, eq. 31-33
+LEAST_KAPPA = 0.1  # of the standard's calculation of a_ISO (ISO 281:2007, 9.3.3)
 RADIAL_ROLLER = LifeFactorNumbers(1.5859, 1.0, 0.4, -9.185, 1.3993, 1.2348)  # ISO 281:2007, 9.3.3.3
 
 
@@ -269,7 +270,7 @@ def life_modification_factor(
     ValueError
         For kappa below 0.1, where the standard's calculation is not valid.
     """
-    if viscosity_ratio < 0.1:
+    if viscosity_ratio < LEAST_KAPPA:
         raise ValueError(f"a_ISO is defined for a viscosity ratio kappa of 0.1 and more, got {viscosity_ratio:.3g}")
     kappa = min(viscosity_ratio, 4.0)
     if kappa < 0.4:

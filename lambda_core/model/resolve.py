@@ -20,7 +20,6 @@ from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue
 from lambda_core.domain.elements import BODIES
 from lambda_core.domain.units import show
 from lambda_core.elements.ball.geometry import Geometry
-from lambda_core.formulas.life import contamination_range
 from lambda_core.laws.context import Material
 from lambda_core.laws.jit.reach import content_key
 from lambda_core.laws.law import Law
@@ -63,6 +62,7 @@ from lambda_core.model.laws.resolve_states import check_states
 from lambda_core.model.laws.time_laws import resolve_time_laws, signals_of
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.rollers_in_motion import as_balls, rollers_of, with_rollers
+from lambda_core.model.settings.contamination import contamination_of
 from lambda_core.model.settings.resolve_electric import resolve_electric
 from lambda_core.model.settings.resolve_solver import resolve_solver
 from lambda_core.model.settings.resolve_thermal import check_thermal
@@ -192,19 +192,9 @@ def resolve(
         events=events,
         links=between,
         elastic=elastic,
-        contamination=_contamination(case, geometry, ledger),
+        contamination=contamination_of(case, geometry.pitch_diameter, ledger),
         requirements=case.requirements,
     )
-
-
-def _contamination(case: Case, geometry: Geometry, ledger: Ledger) -> float | None:
-    """Return e_C; of a level of contamination the lower end (ISO 281:2007, table 13)."""
-    given = case.life.contamination
-    if not isinstance(given, str):
-        return given
-    low, high = contamination_range(given, geometry.pitch_diameter)
-    ledger.assume(f"e_C {low:g}, the lower end of {low:g} to {high:g} for {given} (ISO 281, table 13)")
-    return low
 
 
 def _distributions(

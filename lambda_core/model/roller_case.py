@@ -32,6 +32,7 @@ from lambda_core.model.checks.oil_table import OilLaw, coefficients_of
 from lambda_core.model.checks.operating_limits import speed_warning
 from lambda_core.model.laws.time_functions import initial, time_function
 from lambda_core.model.ledger import Ledger
+from lambda_core.model.settings.contamination import contamination_of
 
 if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
@@ -74,6 +75,8 @@ class RollerModel:
         Of the oil [K].
     slices : int
         Laminae.
+    contamination : float or None
+        e_C of ISO 281; None: not given.
     assumptions : tuple of str
         In plain words.
     values : tuple of ResolvedValue
@@ -93,6 +96,7 @@ class RollerModel:
     lubrication: Lubrication
     temperature: float
     slices: int
+    contamination: float | None
     assumptions: tuple[str, ...]
     values: tuple[ResolvedValue, ...] = ()
 
@@ -162,6 +166,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
                 state = _oil(law, case.lubricant.temperature, oil.thermal_conductivity)
     level = resolve_oil_level(case.lubricant, row, geometry.diameter if geometry else 0.0, ledger)
     held = _held(case, ledger)
+    contamination = contamination_of(case, geometry.pitch_diameter, ledger) if geometry else None
     ledger.check(case.name)
     if geometry is None or state is None or row is None:
         raise CaseError(case.name, [Problem(_WHERE, "is not a complete roller bearing")])
@@ -182,6 +187,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         lubrication=lubrication,
         temperature=case.lubricant.temperature,
         slices=rollers.slices,
+        contamination=contamination,
         assumptions=tuple(ledger.assumptions),
         values=tuple(ledger.values),
     )

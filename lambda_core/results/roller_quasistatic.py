@@ -19,16 +19,23 @@ from lambda_core.elements.roller.axial_limit import AxialLimit, axial_limit
 from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, balance
 from lambda_core.elements.roller.roller_friction import RollerFriction, friction
-from lambda_core.elements.roller.roller_life import lamina_life, roller_basic_life
+from lambda_core.elements.roller.roller_life import lamina_life, modified_lamina_life, roller_basic_life
 from lambda_core.elements.roller.roller_motion import RollerMotion, rolling_motion
 from lambda_core.elements.roller.roller_ratings import lamina_ratings, roller_equivalent_load, roller_static_load
-from lambda_core.formulas.life import life_hours, reference_viscosity
+from lambda_core.formulas.life import (
+    LEAST_KAPPA,
+    RADIAL_ROLLER,
+    life_hours,
+    life_modification_factor,
+    reference_viscosity,
+)
 from lambda_core.formulas.loading import CARRYING, carries
+from lambda_core.model.settings.contamination import known_contamination
 from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
 from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.results.text import line, warning_lines
+from lambda_core.results.text import contamination_text, line, warning_lines
 
 if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
@@ -81,6 +88,13 @@ class RollerQuasiStatic(Answer):
     inner_ring_displacement_um: list[float]
     inner_ring_tilt_mrad: list[float]
     inner_ring_moment_Nm: list[float] = Field(description="about y and z, that the rollers put on the shaft")
+    modified_life_h: float | None = Field(description="L_nmh = a_ISO L_10h of ISO 281")
+    modified_reference_life_h: float | None = Field(description="L_nmrh of ISO 16281, a_ISO of every lamina")
+    life_factor: float | None = Field(description="a_ISO of ISO 281")
+    contamination: float = Field(description="e_C that a_ISO was computed with")
+    contamination_given: bool = Field(
+        description="whether the case gives e_C; otherwise it is the lower end of normal cleanliness"
+    )
     equivalent_load_N: float | None = Field(description="P of ISO 281")
     basic_life_h: float | None = Field(description="L_10h of ISO 281, exponent 10/3")
     reference_life_h: float | None = Field(description="L_10rh of ISO 16281, from the load of every lamina")
@@ -176,7 +190,7 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
         inner_ring_displacement_um=[1e6 * x, 1e6 * y, 1e6 * z],
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
         inner_ring_moment_Nm=[-float(state.loads[3]), -float(state.loads[4])],
-        **roller_lives(bearing, state, (radial, axial), motion.relative, model.oil.kinematic),
+        **roller_lives(bearing, state, (radial, axial), motion.relative, model.oil.kinematic, model.contamination),
         axial_limit_N=limit.continuous if limit else None,
         rollers=_rollers(bearing, state),
         warnings=_warnings(model, state, axial, limit),
@@ -218,9 +232,16 @@ def _pressure(bearing: RollerBearing, state: RollerEquilibrium, model: RollerMod
 
 
 def roller_lives(
-    bearing: RollerBearing, state: RollerEquilibrium, load: tuple[float, float], speed: float, viscosity: float
+    bearing: RollerBearing,
+    state: RollerEquilibrium,
+    load: tuple[float, float],
+    speed: float,
+    viscosity: float,
+    contamination: float | None,
 ) -> dict[str, Any]:
     """Return lives, static safety and viscosity ratio; None where a standard gives none.
+
+    Lives with a_ISO have the factor of ISO 281 for the equivalent load, and that of every lamina (ISO 16281).
 
     Parameters
     ----------
@@ -232,8 +253,11 @@ def roller_lives(
         Of the inner ring against the outer [rad/s].
     viscosity : float
         Kinematic, of the oil [m2/s].
+    contamination : float or None
+        e_C; None: not given, normal cleanliness counts.
     """
     radial, axial = load
+    clean = known_contamination(contamination, bearing.pitch_diameter)
     speed = abs(speed)
     angle, gamma = bearing.contact_angle, bearing.diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
     thrust = axial if angle > 0.0 else 0.0
@@ -241,13 +265,22 @@ def roller_lives(
     static = roller_static_load(radial, thrust, angle)
     ratings = lamina_ratings(bearing.dynamic_rating, bearing.count, gamma, state.inner.shape[1], contact_angle=angle)
     mean = 0.5 * (state.inner + state.outer)
-    reference = lamina_life(mean, ratings, bearing.dynamic_rating).life
+    reference = lamina_life(mean, ratings, bearing.dynamic_rating)
     basic = roller_basic_life(bearing.dynamic_rating, equivalent)
     kappa = viscosity / reference_viscosity(speed, bearing.pitch_diameter) if speed > 0.0 else math.nan
+    factor = modified = math.nan
+    if kappa >= LEAST_KAPPA:
+        factor = life_modification_factor(kappa, clean, bearing.fatigue_limit, equivalent, RADIAL_ROLLER)
+        modified = modified_lamina_life(reference, bearing.dynamic_rating, kappa, clean, bearing.fatigue_limit)
     return {
         "equivalent_load_N": equivalent,
         "basic_life_h": finite(life_hours(basic, speed)),
-        "reference_life_h": finite(life_hours(reference, speed)),
+        "reference_life_h": finite(life_hours(reference.life, speed)),
+        "modified_life_h": finite(life_hours(factor * basic, speed)),
+        "modified_reference_life_h": finite(life_hours(modified, speed)),
+        "life_factor": finite(factor),
+        "contamination": clean,
+        "contamination_given": contamination is not None,
         "static_safety": finite(bearing.static_rating / static) if static > 0.0 else None,
         "viscosity_ratio": finite(kappa),
     }
@@ -343,9 +376,8 @@ def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str
         film = "" if found.rib_film_um is None else f"film {units.text(found.rib_film_um, 'um', 2)}"
         friction = "" if found.rib_friction is None else f"friction {number(found.rib_friction, 4)}"
         lines.append(line("rib", f"load {units.text(found.rib_load_N, 'N', 0)}", film, friction))
-    lives = ((found.reference_life_h, "ISO 16281"), (found.basic_life_h, "ISO 281"))
     lines += [
-        line("rating life", *(f"{hours(life)} ({standard})" for life, standard in lives if life is not None)),
+        *_life_lines(found),
         line(
             "safety",
             f"static C0/P0 {number(found.static_safety)}" if found.static_safety is not None else "",
@@ -357,6 +389,20 @@ def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str
         line("assumed", f"{len(found.assumptions)} things: --json lists them"),
     ]
     return "\n".join(wrapped(lines, width))
+
+
+def _life_lines(found: RollerQuasiStatic) -> list[str]:
+    """Return basic lives and those with a_ISO."""
+    rows = (
+        ("rating life", found.reference_life_h, found.basic_life_h),
+        ("with a_ISO", found.modified_reference_life_h, found.modified_life_h),
+    )
+    lines, modified = [], (found.life_factor, found.contamination, found.contamination_given)
+    for words, *lives in rows:
+        named = zip(lives, ("ISO 16281", "ISO 281"), strict=True)
+        texts = [f"{hours(life)} ({standard})" for life, standard in named if life is not None]
+        lines += [line(words, *texts)] if texts else []
+    return [*lines, line("", contamination_text(*modified))] if found.life_factor is not None else lines
 
 
 def _ring_line(ring: str, parts: dict[str, float], units: UnitSystem) -> str:

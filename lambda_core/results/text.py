@@ -182,6 +182,7 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Seque
     names = {"static_safety": "static C0/P0", "viscosity_ratio": "viscosity ratio kappa"}
     safeties = [(name, words) for name, words in names.items() if getattr(rating, name) is not None]
     says = [f"{maker} {torques.number(torque, units)}" for maker, torque in makers if torque is not None]
+    modified = rating.life_factor, rating.contamination, rating.contamination_given
     rated = [
         f"{standard}: {_lives(zip(names, found, strict=True))}"
         for standard, *found, names in (
@@ -194,7 +195,7 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Seque
         *([line("catalogues", f"{'   '.join(says)} {units.unit('N mm')}")] if says else []),
         *(line("" if i else "rating life", text) for i, text in enumerate(rated)),
         *([line("", f"L_10rh by the model band {ends(life_band, 'h', units)} h")] if life_band else []),
-        *([line("", contamination_text(rating))] if rating.modified_life_h is not None else []),
+        *([line("", contamination_text(*modified))] if rating.modified_life_h is not None else []),
         line("safety", *(f"{words} {facts[name].number(getattr(rating, name))}" for name, words in safeties)),
     ]
 
@@ -204,10 +205,10 @@ def _lives(found: Iterable[tuple[str, float | None]]) -> str:
     return "  ".join(f"{name} {hours(life)}" for name, life in found if life is not None)
 
 
-def contamination_text(rating: Rating) -> str:
-    """Say which e_C the modified lives were computed with."""
-    given = "" if rating.contamination_given else ": normal cleanliness, the case gives none (life.contamination)"
-    return f"a_ISO {number(rating.life_factor, 2)} with e_C {rating.contamination:g}{given}"
+def contamination_text(factor: float | None, contamination: float | None, is_given: bool) -> str:
+    """Say which a_ISO modified lives have, and with which e_C."""
+    given = "" if is_given else ": normal cleanliness, the case gives none (life.contamination)"
+    return f"a_ISO {number(factor, 2)} with e_C {contamination:g}{given}"
 
 
 def verdict_lines(verdict: Verdict | None, units: UnitSystem = SI) -> list[str]:

@@ -50,6 +50,31 @@ def test_quasistatic(designation: str, axial: str, tmp_path: Path, capsys: pytes
     assert (found["axial_limit_N"] is not None) == designation.startswith(("NJ", "NCF"))
 
 
+def test_lives_with_a_iso(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """ISO 281:2007, 9.3.3.3: 0.1 [1 - (1.5859 - 1.2348/kappa^0.071739) (e_C C_u/P)^0.4]^-9.185 for 1 <= kappa <= 4."""
+    path = case(tmp_path, "NU 208")
+    assert main(["quasistatic", path, "--json", "--set", "life.contamination=0.3"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    film = 1.5859 - 1.2348 / found["viscosity_ratio"] ** 0.071739
+    expected = 0.1 * (1.0 - film * (0.3 * 6.7 / 6.0) ** 0.4) ** -9.185
+    assert found["life_factor"] == pytest.approx(expected, rel=1e-6)
+    assert found["modified_life_h"] == pytest.approx(expected * found["basic_life_h"])
+    of_laminae = found["modified_reference_life_h"] / found["reference_life_h"]
+    assert 1.0 < of_laminae < found["life_factor"]  # edges carry more
+    assert main(["quasistatic", path]) == 0
+    assert "e_C 0.5: normal cleanliness, the case gives none" in capsys.readouterr().out
+
+
+def test_a_iso_ends_where_its_formula_does(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Below kappa = 0.1 the standard gives none."""
+    slow = ["--set", 'operation.speed="5 rpm"', "--set", 'lubricant.temperature="100 degC"']
+    assert main(["quasistatic", case(tmp_path, "NU 208"), "--json", *slow]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["viscosity_ratio"] < 0.1
+    assert found["modified_life_h"] is None
+    assert found["basic_life_h"] > 0.0
+
+
 def test_the_text_names_shares_and_lives(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["quasistatic", case(tmp_path, "32216", "3 kN")]) == 0
     out = capsys.readouterr().out
@@ -228,7 +253,8 @@ def test_a_run_rates_rollers_as_rollers(
     bearing = next(iter(json.loads(capsys.readouterr().out)["bearings"].values()))
     for name in ("basic_life_h", "reference_life_h", "static_safety", "viscosity_ratio", "equivalent_load_N"):
         assert bearing["rating"][name] == pytest.approx(alone[name], rel=0.05), name
-    assert bearing["rating"]["modified_life_h"] is None
+    modified = "modified_reference_life_h"
+    assert bearing["rating"][modified] == pytest.approx(alone[modified], rel=0.1)
     assert bearing["verdict"]["met"]
     assert bearing["shoulders"] == []
     assert min(bearing["contact_capacitance_pF"]) > 0.0

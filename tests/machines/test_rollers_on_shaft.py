@@ -105,6 +105,7 @@ def test_one_bearing_on_a_short_shaft_is_the_bearing_alone() -> None:
         "shaft": {**THICK, "support": {"at": "30 mm", "x": "locked"}},
         "bearings": {"one": {"designation": "SKF NU 208 ECP", "at": "30 mm"}},
         "loads": {"down": {"at": "30 mm", "force_z": "-5 kN"}},
+        "life": {"contamination": 0.4},
     }
     found = api.quasistatic(case).bearing("one")
     alone = api.quasistatic(
@@ -115,6 +116,7 @@ def test_one_bearing_on_a_short_shaft_is_the_bearing_alone() -> None:
             "operation": SHARED["operation"],
             "gravity": SHARED["gravity"],
             "loads": {"radial": "5 kN", "radial_direction": "0 deg"},
+            "life": {"contamination": 0.4},
         }
     )
     assert found.loaded_balls == alone.loaded_rollers
@@ -123,6 +125,8 @@ def test_one_bearing_on_a_short_shaft_is_the_bearing_alone() -> None:
         (found.max_pressure_GPa, alone.max_pressure_GPa),
         (found.basic_life_h, alone.basic_life_h),
         (found.reference_life_h, alone.reference_life_h),
+        (found.modified_life_h, alone.modified_life_h),
+        (found.modified_reference_life_h, alone.modified_reference_life_h),
         (found.static_safety, alone.static_safety),
         (found.viscosity_ratio, alone.viscosity_ratio),
         (found.film_um[0], alone.film_um[0]),

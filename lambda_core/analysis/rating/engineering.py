@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lambda_core.analysis.rating.compare_methods import comparison_inputs, equilibrium_state
-from lambda_core.formulas.life import contamination_range
 from lambda_core.model.laws.method_inputs import bearing_load
+from lambda_core.model.settings.contamination import known_contamination
 from lambda_core.results.rating import Rating
 from lambda_core.results.verdict import limits_of
 from lambda_core.solver.drivers.equilibrium import Equilibrium
@@ -53,8 +53,7 @@ def rating_of(found: Equilibrium, methods: Mapping[str, Method], loads: tuple[fl
         return _of_rollers(found, found.context.model.rollers)
     asked = [methods[name] for name in dict.fromkeys(row[0] for row in _ROWS.values()) if name in methods]
     model = found.context.model
-    lower, _ = contamination_range("normal cleanliness", model.geometry.pitch_diameter)
-    contamination = lower if model.contamination is None else model.contamination
+    contamination = known_contamination(model.contamination, model.geometry.pitch_diameter)
     answers = evaluate_methods(
         asked, comparison_inputs(found, contamination=contamination, stiffness=False, loads=loads)
     )
@@ -94,7 +93,7 @@ def mounted_rating(model: MachineModel, state: ShaftState, number: int, found: E
 
 
 def _of_rollers(found: Equilibrium, rollers: RollerBearing) -> Rating:
-    """Rate rollers as their quasi-static answer does, tilted as in the equilibrium; a_ISO of rollers is left out."""
+    """Rate rollers as their quasi-static answer does, tilted as in the equilibrium."""
     from lambda_core.elements.roller.roller_equilibrium import balance
     from lambda_core.elements.roller.roller_motion import rolling_motion
     from lambda_core.results.roller_quasistatic import roller_lives
@@ -114,10 +113,10 @@ def _of_rollers(found: Equilibrium, rollers: RollerBearing) -> Rating:
             inertial=motion.inertial(rollers),
         )
     except (ValueError, ArithmeticError) as error:
-        return _rating({}, model, f"rating lives: {error}")
-    lives = roller_lives(rollers, state, (radial, axial), found.relative_speed, oil.viscosity / oil.density)
-    return _rating(lives, model, "a_ISO of rollers is left out")
+        return _rating({}, model, [f"rating lives: {error}"])
+    oil_state = oil.viscosity / oil.density, model.contamination
+    return _rating(roller_lives(rollers, state, (radial, axial), found.relative_speed, *oil_state), model, [])
 
 
-def _rating(lives: Mapping[str, float | None], model: BearingModel, note: str) -> Rating:
-    return Rating.model_validate({**dict.fromkeys(_ROWS), **lives, "limits": limits_of(model), "notes": [note]})
+def _rating(lives: Mapping[str, float | bool | None], model: BearingModel, notes: list[str]) -> Rating:
+    return Rating.model_validate({**dict.fromkeys(_ROWS), **lives, "limits": limits_of(model), "notes": notes})

@@ -20,8 +20,6 @@ from lambda_core.results.roller_quasistatic import RollerQuasiStatic, SolvedRoll
 from lambda_core.results.verdict import limits_of
 from lambda_core.solver.drivers.held_rollers import HeldRollers
 
-_NOTE = "a_ISO of rollers is left out"
-
 
 @dataclass(frozen=True)
 class RollersOnShaft:
@@ -104,7 +102,7 @@ def rollers_on_shaft(ring: HeldRollers) -> RollersOnShaft:
         name=model.name, title=model.title, bearing=bearing, loads=np.zeros(5), held=(True,) * 5,
         speeds=(motion.inner, motion.outer), oil=oil, friction=given, lubricant=ring.oil.name,
         base_type=ring.oil.base_type, lubrication=model.lubrication, temperature=ring.oil.temperature,
-        slices=state.inner.shape[1], assumptions=model.assumptions,
+        slices=state.inner.shape[1], contamination=model.contamination, assumptions=model.assumptions,
     )  # fmt: skip
     answer = roller_answer(alone, solved)
     rating = Rating(
@@ -113,10 +111,15 @@ def rollers_on_shaft(ring: HeldRollers) -> RollersOnShaft:
         equivalent_load_N=answer.equivalent_load_N,
         static_safety=answer.static_safety,
         viscosity_ratio=answer.viscosity_ratio,
+        modified_life_h=answer.modified_life_h,
+        modified_reference_life_h=answer.modified_reference_life_h,
+        life_factor=answer.life_factor,
+        contamination=answer.contamination,
+        contamination_given=answer.contamination_given,
         skf_torque_Nmm=None,
         schaeffler_torque_Nmm=None,
         limits=limits_of(model),
-        notes=[_NOTE],
+        notes=[],
     )
     return RollersOnShaft(alone, solved, answer, rating)
 
