@@ -157,6 +157,13 @@ class InnerSpin(Dof):
     damping: AngularDamping = option("0 N m s/rad", "resistance to the rotation", ge=0.0)
 
 
+class ShaftSpin(Dof):
+    """Resistance to the rotation of a shaft that a torque drives."""
+
+    mode: Literal["free"] = option("free", "free; the speed or the torque of the shaft stands in [operation]")
+    damping: AngularDamping = option("0 N m s/rad", "resistance to the rotation", ge=0.0, le=LARGEST)
+
+
 class SeatTranslation(Translation):
     """How a seat holds a ring along one axis; damping of a locked one counts where its housing gives way."""
 

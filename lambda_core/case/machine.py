@@ -93,7 +93,10 @@ class ShaftSection(Section):
 
 
 class Shaft(Section):
-    """The shaft: pieces of one diameter each, from its left end at x = 0, or a reduced model from outside."""
+    """The shaft: pieces of one diameter each, from its left end at x = 0, or a reduced model from outside.
+
+    Without either it is rigid and has no mass but that of its discs; so can be the shaft of a single bearing.
+    """
 
     reduced: str | None = option(
         None,
@@ -101,7 +104,9 @@ class Shaft(Section):
         "everything on the shaft stands at one of its nodes, by position or by the node's name as the marker",
         min_length=1,
     )
-    sections: list[ShaftSection] = option([], "pieces from left to right")
+    sections: list[ShaftSection] = option(
+        [], "pieces from left to right; without any the shaft of a single bearing is rigid, its mass that of its discs"
+    )
     material: MaterialChoice = option("100Cr6", "catalogue name or a table of properties")
     temperature: Temperature = option("20 degC", "mean temperature, for its growth in length")
     temperatures: list[tuple[Length, Temperature]] = option(
@@ -126,13 +131,15 @@ class Shaft(Section):
 
     @field_validator("sections")
     @classmethod
-    def _is_made_of_something(cls, sections: list[ShaftSection], info: ValidationInfo) -> list[ShaftSection]:
-        reduced = info.data.get("reduced", "unknown" if not sections else None)
-        if not sections and reduced is None:
-            raise ValueError("must have at least one entry, or give the file `reduced`")
-        if sections and reduced is not None:
+    def _is_from_one_source(cls, sections: list[ShaftSection], info: ValidationInfo) -> list[ShaftSection]:
+        if sections and info.data.get("reduced") is not None:
             raise ValueError("give either `sections` or `reduced`, not both")
         return sections
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether it is a rigid body at a single bearing."""
+        return not self.sections and self.reduced is None
 
     @model_validator(mode="after")
     def _has_one_temperature(self) -> Shaft:
@@ -245,7 +252,7 @@ class MachineCase(Written):
         ("bearings",): {STAND_IN: {"at": "0 mm"}},
     }
 
-    shaft: Shaft = option(description="the shaft")
+    shaft: Shaft = option({}, "the shaft")
     bearings: dict[str, MachineBearing] = option(description="its bearings, by name", min_length=1)
     markers: dict[str, Marker] = option({}, "named places on the shaft, on bodies and on the ground, by name")
     bodies: dict[str, MachineBody] = option({}, "other rigid bodies, such as flexibly mounted housings, by name")
@@ -277,9 +284,9 @@ class MachineCase(Written):
     fit: FitOrigin | None = option(None, "where fitted values come from; written by the command fit")
 
     @classmethod
-    def name_problems(cls, data: Mapping[str, Any]) -> list[Problem]:
-        """Return what is wrong with the names of named parts of a machine, each at its own path."""
-        found = []
+    def own_problems(cls, data: Mapping[str, Any]) -> list[Problem]:
+        """Return what is wrong with names and with the shaft's shape in plain tables, each at its own path."""
+        found = _shape_problems(data)
         for table in NAMED:
             parts = data.get(table)
             for name in parts if isinstance(parts, Mapping) else ():
@@ -290,6 +297,17 @@ class MachineCase(Written):
                 elif name in TAKEN.get(table, ()):
                     found.append(Problem(f"{table}.{name}", f'"{name}" is there already: choose another name'))
         return found
+
+
+def _shape_problems(data: Mapping[str, Any]) -> list[Problem]:
+    """Return that several bearings stand on a shaft without a shape, where they do."""
+    bearings, shaft = data.get("bearings"), data.get("shaft", {})
+    if not isinstance(bearings, Mapping) or len(bearings) < 2 or not isinstance(shaft, Mapping):
+        return []
+    if shaft.get("sections") or shaft.get("reduced") is not None:
+        return []
+    told = "must have at least one entry, or give the file `reduced`: only the shaft of a single bearing can be rigid"
+    return [Problem("shaft.sections", told)]
 
 
 def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal, Self
 
 from pydantic import PrivateAttr, field_validator, model_validator
 
-from lambda_core.case.holding import Roll, RotationSpring, Tilt, Translation, TranslationSpring
+from lambda_core.case.holding import Roll, RotationSpring, ShaftSpin, Tilt, Translation, TranslationSpring
 from lambda_core.case.motion import Load, RadialLoad
 from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.parts import MaterialChoice
@@ -75,7 +75,7 @@ def length_in(text: str) -> float | None:
 
 
 class ShaftSupport(Placed):
-    """How the ground holds the shaft at one place, for each degree of freedom but its rotation."""
+    """How the ground holds the shaft at one place, for each degree of freedom; its rotation is only damped."""
 
     at: str | None = option(  # type: ignore[assignment]
         None,
@@ -88,11 +88,12 @@ class ShaftSupport(Placed):
     z: Translation = option("free", "vertical, likewise")
     tilt_y: Tilt = option("free", 'rotation about y: likewise, a stiffness being "50 N m/mrad"')
     tilt_z: Tilt = option("free", "rotation about z, likewise")
+    spin: ShaftSpin = option("free", "rotation about x: { damping = ... } is a load that grows with the speed")
 
     @property
     def is_used(self) -> bool:
         """Whether it holds or damps the shaft."""
-        return any(
+        return bool(self.spin.damping) or any(
             dof.mode != "free" or dof.stiffness or dof.damping
             for dof in (self.x, self.y, self.z, self.tilt_y, self.tilt_z)
         )
@@ -211,7 +212,7 @@ class Connection(Placed):
     @property
     def is_by_law(self) -> bool:
         """Whether a law with its parameters gives the force, in place of springs and dampers written here."""
-        return self.law != BUSHING or bool(self.parameters)
+        return self.law != BUSHING or "parameters" in self.model_fields_set
 
 
 class PointLoad(Placed, RadialLoad, Load):

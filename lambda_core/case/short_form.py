@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -12,15 +12,7 @@ from lambda_core.case.motion import RingBody
 from lambda_core.domain.units import show
 
 NAME = "bearing"  # of the one bearing
-# of a shaft that hardly bends, as light as a material may be
-_RIGID = {
-    "youngs_modulus": "210000 GPa",
-    "poisson_ratio": 0.3,
-    "density": "1 kg/m3",
-    "thermal_expansion": "0 1/K",
-    "thermal_conductivity": "45 W/(m K)",
-    "specific_heat": "460 J/(kg K)",
-}
+_PLACE = "0 mm"  # of the bearing: places count from its middle
 _FREEDOMS = ("x", "y", "z", "tilt_y", "tilt_z")
 _LOADS = {  # on the inner ring, and as loads at a place
     "radial": "radial",
@@ -30,11 +22,10 @@ _LOADS = {  # on the inner ring, and as loads at a place
     "moment_z": "moment_z",
 }
 _OF_A_RING = tuple(RingBody.model_fields)
-_NO_PLACE = {
-    "thermal": "the network of temperatures",
-    "electric": "the circuit",
-    "operation.temperatures": "temperatures computed by the network of one bearing",
-}
+_INSULATION = ("insulation", "insulation_resistance", "shunt")  # of the circuit's grounding: each bearing has its own
+# of the thermal network: those of the bearing
+_OWN_NODES = ("inner_ring", "outer_ring", "balls", "oil", "cage", "shaft")
+_SUPPLY = "oil_supply"
 
 
 @dataclass(frozen=True)
@@ -53,31 +44,43 @@ class LongForm:
     differences: tuple[str, ...]
 
 
-def expand(case: Case, *, bore: float, width: float, takes: Literal["+x", "-x"] | None = None) -> LongForm:
+def expand(
+    case: Case,
+    *,
+    bar: tuple[float, float] = (0.0, 0.0),
+    held: Collection[str] = (),
+    takes: Literal["+x", "-x"] | None = None,
+    play: float = 0.0,
+) -> LongForm:
     """Write the case of one bearing as a machine: the bearing on a rigid shaft, its outer ring in the ground.
 
     The bearing, its oil, laws, cage and elastic parts, the loads on its inner ring and the supports of both rings are
-    the same. What holds the inner ring holds the shaft where the bearing is; the shaft has the mass that the case gives
-    it, on top of which the machine counts that of the ring.
+    the same. What holds the inner ring holds the shaft where the bearing is; the shaft has no sections, so that it is
+    rigid and has the mass that the case gives it, on top of which the machine counts that of the ring.
 
     Parameters
     ----------
     case : Case
         Of one bearing.
-    bore, width : float
-        Of the bearing [m]: the shaft's diameter and length.
+    bar : (float, float)
+        Polar and transverse inertia of the shaft's mass where the case does not give them [kg m2].
+    held : collection of str
+        Directions in which the inner ring is locked though the case does not say so.
     takes : "+x" or "-x", optional
         Axial force on the shaft that an angular contact bearing takes.
+    play : float
+        Its axial play on that side [m]: a machine draws it without, the case of one bearing with both rings in the
+        middle.
 
     Returns
     -------
     LongForm
     """
     written = case.written()
-    middle = show(0.5 * width, "length", 9)
-    differences = [f"{path}: {words}" for path, words in _NO_PLACE.items() if _at(written, path) is not None]
-    bearing = {**written["bearing"], "at": middle, **{table: written[table] for table in OWN if table in written}}
+    differences: list[str] = []
+    bearing = {**written["bearing"], "at": _PLACE, **{table: written[table] for table in OWN if table in written}}
     bearing |= {"takes": takes} if takes else {}
+    bearing |= {"preload": show(-play, "small_length")} if play else {}
     bodies = written.get("bodies", {})
     outer, inner = bodies.get("outer_ring", {}), bodies.get("inner_ring", {})
     support = {dof: outer[dof] for dof in _FREEDOMS if dof in outer}
@@ -90,42 +93,68 @@ def expand(case: Case, *, bore: float, width: float, takes: Literal["+x", "-x"] 
     bearing |= {name: part for name, part in parts.items() if part}
     tables: dict[str, Any] = {key: written[key] for key in ("name", "description", "assumptions") if key in written}
     tables |= {
-        "operation": _operation(written["operation"], bodies.get("inner_ring", {}).get("spin"), differences),
-        "shaft": {
-            "material": _RIGID,
-            "sections": [{"length": show(width, "length", 9), "diameter": show(bore, "length", 9)}],
-        },
+        "operation": _operation(written["operation"], inner.get("spin")),
         "bearings": {NAME: bearing},
         **{table: written[table] for table in SHARED if table in written},
     }
     loads = _loads(written.get("loads", {}))
     tables |= {"loads": loads} if loads else {}
-    support = {dof: inner[dof] for dof in _FREEDOMS if dof in inner}
-    tables["shaft"] |= {"support": {"at": NAME, **support}} if support else {}
-    connections = _connections(written.get("elements", {}), case, differences)
+    support = dict.fromkeys(held, "locked") | {dof: inner[dof] for dof in _FREEDOMS if dof in inner}
+    support |= _resistance(inner.get("spin"))
+    tables |= {"shaft": {"support": {"at": NAME, **support}}} if support else {}
+    markers = _markers(written.get("markers", {}))
+    connections = _connections(written.get("elements", {}), markers)
     tables |= {"connections": connections} if connections else {}
-    tables |= _disc(inner, middle)
+    tables |= _disc(inner, bar)
+    tables |= {"electric": _electric(written["electric"], differences)} if "electric" in written else {}
+    tables |= _thermal(written.get("thermal", {}), bearing)
     tables |= {"fit": written["fit"]} if "fit" in written else {}
-    markers = _markers(written.get("markers", {}), width, case)
     tables |= {"markers": markers} if markers else {}
     return LongForm(tables, tuple(differences))
 
 
-def _at(tables: Mapping[str, Any], path: str) -> Any:
-    """Return what is written at a dotted path; None where nothing is."""
-    found: Any = tables
-    for key in path.split("."):
-        found = found.get(key) if isinstance(found, Mapping) else None
-    return found
+def _electric(written: Mapping[str, Any], differences: list[str]) -> dict[str, Any]:
+    """Return the circuit, in which each bearing has its own insulation."""
+    found, grounding = dict(written), dict(written.get("grounding", {}))
+    if "other_bearings" not in written.get("machine", {}):
+        differences.append("electric.machine.other_bearings: absent, where the circuit has one more bearing like this")
+    own = {key: grounding.pop(key) for key in _INSULATION if key in grounding}
+    found.pop("grounding", None)
+    found |= {"grounding": grounding} if grounding else {}
+    return found | ({"bearings": {NAME: own}} if own else {})
 
 
-def _operation(written: Mapping[str, Any], spin: Any, differences: list[str]) -> dict[str, Any]:
+def _thermal(written: Mapping[str, Any], bearing: dict[str, Any]) -> dict[str, Any]:
+    """Return the thermal network, whose nodes of the bearing stand in the bearing's own table."""
+    found = dict(written)
+    nodes = found.pop("nodes", {})
+    own = {name: node for name, node in nodes.items() if name in _OWN_NODES}
+    if own:
+        bearing["thermal"] = {"nodes": own}
+    if further := {name: node for name, node in nodes.items() if name not in _OWN_NODES}:
+        found["nodes"] = further
+    if "links" in found:
+        found["links"] = {
+            key: {**link, "between": [_node(name) for name in link["between"]]} for key, link in found["links"].items()
+        }
+    return {"thermal": found} if found else {}
+
+
+def _node(name: str) -> str:
+    """Return the name in the machine of a node of the thermal network."""
+    return f"{NAME}.{name}" if name in (*_OWN_NODES, _SUPPLY) else name
+
+
+def _resistance(spin: Any) -> dict[str, Any]:
+    """Return what brakes the rotation of the shaft, as the case brakes that of the inner ring."""
+    return {"spin": {"damping": spin["damping"]}} if isinstance(spin, Mapping) and "damping" in spin else {}
+
+
+def _operation(written: Mapping[str, Any], spin: Any) -> dict[str, Any]:
     """Return what turns the shaft: its speed, or where the inner ring turns freely a torque."""
     mode = spin.get("mode", "free") if isinstance(spin, Mapping) else spin
-    if isinstance(spin, Mapping) and "damping" in spin:
-        differences.append("bodies.inner_ring.spin.damping: a resistance to the rotation of the shaft")
     torque = {"torque": written.get("torque", "0 N m")} if mode == "free" else {}
-    return {"speed": written["speed"], **torque}
+    return {key: written[key] for key in ("speed", "temperatures") if key in written} | torque
 
 
 def _loads(written: Mapping[str, Any]) -> dict[str, Any]:
@@ -147,41 +176,43 @@ def _body(name: str) -> str:
     return f"{NAME}.{name}" if name in PARTS else "ground" if name == "ground" else "shaft"
 
 
-def _connections(written: Mapping[str, Any], case: Case, differences: list[str]) -> dict[str, Any]:
-    """Return the force elements between bodies and the ground."""
+def _connections(written: Mapping[str, Any], markers: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """Return the force elements between bodies and the ground.
+
+    A body that is no marker stands for its centre. Where the other end is a marker, the machine needs one there, too.
+    """
     found = {}
     for name, element in written.items():
         first, second = element.get("first", "ground"), element["second"]
-        if any(_turns_off_axis(case, end) for end in (first, second)):
-            differences.append(f"elements.{name}: acts at a place that turns with the shaft off its axis")
-            continue
-        at = second if second in case.markers else NAME if _body(second) == "shaft" else _body(second)
-        to = first if first in case.markers else _body(first)
+        at = second if second in markers else NAME if _body(second) == "shaft" else _body(second)
+        to = first if first in markers else _body(first)
+        if second in markers and first not in markers:
+            centre = {"x": _PLACE, **({} if to == "shaft" else {"body": to})}
+            to = f"{name}-first"
+            markers[to] = centre
         found[name] = {"at": at, "to": to, **{key: element[key] for key in ("law", "parameters") if key in element}}
     return found
 
 
-def _turns_off_axis(case: Case, end: str) -> bool:
-    """Tell whether an end is a marker on the shaft or the inner ring, off the axis."""
-    marker = case.markers.get(end)
-    return marker is not None and _body(marker.body) == "shaft" and bool(marker.y or marker.z)
-
-
-def _disc(written: Mapping[str, Any], middle: str) -> dict[str, Any]:
+def _disc(written: Mapping[str, Any], bar: tuple[float, float]) -> dict[str, Any]:
     """Return the shaft's mass as a disc at the bearing."""
     if "shaft_mass" not in written:
         return {}
-    disc = {"at": middle, "mass": written["shaft_mass"]}
-    names = {"shaft_polar_inertia": "polar_inertia", "shaft_transverse_inertia": "transverse_inertia"}
-    return {"discs": {"shaft": disc | {new: written[old] for old, new in names.items() if old in written}}}
+    polar, transverse = (show(inertia, "inertia") for inertia in bar)
+    disc = {
+        "at": NAME,
+        "mass": written["shaft_mass"],
+        "polar_inertia": written.get("shaft_polar_inertia", polar),
+        "transverse_inertia": written.get("shaft_transverse_inertia", transverse),
+    }
+    return {"discs": {"shaft": disc}}
 
 
-def _markers(written: Mapping[str, Any], width: float, case: Case) -> dict[str, Any]:
+def _markers(written: Mapping[str, Any]) -> dict[str, Any]:
     """Return the markers of rings and cage."""
     found = {}
     for name, marker in written.items():
         body = _body(marker.get("body", "shaft"))
-        x = show(0.5 * width + case.markers[name].x, "length", 9)
-        found[name] = {"x": x, **{axis: marker[axis] for axis in ("y", "z") if axis in marker}}
+        found[name] = {"x": _PLACE, **{axis: marker[axis] for axis in ("x", "y", "z") if axis in marker}}
         found[name] |= {} if body == "shaft" else {"body": body}
     return found

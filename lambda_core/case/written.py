@@ -56,7 +56,7 @@ class Written(Section):
         return sorted({*type(self).model_fields, "folder", "written", "with_"})
 
     @classmethod
-    def name_problems(cls, data: Mapping[str, Any]) -> list[Problem]:
+    def own_problems(cls, data: Mapping[str, Any]) -> list[Problem]:
         """Return what is wrong with the names of named parts in plain tables, each at its own path."""
         return []
 
@@ -91,7 +91,7 @@ def validate(root: type[C], data: Mapping[str, Any], source: str = "case", folde
     if _is_deep(data):
         raise CaseError(source, [Problem("", "is nested too deeply")])
     data = {key: named(value) if key in _LAWS_IN else value for key, value in data.items()}
-    found = root.name_problems(data)
+    found = root.own_problems(data)
     try:
         case = root.model_validate(data, context={"folder": folder})
     except ValidationError as error:

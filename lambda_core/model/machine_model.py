@@ -137,6 +137,13 @@ class ShaftHold:
         return tuple(0.0 if lead is None else initial(lead) for lead in self.prescribed)
 
 
+class Resistance(NamedTuple):
+    """A load that brakes the shaft in proportion to its speed."""
+
+    position: float  # [m]
+    damping: float  # [N m s]
+
+
 @dataclass(frozen=True)
 class RigidBody:
     """A rigid body other than the shaft, SI."""
@@ -190,6 +197,8 @@ class MachineModel:
         Connections by laws.
     hold : ShaftHold or None
         Where the ground holds the shaft.
+    resistance : Resistance or None
+        To the rotation of the shaft.
     bodies : tuple of RigidBody
         In addition to the shaft.
     markers : tuple of (str, Place)
@@ -229,6 +238,7 @@ class MachineModel:
     springs: tuple[MachineSpring, ...] = ()
     links: tuple[MachineLink, ...] = ()
     hold: ShaftHold | None = None
+    resistance: Resistance | None = None
     bodies: tuple[RigidBody, ...] = ()
     markers: tuple[tuple[str, Place], ...] = ()
     part_loads: Mapping[BearingPart, tuple[TimeFunction, ...]] = field(default_factory=dict)
@@ -258,7 +268,8 @@ class MachineModel:
         springs = [s.place.point[0] for s in self.springs if SHAFT in (s.place.body, s.to)]
         ends = [end.point[0] for link in self.links for end in (link.first, link.second) if end.body == SHAFT]
         drive = [] if self.torque is None else [float(self.body.positions[self.drive // 6])]
-        return (*springs, *ends, *([self.hold.position] if self.hold else []), *drive)
+        holds = [one.position for one in (self.hold, self.resistance) if one is not None]
+        return (*springs, *ends, *holds, *drive)
 
     @property
     def has_changing_torque(self) -> bool:

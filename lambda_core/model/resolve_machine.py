@@ -24,7 +24,7 @@ from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, Problem
 from lambda_core.domain.units import show
 from lambda_core.formulas.elastic.beam import NODE
-from lambda_core.formulas.elastic.body import Disc, ElasticBody, elements_of, shaft_body, with_discs
+from lambda_core.formulas.elastic.body import Disc, ElasticBody, elements_of, rigid_body, shaft_body, with_discs
 from lambda_core.formulas.elastic.merged_sections import SHORT, merged_sections
 from lambda_core.formulas.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.formulas.fits import REFERENCE_TEMPERATURE
@@ -42,6 +42,7 @@ from lambda_core.model.bodies.rigid_bodies import (
     loads_on_parts,
     refuse_far_beyond,
     refuse_idle_dampers,
+    resistance,
     resolve_links,
     rigid_bodies,
     say_idle_loads,
@@ -168,6 +169,9 @@ def _shaft(
         shape_known = outside is not None
     stand = places(case, outside, ledger)
     case = _in_place(case, stand)
+    if case.shaft.is_rigid and shape_known:
+        outside = _rigid(case, stand)
+        shape_known = outside is not None
     if shape_known:
         _check_on_shaft(case, stand, outside, ledger)
     _check_one_place(case, stand, ledger)
@@ -185,13 +189,14 @@ def _shaft(
     bodies = rigid_bodies(case, catalogue, ledger)
     springs = connections(case, stand, ledger)
     links, more = resolve_links(case, stand, registry(), ledger)
-    hold = shaft_hold(case, stand, ledger)
+    hold, brake = shaft_hold(case, stand, ledger), resistance(case, stand, ledger)
     electric = resolve_machine_electric(case.electric, list(case.bearings), registry(), ledger)
     models = with_circuits(models, electric)
+    along = not case.shaft.is_rigid  # a rigid shaft is at its bearing, against which nothing grows
     strain = around.thermal_expansion * (case.housing.temperature - REFERENCE_TEMPERATURE) if around else 0.0
     bearings = sorted(
         (
-            mounted(name, given, models[name], stand.seat(given.outer), strain * given.place, ledger)
+            mounted(name, given, models[name], stand.seat(given.outer), strain * along * given.place, ledger)
             for name, given in case.bearings.items()
             if name in models
         ),
@@ -214,6 +219,8 @@ def _shaft(
     body = _body(case, stand, material, links, discs, ledger) if outside is None else with_discs(outside, discs)
     if body is None:
         return None
+    if case.shaft.is_rigid:
+        ledger.assume("the shaft is rigid, its mass that of inner ring and discs: it has no sections")
     heat = resolve_heat(case, [one.name for one in bearings], body, (material, around), ledger)
     shared: dict[str, list[str]] = {}
     for name, model in models.items():
@@ -251,6 +258,7 @@ def _shaft(
         springs=springs,
         links=links,
         hold=hold,
+        resistance=brake,
         bodies=bodies,
         markers=tuple(stand.markers.items()),
         part_loads=part_loads,
@@ -279,6 +287,12 @@ def _with_laws(mounted: MountedBearing, laws: Mapping[str, Mapping[str, ChosenLa
     return replace(mounted, model=replace(mounted.model, laws={**mounted.model.laws, **laws})) if laws else mounted
 
 
+def _rigid(case: MachineCase, stand: Places) -> ElasticBody | None:
+    """Return a rigid shaft, whose node is at its bearing; None where nobody knows where that is."""
+    at = [place.point[0] for where, place in stand.of.items() if where.startswith("bearings.")]
+    return rigid_body(at[0]) if len(case.bearings) == len(at) == 1 else None
+
+
 def _in_place(case: MachineCase, stand: Places) -> MachineCase:
     """Return the case with the place of every part."""
     tables = {}
@@ -291,10 +305,13 @@ def _in_place(case: MachineCase, stand: Places) -> MachineCase:
 
 def _check_on_shaft(case: MachineCase, stand: Places, outside: ElasticBody | None, ledger: Ledger) -> None:
     """Note everything that stands beyond the ends of the shaft, or off the nodes of one from outside."""
-    parts = {f"{path}.at": place.point[0] for path, place in stand.of.items() if place.body == SHAFT}
-    parts |= {f"markers.{name}.x": marker.x for name, marker in case.markers.items() if marker.body == "shaft"}
+    laws = {f"connections.{name}" for name, one in case.connections.items() if one.is_by_law and case.shaft.is_rigid}
+    on_shaft = {path: place for path, place in stand.of.items() if place.body == SHAFT and path not in laws}
+    parts = {f"{path}.at": place.point[0] for path, place in on_shaft.items()}
+    if not case.shaft.is_rigid:  # which moves every point along
+        parts |= {f"markers.{name}.x": marker.x for name, marker in case.markers.items() if marker.body == "shaft"}
     for name, spring in case.connections.items():
-        if stand.carrier(spring.to) == SHAFT:
+        if stand.carrier(spring.to) == SHAFT and f"connections.{name}" not in laws:
             parts[f"connections.{name}.to"] = spring.place
     if case.shaft.drive is not None:
         parts["shaft.drive"] = case.shaft.drive
@@ -308,6 +325,12 @@ def _check_on_shaft(case: MachineCase, stand: Places, outside: ElasticBody | Non
         at = show(position, "length", 6)
         if outside is None and not 0.0 <= position <= length * (1.0 + 1e-12):
             ledger.problem(where, f"{at} is not on the shaft: 0 mm to {show(length, 'length', 6)}")
+        elif outside is not None and case.shaft.is_rigid and not outside.has_node(position):
+            ledger.problem(
+                where,
+                f"{at} is not where the bearing is: what stands on a shaft without sections stands at its bearing, "
+                f"{show(float(outside.positions[0]), 'length', 6)}; move it there, or give shaft.sections",
+            )
         elif outside is not None and not outside.has_node(position):
             nodes = ", ".join(f"{1e3 * x:.6g}" for x in outside.positions)
             ledger.problem(where, f"there is no node at {at}; nodes of the shaft stand at {nodes} mm")
@@ -391,9 +414,13 @@ def _discs(case: MachineCase, catalogue: Catalogue, ledger: Ledger) -> list[Disc
 
 
 def _drawn(body: ElasticBody, bearings: Iterable[MountedBearing]) -> tuple[tuple[float, float, float, float], ...]:
-    """Return one piece to draw in place of a shaft from outside: as thick as its smallest bearing's bore."""
-    bore = min(bearing.model.geometry.bore_diameter for bearing in bearings)
-    return ((float(body.positions[0]), float(body.positions[-1]), bore, 0.0),)
+    """Return one piece to draw in place of a shaft without sections: as thick as its smallest bearing's bore.
+
+    One of a single node is as wide as its bearing.
+    """
+    smallest = min((bearing.model.geometry for bearing in bearings), key=lambda g: g.bore_diameter)
+    half = 0.5 * smallest.width if body.is_rigid else 0.0
+    return ((float(body.positions[0]) - half, float(body.positions[-1]) + half, smallest.bore_diameter, 0.0),)
 
 
 def _body(

@@ -173,15 +173,16 @@ def _shaft_lines(report: MachineEquilibrium) -> list[str]:
         ((y * y + z * z) ** 0.5, place)
         for (_, y, z), place in zip(report.deflection_um, report.positions_mm, strict=True)
     )
-    moment = max(
+    moments = [
         ((y * y + z * z) ** 0.5, place)
         for (y, z), place in zip(report.bending_moment_Nm, report.cut_positions_mm, strict=True)
-    )
+    ]
+    bending = [f"{'bending moment':<{HEAD}}{max(moments)[0]:.4g} N m at {max(moments)[1]:.4g} mm"] if moments else []
     resting = report.speed_rpm == 0.0
     life = f"{hours(report.system_life_h)} (L_10rh of all bearings)" if report.system_life_h is not None else _NO_LIFE
     lines = [
         f"{'deflection':<{HEAD}}{largest[0]:.3g} um at {largest[1]:.4g} mm",
-        f"{'bending moment':<{HEAD}}{moment[0]:.4g} N m at {moment[1]:.4g} mm",
+        *bending,
         f"{'system life':<{HEAD}}{_AT_REST if resting else life}",
         f"{'friction torque':<{HEAD}}{_AT_REST if resting else _torque(report)}",
         *_band_lines(report),
@@ -239,11 +240,12 @@ def machine_warnings(model: MachineModel) -> list[str]:
 
 def model_text(model: MachineModel, *, everything: bool = False) -> str:
     """Return what a resolved shaft is: the verdict, its parts, warnings, assumptions by effect."""
-    length, warned = 1e3 * model.outline[-1][1], machine_warnings(model)
+    warned = machine_warnings(model)
+    shaft = "rigid shaft" if model.body.is_rigid else f"shaft of {1e3 * model.outline[-1][1]:.6g} mm"
     lines = [
         verdict_line(model.name, warned, model.assumptions),
         "",
-        f"{model.name}: shaft of {length:.6g} mm, {model.body.total_mass:.4g} kg, "
+        f"{model.name}: {shaft}, {model.body.total_mass:.4g} kg, "
         f"{30.0 / math.pi * model.speed:.5g} 1/min, {len(model.bearings)} bearings",
     ]
     for bearing in model.bearings:

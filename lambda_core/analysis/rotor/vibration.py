@@ -12,6 +12,7 @@ from scipy.linalg import block_diag
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.formulas.elastic.beam import NODE
+from lambda_core.formulas.elastic.body import Disc, with_discs
 from lambda_core.formulas.elastic.whirl import Whirl, critical_speeds, whirls
 from lambda_core.model.machine_model import GROUND, LOCKED, PLACES, SHAFT, MachineModel
 from lambda_core.solver.drivers.damping import damping_matrix
@@ -207,7 +208,14 @@ def masses(model: MachineModel) -> tuple[FloatArray, FloatArray]:
     rows = static_rows(model)
     own = [m for body in model.bodies for m in (*[body.mass] * 3, body.polar_inertia, *[body.transverse_inertia] * 2)]
     bodies_share = np.diag([own[row - rows.bodies] for row in _moving(model, rows)[1]])
-    return block_diag(model.body.mass, bodies_share), block_diag(model.body.gyroscopic, np.zeros_like(bodies_share))
+    shaft = with_discs(model.body, _rings(model)) if model.body.is_rigid else model.body
+    return block_diag(shaft.mass, bodies_share), block_diag(shaft.gyroscopic, np.zeros_like(bodies_share))
+
+
+def _rings(model: MachineModel) -> list[Disc]:
+    """Return inner rings as discs: all the mass that a rigid shaft may have."""
+    rings = [(bearing.position, bearing.model.inner_ring) for bearing in model.bearings]
+    return [Disc(at, ring.mass, ring.transverse_inertia, ring.polar_inertia) for at, ring in rings]
 
 
 def modes_at(model: MachineModel, stiffness: FloatArray, spin: float, damping: FloatArray | None = None) -> list[Mode]:

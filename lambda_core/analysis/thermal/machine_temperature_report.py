@@ -15,7 +15,6 @@ from lambda_core.analysis.thermal.report import HeatFlow, LoopGain, State, flows
 from lambda_core.analysis.thermal.transient import Course, rise_time
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.model.geometry.resolve_clearance import CLEARANCE_HOLDS
-from lambda_core.model.settings.machine_heat import heat_assumptions
 from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
 from lambda_core.results.record import INTERFACE, Record
@@ -144,7 +143,7 @@ def steady_of(loop: MachineLoop, found: Steady, losses_from: str = "quasi-static
         energy_residual=(heat - network.leaving(found.temperatures)) / heat if heat > 0.0 else 0.0,
         iterations=found.iterations,
         points_solved=loop.count,
-        network_assumptions=heat_assumptions(machine.heat.section),
+        network_assumptions=machine.heat.assumptions,
         assumptions=_assumptions(loop),
     )
 
@@ -177,7 +176,7 @@ def course_of(loop: MachineLoop, course: Course) -> MachineTemperaturesOverTime:
         energy_residual=course.residual,
         points_solved=course.solved,
         gain=LoopGain.of(course.gain) if course.gain else None,
-        network_assumptions=heat_assumptions(machine.heat.section),
+        network_assumptions=machine.heat.assumptions,
         assumptions=_assumptions(loop),
     )
 
@@ -206,7 +205,7 @@ def _along(loop: MachineLoop, temperatures: np.ndarray) -> list[PlaceOnShaft]:
 
 def _assumptions(loop: MachineLoop) -> list[str]:
     """Return the assumptions of the case but for those of the network, and of clearances that are not those found."""
-    known = heat_assumptions(loop.machine.heat.section)
+    known = loop.machine.heat.assumptions
     passed = ("clearance in operation", CLEARANCE_HOLDS)
     return [
         text

@@ -69,9 +69,12 @@ class MachineLoop(Loop):
     def grown(self, at: Mapping[str, float]) -> FloatArray:
         """Return how far the shaft at each bearing has grown beyond the housing [m].
 
-        Where the network has no shaft or no housing, they have the mean temperature of the inner or outer rings.
+        Where the network has no shaft or no housing, they have the mean temperature of inner or outer rings. A rigid
+        shaft has no length along which it could grow.
         """
         machine, heat = self.machine, self.machine.heat
+        if machine.body.is_rigid:
+            return np.zeros(1)
         places = np.array([bearing.position for bearing in machine.bearings])
         along = machine.body.positions
         warm = np.array([at.get(name, _mean(machine, at, "inner_ring")) for name in heat.shaft])

@@ -21,14 +21,13 @@ class PillowBlock:
 
     Parameters
     ----------
-    model : BearingModel
+    bearing : BearingNodes
         The bearing.
-    thermal : Thermal
-        Section of its case.
     """
 
-    def __init__(self, model: BearingModel, thermal: Thermal) -> None:
-        self.model, self.thermal = model, thermal
+    def __init__(self, bearing: BearingNodes) -> None:
+        self.model, self.thermal = bearing.model, bearing.thermal
+        self._shaft = bearing.node("shaft")
 
     def conductances(self, temperatures: Mapping[str, float]) -> Pairs:
         """Return the conductances from housing and shaft to the surroundings at temperatures [K], in W/K."""
@@ -38,7 +37,7 @@ class PillowBlock:
             return {("housing", "ambient"): outside.PALMGREN_COEFFICIENT * area}
         if t.conductances != "harris":
             return {}
-        housing, shaft = temperatures["housing"], temperatures["shaft"]
+        housing, shaft = temperatures["housing"], temperatures[self._shaft]
         around = outside.housing_coefficient(
             outside.HEIGHT_RATIO * g.outside_diameter, housing, t.ambient, t.air_speed, t.emissivity
         )
@@ -47,7 +46,7 @@ class PillowBlock:
         conductivity = self.model.inner_material.thermal_conductivity
         return {
             ("housing", "ambient"): area * around,
-            ("shaft", "ambient"): outside.long_fin(g.bore_diameter, along, conductivity),
+            (self._shaft, "ambient"): outside.long_fin(g.bore_diameter, along, conductivity),
         }
 
     def capacities(self) -> dict[str, float]:
@@ -55,13 +54,12 @@ class PillowBlock:
         g, t, steel = self.model.geometry, self.thermal, self.model.inner_material
         length = t.shaft_length or _SHAFT_WIDTHS * g.width
         return {
-            "shaft": math.pi / 4.0 * g.bore_diameter**2 * length * steel.density * steel.specific_heat,
+            self._shaft: math.pi / 4.0 * g.bore_diameter**2 * length * steel.density * steel.specific_heat,
             "housing": (t.housing_mass or outside.housing_mass(g.outside_diameter)) * outside.CAST_IRON_HEAT,
         }
 
 
 def bearing_network(model: BearingModel, thermal: Thermal) -> MachineNetwork:
     """Return the network of one bearing alone in a pillow block."""
-    return MachineNetwork(
-        model.name, nodes_alone(thermal), (BearingNodes(model, thermal),), PillowBlock(model, thermal)
-    )
+    bearing = BearingNodes(model, thermal)
+    return MachineNetwork(model.name, nodes_alone(thermal), (bearing,), PillowBlock(bearing))

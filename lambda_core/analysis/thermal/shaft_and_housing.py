@@ -13,6 +13,7 @@ from lambda_core.analysis.thermal import surroundings as outside
 from lambda_core.analysis.thermal.bearing_nodes import BearingNodes, Pairs
 from lambda_core.analysis.thermal.conductances import rod
 from lambda_core.analysis.thermal.machine_network import MachineNetwork
+from lambda_core.analysis.thermal.pillow_block import PillowBlock
 from lambda_core.model.machine_model import MachineModel
 
 
@@ -123,4 +124,5 @@ def network_of(machine: MachineModel) -> MachineNetwork:
     """Return the network of a machine."""
     heat = machine.heat
     bearings = [BearingNodes(b.model, heat.bearings[b.name], b.name) for b in machine.bearings]
-    return MachineNetwork(machine.name, heat.nodes, bearings, ShaftAndHousing(machine))
+    around = PillowBlock(bearings[0]) if heat.is_alone else ShaftAndHousing(machine)
+    return MachineNetwork(machine.name, heat.nodes, bearings, around)

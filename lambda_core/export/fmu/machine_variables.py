@@ -18,7 +18,7 @@ from lambda_core.export.fmu.frozen import Frozen, FrozenBearing
 from lambda_core.export.fmu.prescribed_rings import TILT_STATES
 from lambda_core.export.fmu.variables import Kind, Variable, of_contacts, steps
 from lambda_core.formulas.elastic.beam import NODE
-from lambda_core.model.bodies.locations import carried
+from lambda_core.model.bodies.locations import carried, carried_by_shaft
 from lambda_core.model.machine_model import SHAFT, BearingPart, MachineModel, Place
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
@@ -90,8 +90,8 @@ def _point(machine: _Machine, name: str, place: Place) -> Iterator[Variable]:
     if place.body == SHAFT:
         shaft = machine.start.shaft
         lumps = member_numbers(machine.model, shaft).lumps
-        follow = shaft.follow[machine.model.body.rows(place.point[0]), : NODE * lumps.size]
-        moved = carried([0.0, *place.point[1:]]) @ follow
+        at, moves = carried_by_shaft(machine.model.body, place.point)
+        moved = moves @ shaft.follow[machine.model.body.rows(at), : NODE * lumps.size]
         members = lumps.tolist()
     else:
         numbers = member_numbers(machine.model, machine.start.shaft)

@@ -73,6 +73,15 @@ class ElasticBody:
         return self.mass @ pull
 
     @property
+    def is_rigid(self) -> bool:
+        """Whether it has one node only."""
+        return self.positions.size == 1
+
+    def nearest(self, position: float) -> float:
+        """Return the place of the node that carries a point [m]: there, or of a rigid body its only one."""
+        return float(self.positions[0]) if self.is_rigid else position
+
+    @property
     def total_mass(self) -> float:
         """[kg]"""
         return float(self.weight((1.0, 0.0, 0.0))[: NODE * self.positions.size : NODE].sum())
@@ -150,6 +159,12 @@ def shaft_body(
     return with_discs(ElasticBody(nodes, stiffness, mass, gyroscopic, tuple(elements)), discs)
 
 
+def rigid_body(position: float) -> ElasticBody:
+    """Return a rigid body without mass at a place [m], to put discs on: one node that nothing deforms."""
+    nothing = np.zeros((NODE, NODE))
+    return ElasticBody(np.array([position]), nothing, nothing, nothing)
+
+
 def with_discs(body: ElasticBody, discs: Sequence[Disc]) -> ElasticBody:
     """Return a body with rigid discs at some of its nodes."""
     mass, gyroscopic = body.mass.copy(), body.gyroscopic.copy()
@@ -219,4 +234,4 @@ def _forces_between_nodes(body: ElasticBody, displacement: FloatArray) -> tuple[
             cut[5] += ((end - arms[:, 0]) * at[: k + 1, 1]).sum()
             places.append(float(end))
             forces.append(cut)
-    return np.array(places), np.array(forces)
+    return np.array(places), np.array(forces).reshape(-1, NODE)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lambda_core.case.machine import PARTS, MachineCase
-from lambda_core.case.machine_parts import Placed
+from lambda_core.case.machine_parts import Connection, Placed
 from lambda_core.case.motion import Marker
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import unknown_name
@@ -91,10 +91,11 @@ def places(case: MachineCase, outside: ElasticBody | None, ledger: Ledger) -> Pl
         if part.along is not None:
             found[where] = Place(SHAFT, (part.along, 0.0, 0.0), np.eye(3))
         elif part.at is None:
-            found[where] = Place(SHAFT, (_coupling(case, outside), 0.0, 0.0), np.eye(3))
+            found[where] = Place(SHAFT, (_coupling(case, outside, found), 0.0, 0.0), np.eye(3))
         elif part.at in markers:
             found[where] = markers[part.at]
-            _fits(table, where, part.at, found[where], ledger)
+            is_by_law = isinstance(part, Connection) and part.is_by_law
+            _fits(table, where, part.at, found[where], ledger, is_by_law=is_by_law)
         elif table in _ON_PARTS and part.at in parts:
             own = f"bearings.{parts[part.at].bearing}"
             if own in found:  # else that is what is wrong
@@ -141,10 +142,12 @@ def _placed(case: MachineCase) -> Iterator[tuple[str, str, Placed]]:
         yield "shaft", SUPPORT, case.shaft.support
 
 
-def _coupling(case: MachineCase, outside: ElasticBody | None) -> float:
-    """Return where the coupling stands [m]."""
+def _coupling(case: MachineCase, outside: ElasticBody | None, found: Mapping[str, Place]) -> float:
+    """Return where the coupling stands [m]; on a rigid shaft at its bearing."""
     if case.shaft.drive is not None:
         return case.shaft.drive
+    if case.shaft.is_rigid:
+        return next((place.point[0] for where, place in found.items() if where.startswith("bearings.")), 0.0)
     return 0.0 if outside is None else float(outside.positions[0])
 
 
@@ -156,6 +159,12 @@ def carried(arm: Sequence[float] | FloatArray) -> FloatArray:
     return found
 
 
+def carried_by_shaft(body: ElasticBody, point: Sequence[float] | FloatArray) -> tuple[float, FloatArray]:
+    """Return the place of the node that carries a point of the shaft [m], and how the point moves with it, (6, 6)."""
+    node = body.nearest(float(point[0]))
+    return node, carried([float(point[0]) - node, *point[1:]])
+
+
 def _unknown(what: str, name: str, known: Iterable[str]) -> str:
     """Say what may stand in place of a name that nobody knows."""
     names = list(known)
@@ -163,12 +172,12 @@ def _unknown(what: str, name: str, known: Iterable[str]) -> str:
     return f'{words}; or a length with its unit, "85 mm"' if name[:1].isdigit() else words
 
 
-def _fits(table: str, where: str, marker: str, place: Place, ledger: Ledger) -> None:
-    """Note a marker that this part cannot stand at."""
+def _fits(table: str, where: str, marker: str, place: Place, ledger: Ledger, *, is_by_law: bool) -> None:
+    """Note a marker that this part cannot stand at; a law acts at places that turn with the shaft, too."""
     is_off_axis = max(abs(place.point[1]), abs(place.point[2])) > _SAME
     if table in _ON_AXIS and (place.body != SHAFT or is_off_axis):
         ledger.problem(f"{where}.at", f'"{marker}" is not on the axis of the shaft, where this has to stand')
-    elif table == "connections" and place.body == SHAFT and is_off_axis:
+    elif table == "connections" and place.body == SHAFT and is_off_axis and not is_by_law:
         ledger.problem(f"{where}.at", f'"{marker}" turns with the shaft off its axis, where no spring can be attached')
 
 

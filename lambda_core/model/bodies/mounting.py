@@ -6,6 +6,7 @@ import math
 
 from lambda_core.case.holding import Dof
 from lambda_core.case.machine import MachineBearing
+from lambda_core.case.parts import Bearing
 from lambda_core.domain.elements import POSE
 from lambda_core.elements.roller.roller_equilibrium import takes_one_side, thrust_problem
 from lambda_core.formulas.ratings import dynamic_rating, fatigue_load_limit, static_rating
@@ -87,7 +88,7 @@ def refuse_motion(name: str, given: MachineBearing, is_carried: bool, ledger: Le
             ledger.problem(where, "`preload_force` makes the ring slide along x; give either it or this motion")
 
 
-def axial_play(given: MachineBearing, model: BearingModel) -> float:
+def axial_play(given: Bearing, model: BearingModel) -> float:
     """Return how far the inner ring moves from the middle until balls touch, as bought, without load [m].
 
     A sin(alpha_0) with cos(alpha_0) = 1 - G_r/(2 A), A = r_i + r_o - D_w (Harris and Kotzalas 2006, eq. 2.9). What fits

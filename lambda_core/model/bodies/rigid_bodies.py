@@ -35,6 +35,7 @@ from lambda_core.model.machine_model import (
     MachineSpring,
     MountedBearing,
     Place,
+    Resistance,
     RigidBody,
     ShaftHold,
 )
@@ -155,6 +156,18 @@ def shaft_hold(case: MachineCase, stand: Places, ledger: Ledger) -> ShaftHold | 
     return ShaftHold(stand.of[SUPPORT].point[0], tuple(prescribed))
 
 
+def resistance(case: MachineCase, stand: Places, ledger: Ledger) -> Resistance | None:
+    """Return what brakes the rotation of the shaft; None where nothing does."""
+    damping = case.shaft.support.spin.damping
+    if not damping or SUPPORT not in stand.of:
+        return None
+    if case.operation.torque is None:
+        ledger.problem(
+            f"{SUPPORT}.spin.damping", "does nothing where the speed is given: leave it out, or give operation.torque"
+        )
+    return Resistance(stand.of[SUPPORT].point[0], damping)
+
+
 def resolve_links(
     case: MachineCase, stand: Places, registry: ModelSource, ledger: Ledger
 ) -> tuple[tuple[MachineLink, ...], dict[str, dict[str, ChosenLaw]]]:
@@ -171,10 +184,13 @@ def resolve_links(
         if second.body == GROUND:
             ledger.problem(f"{where}.at", "the ground does not move: write it as `to`, and what moves as `at`")
         first = stand.markers[given.to].point if given.to in stand.markers else second.point
-        if to == SHAFT and math.hypot(*first[1:]) > 0.0:
-            if given.to in stand.markers:
-                ledger.problem(f"{where}.to", f'"{given.to}" turns with the shaft off its axis: choose a place on it')
+        if to == SHAFT and given.to not in stand.markers:  # no place on it: the nearest on its axis
             first = (first[0], 0.0, 0.0)
+        for end, body, point in (("at", second.body, second.point), ("to", to, first)):
+            if body == SHAFT and math.hypot(*point[1:]) > 0.0:
+                ledger.assume(
+                    f"{where}.{end} turns with the shaft off its axis; the equilibrium has it where it is at t = 0"
+                )
         element = f"{ELEMENT_PREFIX}{name}"
         links.append(MachineLink(name, element, Place(to, first, np.eye(3)), second))
         laws[element] = {FORCE_ELEMENT: law}

@@ -27,6 +27,7 @@ from lambda_core.model.settings.resolve_thermal import (
     check_nodes,
     check_surroundings,
     common_assumptions,
+    network_assumptions,
 )
 
 _SHARED = ("housing", "ambient")
@@ -52,6 +53,8 @@ class MachineHeat:
         All nodes.
     material, housing : BodyMaterial
         Of shaft and housing.
+    is_alone : bool
+        Whether a pillow block and a long shaft surround a single bearing, as they do where the shaft is rigid.
     """
 
     section: MachineThermal
@@ -60,15 +63,21 @@ class MachineHeat:
     nodes: NodeSet
     material: BodyMaterial
     housing: BodyMaterial
+    is_alone: bool
+
+    @property
+    def assumptions(self) -> list[str]:
+        """What the network assumes, and what it fills in where the case says nothing."""
+        return network_assumptions(self.section) if self.is_alone else _assumptions(self.section)
 
 
 def check_heat(case: MachineCase, ledger: Ledger) -> None:
     """Note what is wrong with temperatures and surroundings, whatever the shaft is."""
     section = case.thermal
     check_surroundings(section, ledger)
-    if section.conductances == "iso-15312":
+    if section.conductances == "iso-15312" and not case.shaft.is_rigid:
         ledger.problem("thermal.conductances", '"iso-15312" is the reference of one bearing alone: use "harris"')
-    if section.shaft_length is not None:
+    if section.shaft_length is not None and not case.shaft.is_rigid:
         ledger.problem("thermal.shaft_length", "has no effect: the sections of the shaft store heat")
     for name, bearing in case.bearings.items():
         own = bearing.thermal
@@ -127,10 +136,11 @@ def resolve_heat(
         else:
             for name in [name for name in lost if name in section.nodes]:
                 ledger.problem(f"thermal.nodes.{name}", "no way leads from it to a held temperature: thermal.links")
+    heat = MachineHeat(section, own, shaft, nodes, *materials, is_alone=body.is_rigid)
     if case.operation.temperatures == "computed":
-        for sentence in heat_assumptions(section):
+        for sentence in heat.assumptions:
             ledger.assume(sentence)
-    return MachineHeat(section, own, shaft, nodes, *materials)
+    return heat
 
 
 def stretch(at: FloatArray, places: FloatArray, temperatures: FloatArray, material: BodyMaterial) -> FloatArray:
@@ -154,8 +164,8 @@ def stretch(at: FloatArray, places: FloatArray, temperatures: FloatArray, materi
     return found
 
 
-def heat_assumptions(section: MachineThermal) -> list[str]:
-    """Return what the network of a machine assumes, and what it fills in where the case says nothing."""
+def _assumptions(section: MachineThermal) -> list[str]:
+    """Return what the network of a shaft with its sections assumes."""
     found = common_assumptions(section)
     if section.conductances != "none":
         if section.housing_area is None:
@@ -190,7 +200,8 @@ def _shaft_nodes(case: MachineCase, body: ElasticBody) -> tuple[str, ...]:
     """Return the names of the shaft's nodes: of a bearing, gear, disc or marker, of the ends, otherwise numbers."""
     named = [(name, gear.place) for name, gear in case.gears.items()]
     named += [(name, disc.place) for name, disc in case.discs.items()]
-    named += [(name, marker.x) for name, marker in case.markers.items() if marker.body == "shaft"]
+    if not body.is_rigid:
+        named += [(name, marker.x) for name, marker in case.markers.items() if marker.body == "shaft"]
     at = {body.node(bearing.place): f"{name}.shaft" for name, bearing in case.bearings.items()}
     taken = set(_SHARED)
     for name, place in [*named, (ENDS[0], body.positions[0]), (ENDS[1], body.positions[-1])]:

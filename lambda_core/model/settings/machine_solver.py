@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from lambda_core.case.machine import MachineCase
-from lambda_core.domain.elements import POSE
+from lambda_core.domain.elements import POSE, SPIN
 from lambda_core.model.bodies.rigid_bodies import LOADS
 from lambda_core.model.laws.time_functions import highest_frequency, peak, time_function
 from lambda_core.model.ledger import Ledger
@@ -64,7 +64,7 @@ def with_settings(case: MachineCase, model: MachineModel, ledger: Ledger) -> Mac
     rough, said = _rough(model.bearings), Ledger()
     why = rough or excited_faster("shaft", frequency, speed)
     resolve = resolution(given, frequency, why, said, is_silent=False)
-    turns = [cage_period(mounted.model.geometry, speed) for mounted in model.bearings]
+    turns = [cage_period(mounted.model.geometry, speed, _outer_speed(mounted)) for mounted in model.bearings]
     found = [settings(given, turn, frequency, resolve, said) for turn in turns]
     say_cut(given, min(one.max_step for one in found), said)
     for sentence in said.assumptions:
@@ -78,9 +78,18 @@ def with_settings(case: MachineCase, model: MachineModel, ledger: Ledger) -> Mac
     return replace(model, bearings=bearings, assumptions=tuple(ledger.assumptions))
 
 
+def _outer_speed(mounted: MountedBearing) -> float:
+    """Return the highest planned speed of an outer ring [rad/s]."""
+    return peak(mounted.model.outer_ring.dofs[SPIN].motion)
+
+
 def _excitation(case: MachineCase) -> float:
-    """Return the highest frequency at which the shaft is loaded or moved [Hz]; 0 where it is not."""
-    return highest_frequency(*(time_function(signal) for _, signal in changing(case)))
+    """Return the highest frequency at which anything is loaded or moved [Hz]; 0 where nothing is."""
+    signals = [signal for _, signal in changing(case)]
+    for bearing in case.bearings.values():
+        signals.append(bearing.outer_ring.spin.motion)
+        signals += [getattr(bearing.cage, dof).motion for dof in (*POSE, SPIN)]
+    return highest_frequency(*map(time_function, signals))
 
 
 def _rough(bearings: tuple[MountedBearing, ...]) -> str:

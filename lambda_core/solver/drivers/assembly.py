@@ -114,6 +114,12 @@ class Ties:
     damping: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
     rest: FloatArray = field(default_factory=lambda: np.zeros(0))
 
+    def joins_others(self, row: int) -> bool:
+        """Tell whether a row is tied to any other one."""
+        matrices = (self.stiffness, self.damping)
+        beyond = (np.delete(line, row) for matrix in matrices for line in (matrix[row], matrix[:, row]))
+        return any(line.any() for line in beyond)
+
 
 @dataclass(frozen=True)
 class Assembly:

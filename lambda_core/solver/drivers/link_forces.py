@@ -119,8 +119,8 @@ def _moves(
     """Return how a point moves and turns as part of a body, by the shaft's node at `carrier`, shape (6, size)."""
     found: FloatArray = np.zeros((NODE, rows.size))
     if body == SHAFT:
-        own = rows.node(float(carrier[0])) + np.arange(NODE)
-        found[:, own] = carried(np.subtract(point, (carrier[0], 0.0, 0.0)))
+        node = model.body.nearest(float(carrier[0]))
+        found[:, rows.node(node) + np.arange(NODE)] = carried(np.subtract(point, (node, 0.0, 0.0)))
     elif body != GROUND:
         own, moves = point_on(model, rows, body, point)
         found[:, own] = moves

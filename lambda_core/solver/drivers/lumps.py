@@ -62,7 +62,7 @@ def lump(model: MachineModel) -> LumpedShaft:
     """Cut the shaft into lumps."""
     body = model.body
     places = _places(model)
-    masses, polar, transverse = _inertias(body, places)
+    masses, polar, transverse = np.zeros((3, 1)) if body.is_rigid else _inertias(body, places)
     for disc in body.discs:
         i = int(np.argmin(np.abs(places - disc.position)))
         masses[i] += disc.mass
@@ -80,6 +80,8 @@ def _places(model: MachineModel) -> FloatArray:
     body = model.body
     held = [*(b.position for b in model.bearings), *model.held_places]
     mains = _distinct([*held, *(place for _, place in model.discs)])
+    if body.is_rigid:
+        return body.positions
     if not body.elements:
         named = body.lumps or range(body.positions.size)
         return _distinct([*mains, *(float(body.positions[n]) for n in named)])

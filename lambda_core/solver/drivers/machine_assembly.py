@@ -115,24 +115,53 @@ def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Fro
         members[int(numbers.bodies[k])] = Member(rigid.name, _rigid(rigid, loads[k]))
     for number in numbers.driven:  # the member without mass, where there is one
         members.setdefault(int(number), Member("coupling", Body(0.0, 0.0, 0.0, _turned(machine, _LOCKED))))
+    ties = _as_supports(_ties(machine, shaft, numbers), members)
     return Assembly(
         tuple(members[number] for number in range(numbers.count)),
         tuple(bearings),
         machine.gravity,
         _links(machine, shaft, numbers),
-        ties=_ties(machine, shaft, numbers),
+        ties=ties,
     )
+
+
+def _as_supports(ties: Ties, members: dict[int, Member]) -> Ties:
+    """Give members what holds them alone against the ground where they are drawn; return the remaining ties."""
+    stiffness, damping = ties.stiffness.copy(), ties.damping.copy()
+    for row, (number, direction) in enumerate(zip(ties.member.tolist(), ties.direction.tolist(), strict=True)):
+        if direction == _ABOUT_X or ties.rest[row] or ties.joins_others(row):
+            continue
+        body, name = members[number].body, POSE[PLACES.index(direction)]
+        held = body.dofs[name]
+        if held.mode != "free":
+            continue
+        k, c = float(stiffness[row, row]), float(damping[row, row])
+        dof = dataclasses.replace(held, stiffness=held.stiffness + k, damping=held.damping + c)
+        supported = dataclasses.replace(body, dofs={**body.dofs, name: dof})
+        members[number] = dataclasses.replace(members[number], body=supported)
+        stiffness[row, row] = damping[row, row] = 0.0
+    return dataclasses.replace(ties, stiffness=stiffness, damping=damping)
 
 
 def _links(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) -> tuple[AssembledLink, ...]:
     """Return the connections by laws, which stand among those of the first bearing."""
-    found = []
+    found, azimuths = [], dict(zip(numbers.lumps.tolist(), unbalance_of_lumps(machine, shaft)[1], strict=True))
     for link in machine.links:
         (first, own), (second, other) = (_end(machine, shaft, numbers, place) for place in (link.first, link.second))
-        arms = (np.subtract(link.first.point, own).tolist(), np.subtract(link.second.point, other).tolist())
+        arms = [
+            _unturned(np.subtract(place.point, centre), azimuths.get(member, 0.0))
+            for place, member, centre in ((link.first, first, own), (link.second, second, other))
+        ]
         apart = np.subtract(other, own).tolist()
-        found.append(AssembledLink(0, link.element, first, tuple(arms[0]), second, tuple(arms[1]), tuple(apart)))
+        found.append(AssembledLink(0, link.element, first, arms[0], second, arms[1], tuple(apart)))
     return tuple(found)
+
+
+def _unturned(arm: FloatArray, angle: float) -> tuple[float, float, float]:
+    """Return an arm in the frame of a member that is turned about x by an angle at t = 0 [rad]: its unbalance's."""
+    x, y, z = arm.tolist()
+    c, s = math.cos(angle), math.sin(angle)
+    return x, c * y + s * z, c * z - s * y
 
 
 def _end(
@@ -163,6 +192,9 @@ def _lumps(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) ->
         if machine.hold is not None and k == shaft.at(machine.hold.position):
             held = zip(POSE, machine.hold.prescribed, strict=True)
             dofs |= {name: _prescribed(lead) for name, lead in held if lead is not None}
+        brake = machine.resistance
+        if brake is not None and k == shaft.at(brake.position):
+            dofs |= {SPIN: dataclasses.replace(dofs[SPIN], damping=brake.damping)}
         load = loads[k]
         if machine.torque is not None and number in numbers.driven:
             load = (*load[:_ABOUT_X], added(load[_ABOUT_X], machine.torque), *load[_ABOUT_X + 1 :])
@@ -184,7 +216,7 @@ def _outer_ring(machine: MachineModel, i: int, model: BearingModel) -> Body:
     for name, stiffness, lead in zip(POSE, seating.stiffness, seating.prescribed, strict=True):
         dofs[name] = _FREE if math.isfinite(stiffness) or is_housed else _prescribed(lead)
     along, *others = machine.load_on(BearingPart(machine.bearings[i].name, "outer_ring"))
-    load = (_sum(along, TimeFunction.constant(seating.force)), *others)
+    load = (added(along, TimeFunction.constant(seating.force)), *others)
     return _loaded(dataclasses.replace(model.outer_ring, dofs=dofs), load)
 
 
@@ -212,19 +244,20 @@ def _loads_on_lumps(machine: MachineModel, shaft: LumpedShaft) -> list[Load]:
     """
     size, nodes = machine.body.mass.shape[0], NODE * machine.body.positions.size
     follow = shaft.follow[:, : NODE * shaft.positions.size]
-    given = (machine.loads + machine.weight + machine.growth)[:size]
+    given, weight = machine.loads[:size].copy(), (machine.weight + machine.growth)[:size]
     if not machine.twists:  # torques go straight to the coupling
-        given[_ABOUT_X:nodes:NODE] = 0.0
+        given[_ABOUT_X:nodes:NODE] = weight[_ABOUT_X:nodes:NODE] = 0.0
     terms: list[TimeFunction] = [ZERO] * follow.shape[1]
     for row, function in machine.varying:
         if row >= size or (row % NODE == _ABOUT_X and not machine.twists):
             continue
         given[row] -= initial(function)
-        terms = [_sum(sofar, scaled(function, float(share))) for sofar, share in zip(terms, follow[row], strict=True)]
-    still = (follow.T @ given).reshape(-1, NODE)
-    still[:, :3] -= np.outer(shaft.mass, machine.gravity)
+        terms = [added(sofar, scaled(function, float(share))) for sofar, share in zip(terms, follow[row], strict=True)]
+    hung = (follow.T @ weight).reshape(-1, NODE)
+    hung[:, :3] -= np.outer(shaft.mass, machine.gravity)
+    still = (follow.T @ given).reshape(-1, NODE) + hung
     constant = [TimeFunction.constant(float(value)) for value in still.ravel()]
-    every = [_sum(one, other) for one, other in zip(terms, constant, strict=True)]
+    every = [added(one, other) for one, other in zip(terms, constant, strict=True)]
     return [tuple(every[k : k + NODE]) for k in range(0, len(every), NODE)]
 
 
@@ -232,14 +265,10 @@ def _loads_on_bodies(machine: MachineModel) -> list[Load]:
     """Return force and moment on each rigid body."""
     size, changing = machine.body.mass.shape[0], dict(machine.varying)
     every = [
-        changing.get(row, TimeFunction.constant(float(machine.loads[row])))
+        changing.get(row) or added(TimeFunction.constant(float(machine.loads[row])))
         for row in range(size, size + NODE * len(machine.bodies))
     ]
     return [tuple(every[k : k + NODE]) for k in range(0, len(every), NODE)]
-
-
-def _sum(one: TimeFunction, other: TimeFunction) -> TimeFunction:
-    return TimeFunction((*one.terms, *other.terms))
 
 
 def _ties(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) -> Ties:

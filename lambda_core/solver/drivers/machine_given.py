@@ -16,7 +16,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
 from lambda_core.formulas.elastic.beam import NODE
-from lambda_core.model.bodies.locations import carried
+from lambda_core.model.bodies.locations import carried, carried_by_shaft
 from lambda_core.model.machine_model import GROUND, SHAFT, MachineModel, Place
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.given import Coupling, check_known
@@ -162,7 +162,8 @@ def _signals(
     """Return the signals that a load along one axis adds to, and the weights there."""
     if place.body == SHAFT:
         lumps = numbers.lumps
-        onto = carried([0.0, *place.point[1:]])[axis] @ shaft.follow[machine.body.rows(place.point[0])]
+        at, moves = carried_by_shaft(machine.body, place.point)
+        onto = moves[axis] @ shaft.follow[machine.body.rows(at)]
         each = onto[: NODE * lumps.size].reshape(lumps.size, NODE).copy()
         if not machine.twists:
             each[:, _ABOUT_X] = 0.0

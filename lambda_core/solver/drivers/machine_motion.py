@@ -11,7 +11,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import CAGE, DOFS, INNER, OUTER, POSE, SPIN
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bearing_model import Body, DofState, TimeFunction
-from lambda_core.model.bodies.locations import carried
+from lambda_core.model.bodies.locations import carried, carried_by_shaft
 from lambda_core.model.laws.time_functions import initial, spin_at_start
 from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, BearingPart, MachineModel
 from lambda_core.solver import records as R
@@ -20,11 +20,12 @@ from lambda_core.solver.drivers.assembly import Assembly, BearingSpan
 from lambda_core.solver.drivers.compiled_laws import Announce, derive_oils
 from lambda_core.solver.drivers.dynamics import CAPACITY, MotionEngine, MotionStart, initial_state
 from lambda_core.solver.drivers.engine import usual_interval
-from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.lumps import LumpedShaft, lump, unbalance_of_lumps
 from lambda_core.solver.drivers.machine_assembly import machine_assembly, member_numbers, with_free_bodies
 from lambda_core.solver.drivers.machine_given import MachineGiven, machine_given
 from lambda_core.solver.drivers.readings import Channels, MachineReadings, MachineSamples, ReadBearing, Sums
+from lambda_core.solver.drivers.rigid_shaft import bearing_on_rigid_shaft
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble, context_of
 from lambda_core.solver.drivers.surface_steps import longest_step
@@ -89,7 +90,13 @@ def machine_start(
     state, shaft = solve_shaft(machine, announce), lump(machine)
     equilibria = tuple(ring.equilibrium() for ring in state.rings)
     alone = [_free(found.context) for found in equilibria]
-    return _begun(machine, shaft, state, equilibria, alone, is_given=is_given, leads_cages=leads_cages)
+    begun = _begun(machine, shaft, state, equilibria, alone, is_given=is_given, leads_cages=leads_cages)
+    single = None if leads_cages else bearing_on_rigid_shaft(machine, begun.motion.context.assembly)
+    if single is None:
+        return begun
+    found = solve(single, announce=announce, strict=False)
+    begun = _begun(machine, shaft, state, (found,), [_free(found.context)], is_given=is_given)
+    return replace(begun, motion=replace(begun.motion, state=initial_state(found)))
 
 
 def changed_start(start: MachineStart, machine: MachineModel) -> MachineStart:
@@ -286,8 +293,9 @@ class MemberChannels:
         self._of_bodies = np.zeros((count, _AXES, NODE * (len(machine.bodies) + len(self._parts))))
         for k, (_, place) in enumerate(machine.markers):
             if place.body == SHAFT:
-                node = shaft.follow[machine.body.rows(place.point[0]), : self._of_lumps.shape[2]]
-                self._of_lumps[k] = (carried([0.0, *place.point[1:]]) @ node)[:_AXES]
+                at, moves = carried_by_shaft(machine.body, place.point)
+                node = shaft.follow[machine.body.rows(at), : self._of_lumps.shape[2]]
+                self._of_lumps[k] = (moves @ node)[:_AXES]
             elif place.body != GROUND:
                 number, centre = self._body(place.body)
                 first, arm = NODE * number, np.subtract(place.point, centre)

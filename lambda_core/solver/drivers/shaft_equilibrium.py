@@ -141,7 +141,7 @@ class _System:
             reach[range(len(POSE)), outer] = -1.0
         # lengths that make moments forces: residuals of one kind
         arms = np.ones(count)
-        length = float(np.ptp(model.body.positions))
+        length = float(np.ptp(model.body.positions)) or model.bearings[0].model.geometry.pitch_diameter
         arms[: NODE * model.body.positions.size].reshape(-1, NODE)[:, 3:] = length
         arms[self.outer[:, 3:]] = length
         arms[rows.bodies :].reshape(-1, NODE)[:, 3:] = length

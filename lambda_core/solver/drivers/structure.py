@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE
 from lambda_core.formulas.elastic.beam import NODE
-from lambda_core.model.bodies.locations import carried
+from lambda_core.model.bodies.locations import carried, carried_by_shaft
 from lambda_core.model.machine_model import GROUND, PLACES, SHAFT, BearingPart, Carrier, MachineModel, MachineSpring
 
 _RING = np.array(PLACES)
@@ -54,7 +54,8 @@ def point_on(
         return np.zeros(0, dtype=np.int64), np.zeros((NODE, 0))
     at = np.asarray(point, dtype=float)
     if body == SHAFT:
-        return rows.node(at[0]) + np.arange(NODE), carried([0.0, *at[1:]])
+        node, moves = carried_by_shaft(model.body, at)
+        return rows.node(node) + np.arange(NODE), moves
     if isinstance(body, BearingPart):
         return _point_on_part(model, rows, body, at)
     own = model.bodies[body - 1]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -22,30 +22,31 @@ def deflection(machine: MachineData, options: Options) -> ViewData:
     model, report = machine.model, machine.equilibrium
     if report is None:
         raise NotApplicable("the equilibrium was not solved")
-    length = 1e3 * model.outline[-1][1]
-    along = Axis("position", "mm", low=0.0, high=length)
+    along = Axis("position", "mm", low=min(0.0, 1e3 * model.outline[0][0]), high=1e3 * model.outline[-1][1])
     places, cuts = np.array(report.positions_mm), np.array(report.cut_positions_mm)
     moved, moments = np.array(report.deflection_um), np.array(report.bending_moment_Nm)
     supports = tuple(Mark(bearing.name, bearing.position_mm, "x") for bearing in report.bearings)
     bare = tuple(Mark("", mark.value, "x") for mark in supports)
-    panels = (
+    drawn: Literal["line", "points"] = "line" if cuts.size else "points"
+    panels = [
         _drawing(model, report),
         Panel(
             "deflection", along, Axis("deflection", "um"),
-            (Series("y (horizontal)", places, moved[:, 1], "line", "outer"),
-             Series("z (vertical)", places, moved[:, 2], "line", "inner")), bare,
+            (Series("y (horizontal)", places, moved[:, 1], drawn, "outer"),
+             Series("z (vertical)", places, moved[:, 2], drawn, "inner")), bare,
         ),
-        Panel(
-            "bending moment", along, Axis("moment", "N m"),
-            (Series("about y (bends vertically)", cuts, moments[:, 0], "line", "inner"),
-             Series("about z (bends horizontally)", cuts, moments[:, 1], "line", "outer")), bare,
-        ),
-    )  # fmt: skip
-    notes = (
-        "arrows: forces of the bearings on the shaft in the vertical plane",
-        "bending moment: moment of the right part on the left part at each cut",
-    )
-    return ViewData("shaft", "A shaft in its bearings", _source(report), panels, 1, notes)
+    ]  # fmt: skip
+    notes = ["arrows: forces of the bearings on the shaft in the vertical plane"]
+    if cuts.size:  # a rigid shaft has none
+        panels.append(
+            Panel(
+                "bending moment", along, Axis("moment", "N m"),
+                (Series("about y (bends vertically)", cuts, moments[:, 0], "line", "inner"),
+                 Series("about z (bends horizontally)", cuts, moments[:, 1], "line", "outer")), bare,
+            )
+        )  # fmt: skip
+        notes.append("bending moment: moment of the right part on the left part at each cut")
+    return ViewData("shaft", "A shaft in its bearings", _source(report), tuple(panels), 1, tuple(notes))
 
 
 def _drawing(model: Any, report: Any) -> Panel:

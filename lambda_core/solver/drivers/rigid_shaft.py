@@ -1,0 +1,47 @@
+"""Take a machine that is one bearing on a rigid shaft as that bearing alone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from lambda_core.domain.elements import BODIES, BodyName
+from lambda_core.model.bearing_model import BearingModel, Link
+from lambda_core.model.machine_model import GROUND, BearingPart, MachineModel, Place
+from lambda_core.solver.drivers.assembly import Assembly
+
+
+def bearing_on_rigid_shaft(machine: MachineModel, assembly: Assembly) -> BearingModel | None:
+    """Return the only bearing of a machine with all that surrounds it; None where more than that moves.
+
+    Its rings and cage are the members that move: shaft and discs count to the inner ring. The tables of both are the
+    same, so that the friction of the balls is in equilibrium with the loads, too.
+    """
+    if not machine.body.is_rigid or len(assembly.members) > len(BODIES) or assembly.ties.stiffness.any():
+        return None
+    if assembly.ties.damping.any():
+        return None
+    (mounted,), (inner, outer, cage) = machine.bearings, assembly.members
+    links = {}
+    for link in machine.links:
+        first, second = _body(link.first), _body(link.second)
+        assert second is not None  # the ground does not move
+        links[link.name] = Link(
+            first, _from(mounted.position, link.first), second, _from(mounted.position, link.second)
+        )
+    return replace(
+        mounted.model, name=machine.name, gravity=machine.gravity, inner_ring=inner.body, outer_ring=outer.body,
+        cage_body=cage.body, links=links,
+    )  # fmt: skip
+
+
+def _body(place: Place) -> BodyName | None:
+    """Return the body of a bearing alone that carries a place; None for the ground."""
+    if isinstance(place.body, BearingPart):
+        return place.body.part
+    return None if place.body == GROUND else "inner_ring"
+
+
+def _from(position: float, place: Place) -> tuple[float, float, float]:
+    """Return where a place is from the middle of a bearing [m]."""
+    x, y, z = place.point
+    return x - position, y, z
