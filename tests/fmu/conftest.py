@@ -17,6 +17,7 @@ from lambda_core.domain.errors import UsageError
 
 HERE = Path(__file__).parent
 CASE, CHANGES = "6208-axial-1300", ("solver.duration=0.2 s",)
+CIRCUIT_OF_SHAFT = ("electric.seed=3", "electric.bearings.right.insulation=2 nF")  # in the FMU of the shaft
 CIRCUIT = ("electric.seed=3", "electric.grounding.insulation=2 nF")  # in the FMU of version 3 by force
 VARIED = ("lubricant.temperature=30..60 degC", "bearing.clearance=9..19 um")  # in the FMU of version 2 by force
 
@@ -80,11 +81,11 @@ def shaft(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
 def machine_unit_file(
     c_compiler: tuple[str, ...], shaft: Path, once: Callable[[str, Callable[[Path], object]], Path]
 ) -> Path:
-    """Return the FMU of the shaft, with an option that varies."""
+    """Return the FMU of the shaft, with an option that varies and a circuit."""
 
     def fill(folder: Path) -> None:
         vary = ("lubricant.temperature=60..80 degC",)
-        changes = ("solver.duration=0.1 s",)
+        changes = ("solver.duration=0.1 s", *CIRCUIT_OF_SHAFT)
         api.export_fmu(shaft, changes, out=folder / "box.fmu", fmi=2, vary=vary, processor="native")
 
     return once("fmu-shaft", fill) / "box.fmu"

@@ -5,9 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from lambda_core import api
+from lambda_core.analysis.electric.circuit_bearing import of_machine
+from lambda_core.analysis.electric.circuit_integrator import joined
+from lambda_core.analysis.electric.contacts import CHANNELS, contacts_of_samples, films
+from lambda_core.analysis.electric.simulation import network_of
 from lambda_core.domain.errors import UsageError
 
 CHANGES = ("solver.duration=0.1 s",)  # of the FMU, too
@@ -60,6 +65,59 @@ def test_a_machine_has_the_bits_of_its_engine(host: Any, machine_unit: Any, shaf
     assert lumps.min() <= place <= lumps.max()
 
 
+CIRCUIT = ("electric.seed=3", "electric.bearings.right.insulation=2 nF")  # of the FMU
+SLOPE = 600.0 / (20 * 2e-5)  # of the source [V/s]
+
+
+def circuit_of_the_program(shaft: Path, steps: int, step: float) -> tuple[list[list[float]], int]:
+    """Return voltages and largest currents of both bearings step by step, and the count of events."""
+    stepping = api.iterate(shaft, (*CHANGES, *CIRCUIT), exact=True)
+    assert isinstance(stepping.model, api.MachineModel)
+    bearings = of_machine(stepping.model)
+    network = network_of(bearings, [one.model.geometry.balls for one in stepping.model.bearings])
+    before, volts, rolled = stepping._engine.now().bearings, 0.0, [None, None]
+    found, events = [], 0
+    for k in range(steps):
+        now = list(stepping.step_to((k + 1) * step).bearings.values())
+        parts = []
+        for i, one in enumerate(bearings):
+            pair = {name: np.stack([before[i][name], now[i][name]]) for name in CHANNELS}
+            parts.append(films(contacts_of_samples(pair, one.roughness, ""), one.options, rolled[i]))
+        after = volts + SLOPE * (now[0]["time"] - before[0]["time"])
+        solution = network.advance(joined(parts), (parts[0].time, np.array([volts, after])))
+        potential = network.held()["nodes"].potential
+        across = [potential[0], potential[0] - potential[1]]  # the right bearing is insulated
+        each = [solution.of(i) for i in range(2)]
+        found.append([])
+        for voltage, own in zip(across, each, strict=True):
+            found[-1] += [float(voltage), *own.extremes[0].tolist(), float(own.events[:, 8].max(initial=0.0))]
+        found[-1].append(float(potential[0]))
+        before, volts, rolled = now, after, [part.rolled[-1] for part in parts]
+        events += len(solution.events)
+    return found, events
+
+
+def test_the_circuit_of_a_machine_is_that_of_the_program(host: Any, machine_unit: Any, shaft: Path) -> None:
+    """Both bearings in one circuit, bit for bit, while the source rises to 480 V."""
+    steps, step, source = 16, 2e-5, "electric.source_voltage"
+    expected, events = circuit_of_the_program(shaft, steps, step)
+    instance, volts, found = host.Instance(machine_unit).ready(), 0.0, []
+    names = [
+        f"bearings.{name}.{what}"
+        for name in ("left", "right")
+        for what in ("voltage", "voltage_lowest", "voltage_highest", "arc_peak")
+    ]
+    for k in range(steps):
+        assert [instance.set(source, volts), instance.set(f"{source}_rate", SLOPE)] == [host.OK] * 2
+        begin = instance.time
+        assert instance.step((k + 1) * step - instance.time) == host.OK, instance.said
+        found.append(instance.get([*names, "electric.shaft_voltage"]))
+        volts += SLOPE * (instance.time - begin)
+    assert events > 0
+    assert found == expected
+    assert instance.get(["electric.discharges"])[0] > 0.0
+
+
 def test_states_of_a_machine_and_its_inputs(host: Any, machine_unit: Any, shaft: Path) -> None:
     """Go back in the FMU and in the program: the same bits again, with what was given then."""
     instance, outputs = host.Instance(machine_unit).ready(), machine_unit.named("output")
@@ -102,7 +160,5 @@ def test_what_a_machine_tells_and_refuses(host: Any, machine_unit: Any, shaft: P
     assert early.step(STEP) == host.ERROR
     with pytest.raises(UsageError, match="couple by force, or export one of its bearings alone"):
         api.iterate(shaft, CHANGES, couple="motion")
-    with pytest.raises(UsageError, match=r"leave \[electric\] out of the case"):
-        api.export_fmu(shaft, ("electric.seed=3",), out=shaft.parent / "no.fmu", processor="native")
     with pytest.raises(UsageError, match="give a load by its name, gears"):
         api.iterate(shaft, CHANGES).push((1.0, 0.0, 0.0))

@@ -1,4 +1,4 @@
-"""The circuit of a bearing in its library: films, the network around them, and the discharges through them.
+"""The circuit of all bearings in their library: films, the network around them, and the discharges through them.
 
 A step of the host is a stretch of the integration that a run takes: the contacts at both ends, the source a straight
 line between. The host is the source; that of the case is left out.
@@ -7,68 +7,96 @@ line between. The host is the source; that of the case is left out.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from lambda_core.analysis.electric import columns as L
-from lambda_core.analysis.electric.circuit_bearing import of_model
+from lambda_core.analysis.electric.circuit_bearing import of_machine, of_model
 from lambda_core.analysis.electric.circuit_integrator import compiled
 from lambda_core.analysis.electric.simulation import network_of
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
 from lambda_core.laws.jit.machine_code import Pointer
 from lambda_core.laws.jit.portable import Entry
+from lambda_core.model.bearing_model import BearingModel
 
 if TYPE_CHECKING:
     from lambda_core.case.electric import Film
     from lambda_core.export.fmu.image import Image
-    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.solver.drivers.assembly import BearingSpan
     from lambda_core.solver.drivers.compiled_laws import Announce
 
 _ROOM = 1024  # contacts that may break down within one step of the host
-# What the host gives of the source, and where it stood last: voltage [V], its rate [V/s], from when on [s]. What a step
-# has done: voltage of the bearing at its end, the least and the largest on the way [V], mean currents from the source
-# and through arcs, and the largest through one [A].
-NUMBERS = (
-    "given", "rate", "since", "last", "voltage", "lowest", "highest", "current", "arc_current", "peak",
-)  # fmt: skip
+# What the host gives of the source, and where it stood last: voltage [V], its rate [V/s], from when on [s]; what a step
+# has done: the mean current from the source [A], and the voltage of the shaft at its end [V].
+NUMBERS = ("given", "rate", "since", "last", "current", "shaft")
+# What a step has done to a bearing: voltage at its end, the least and the largest on the way [V], mean current through
+# arcs, and the largest through one [A].
+OF_A_BEARING = ("voltage", "lowest", "highest", "arc_current", "peak")
 # Arguments of the integrator that are no arrays: places among `words` and `sizes`, behind which `machine` stands.
 _WORDS = ("first", "seed", "substeps")
 _SIZES = ("machine",)
 
 
+class FilmPart(NamedTuple):
+    """The films of a bearing among those of the circuit.
+
+    Attributes
+    ----------
+    first, balls : int
+        Of its balls among those of all bearings.
+    node : int
+        Of its outer ring where it is insulated, otherwise 0.
+    film : Film
+        Options of the case.
+    of_lines : bool
+        Whether its contacts are lines of rollers.
+    """
+
+    first: int
+    balls: int
+    node: int
+    film: Film
+    of_lines: bool
+
+
 @dataclass(frozen=True)
 class Circuit:
-    """What the image of a bearing with a circuit holds in addition to its motion.
+    """What the image of bearings with a circuit holds in addition to their motion.
 
     Attributes
     ----------
     arguments : dict of str to arrays
         Of the compiled integrator, by the names of its arguments, in its order; None: among `words` and `sizes`.
     numbers, sizes : float64[:]
+    answers : float64[:, :], shape (bearings, 5)
+        See :data:`OF_A_BEARING`.
     words : int64[:]
     rate : float64[:, :, :], shape (2, Z, 2)
         Patches rolled over per second at both ends of a step.
-    film : Film
-        Options of the case.
+    films : tuple of FilmPart
+        Of each bearing.
     """
 
     arguments: dict[str, Any]
     numbers: FloatArray
+    answers: FloatArray
     sizes: FloatArray
     words: Any
     rate: FloatArray
-    film: Film
+    films: tuple[FilmPart, ...]
 
     def sections(self) -> Iterator[tuple[str, Any, Any]]:
         """Yield what belongs into the image."""
-        from lambda_core.analysis.electric.compiled.array_types import array1, array3, iarray1
+        from lambda_core.analysis.electric.compiled.array_types import array1, array2, array3, iarray1
         from lambda_core.analysis.electric.compiled.switching import integrate_sig
 
         yield from (("circuit_numbers", array1, self.numbers), ("circuit_sizes", array1, self.sizes))
+        yield "circuit_answers", array2, self.answers
         yield from (("circuit_words", iarray1, self.words), ("circuit_rate", array3, self.rate))
         for (name, value), kind in zip(self.arguments.items(), integrate_sig.args, strict=True):
             if value is not None:
@@ -87,12 +115,20 @@ class Circuit:
         """Return the place of one of :data:`NUMBERS`."""
         return image.place(self.numbers, NUMBERS.index(name))
 
+    def answer(self, image: Image, bearing: int, name: str) -> int:
+        """Return the place of one of :data:`OF_A_BEARING`."""
+        return image.place(self.answers, bearing * len(OF_A_BEARING) + OF_A_BEARING.index(name))
 
-def circuit(model: BearingModel, contacts: int, announce: Announce = None) -> Circuit | None:
-    """Return the circuit of a model, uncharged; None where its case has none.
+
+def circuit(
+    model: BearingModel | MachineModel, spans: Sequence[BearingSpan], contacts: int, announce: Announce = None
+) -> Circuit | None:
+    """Return the circuit of a bearing or a machine, uncharged; None where its case has none.
 
     Parameters
     ----------
+    spans : sequence of BearingSpan
+        Where each bearing stands.
     contacts : int
         How many a sample has.
 
@@ -103,17 +139,18 @@ def circuit(model: BearingModel, contacts: int, announce: Announce = None) -> Ci
     """
     if model.electric is None:
         return None
-    balls = model.geometry.balls
+    balls = sum(span.balls for span in spans)
     if contacts != 2 * balls:
         raise UsageError("the circuit of four-point contacts is not exported: leave [electric] out of the case")
-    bearing = of_model(model)
-    options = bearing.options
-    network = network_of([bearing], [balls], announce)
+    bearings = [of_model(model)] if isinstance(model, BearingModel) else of_machine(model)
+    options = bearings[0].options
+    network = network_of(bearings, [span.balls for span in spans], announce)
+    nodes = network.held()["wiring"].ring
     arguments = network.held() | {
         "rest_t": np.zeros(0), "rest_v": np.zeros(0),  # it begins with what the source charges
         "source_t": np.zeros(2), "source_v": np.zeros(2), "t": np.zeros(2),
         "tables": L.Tables(*np.zeros((len(L.Tables._fields), 2, balls, 2))),
-        "extremes": np.zeros((1, 2, 2)), "events": np.zeros((_ROOM, L.N_EVENT)),
+        "extremes": np.zeros((1, len(bearings) + 1, 2)), "events": np.zeros((_ROOM, L.N_EVENT)),
         "trace": np.zeros((0, L.N_TRACE + 2)), "window": np.array([np.inf, -np.inf]),
     }  # fmt: skip
     from lambda_core.analysis.electric.compiled.switching import integrate
@@ -121,8 +158,12 @@ def circuit(model: BearingModel, contacts: int, announce: Announce = None) -> Ci
     return Circuit(
         arguments={name: arguments.get(name) for name in inspect.signature(integrate).parameters},
         numbers=np.zeros(len(NUMBERS)),
+        answers=np.zeros((len(bearings), len(OF_A_BEARING))),
         sizes=np.array(network.circuit.constants()),
         words=np.array([1, options.seed, network.substeps], dtype=np.int64),
         rate=np.zeros((2, balls, 2)),
-        film=options.film,
+        films=tuple(
+            FilmPart(span.first_ball, span.balls, max(int(node), 0), one.options.film, one.of_lines)
+            for one, span, node in zip(bearings, spans, nodes, strict=False)  # a last node is the shaft's
+        ),
     )

@@ -12,7 +12,6 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import BODIES
-from lambda_core.domain.errors import UsageError
 from lambda_core.export.fmu.circuit_image import Circuit, circuit
 from lambda_core.export.fmu.curves import Constant, constants
 from lambda_core.export.fmu.image import Image, host_words
@@ -260,9 +259,9 @@ class _OneBearing:
         self.given, self._couple, self._equilibrium = given_names(model, couple), couple, equilibrium
         self.start: Start | None = prepare_start(equilibrium)
         self.engine = BearingEngine(model, announce, equilibrium, given=self.given, capacity=_CAPACITY)
-        _, context, _, scratch = self.engine.parts()
+        _, context, _, _ = self.engine.parts()
         self.prescribed = prescribed_rings(context, self.given) if couple == "motion" else None
-        self.circuit = circuit(model, scratch.contacts.size // scratch.contacts.shape[-1], announce)
+        self.circuit = _circuit(model, self.engine, announce)
         self.bearings = (FrozenBearing("", model, context.assembly.spans()[0]),)
 
     def alike(self, model: BearingModel) -> BearingEngine:
@@ -281,24 +280,30 @@ class _OneBearing:
 class _Machine:
     """A machine at its start."""
 
-    start = prescribed = circuit = None
+    start = prescribed = None
 
     def __init__(self, machine: MachineModel, couple: Coupling, announce: Announce) -> None:
         check_coupling(machine, couple)
-        if machine.electric is not None:
-            raise UsageError(
-                f"{machine.name}: the circuit of a machine is not exported: leave [electric] out of the case"
-            )
         self.machine = machine_start(machine, announce, is_given=True)
         given = self.machine.given
         assert given is not None
         self.given, self.inputs = given.names, given.values[:, :2].ravel()
         self.engine = MachineEngine(self.machine, announce, capacity=_CAPACITY)
+        self.circuit = _circuit(machine, self.engine, announce)
         self.bearings = tuple(FrozenBearing(one.name, one.context.model, one.span) for one in self.engine.bearings)
 
     def alike(self, machine: MachineModel) -> MachineEngine:
         """Return an engine of another model in the state and with the contact frames of the first."""
         return MachineEngine(changed_start(self.machine, machine), capacity=_CAPACITY)
+
+
+def _circuit(
+    model: BearingModel | MachineModel, engine: BearingEngine | MachineEngine, announce: Announce
+) -> Circuit | None:
+    """Return the circuit of what moves; None where its case has none."""
+    contacts = engine.parts()[3].contacts
+    spans = engine.context.assembly.spans()
+    return circuit(model, spans, contacts.size // contacts.shape[-1], announce)
 
 
 def _parts(engine: BearingEngine | MachineEngine) -> list[FloatArray]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from lambda_core.analysis.electric import columns as circuit_columns
 from lambda_core.domain.channels import RINGS, SHORTED
-from lambda_core.export.fmu.circuit_image import NUMBERS
+from lambda_core.export.fmu.circuit_image import NUMBERS, OF_A_BEARING
 from lambda_core.export.fmu.frozen import Frozen
 from lambda_core.export.fmu.variables import Variable, control
 from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY
@@ -106,7 +106,13 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
     lines += [f"static const uint32_t lb_relocations[][2] = {{{_pairs(image.relocations)}}};"]
     lines += [f"static const uint32_t lb_fixes[][2] = {{{_pairs(image.fixes)}}};"]
     lines += [f"static const char *const lb_roles[] = {{{', '.join(map(_quoted, ROLES))}}};"]
-    lines += [*_part_table(frozen), *_start_tables(frozen), *_slope_table(frozen), *_curves(frozen)]
+    lines += [
+        *_part_table(frozen),
+        *_film_table(frozen),
+        *_start_tables(frozen),
+        *_slope_table(frozen),
+        *_curves(frozen),
+    ]
     lines += _machine_tables(frozen, variables)
     first, rows = 0, []
     for v in variables:
@@ -233,32 +239,42 @@ def _circuit_numbers(frozen: Frozen) -> dict[str, object]:
     found, image = frozen.circuit, frozen.image
     if found is None:
         return {"CIRCUIT": 0}
-    arguments, film = found.arguments, found.film
+    arguments = found.arguments
     tables, nodes = arguments["tables"], arguments["nodes"]
     places = {f"TABLE_{name.upper()}": image.place(getattr(tables, name)) for name in tables._fields}
     places |= {f"CIRCUIT_{name.upper()}": found.place(image, name) for name in NUMBERS}
     arrays = {"SOURCE_T": "source_t", "SOURCE_V": "source_v", "TIMES": "t", "TOTAL": "total", "PLACE": "place"}
     places |= {f"CIRCUIT_{name}": image.place(arguments[key]) for name, key in arrays.items()}
     places |= {f"CIRCUIT_{name.upper()}": image.place(arguments[name]) for name in ("extremes", "events")}
-    columns = ("T_EVENTS", "T_TRACE", "T_TIME", "T_BEGAN", "T_STATUS", "E_CHARGE", "E_PEAK", "N_EVENT")
+    columns = ("T_EVENTS", "T_TRACE", "T_TIME", "T_BEGAN", "T_STATUS", "E_BALL", "E_CHARGE", "E_PEAK", "N_EVENT")
     return {
         "CIRCUIT": 1,
         **places,
         **{f"CIRCUIT_{name}": getattr(circuit_columns, name) for name in columns},
         "CIRCUIT_FIRST": image.place(found.words),
-        "CIRCUIT_INSULATED": int(bool(arguments["wiring"].ring[0] > 0)),
+        "CIRCUIT_ANSWERS": image.place(found.answers),
+        "CIRCUIT_BEARINGS": len(found.films),
+        "CIRCUIT_OF_A_BEARING": len(OF_A_BEARING),
+        **{f"CIRCUIT_A_{name.upper()}": k for k, name in enumerate(OF_A_BEARING)},
         "CIRCUIT_PATCHES": image.place(found.rate),
         "CIRCUIT_CHARGE": image.place(nodes.charge),
         "CIRCUIT_POTENTIAL": image.place(nodes.potential),
         "CIRCUIT_WINDING": image.place(found.sizes),
         "CIRCUIT_FULL": circuit_columns.EVENTS_FULL,
         "CIRCUIT_OK": circuit_columns.OK,
-        "ROUGH": int(film.roughness != "smooth"),
-        "CONDUCTIVITY": repr(film.conductivity),
-        "METAL": repr(film.metal_resistance),
-        "BALL_PERMITTIVITY": repr(film.ball_permittivity or 0.0),
         "VACUUM_PERMITTIVITY": repr(VACUUM_PERMITTIVITY),
     }
+
+
+def _film_table(frozen: Frozen) -> list[str]:
+    """Return the films of each bearing of the circuit."""
+    rows = []
+    for part in frozen.circuit.films if frozen.circuit else ():
+        film = part.film
+        numbers = (film.conductivity, film.metal_resistance, film.ball_permittivity or 0.0)
+        flags = (int(film.roughness != "smooth"), int(part.of_lines))
+        rows.append(f"{{{part.first},{part.balls},{part.node},{_reals(numbers)},{flags[0]},{flags[1]}}}")
+    return [f"static const lb_film lb_films[] = {{{', '.join(rows)}}};"] if rows else []
 
 
 def _slope_numbers(frozen: Frozen) -> dict[str, object]:

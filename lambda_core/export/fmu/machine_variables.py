@@ -5,7 +5,6 @@ Names are those of a case and of a result: ``gears.wheel.force_z``, ``bearings.l
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -16,7 +15,7 @@ from lambda_core.domain.elements import BODIES, CAGE, DOFS, INNER, OUTER, SPIN
 from lambda_core.elements.ball.raceways import raceways
 from lambda_core.export.fmu.frozen import Frozen, FrozenBearing
 from lambda_core.export.fmu.prescribed_rings import TILT_STATES
-from lambda_core.export.fmu.variables import Kind, Variable, of_contacts, steps
+from lambda_core.export.fmu.variables import Kind, Variable, named, of_circuit, of_contacts, steps
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bodies.locations import carried, carried_by_shaft
 from lambda_core.model.machine_model import SHAFT, BearingPart, MachineModel, Place
@@ -62,12 +61,7 @@ def machine_variables(frozen: Frozen, start: MachineStart) -> Iterator[Variable]
         yield from _bearing(machine, number, one)
     yield from _bodies(machine)
     yield from _totals(machine)
-
-
-def _named(path: str) -> str:
-    """Return a path as FMI's structured names have it: what is no identifier stands in quotes."""
-    table, _, name = path.partition(".")
-    return path if re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII) else f"{table}.'{name}'"
+    yield from of_circuit(frozen)
 
 
 def _inputs(machine: _Machine) -> Iterator[Variable]:
@@ -82,7 +76,7 @@ def _inputs(machine: _Machine) -> Iterator[Variable]:
         place, _, word = name.rpartition(".")
         kind, axis = word.split("_")
         text = f"{kind} at {place}, {axis} ({_TITLES[axis]}), added to the loads of the case"
-        yield Variable(f"{_named(place)}.{word}", text, _UNITS[kind], Kind.INPUT, at, scale=1.0)
+        yield Variable(f"{named(place)}.{word}", text, _UNITS[kind], Kind.INPUT, at, scale=1.0)
 
 
 def _point(machine: _Machine, name: str, place: Place) -> Iterator[Variable]:
@@ -105,7 +99,7 @@ def _point(machine: _Machine, name: str, place: Place) -> Iterator[Variable]:
             text = f"{word} of {name} ({_TITLES[word]})"
             parts = tuple(_shares(machine, members, moved[axis], rate))
             yield Variable(
-                f"{_named(name)}.{word}{suffix}",
+                f"{named(name)}.{word}{suffix}",
                 f"rate of {text}" if rate else text,
                 unit,
                 Kind.WEIGHTED,
@@ -142,7 +136,7 @@ def _is_free(machine: _Machine, member: int) -> bool:
 
 def _motions(machine: _Machine, one: FrozenBearing) -> Iterator[Variable]:
     """Yield how rings and cage of a bearing stand and move, and what the bearing puts on the shaft."""
-    name, rings = _named(f"bearings.{one.name}"), {"inner_ring": INNER, "outer_ring": OUTER}
+    name, rings = named(f"bearings.{one.name}"), {"inner_ring": INNER, "outer_ring": OUTER}
     for ring, which in rings.items():
         member = one.span.bodies[which]
         if _is_free(machine, member):
@@ -162,7 +156,7 @@ def _motions(machine: _Machine, one: FrozenBearing) -> Iterator[Variable]:
 
 def _bearing(machine: _Machine, number: int, one: FrozenBearing) -> Iterator[Variable]:
     """Yield the answers of a bearing."""
-    name = _named(f"bearings.{one.name}")
+    name = named(f"bearings.{one.name}")
     yield from of_contacts(machine.frozen, name, f" of {one.name}", one.span.first_ball, one.span.balls)
     text = f"capacitance between the rings of {one.name}; balls that connect them are left out"
     yield Variable(f"{name}.capacitance", text, "F", Kind.CAPACITANCE, number)
@@ -190,7 +184,7 @@ def _bodies(machine: _Machine) -> Iterator[Variable]:
     numbers = member_numbers(machine.model, machine.start.shaft)
     for body, member in zip(machine.model.bodies, numbers.bodies.tolist(), strict=True):
         if _is_free(machine, member):
-            yield from _pose(machine, _named(f"bodies.{body.name}"), f"the body {body.name}", member)
+            yield from _pose(machine, named(f"bodies.{body.name}"), f"the body {body.name}", member)
 
 
 def _totals(machine: _Machine) -> Iterator[Variable]:

@@ -6,6 +6,7 @@ Values are SI; a host shows them in the units that engineers use. Names are thos
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
@@ -88,10 +89,16 @@ def variables(frozen: Frozen) -> list[Variable]:
     taken = {each.name for each in found}
     found += [
         each
-        for each in (*_places(frozen), *_reactions(frozen), *_bearing(frozen), *_circuit(frozen))
+        for each in (*_places(frozen), *_reactions(frozen), *_bearing(frozen), *of_circuit(frozen))
         if each.name not in taken
     ]
     return [*found, *_varied(frozen)]
+
+
+def named(path: str) -> str:
+    """Return a path as FMI's structured names have it: what is no identifier stands in quotes."""
+    table, _, name = path.partition(".")
+    return path if re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII) else f"{table}.'{name}'"
 
 
 def _unit(name: str) -> tuple[str, str, str]:
@@ -220,8 +227,8 @@ def steps(frozen: Frozen) -> Variable:
     return Variable("solver.steps", "steps of the integrator", "", Kind.COUNT, place)
 
 
-def _circuit(frozen: Frozen) -> Iterator[Variable]:
-    """Yield the source that the host is, and what the circuit of the bearing answers with."""
+def of_circuit(frozen: Frozen) -> Iterator[Variable]:
+    """Yield the source that the host is, and what the circuit answers with."""
     found = frozen.circuit
     if found is None:
         return
@@ -231,15 +238,26 @@ def _circuit(frozen: Frozen) -> Iterator[Variable]:
         about = text if not name else f"rate of the {text}"
         at = found.place(frozen.image, place)
         yield Variable(f"electric.source_voltage{name}", about, unit, Kind.SOURCE, at, scale=1.0, begin=begin)
-    for name, place, unit, text in (
-        ("voltage", "voltage", "V", "voltage of the inner ring against the outer"),
-        ("voltage_lowest", "lowest", "V", "lowest voltage of the inner ring against the outer in the step"),
-        ("voltage_highest", "highest", "V", "highest voltage of the inner ring against the outer in the step"),
-        ("source_current", "current", "A", "current from the source, mean over the step"),
-        ("arc_current", "arc_current", "A", "current of discharges from ring to ball or back, mean over the step"),
-        ("arc_peak", "peak", "A", "largest current of a discharge that began in the step"),
-    ):
-        yield Variable(f"electric.{name}", text, unit, Kind.VALUE, found.place(frozen.image, place))
+    text, at = "current from the source, mean over the step", found.place(frozen.image, "current")
+    yield Variable("electric.source_current", text, "A", Kind.VALUE, at)
+    if frozen.machine is not None:
+        text, at = "voltage of the shaft against the frame", found.place(frozen.image, "shaft")
+        yield Variable("electric.shaft_voltage", text, "V", Kind.VALUE, at)
+    for number, one in enumerate(frozen.bearings):
+        of, path = (f" of {one.name}", f"{named(f'bearings.{one.name}')}.") if one.name else ("", "electric.")
+        for name, place, unit, text in (
+            ("voltage", "voltage", "V", f"voltage of the inner ring{of} against the outer"),
+            ("voltage_lowest", "lowest", "V", f"lowest voltage of the inner ring{of} against the outer in the step"),
+            ("voltage_highest", "highest", "V", f"highest voltage of the inner ring{of} against the outer in the step"),
+            (
+                "arc_current",
+                "arc_current",
+                "A",
+                f"current of discharges{of} from ring to ball or back, mean over the step",
+            ),
+            ("arc_peak", "peak", "A", f"largest current of a discharge{of} that began in the step"),
+        ):
+            yield Variable(f"{path}{name}", text, unit, Kind.VALUE, found.answer(frozen.image, number, place))
     total = found.arguments["total"]
     for name, column, unit, text in (
         ("discharges", T_DISCHARGES, "1", "discharges since the start"),

@@ -8,22 +8,29 @@
 #define CONTACT(k, name) REAL(b, LB_CONTACTS + LB_CONTACT_##name + LB_CONTACT_SIZE * (k))
 #define TABLE(name, end, k) REAL(b, LB_TABLE_##name + 8 * (CONTACTS * (end) + (k)))
 #define PATCHES(end, k) REAL(b, LB_CIRCUIT_PATCHES + 8 * (CONTACTS * (end) + (k)))
+#define ANSWER(i, name) REAL(b, LB_CIRCUIT_ANSWERS + 8 * (LB_CIRCUIT_OF_A_BEARING * (i) + LB_CIRCUIT_A_##name))
 #define NUMBER(name) REAL(b, LB_CIRCUIT_##name)
 #define TOTAL(name) REAL(b, LB_CIRCUIT_TOTAL + 8 * LB_CIRCUIT_T_##name)
 #define EVENT(row, name) REAL(b, LB_CIRCUIT_EVENTS + 8 * (LB_CIRCUIT_N_EVENT * (row) + LB_CIRCUIT_E_##name))
+#define EACH(k, f) (unsigned k = 2 * (f)->first_ball; k < 2 * ((f)->first_ball + (f)->balls); k++)
 #define AT(name, k) REAL(b, LB_CIRCUIT_##name + 8 * (k))
 
 static int loaded(lb_bearing *b, unsigned k) { return CONTACT(k, LOAD) > 0.0; }
 static int shorted(lb_bearing *b, unsigned k) { return !isfinite(CONTACT(k, CAPACITANCE)); }
-static double area(lb_bearing *b, unsigned k) { return PI * CONTACT(k, SEMI_AXIS_A) * CONTACT(k, SEMI_AXIS_B); }
+static double area(lb_bearing *b, const lb_film *f, unsigned k) {
+  if (f->of_lines) return CONTACT(k, LOAD) / fmax(0.25 * PI * CONTACT(k, MAX_PRESSURE), 1.0);
+  return PI * CONTACT(k, SEMI_AXIS_A) * CONTACT(k, SEMI_AXIS_B);
+}
 
 /* Permittivity of the oil in a film; its mean is that of contacts without one. */
-static double oil(lb_bearing *b, unsigned k) { return CONTACT(k, CAPACITANCE_HERTZ) * CONTACT(k, FILM_CENTRAL) / area(b, k); }
+static double oil(lb_bearing *b, const lb_film *f, unsigned k) {
+  return CONTACT(k, CAPACITANCE_HERTZ) * CONTACT(k, FILM_CENTRAL) / area(b, f, k);
+}
 
-static double mean_of_films(lb_bearing *b) {
+static double mean_of_films(lb_bearing *b, const lb_film *f) {
   double total = 0.0, count = 0.0;
-  for (unsigned k = 0; k < CONTACTS; k++)
-    if (loaded(b, k) && !shorted(b, k)) total += oil(b, k), count += 1.0;
+  for EACH(k, f)
+    if (loaded(b, k) && !shorted(b, k)) total += oil(b, f, k), count += 1.0;
   return count > 0.0 ? total / count : LB_VACUUM_PERMITTIVITY;
 }
 
@@ -38,33 +45,35 @@ static double entrance(lb_bearing *b, unsigned k) {
   return a * mean / (0.5 * PI);
 }
 
-static double mean_of_entrances(lb_bearing *b) {
+static double mean_of_entrances(lb_bearing *b, const lb_film *f) {
   double total = 0.0, count = 0.0;
-  for (unsigned k = 0; k < CONTACTS; k++)
+  for EACH(k, f)
     if (loaded(b, k)) total += entrance(b, k), count += 1.0;
   return count > 0.0 ? total / count : 1e-6;
 }
 
-static void part(lb_bearing *b, unsigned k, double between, double through) {
+static void part(lb_bearing *b, const lb_film *f, unsigned k, double between, double through) {
   int metal = shorted(b, k), carried = loaded(b, k) && !metal;
   double squared = CONTACT(k, FILM_PARAMETER) * CONTACT(k, FILM_PARAMETER);
-  double rough = LB_ROUGH && carried && squared > 1.0 ? CONTACT(k, CAPACITANCE_HERTZ) / (squared - 1.0) : 0.0;
+  double rough = f->rough && carried && squared > 1.0 ? CONTACT(k, CAPACITANCE_HERTZ) / (squared - 1.0) : 0.0;
   double capacitance = (metal ? CONTACT(k, CAPACITANCE_HERTZ) : CONTACT(k, CAPACITANCE)) + rough;
-  double conductance = metal ? 1.0 / LB_METAL : LB_CONDUCTIVITY * capacitance / (carried ? oil(b, k) : between);
+  double conductance = metal ? 1.0 / f->metal : f->conductivity * capacitance / (carried ? oil(b, f, k) : between);
   double film = carried ? CONTACT(k, FILM_CENTRAL) : 0.0;
-  if (LB_BALL_PERMITTIVITY > 0.0) {
+  if (f->ball_permittivity > 0.0) {
     double size = loaded(b, k) ? entrance(b, k) : through;
-    double ball = 2.0 * PI * LB_VACUUM_PERMITTIVITY * LB_BALL_PERMITTIVITY * size;
+    double ball = 2.0 * PI * LB_VACUUM_PERMITTIVITY * f->ball_permittivity * size;
     capacitance = capacitance * ball / (capacitance + ball), conductance = film = 0.0;
   }
   TABLE(CAPACITANCE, 1, k) = capacitance, TABLE(CONDUCTANCE, 1, k) = conductance;
-  TABLE(FILM, 1, k) = film, TABLE(THINNEST, 1, k) = CONTACT(k, FILM_MINIMUM), TABLE(AREA, 1, k) = area(b, k);
+  TABLE(FILM, 1, k) = film, TABLE(THINNEST, 1, k) = CONTACT(k, FILM_MINIMUM), TABLE(AREA, 1, k) = area(b, f, k);
   PATCHES(1, k) = loaded(b, k) ? fabs(CONTACT(k, ENTRAINMENT)) / (2.0 * CONTACT(k, SEMI_AXIS_B)) : 0.0;
 }
 
 void lb_take(lb_bearing *b) {
-  double between = mean_of_films(b), through = LB_BALL_PERMITTIVITY > 0.0 ? mean_of_entrances(b) : 0.0;
-  for (unsigned k = 0; k < CONTACTS; k++) part(b, k, between, through);
+  for (const lb_film *f = lb_films; f < lb_films + LB_CIRCUIT_BEARINGS; f++) {
+    double between = mean_of_films(b, f), through = f->ball_permittivity > 0.0 ? mean_of_entrances(b, f) : 0.0;
+    for EACH(k, f) part(b, f, k, between, through);
+  }
   AT(TIMES, 1) = REAL(b, LB_CONTROL_TIME);
 }
 
@@ -79,8 +88,8 @@ static void keep(lb_bearing *b) {
 
 static double source(lb_bearing *b, double time) { return NUMBER(GIVEN) + NUMBER(RATE) * (time - NUMBER(SINCE)); }
 
-static double across(lb_bearing *b) {
-  return LB_CIRCUIT_INSULATED ? AT(POTENTIAL, 0) - AT(POTENTIAL, 1) : AT(POTENTIAL, 0);
+static double across(lb_bearing *b, const lb_film *f) {
+  return f->node ? AT(POTENTIAL, 0) - AT(POTENTIAL, f->node) : AT(POTENTIAL, 0);
 }
 
 static int failed(lb_bearing *b, int64_t status) {
@@ -90,14 +99,20 @@ static int failed(lb_bearing *b, int64_t status) {
                 "positive, and a law of discharges within its range?", lb_time(b), (long long)status, TOTAL(STATUS));
 }
 
-/* What a host asks for, of the events of the step. */
+/* What a host asks for of a bearing, of the events of the step. */
+static void tell_of(lb_bearing *b, unsigned i, double length) {
+  const lb_film *f = lb_films + i;
+  double charge = 0.0, peak = 0.0, now = across(b, f), low = AT(EXTREMES, 2 * i), high = AT(EXTREMES, 2 * i + 1);
+  for (unsigned n = 0; n < (unsigned)TOTAL(EVENTS); n++)
+    if (EVENT(n, BALL) >= f->first_ball && EVENT(n, BALL) < f->first_ball + f->balls)
+      charge += fabs(EVENT(n, CHARGE)), peak = fmax(peak, EVENT(n, PEAK));
+  ANSWER(i, VOLTAGE) = now, ANSWER(i, LOWEST) = isfinite(low) ? low : now, ANSWER(i, HIGHEST) = isfinite(high) ? high : now;
+  ANSWER(i, ARC_CURRENT) = charge / length, ANSWER(i, PEAK) = peak;
+}
+
 static void tell(lb_bearing *b, double length, double before) {
-  double charge = 0.0, peak = 0.0;
-  for (unsigned i = 0; i < (unsigned)TOTAL(EVENTS); i++)
-    charge += fabs(EVENT(i, CHARGE)), peak = fmax(peak, EVENT(i, PEAK));
-  double now = across(b), low = AT(EXTREMES, 0), high = AT(EXTREMES, 1);
-  NUMBER(VOLTAGE) = now, NUMBER(LOWEST) = isfinite(low) ? low : now, NUMBER(HIGHEST) = isfinite(high) ? high : now;
-  NUMBER(ARC_CURRENT) = charge / length, NUMBER(PEAK) = peak;
+  for (unsigned i = 0; i < LB_CIRCUIT_BEARINGS; i++) tell_of(b, i, length);
+  NUMBER(SHAFT) = AT(POTENTIAL, 0);
   NUMBER(CURRENT) = NUMBER(WINDING) * (NUMBER(LAST) - AT(POTENTIAL, 0) - before) / length;
 }
 

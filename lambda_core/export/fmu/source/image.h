@@ -32,6 +32,11 @@ typedef struct {
   double highest_pressure, least_share;
   int one_sided, ridge;
 } lb_part; /* a bearing */
+typedef struct {
+  unsigned first_ball, balls, node; /* of the outer ring where it is insulated, otherwise 0 */
+  double conductivity, metal, ball_permittivity;
+  int rough, of_lines;
+} lb_film; /* of a bearing in the circuit */
 
 #include "case.h" /* written for each case: places in the image, variables, sentences */
 
