@@ -26,8 +26,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.fitting.fit_case import fit
     from lambda_core.fitting.measured import compare_measured
     from lambda_core.fitting.traction_curve import traction
-    from lambda_core.model.cases import builtin_cases, case, catalogue, init_case, save, schema
-    from lambda_core.model.checking import check, describe
+    from lambda_core.model.api import builtin_cases, case, catalogue, check, describe, init_case, save, schema
     from lambda_core.runs.api import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.runs.compare import compare
     from lambda_core.runs.stored import cite, result, side_by_side, summary
@@ -66,9 +65,9 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.fitting.measured import add_measured, measured_series
     from lambda_core.fitting.overlay import with_measured
     from lambda_core.fitting.report import FitReport
+    from lambda_core.model.api import draft, problems, templates
     from lambda_core.model.bearing_model import BearingModel
-    from lambda_core.model.cases import draft, templates
-    from lambda_core.model.checking import problems, resolve
+    from lambda_core.model.checking import resolve
     from lambda_core.model.checks.describe import ValueReport, value_reports
     from lambda_core.model.checks.oil_table import oil_table
     from lambda_core.model.checks.operating_limits import operating_warnings

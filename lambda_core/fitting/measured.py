@@ -277,7 +277,7 @@ def _not_computed(series: MeasuredSeries, reason: str) -> ComparedSeries:
 
 def _points(one: _Loaded, band: bool) -> list[ComparedPoint]:
     from lambda_core.case.case_writer import standalone_toml
-    from lambda_core.model.cases import case_of
+    from lambda_core.model.api import case_of
     from lambda_core.model.roller_case import roller_model
 
     data, case = one.measurements, case_of(one.series.case)

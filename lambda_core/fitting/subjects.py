@@ -56,7 +56,7 @@ def subject_of(
 ) -> Subject:
     """Return what a case is to a fit; UsageError where there is no such bearing."""
     from lambda_core.case.case_io import apply_overrides, is_machine, refuse_bearing
-    from lambda_core.model.cases import case_of
+    from lambda_core.model.api import case_of
 
     if is_machine(source):
         from lambda_core.fitting.machine_subject import MachineSubject

@@ -239,7 +239,7 @@ def _laws() -> Sequence[str]:
 def _model(oil: str, temperature: float, law: str, parameters: Mapping[str, Any]) -> BearingModel:
     """Return a bearing with this oil and traction law: what the context of a law needs."""
     from lambda_core.discovery.manager import registry
-    from lambda_core.model.cases import case_of
+    from lambda_core.model.api import case_of
     from lambda_core.model.checking import resolve
 
     own = {name: value for name, value in parameters.items() if name in _fields(registry().model("traction", law))}

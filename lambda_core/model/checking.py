@@ -1,11 +1,11 @@
-"""From a case to the model of a run: checking, resolving and describing it."""
+"""Resolve the case of one bearing to the model of a run."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lambda_core.domain.errors import CaseError, Problem, UsageError
+from lambda_core.domain.errors import CaseError, UsageError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -14,51 +14,6 @@ if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
     from lambda_core.catalogue.protocol import Catalogue
     from lambda_core.model.bearing_model import BearingModel
-    from lambda_core.model.checks.describe import CaseReport
-    from lambda_core.model.machine_model import MachineModel
-
-
-def check(
-    source: Source,
-    overrides: Iterable[str] = (),
-    *,
-    folder: Path | None = None,
-    catalogue: Catalogue | None = None,
-    is_static: bool = False,
-) -> BearingModel | MachineModel:
-    """Read and resolve a case, of one bearing or of a machine, without running it.
-
-    Parameters
-    ----------
-    source : str, Path, mapping or case
-        File, built-in name, plain tables as they stand in a file, or a case.
-    overrides : iterable of str
-        Changes ``path=value``.
-    folder : pathlib.Path, optional
-        Where file names in plain tables are looked up; default: the working directory.
-    catalogue : Catalogue, optional
-        An open catalogue to look things up in; default: one is opened for this call.
-    is_static : bool
-        Whether only an equilibrium is wanted: a case in which nothing turns then needs no duration.
-
-    Returns
-    -------
-    BearingModel or MachineModel
-        Of one bearing, or of a machine; with its assumptions and the origin of every value.
-
-    Raises
-    ------
-    CaseError
-        With every mistake at once: those of the file itself and those that only the catalogue, the
-        registry and the geometry can show.
-    """
-    from lambda_core.case.case_io import is_machine
-
-    if is_machine(source):
-        from lambda_core.model.resolve_machine import resolve_machine
-
-        return resolve_machine(source, overrides, folder=folder, catalogue=catalogue)
-    return check_bearing(source, overrides, folder=folder, catalogue=catalogue, is_static=is_static)
 
 
 def check_bearing(
@@ -69,7 +24,7 @@ def check_bearing(
     catalogue: Catalogue | None = None,
     is_static: bool = False,
 ) -> BearingModel:
-    """Read and resolve the case of one bearing; as :func:`check`, which takes machines, too."""
+    """Read and resolve the case of one bearing; as :func:`lambda_core.api.check`, which takes machines, too."""
     from lambda_core.case.case_io import load_case
     from lambda_core.case.salvage import InvalidCase
 
@@ -125,44 +80,6 @@ def resolve(
         return freeze(case, models, catalogue, is_static=is_static, place=place)
     with closing(models.catalogue()) as opened:
         return freeze(case, models, opened, is_static=is_static, place=place)
-
-
-def problems(source: Source) -> tuple[Problem, ...]:
-    """Return every mistake of a case or of plain tables; for forms that check while one types.
-
-    Parameters
-    ----------
-    source : mapping or case
-        Plain tables as they stand in a file, or a case; of one bearing or of a machine.
-
-    Returns
-    -------
-    tuple of Problem
-        Place and sentence of each; empty when the case is fine.
-    """
-    try:
-        check(source)
-    except CaseError as error:
-        return error.problems
-    return ()
-
-
-def describe(model: BearingModel) -> CaseReport:
-    """Say what a resolved model is: headline, bodies, models, assumptions, every value with its origin.
-
-    Parameters
-    ----------
-    model : BearingModel
-        From :func:`check` or :func:`resolve`.
-
-    Returns
-    -------
-    CaseReport
-        ``text()`` are the lines for people.
-    """
-    from lambda_core.model.checks.describe import describe as report
-
-    return report(model)
 
 
 def model_of(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
-from lambda_core.model.checking import check
+from lambda_core.model.api import check
 from lambda_core.results.answer import answers
 from lambda_core.runs.rerun import ready, rerun
 from lambda_core.runs.stored import result

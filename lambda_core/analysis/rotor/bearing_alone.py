@@ -55,7 +55,7 @@ def bearing_of_run(result: Result) -> BearingModel:
         When the case does not resolve any more, or the machine has no equilibrium.
     """
     from lambda_core.case.case_io import toml_tables
-    from lambda_core.model.checking import check
+    from lambda_core.model.api import check
 
     model = check(toml_tables(result.case_toml, str(result.path)))
     return model if isinstance(model, BearingModel) else bearing_alone(model, result.of_bearing().bearing)

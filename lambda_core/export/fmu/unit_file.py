@@ -100,7 +100,7 @@ def export_fmu(
     from lambda_core.case.case_writer import standalone_toml
     from lambda_core.domain.files import check_folder, check_new, check_target
     from lambda_core.export.fmu.varied import varied
-    from lambda_core.model.checking import check
+    from lambda_core.model.api import check
     from lambda_core.solver.drivers.given import COUPLINGS
 
     wanted = tuple(dict.fromkeys(platforms))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
 from lambda_core.domain.files import check_folder, check_new, check_target
-from lambda_core.model.checking import check
+from lambda_core.model.api import check
 from lambda_core.runs.stored import result
 from lambda_core.studies.api import study_status
 

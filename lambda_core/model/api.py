@@ -1,19 +1,23 @@
-"""Cases: reading, editing, checking and writing what an engineer says about a bearing."""
+"""Read, edit, check, describe and write cases."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.domain.errors import CaseError, Problem, UsageError, unknown_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from lambda_core.case.case import Case
+    from lambda_core.case.case_io import Source
     from lambda_core.case.draft import Draft
     from lambda_core.case.machine import MachineCase
     from lambda_core.catalogue.protocol import Catalogue
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.checks.describe import CaseReport
+    from lambda_core.model.machine_model import MachineModel
 
 
 GEARED_SHAFT = "geared-shaft"  # template of a shaft in two bearings
@@ -44,6 +48,89 @@ def case(source: str | Path | Mapping[str, Any], overrides: Iterable[str] = ()) 
     from lambda_core.case.case_io import read_case
 
     return read_case(source, overrides)
+
+
+def check(
+    source: Source,
+    overrides: Iterable[str] = (),
+    *,
+    folder: Path | None = None,
+    catalogue: Catalogue | None = None,
+    is_static: bool = False,
+) -> BearingModel | MachineModel:
+    """Read and resolve a case, of one bearing or of a machine, without running it.
+
+    Parameters
+    ----------
+    source : str, Path, mapping or case
+        File, built-in name, plain tables as they stand in a file, or a case.
+    overrides : iterable of str
+        Changes ``path=value``.
+    folder : pathlib.Path, optional
+        Where file names in plain tables are looked up; default: the working directory.
+    catalogue : Catalogue, optional
+        An open catalogue to look things up in; default: one is opened for this call.
+    is_static : bool
+        Whether only an equilibrium is wanted: a case in which nothing turns then needs no duration.
+
+    Returns
+    -------
+    BearingModel or MachineModel
+        Of one bearing, or of a machine; with its assumptions and the origin of every value.
+
+    Raises
+    ------
+    CaseError
+        With every mistake at once: those of the file itself and those that only the catalogue, the
+        registry and the geometry can show.
+    """
+    from lambda_core.case.case_io import is_machine
+
+    if is_machine(source):
+        from lambda_core.model.resolve_machine import resolve_machine
+
+        return resolve_machine(source, overrides, folder=folder, catalogue=catalogue)
+    from lambda_core.model.checking import check_bearing
+
+    return check_bearing(source, overrides, folder=folder, catalogue=catalogue, is_static=is_static)
+
+
+def problems(source: Source) -> tuple[Problem, ...]:
+    """Return every mistake of a case or of plain tables; for forms that check while one types.
+
+    Parameters
+    ----------
+    source : mapping or case
+        Plain tables as they stand in a file, or a case; of one bearing or of a machine.
+
+    Returns
+    -------
+    tuple of Problem
+        Place and sentence of each; empty when the case is fine.
+    """
+    try:
+        check(source)
+    except CaseError as error:
+        return error.problems
+    return ()
+
+
+def describe(model: BearingModel) -> CaseReport:
+    """Say what a resolved model is: headline, bodies, models, assumptions, every value with its origin.
+
+    Parameters
+    ----------
+    model : BearingModel
+        From :func:`check` or :func:`resolve`.
+
+    Returns
+    -------
+    CaseReport
+        ``text()`` are the lines for people.
+    """
+    from lambda_core.model.checks.describe import describe as report
+
+    return report(model)
 
 
 def builtin_cases() -> dict[str, str]:
