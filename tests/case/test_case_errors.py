@@ -347,8 +347,7 @@ def test_any_value_anywhere_is_accepted_or_a_sentence(path: str, value: Any) -> 
         assert "kind:" not in problem.where
 
 
-@pytest.mark.parametrize("path", option_paths(Case))
-def test_every_option_explains_itself(path: str) -> None:
-    info = field_at(Case, path)
-    assert info is not None
-    assert info.description
+def test_every_option_explains_itself() -> None:
+    found = {path: field_at(Case, path) for path in option_paths(Case)}
+    assert len(found) > 300
+    assert [path for path, info in found.items() if info is None or not info.description] == []

@@ -5,10 +5,10 @@ from __future__ import annotations
 import importlib
 import inspect
 import re
+from collections.abc import Iterator
 from typing import Any
 
 import docstrings
-import pytest
 
 PUBLIC = {
     f"{module}.{name}": item
@@ -41,22 +41,29 @@ def test_there_is_something_to_check() -> None:
     assert len(FUNCTIONS) > 60
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
-def test_functions_are_documented(name: str) -> None:
-    function = FUNCTIONS[name]
+def test_functions_are_documented() -> None:
+    faults = {name: list(_faults(name, function)) for name, function in FUNCTIONS.items()}
+    assert {name: found for name, found in faults.items() if found} == {}
+
+
+def _faults(name: str, function: Any) -> Iterator[str]:
     doc = docstrings.parsed(function)
-    assert doc.text, "has no docstring"
+    if not doc.text:
+        yield "has no docstring"
     wanted = docstrings.parameters(function)
     # A method of one line whose arguments speak for themselves may name them in that line.
     missing = [p for p in wanted if p not in doc.names("Parameters") and not _in_line(name, p, doc)]
-    assert not missing, f"does not describe {', '.join(missing)}"
+    if missing:
+        yield f"does not describe {', '.join(missing)}"
     returns = inspect.signature(function).return_annotation
     if returns not in NOTHING:
         said = {"Returns", "Yields"} & doc.sections.keys() or re.search(r"\b(return|yield|tell)s?\b", doc.text, re.I)
-        assert said, "does not say what it returns"
-    raised = docstrings.raised(function)
+        if not said:
+            yield "does not say what it returns"
     described = doc.sections.get("Raises", "") + doc.text
-    assert "returned." in name or not [error for error in raised if error not in described], "raises without saying so"
+    silent = [error for error in docstrings.raised(function) if error not in described]
+    if silent and "returned." not in name:
+        yield f"raises {', '.join(silent)} without saying so"
 
 
 def _in_line(name: str, parameter: str, doc: docstrings.Docstring) -> bool:
@@ -64,30 +71,35 @@ def _in_line(name: str, parameter: str, doc: docstrings.Docstring) -> bool:
     return is_method and (f"`{parameter}`" in doc.text or len(doc.text.split("\n\n")[0].splitlines()) == 1)
 
 
-@pytest.mark.parametrize("name", [n for n in PUBLIC if n.startswith(("lambda_core.api", "lambda_core.testing"))])
-def test_functions_that_people_call_have_all_sections(name: str) -> None:
+def test_functions_that_people_call_have_all_sections() -> None:
     """The API and the test kit, called from scripts: sections for everything, not a line in the text."""
-    if isinstance(PUBLIC[name], type):
-        return
-    doc = docstrings.parsed(PUBLIC[name])
-    returns = inspect.signature(PUBLIC[name]).return_annotation
-    if returns not in NOTHING:
-        assert {"Returns", "Yields"} & doc.sections.keys(), "has no section Returns"
-    if docstrings.parameters(PUBLIC[name]):
-        assert "Parameters" in doc.sections
+    called = {n: item for n, item in PUBLIC.items() if n.startswith(("lambda_core.api", "lambda_core.testing"))}
+    without = []
+    for name, item in called.items():
+        if isinstance(item, type):
+            continue
+        sections = docstrings.parsed(item).sections
+        if inspect.signature(item).return_annotation not in NOTHING and not {"Returns", "Yields"} & sections.keys():
+            without.append(f"{name}: Returns")
+        if docstrings.parameters(item) and "Parameters" not in sections:
+            without.append(f"{name}: Parameters")
+    assert len(called) > 30
+    assert without == []
 
 
 def _complete() -> list[str]:
     return [n for n, cls in CLASSES.items() if not cls.__module__.startswith(GAPS) or cls.__module__ in COMPLETE]
 
 
-@pytest.mark.parametrize("name", _complete())
-def test_classes_are_documented_with_all_their_fields(name: str) -> None:
-    cls = CLASSES[name]
-    assert docstrings.parsed(cls).text, "has no docstring"
-    fields = docstrings.fields(cls)
-    missing = [field for field, meaning in fields.items() if not meaning and not _named_for(field)]
-    assert not missing, f"fields without a meaning: {', '.join(missing)}"
+def test_classes_are_documented_with_all_their_fields() -> None:
+    complete = {name: CLASSES[name] for name in _complete()}
+    assert len(complete) > 30
+    assert [name for name, cls in complete.items() if not docstrings.parsed(cls).text] == [], "no docstring"
+    missing = {
+        name: [field for field, meaning in docstrings.fields(cls).items() if not meaning and not _named_for(field)]
+        for name, cls in complete.items()
+    }
+    assert {name: fields for name, fields in missing.items() if fields} == {}, "fields without a meaning"
 
 
 def _named_for(field: str) -> bool:

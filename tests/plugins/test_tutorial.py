@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from warm import Warm
 
 from lambda_core.discovery import hookspecs
 from lambda_core.discovery.reference import renewed
@@ -34,7 +35,7 @@ def steps() -> list[tuple[str, list[str]]]:
 
 
 @pytest.fixture(scope="module")
-def followed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str], dict[str, str]]:
+def followed(tmp_path_factory: pytest.TempPathFactory, warm: Warm) -> tuple[Path, dict[str, str], dict[str, str]]:
     """Follow the page from top to bottom; return folder, environment and what each command said."""
     root = tmp_path_factory.mktemp("tutorial")
     for name, text in FILES:
@@ -43,7 +44,7 @@ def followed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, 
     bin_folder = Path(sys.executable).parent
     # pip puts packages into a folder of this test, without network; PIP_NO_BUILD_ISOLATION=0 means "not isolated".
     environment = os.environ | {
-        "PATH": f"{bin_folder}{os.pathsep}{os.environ['PATH']}",
+        "PATH": os.pathsep.join([str(warm.ready().path), str(bin_folder), os.environ["PATH"]]),
         "PYTHONPATH": str(root / "site"),
         "PIP_TARGET": str(root / "site"),
         "PIP_NO_DEPS": "1",

@@ -93,6 +93,20 @@ def undisturbed(kind: Kind, tmp_path_factory: pytest.TempPathFactory) -> Content
     return content(path)
 
 
+@pytest.fixture(scope="module")
+def finished(kind: Kind, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A short run, which nobody changes."""
+    path = tmp_path_factory.mktemp("finished") / "run.h5"
+    api.run(kind.source, ["solver.duration=0.1 ms"], out=path)
+    return path
+
+
+@pytest.fixture
+def short(finished: Path, tmp_path: Path) -> Path:
+    """A copy of the short run."""
+    return Path(shutil.copy(finished, tmp_path / "run.h5"))
+
+
 def content(path: Path) -> Content:
     """Return everything that a run appends to, by dataset."""
     with hdf5.open_for_reading(path) as file:
@@ -201,16 +215,14 @@ def test_a_duration_is_kept(kind: Kind, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("part", ["load", "integrals/input", "inputs/model_json", "ball"])
-def test_a_missing_part_is_damage(kind: Kind, part: str, tmp_path: Path) -> None:
-    path = tmp_path / "run.h5"
-    api.run(kind.source, ["solver.duration=0.1 ms"], out=path)
-    with h5py.File(path, "r+") as file:
+def test_a_missing_part_is_damage(part: str, short: Path) -> None:
+    with h5py.File(short, "r+") as file:
         first = next(iter(file["bearings"]))
         del file[f"bearings/{first}/{part}"]
         if part in file:
             del file[part]
     with pytest.raises(api.UsageError, match=r"is damaged|is not a known channel"):
-        summed(path, first)
+        summed(short, first)
 
 
 def summed(path: Path, bearing: str) -> None:
@@ -220,11 +232,9 @@ def summed(path: Path, bearing: str) -> None:
 
 
 @pytest.mark.parametrize("what", ["texts for numbers", "an empty text"])
-def test_a_part_of_another_kind_is_damage(kind: Kind, what: str, tmp_path: Path) -> None:
+def test_a_part_of_another_kind_is_damage(what: str, short: Path) -> None:
     """An empty array in place of a text made HDF5 crash when the run went on."""
-    path = tmp_path / "run.h5"
-    api.run(kind.source, ["solver.duration=0.1 ms"], out=path)
-    with h5py.File(path, "r+") as file:
+    with h5py.File(short, "r+") as file:
         first = next(iter(file["bearings"]))
         if what == "an empty text":
             file[f"bearings/{first}/load"].attrs["long_name"] = np.empty(0)
@@ -233,7 +243,7 @@ def test_a_part_of_another_kind_is_damage(kind: Kind, what: str, tmp_path: Path)
             del group["time"]
             group["time"] = ["a"]
     with pytest.raises(api.UsageError, match=r"is damaged|is not a text"):
-        asked_and_gone_on(path, first)
+        asked_and_gone_on(short, first)
 
 
 def asked_and_gone_on(path: Path, bearing: str) -> None:
@@ -250,19 +260,15 @@ def test_a_bearing_has_the_name_of_a_dimension(name: str, tmp_path: Path) -> Non
     assert api.result(tmp_path / "run.h5", name)["load"].shape[1:] == (9, 2)
 
 
-def test_other_code_does_not_go_on(kind: Kind, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "run.h5"
-    api.run(kind.source, ["solver.duration=0.1 ms"], out=path)
+def test_other_code_does_not_go_on(short: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("lambda_core.laws.pack.code", lambda: "pack linux x86-64-v3 numba 0.0")
     with pytest.raises(ResultError, match="cannot go on: it was computed by other machine code"):
-        api.resume(path, ["solver.duration=0.2 ms"])
+        api.resume(short, ["solver.duration=0.2 ms"])
 
 
-def test_overwriting_keeps_every_other_file(kind: Kind, tmp_path: Path) -> None:
-    path = tmp_path / "run.h5"
-    (tmp_path / "measurement.h5").write_text("x")
-    api.run(kind.source, ["solver.duration=0.1 ms"], out=path)
-    api.run(kind.source, ["solver.duration=0.1 ms"], out=path, force=True)
-    assert {file.name: file.stat().st_size > 1000 for file in tmp_path.iterdir()} == {
+def test_overwriting_keeps_every_other_file(kind: Kind, short: Path) -> None:
+    (short.parent / "measurement.h5").write_text("x")
+    api.run(kind.source, ["solver.duration=0.1 ms"], out=short, force=True)
+    assert {file.name: file.stat().st_size > 1000 for file in short.parent.iterdir()} == {
         "run.h5": True, "measurement.h5": False,
     }  # fmt: skip

@@ -45,37 +45,43 @@ def differences(found: list[dict[str, Any]], expected: list[dict[str, Any]]) -> 
     ]
 
 
-@pytest.fixture(scope="module")
-def reference(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[dict[str, Any]]]:
-    """Tables of a small map and of a few runs, computed one after the other in this process."""
+def in_this_process(folder: Path, text: str) -> list[dict[str, Any]]:
+    """Return the table of a study, computed one point after the other in this process."""
     from studies import Inline
 
-    found = {}
-    for name, text in (("map", MAP), ("runs", RUNS.format(duration="0.02 s", speeds=2, loads=2))):
-        folder = tmp_path_factory.mktemp("reference") / name
-        path = folder.with_suffix(".toml")
-        path.write_text(text, encoding="utf-8")
-        api.study_run(path, folder, executor=Inline())
-        found[name] = numbers(folder)
-    return found
+    path = folder.with_suffix(".toml")
+    path.write_text(text, encoding="utf-8")
+    api.study_run(path, folder, executor=Inline())
+    return numbers(folder)
 
 
-def test_processes_give_the_same_table(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
+@pytest.fixture(scope="module")
+def map_table(tmp_path_factory: pytest.TempPathFactory) -> list[dict[str, Any]]:
+    return in_this_process(tmp_path_factory.mktemp("reference") / "map", MAP)
+
+
+@pytest.fixture(scope="module")
+def runs_table(tmp_path_factory: pytest.TempPathFactory) -> list[dict[str, Any]]:
+    text = RUNS.format(duration="0.02 s", speeds=2, loads=2)
+    return in_this_process(tmp_path_factory.mktemp("reference") / "runs", text)
+
+
+def test_processes_give_the_same_table(write: Write, tmp_path: Path, map_table: list[dict[str, Any]]) -> None:
     reports = []
     status = api.study_run(write(MAP), tmp_path / "map", workers=2, progress=reports.append)
     assert status.done == 6
-    assert numbers(tmp_path / "map") == reference["map"]
+    assert numbers(tmp_path / "map") == map_table
     assert status.parallel_efficiency is not None
     assert 0.0 < status.parallel_efficiency <= 1.05
     assert reports[-1].done == 6
 
 
 @pytest.mark.slow
-def test_a_dask_cluster_gives_the_same_table(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
+def test_a_dask_cluster_gives_the_same_table(write: Write, tmp_path: Path, map_table: list[dict[str, Any]]) -> None:
     pytest.importorskip("distributed")
     status = api.study_run(write(MAP), tmp_path / "map", executor="dask", workers=2)
     assert status.done == 6
-    assert numbers(tmp_path / "map") == reference["map"]
+    assert numbers(tmp_path / "map") == map_table
 
 
 def test_a_scheduler_that_does_not_answer_is_named(
@@ -139,11 +145,11 @@ def killed_and_resumed(start: Start, path: Path, folder: Path, kills: int, seed:
 
 @pytest.mark.full
 def test_a_killed_study_goes_on_to_the_same_table(
-    start: Start, write: Write, tmp_path: Path, reference: dict[str, Any]
+    start: Start, write: Write, tmp_path: Path, runs_table: list[dict[str, Any]]
 ) -> None:
     folder = tmp_path / "killed"
     killed_and_resumed(start, write(RUNS.format(duration="0.02 s", speeds=2, loads=2)), folder, 1, 1, last=1)
-    assert differences(numbers(folder), reference["runs"]) == []
+    assert differences(numbers(folder), runs_table) == []
 
 
 @pytest.mark.slow
@@ -173,7 +179,9 @@ def children(pid: int) -> list[int]:
 
 @pytest.mark.full
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for workers in /proc")
-def test_a_lost_worker_loses_no_point(start: Start, write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
+def test_a_lost_worker_loses_no_point(
+    start: Start, write: Write, tmp_path: Path, runs_table: list[dict[str, Any]]
+) -> None:
     folder = tmp_path / "lost"
     path = write(RUNS.format(duration="0.02 s", speeds=2, loads=2))
     study = start("run", path, "--out", str(folder), "--workers", "1")
@@ -185,7 +193,7 @@ def test_a_lost_worker_loses_no_point(start: Start, write: Write, tmp_path: Path
     finally:
         if study.poll() is None:
             os.killpg(study.pid, signal.SIGKILL)
-    assert differences(numbers(folder), reference["runs"]) == []
+    assert differences(numbers(folder), runs_table) == []
     assert study.returncode == 5  # runs of 20 ms have not converged, and the exit code says so
 
 
@@ -219,7 +227,7 @@ def test_ctrl_c_stops_the_runs_in_hand_and_begins_no_other(start: Start, write: 
 
 
 @pytest.mark.slow
-def test_a_lost_dask_worker_loses_no_point(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
+def test_a_lost_dask_worker_loses_no_point(write: Write, tmp_path: Path, runs_table: list[dict[str, Any]]) -> None:
     distributed: Any = pytest.importorskip("distributed")
     path = write(RUNS.format(duration="0.02 s", speeds=2, loads=2))
     folder = tmp_path / "dask"
@@ -238,7 +246,7 @@ def test_a_lost_dask_worker_loses_no_point(write: Write, tmp_path: Path, referen
         thread.start()
         api.study_run(path, folder, executor=cluster.scheduler_address, workers=2)
         thread.join()
-    assert differences(numbers(folder), reference["runs"]) == []
+    assert differences(numbers(folder), runs_table) == []
 
 
 def deadly(task: Any) -> Any:

@@ -15,6 +15,7 @@ from lambda_core.laws import check
 from lambda_core.laws.state import State, state_fault
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine
+from lambda_core.runs import law_blame
 from lambda_core.runs.machine_law_blame import BlamingMachineEngine
 from lambda_core.solver.drivers.machine_motion import machine_start
 
@@ -100,8 +101,12 @@ def test_a_run_ends_with_the_state_that_ran_away(capsys: pytest.CaptureFixture[s
 
 
 @pytest.mark.timeout(900)
-def test_a_machine_ends_with_the_bearing_whose_state_ran_away() -> None:
-    """The bearing is named, too; the other one keeps the state as well, but its contacts came first."""
+def test_a_machine_ends_with_the_bearing_whose_state_ran_away(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The bearing is named, too; the other one keeps the state as well, but its contacts came first.
+
+    Steps become smaller as the state grows: a hundred times its scale is far enough here.
+    """
+    monkeypatch.setattr(law_blame, "FAR", 100.0)
     machine = resolve_machine(tomllib.loads(geared_shaft("box")), ["models.contact_state=feeding"])
     found = BlamingMachineEngine(machine_start(machine)).advance(3e-3)
     assert not found.ok
