@@ -123,6 +123,9 @@ class _Point:
         return read_values(solved, [READ[name] for name in names], one=one)
 
 
+ROLLER_QUANTITIES = ("friction torque", "power loss", *(f"displacement {axis}" for axis in "xyz"))
+
+
 def roller_values(model: RollerModel, names: Sequence[str]) -> FloatArray:
     """Return measured quantities as a roller bearing predicts them; UsageError for one that it does not have."""
     from lambda_core.results.roller_quasistatic import roller_quasistatic

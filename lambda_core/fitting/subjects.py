@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -23,7 +24,7 @@ from lambda_core.analysis.band.quantities import (
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.units import units_of
 from lambda_core.domain.written_values import quantities
-from lambda_core.fitting.operating_points import OperatingPoints
+from lambda_core.fitting.operating_points import ROLLER_QUANTITIES, OperatingPoints, roller_values
 from lambda_core.studies.job import resolve_point, with_temperatures
 
 if TYPE_CHECKING:
@@ -63,7 +64,9 @@ def subject_of(
 
         return MachineSubject(source, overrides, bearing)
     refuse_bearing(bearing)
-    return BearingSubject(apply_overrides(case_of(source), overrides))
+    case = apply_overrides(case_of(source), overrides)
+    subject = BearingSubject(case)
+    return subject if subject.model.rollers is None else RollerSubject(case)
 
 
 class BearingSubject:
@@ -74,16 +77,16 @@ class BearingSubject:
         from lambda_core.case.case_writer import standalone_toml
         from lambda_core.model.checking import resolve
 
-        self._model = resolve(case, is_static=True)
+        self.model = resolve(case, is_static=True)
         self._toml = standalone_toml(case)
         self._points = OperatingPoints(self._toml)
-        self.name, self.title = self._model.name, self._model.title
+        self.name, self.title = self.model.name, self.model.title
         is_computed = case.operation.temperatures == "computed"
         self.words = vocabulary(CONDITIONS, MEASURED, Case, TEMPERATURES if is_computed else ())
 
     def varied(self, specification: str) -> Graded:
         """Return the parameter that a text names."""
-        return varied(self._model, specification)
+        return varied(self.model, specification)
 
     def values(
         self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
@@ -96,6 +99,38 @@ class BearingSubject:
         return law_deviations(
             Effects(with_temperatures(resolve_point(self._toml, tuple(changes))), names, without=fitted)
         )
+
+
+class RollerSubject(BearingSubject):
+    """One roller bearing, as its quasi-static answer has it."""
+
+    def __init__(self, case: Case) -> None:
+        from lambda_core.model.roller_case import roller_model
+
+        super().__init__(case)
+        self._case, rollers = case, roller_model(case)
+        assert rollers is not None
+        self.model = replace(self.model, values=(*self.model.values, *rollers.values))
+        kept = {name: MEASURED[name] for name in ROLLER_QUANTITIES}
+        self.words = vocabulary(CONDITIONS, kept, type(case), ())
+
+    def values(
+        self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
+    ) -> FloatArray:
+        """Return predicted quantities, one row: there is one position of the rollers."""
+        from lambda_core.case.case_io import apply_overrides
+        from lambda_core.model.roller_case import roller_model
+
+        del one
+        moved = [change for graded, number in parameters for change in graded.changes(number)]
+        # the case may be wrong with these changes: then this says what is wrong
+        model = roller_model(apply_overrides(self._case, (*changes, *moved)))
+        assert model is not None
+        return roller_values(model, names)[np.newaxis]
+
+    def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
+        """Return nothing: rollers have no model band."""
+        return {}
 
 
 def law_deviations(effects: Effects) -> dict[str, float]:

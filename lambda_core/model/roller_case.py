@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,8 +30,9 @@ from lambda_core.model.bearing_model import ResolvedValue
 from lambda_core.model.bodies.resolve_materials import is_grease, lubrication_of, resolve_lubricant, resolve_oil_level
 from lambda_core.model.checks.oil_table import OilLaw, coefficients_of
 from lambda_core.model.checks.operating_limits import speed_warning
+from lambda_core.model.laws.roller_laws import friction_of_case
 from lambda_core.model.laws.time_functions import initial, time_function
-from lambda_core.model.ledger import Ledger
+from lambda_core.model.ledger import Ledger, Status
 from lambda_core.model.settings.contamination import contamination_of
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ _NEEDED = ("kind", "roller_count", "roller_diameter", "effective_length", "pitch
 _QUANTITIES = {"roller_count": "", "contact_angle": "angle"}  # of what is no length
 _BOUNDARY = ("bore_diameter", "outside_diameter", "width")
 _REPLENISHMENT = {"oil bath": 3e-8, "oil jet": 3e-8, "under-race": 3e-8, "grease": 6e-8, "oil-air": 6e-8}
+_ROUGHNESS = "Wingertszahn et al. 2023, Lubricants 11, 369"
 _SHORTER = 0.1  # effective length: roller less this share of the diameter at each end where nothing is known
 
 
@@ -165,7 +167,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
             if law is not None:
                 state = _oil(law, case.lubricant.temperature, oil.thermal_conductivity)
     level = resolve_oil_level(case.lubricant, row, geometry.diameter if geometry else 0.0, ledger)
-    held = _held(case, ledger)
+    held, written = _held(case, ledger), friction_of_case(case, known, ledger)
     contamination = contamination_of(case, geometry.pitch_diameter, ledger) if geometry else None
     ledger.check(case.name)
     if geometry is None or state is None or row is None:
@@ -181,7 +183,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         held=held,
         speeds=(initial(time_function(case.operation.speed)), 0.0),
         oil=state,
-        friction=friction_parameters(geometry, case.surface.roughness, lubrication, level),
+        friction=replace(friction_parameters(geometry, case.surface.roughness, lubrication, level), **written),
         lubricant=row.name,
         base_type=row.base_type,
         lubrication=lubrication,
@@ -218,6 +220,9 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
     boundary = _boundary(case, row, ledger)
     values = {name: _pick(rollers, row, name, ledger) for name in (*_NEEDED[1:], "roller_length", "contact_angle")}
     values["rib_height"] = _pick(rollers, row, "rib_height", ledger)
+    is_given = "rib_roughness" in rollers.model_fields_set
+    origin: tuple[str, Status] = ("case", "given") if is_given else (_ROUGHNESS, "default")
+    ledger.record("bearing.rollers.rib_roughness", rollers.rib_roughness, "small_length", *origin)
     kind = rollers.kind or (row.kind if row else None)
     missing = [name for name in _NEEDED[1:] if values[name] is None] + ([] if kind else ["kind"])
     for name in missing:

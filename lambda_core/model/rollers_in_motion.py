@@ -24,6 +24,7 @@ from lambda_core.elements.roller.roller_friction import SKF_CONSTANTS, skf_kind
 from lambda_core.model.bearing_model import BearingModel, ChosenLaw, ResolvedValue
 from lambda_core.model.geometry.resolve_geometry import is_of_grooves
 from lambda_core.model.laws.law_defaults import law_sentences, record_law
+from lambda_core.model.laws.roller_laws import written_parameters
 from lambda_core.model.laws.time_functions import initial, time_function
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.roller_case import STRAIGHT, roller_geometry, roller_title
@@ -93,7 +94,7 @@ def _refuse_thrust(case: Case, rollers: RollerBearing, ledger: Ledger) -> None:
 def _refuse_parameters(case: Case, ledger: Ledger) -> None:
     """Refuse parameters and laws of single contacts that would have no effect."""
     fixed = (*DEFAULT_LINE_MODELS, "cage_contact", "fluid_drag")
-    written = {f"parameters.{role}": role for role in case.parameters}
+    written = {f"parameters.{role}": role for role in case.parameters if role not in DEFAULT_LINE_MODELS}
     forces = {name: getattr(case.forces, name) for name in case.forces.model_fields_set}
     for name, force in forces.items():
         if force is not None:
@@ -127,7 +128,8 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
     inner = inner.model_copy(update={dof: type(getattr(inner, dof))(mode="locked") for dof in silent})
     models = case.models.model_copy(update=dict.fromkeys(DEFAULT_LINE_MODELS))
     bodies = case.bodies.model_copy(update={"inner_ring": inner})
-    return case.model_copy(update={"bearing": bearing, "bodies": bodies, "models": models})
+    parameters = {role: values for role, values in case.parameters.items() if role not in DEFAULT_LINE_MODELS}
+    return case.model_copy(update={"bearing": bearing, "bodies": bodies, "models": models, "parameters": parameters})
 
 
 def with_rollers(
@@ -154,7 +156,7 @@ def with_rollers(
     Raises
     ------
     CaseError
-        For a law of point contacts.
+        For a law of point contacts, or parameters that a law does not have.
     """
 
     def chosen(role: str, name: str) -> ChosenLaw:
@@ -162,7 +164,13 @@ def with_rollers(
         if role in DEFAULT_LINE_MODELS and found.contact == "point":
             problem = Problem(f"models.{role}", f'"{name}" is a law of points: the contacts of rollers are lines')
             raise CaseError(case.name, [problem])
-        return ChosenLaw(found, found.parameters(), dict.fromkeys(found.parameters.model_fields, "default"))
+        written = case.parameters.get(role, {}) if role in DEFAULT_LINE_MODELS and name != "none" else {}
+        ledger = Ledger()
+        values = written_parameters(found, role, written, ledger)
+        ledger.check(case.name)
+        assert values is not None  # else a problem says why
+        origins = {key: "case" if key in written else "default" for key in found.parameters.model_fields}
+        return ChosenLaw(found, values, origins)
 
     lines = {role: chosen(role, getattr(case.models, role) or name) for role, name in DEFAULT_LINE_MODELS.items()}
     laws = dict(model.laws)

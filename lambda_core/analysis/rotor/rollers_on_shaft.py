@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import get_args
 
 import numpy as np
@@ -13,6 +13,7 @@ from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_friction import OilState, RollerFriction, friction
 from lambda_core.formulas.loading import Ring
 from lambda_core.laws.context import Oil
+from lambda_core.model.laws.roller_laws import friction_of_model
 from lambda_core.model.roller_case import RollerModel, friction_parameters
 from lambda_core.results.bearing_summary import Contact
 from lambda_core.results.rating import Rating
@@ -94,7 +95,9 @@ def rollers_on_shaft(ring: HeldRollers) -> RollersOnShaft:
     """Return what a roller bearing answers at the last pose of its rings."""
     model, bearing, motion, state = ring.model, ring.rollers, ring.motion, ring.state
     oil = _oil_state(ring.oil)
-    given = friction_parameters(bearing, model.roughness, model.lubrication, model.oil_level)
+    given = replace(
+        friction_parameters(bearing, model.roughness, model.lubrication, model.oil_level), **friction_of_model(model)
+    )
     solved = SolvedRollers(
         state, motion, friction(bearing, state, motion, oil, given) if motion.relative != 0.0 else None
     )

@@ -1,0 +1,70 @@
+"""Parameters that a case gives to the laws of rollers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel, ValidationError
+
+from lambda_core.case.problems import problems
+
+if TYPE_CHECKING:
+    from lambda_core.case.case import Case
+    from lambda_core.laws.law import Law
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.laws.resolve_laws import ModelSource
+    from lambda_core.model.ledger import Ledger
+
+# Laws of the quasi-static friction of rollers: role -> name, and name in FrictionParameters of each parameter.
+_FRICTION: Mapping[str, tuple[str, Mapping[str, str]]] = {
+    "elastic_hysteresis": ("johnson-line", {"loss_factor": "loss_factor"}),
+    "rolling_resistance": ("biboulet-houpert-line", {"thermal_coefficient": "inlet_heat"}),
+    "traction": ("ree-eyring", {"tau_eyring": "eyring_stress", "limit_ratio": "limit_ratio"}),
+    "boundary_friction": ("micro-slip", {"mu": "boundary_friction"}),
+    "supply": ("skf-replenishment", {"k_rs": "replenishment"}),
+}
+
+
+def written_parameters(law: Law, role: str, written: Mapping[str, Any], ledger: Ledger) -> BaseModel | None:
+    """Return the parameters of a law as a case gives them, the others by default; None after a problem."""
+    try:
+        found: BaseModel = law.parameters.model_validate(dict(written))
+    except ValidationError as error:
+        for problem in problems(error, law.parameters, dict(written)):
+            ledger.problem(f"parameters.{role}.{problem.where}".rstrip("."), f"{law.name}: {problem.message}")
+        return None
+    return found
+
+
+def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[str, float]:
+    """Return what a case says about the quasi-static friction of its rollers, by names of FrictionParameters.
+
+    Of parameters that it does not have the assumptions tell.
+    """
+    from lambda_core.model.laws.law_packages import law_called
+
+    found: dict[str, float] = {}
+    for role, written in case.parameters.items():
+        name, fields = _FRICTION.get(role, ("", {}))
+        if (getattr(case.models, role, None) or name).rpartition(":")[2] != name:
+            fields = {}
+        if fields and written:
+            values = written_parameters(law_called(registry, role, name, given=False), role, written, ledger)
+            for key in fields.keys() & written.keys() if values is not None else ():
+                found[fields[key]] = float(getattr(values, key))
+                ledger.given(f"parameters.{role}.{key}", found[fields[key]], "pressure" if key == "tau_eyring" else "")
+        for key in written.keys() - fields.keys():
+            ledger.assume(f"parameters.{role}.{key} counts in motion only: the quasi-static answer has no such law")
+    return found
+
+
+def friction_of_model(model: BearingModel) -> dict[str, float]:
+    """Return the same of a resolved model of rollers in motion: what stands in its case."""
+    laws, found = model.laws["ball_inner"], {}
+    for role, (name, fields) in _FRICTION.items():
+        chosen = laws[role]
+        for key, field in fields.items() if chosen.model.name == name else ():
+            if chosen.origins.get(key) == "case":
+                found[field] = float(getattr(chosen.parameters, key))
+    return found

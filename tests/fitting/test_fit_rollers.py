@@ -1,0 +1,90 @@
+"""Fits of roller bearings: alone by their quasi-static answer, and in a machine."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from lambda_core import api
+from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.fitting.measurements import parse_measurements
+from lambda_core.fitting.subjects import subject_of
+
+CASE = {
+    "name": "32216",
+    "bearing": {"designation": "SKF 32216"},
+    "lubricant": {"name": "FVA3", "temperature": "50 degC"},
+    "loads": {"axial": "6 kN"},
+    "operation": {"speed": "2000 rpm"},
+}
+LOSS, RIB = "parameters.elastic_hysteresis.loss_factor", "bearing.rollers.rib_roughness"
+HEADER = "speed [1/min],axial load [kN],friction torque [N mm],friction torque error [%]"
+
+
+def test_loss_factor_and_roughness_of_the_rib_are_found_again(tmp_path: Path) -> None:
+    subject, rows = subject_of(CASE), [HEADER]
+    for speed, load in ((20, 2), (20, 15), (2000, 2), (2000, 15)):
+        at = (f"operation.speed={speed} rpm", f"loads.axial={load} kN", f"{LOSS}=0.04", f"{RIB}=0.35 um")
+        rows.append(f"{speed},{load},{subject.values(at, (), ('friction torque',), one=True)[0, 0]:.8g},2")
+    measured = parse_measurements("\n".join(rows), "rig.csv", subject.words)
+    report = api.fit(CASE, measured, ["loss_factor", f"{RIB}=0.1 um..0.6 um"], suggest=False)
+    loss, rib = report.parameters
+    assert loss.value == pytest.approx(0.04, rel=1e-3)
+    assert rib.value == pytest.approx(0.35, rel=1e-3)
+    fitted = api.fitted_case(CASE, report, tmp_path / "fitted.toml")
+    at = ("operation.speed=20 rpm", "loads.axial=15 kN")
+    assert api.quasistatic(fitted, at).friction_torque_Nmm == pytest.approx(report.points[1].predicted, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [
+        ("elastic_hysteresis.loss_factor", "0.045"),
+        ("rolling_resistance.thermal_coefficient", "0.2"),
+        ("traction.tau_eyring", "4 MPa"),
+        ("traction.limit_ratio", "0.0001"),
+        ("boundary_friction.mu", "0.06"),
+        ("supply.k_rs", "6e-8"),
+    ],
+)
+def test_parameters_of_laws_count_in_the_answer_of_rollers(path: str, value: str) -> None:
+    """They were left out without a word."""
+    at = ("operation.speed=20 rpm", "loads.axial=15 kN")
+    before, after = (api.quasistatic(CASE, (*at, *more)) for more in ((), (f"parameters.{path}={value}",)))
+    assert abs(after.friction_torque_Nmm - before.friction_torque_Nmm) > 1e-6
+
+
+def test_what_does_not_count_is_told_and_what_is_wrong_refused() -> None:
+    found = api.quasistatic(CASE, ("parameters.supply.k_z=3",))
+    assert any("parameters.supply.k_z counts in motion only" in sentence for sentence in found.assumptions)
+    with pytest.raises(CaseError, match=r"parameters\.traction\.tau_eyring.*has no unit"):
+        api.quasistatic(CASE, ("parameters.traction.tau_eyring=6",))
+    model = api.check(CASE, (f"{LOSS}=0.04",))
+    assert model.laws["ball_inner"]["elastic_hysteresis"].parameters.loss_factor == 0.04
+
+
+def test_rollers_have_no_measured_film() -> None:
+    with pytest.raises(CaseError, match="minimum film"):
+        api.fit(CASE, parse_measurements("speed [1/min],minimum film [um]\n9,1\n", "f.csv", subject_of(CASE).words), [])
+    with pytest.raises(UsageError, match=r"nearest: parameters\.elastic_hysteresis\.loss_factor"):
+        subject_of(CASE).varied("los_factor")
+
+
+def test_rollers_of_a_machine_take_fitted_parameters() -> None:
+    shaft = {
+        "name": "motor",
+        "shaft": {"sections": [{"length": "400 mm", "diameter": "40 mm"}]},
+        "bearings": {
+            "floating": {"designation": "SKF NU 208 ECP", "at": "20 mm"},
+            "located": {"designation": "SKF 6308", "at": "360 mm"},
+        },
+        "loads": {"belt": {"at": "5 mm", "force_z": "-4 kN"}},
+        "operation": {"speed": "1000 rpm"},
+        "lubricant": {"name": "FVA3", "temperature": "60 degC"},
+    }
+    subject = subject_of(shaft, bearing="floating")
+    loss = subject.varied("loss_factor")
+    assert loss.path == f"bearings.floating.{LOSS}"
+    low, high = (subject.values((), [(loss, end)], ("friction torque",), one=True)[0, 0] for end in (0.02, 0.047))
+    assert high > 1.02 * low
