@@ -332,3 +332,11 @@ DEFAULT_LINE_MODELS: dict[str, str] = {
 }
 # Roles in which ends of rollers on ribs have other laws than points: they slide, and have no law of rolling.
 DEFAULT_RIB_MODELS: dict[str, str] = {"rolling_resistance": "none", "elastic_hysteresis": "none"}
+# Laws of the quasi-static friction of rollers: role -> name, and name in FrictionParameters of each parameter.
+ROLLER_FRICTION: dict[str, tuple[str, dict[str, str]]] = {
+    "elastic_hysteresis": ("johnson-line", {"loss_factor": "loss_factor"}),
+    "rolling_resistance": ("biboulet-houpert-line", {"thermal_coefficient": "inlet_heat"}),
+    "traction": ("ree-eyring", {"tau_eyring": "eyring_stress", "limit_ratio": "limit_ratio"}),
+    "boundary_friction": ("micro-slip", {"mu": "boundary_friction"}),
+    "supply": ("skf-replenishment", {"k_rs": "replenishment"}),
+}

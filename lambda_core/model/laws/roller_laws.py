@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ValidationError
 
 from lambda_core.case.problems import problems
+from lambda_core.domain.roles import ROLLER_FRICTION
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
@@ -15,15 +16,6 @@ if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.laws.resolve_laws import ModelSource
     from lambda_core.model.ledger import Ledger
-
-# Laws of the quasi-static friction of rollers: role -> name, and name in FrictionParameters of each parameter.
-_FRICTION: Mapping[str, tuple[str, Mapping[str, str]]] = {
-    "elastic_hysteresis": ("johnson-line", {"loss_factor": "loss_factor"}),
-    "rolling_resistance": ("biboulet-houpert-line", {"thermal_coefficient": "inlet_heat"}),
-    "traction": ("ree-eyring", {"tau_eyring": "eyring_stress", "limit_ratio": "limit_ratio"}),
-    "boundary_friction": ("micro-slip", {"mu": "boundary_friction"}),
-    "supply": ("skf-replenishment", {"k_rs": "replenishment"}),
-}
 
 
 def written_parameters(law: Law, role: str, written: Mapping[str, Any], ledger: Ledger) -> BaseModel | None:
@@ -46,7 +38,7 @@ def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[
 
     found: dict[str, float] = {}
     for role, written in case.parameters.items():
-        name, fields = _FRICTION.get(role, ("", {}))
+        name, fields = ROLLER_FRICTION.get(role, ("", {}))
         if (getattr(case.models, role, None) or name).rpartition(":")[2] != name:
             fields = {}
         if fields and written:
@@ -62,7 +54,7 @@ def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[
 def friction_of_model(model: BearingModel) -> dict[str, float]:
     """Return the same of a resolved model of rollers in motion: what stands in its case."""
     laws, found = model.laws["ball_inner"], {}
-    for role, (name, fields) in _FRICTION.items():
+    for role, (name, fields) in ROLLER_FRICTION.items():
         chosen = laws[role]
         for key, field in fields.items() if chosen.model.name == name else ():
             if chosen.origins.get(key) == "case":
