@@ -30,7 +30,7 @@ PACKAGES: dict[str, tuple[str, tuple[str, ...], float]] = {
 def run(changes: Sequence[str], seconds: float, folder: Path) -> Summary:
     """Return the summary of one run."""
     overrides = [*changes, f"solver.duration={seconds} s"]
-    return api.run(BEARING, overrides, out=folder / "run.h5", force=True).summary()
+    return api.run(BEARING, overrides, out=folder / "run.h5", overwrite=True).summary()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -62,7 +62,7 @@ def _exported(name: str, file: Path) -> Path:
     """Return a file that is exported twice: what the second time takes is that of a warm export."""
     for words in ("first", "again"):
         wall, spent = time.perf_counter(), _processor()
-        api.export_fmu(CASE, CHANGES, out=file, force=True, **UNITS[name])  # type: ignore[arg-type]
+        api.export_fmu(CASE, CHANGES, out=file, overwrite=True, **UNITS[name])  # type: ignore[arg-type]
         wall, spent = time.perf_counter() - wall, _processor() - spent
         print(f"{name}, {words}: {wall:.1f} s by the clock, {spent:.1f} s of processors, load {_load()}")
     print(f"{'':4}{1e-6 * file.stat().st_size:.2f} MB")

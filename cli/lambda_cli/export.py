@@ -80,7 +80,7 @@ def fmu(
             vary=vary or (),
             platforms=platforms or ("linux",),
             processor=processor,
-            force=force,
+            overwrite=force,
             announce=speaker.say,
         )
     typer.echo(json.dumps({"file": str(written)}) if as_json else str(written))

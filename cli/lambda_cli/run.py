@@ -57,7 +57,7 @@ def run(
         for line in [] if isinstance(model, api.MachineModel) else api.describe(model).headline:
             speaker.say(units.system.sentence(line))
         wanted = band is Bands.MODEL
-        result = api.run(model, out=out, force=force, band=wanted, progress=speaker.update, announce=speaker.say)
+        result = api.run(model, out=out, overwrite=force, band=wanted, progress=speaker.update, announce=speaker.say)
     finish(result, as_json, units)
 
 

@@ -20,6 +20,7 @@ from lambda_core.case.machine import MachineCase
 from lambda_core.case.written import C, merged, validate
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
+from lambda_core.domain.lists import listed
 from lambda_core.domain.option_tree import field_at
 
 log = logging.getLogger("lambda_core")
@@ -74,10 +75,10 @@ class Tables:
 
     def changed(self, overrides: Iterable[str]) -> Tables:
         """Return the tables with ``path=value`` texts applied in order, as ``--set`` does; UsageError without ``=``."""
-        texts = list(overrides)
-        if not texts:
+        changes = listed(overrides, "overrides")
+        if not changes:
             return self
-        data = overridden(self.data, texts, self.root)
+        data = overridden(self.data, changes, self.root)
         _say_lost_classes(self.data, data)
         return replace(self, data=data)
 
@@ -153,7 +154,7 @@ def read_case(source: Source, overrides: Iterable[str] = (), folder: Path | None
     CaseError
         With every problem of the case.
     """
-    changes = list(overrides)
+    changes = listed(overrides, "overrides")
     if isinstance(source, Case | MachineCase) and not changes:
         return source
     tables = read_tables(source, folder).changed(changes)
@@ -170,7 +171,7 @@ def load_case(source: Source, overrides: Iterable[str] = (), folder: Path | None
     CaseError
         With every problem of the case.
     """
-    changes = list(overrides)
+    changes = listed(overrides, "overrides")
     if isinstance(source, Case) and not changes:
         return source
     tables = read_tables(source, folder).changed(changes)
@@ -275,9 +276,9 @@ def apply_overrides(case: C, overrides: Iterable[str]) -> C:
     CaseError
         When the changed case is invalid.
     """
-    texts = list(overrides)
+    changes = listed(overrides, "overrides")
     return validate(
-        type(case), overridden(case.written(), texts, type(case)), _changed_name(case.name, texts), case.folder
+        type(case), overridden(case.written(), changes, type(case)), _changed_name(case.name, changes), case.folder
     )
 
 

@@ -11,7 +11,6 @@ from pathlib import Path
 from tempfile import NamedTemporaryFile
 
 from lambda_core.domain.errors import UsageError
-from lambda_core.domain.processes import ON_WINDOWS
 
 LARGEST_TEXT = 64 * 2**20  # [byte] of a case, a table, a document
 _NUL = "no name of a file holds a NUL character"
@@ -44,8 +43,8 @@ def check_target(path: Path) -> Path:
     """
     if "\0" in str(path):
         raise UsageError(f'cannot write "{path}": {_NUL}')
-    if path.name.partition(".")[0].rstrip().upper() in _DEVICES and ON_WINDOWS:
-        raise UsageError(f'cannot write "{path}": Windows keeps the name for a device')
+    if path.name.partition(".")[0].rstrip().upper() in _DEVICES:
+        raise UsageError(f'cannot write "{path}": Windows opens no file with the name of a device')
     kind = kind_of(path)
     if kind:
         raise UsageError(f'cannot write "{path}": it is {kind}, and only regular files are written')
@@ -54,7 +53,7 @@ def check_target(path: Path) -> Path:
 
 def taken(path: Path) -> UsageError:
     """Return the refusal to write where a file stands, for those who were not asked to overwrite it."""
-    return UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
+    return UsageError(f"{path} exists: choose another name (--out), or overwrite it (--force; overwrite=True)")
 
 
 def check_new(path: Path, overwrite: bool) -> Path:

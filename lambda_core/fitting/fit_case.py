@@ -14,6 +14,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.lists import listed
 from lambda_core.domain.units import show
 from lambda_core.fitting.least_squares import Fit
 from lambda_core.fitting.least_squares import fit as fit_values
@@ -86,7 +87,7 @@ def fit(
         With a sentence about the parameters, a line of the file, or a point without an equilibrium.
     """
     begin = time.perf_counter()
-    if not vary:
+    if not listed(vary, "vary"):
         raise UsageError("nothing to fit: name a parameter, for example --vary loss_factor")
     subject = subject_of(source, overrides, bearing)
     data = measured if isinstance(measured, Measurements) else read_measurements(measured, subject.words)

@@ -20,6 +20,7 @@ from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, unknown_name
 from lambda_core.domain.files import user_data_folder
+from lambda_core.domain.lists import listed
 from lambda_core.fitting.measurements import Measurements, parse_measurements, read_measurements
 from lambda_core.fitting.operating_points import condition_change, point_values, roller_values
 from lambda_core.fitting.scores import interval_score
@@ -203,7 +204,7 @@ def compare_measured(
     UsageError, CaseError
         When there is no such series, or its files have mistakes.
     """
-    loaded = [_load(name) for name in (names or [series.name for series in measured_series()])]
+    loaded = [_load(name) for name in (listed(names, "names") or [series.name for series in measured_series()])]
     found = []
     for one in loaded:
         if announce is not None and one.series.case:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.errors import CaseError, Problem, UsageError, unknown_name
+from lambda_core.domain.lists import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -213,6 +214,7 @@ def init_case(
     from lambda_core.case.case_writer import new_case, write_new
 
     target = Path(path) if path is not None else Path(f"{name}.toml")
+    changes = listed(changes, "changes")
     if changes and ((bearing is None and template is None) or template == GEARED_SHAFT):
         raise UsageError("load, speed and oil of a new case go with --bearing or a template of one bearing")
     if bearing is None and template is None:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.domain.lists import listed
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -93,6 +94,6 @@ def model_of(
 
     if not isinstance(source, BearingModel):
         return check_bearing(source, overrides, is_static=is_static)
-    if list(overrides):
+    if listed(overrides, "overrides"):
         raise UsageError("a resolved model takes no overrides: change the case and resolve it")
     return source

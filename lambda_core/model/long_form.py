@@ -9,9 +9,9 @@ from lambda_core.case.case_io import Source, load_case
 from lambda_core.case.short_form import LongForm, expand
 from lambda_core.domain.elements import POSE
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.model.bodies.mounting import axial_play
 from lambda_core.model.bodies.resolve_bodies import shaft_inertia
 from lambda_core.model.checking import resolve
+from lambda_core.model.geometry.axial_play import axial_play, bought_clearance
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.ledger import Ledger
 
@@ -42,7 +42,7 @@ def long_form(source: Source, overrides: Iterable[str] = ()) -> LongForm:
     shaft = shaft_inertia(case.bodies.inner_ring, g, model.inner_material.density, Ledger())
     held = [dof for dof in POSE if model.inner_ring.dofs[dof].mode == "locked"]
     takes = _takes(model)
-    play = axial_play(case.bearing, model) if takes else 0.0
+    play = axial_play(model, bought_clearance(case.bearing, model)) if takes else 0.0
     return expand(case, bar=(shaft.polar, shaft.transverse), held=held, takes=takes, play=play)
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from pydantic import PrivateAttr
 
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.lists import listed
 from lambda_core.results.quantity import quantities
 from lambda_core.results.record import Record
 
@@ -64,7 +65,7 @@ def answers(question: Callable[P, R]) -> Callable[P, R]:
     @wraps(question)
     def asked(*args: P.args, **options: P.kwargs) -> R:
         given = form.bind(*args, **options)
-        changes = given.arguments["overrides"] = list(given.arguments.get("overrides", ()))
+        changes = given.arguments["overrides"] = listed(given.arguments.get("overrides", ()), "overrides")
         found = question(*given.args, **given.kwargs)
         if isinstance(found, Answer) and (case := _case_of(given.arguments[first], changes)) is not None:
             left = (first, "overrides", "announce")  # a callback for progress cannot go to another process

@@ -82,14 +82,14 @@ class ResultWriter:
 
     @classmethod
     def create(
-        cls, path: Path, provenance: Provenance, channels: RunChannels, status: Status, *, force: bool = False
+        cls, path: Path, provenance: Provenance, channels: RunChannels, status: Status, *, overwrite: bool = False
     ) -> ResultWriter:
         """Create a result with everything but samples in it.
 
         Raises
         ------
         UsageError
-            When the file exists and `force` is not set, or cannot be written.
+            When the file exists and `overwrite` is not set, or cannot be written.
         """
         made = hdf5.sibling_path(check_target(path))
         try:
@@ -97,11 +97,11 @@ class ResultWriter:
                 hdf5.reserve(file, 0)
                 layout.create(file, provenance, channels)
             if ON_WINDOWS:  # no file can be renamed there while it is open
-                _publish(made, path, force)
+                _publish(made, path, overwrite)
                 return cls(_growing(path), path, status)
             # Under its name only when SWMR is on: from its first moment it can be read, whatever happens.
             writer = cls(_growing(made), path, status)
-            _publish(made, path, force)
+            _publish(made, path, overwrite)
             return writer
         except (OSError, RuntimeError) as error:
             made.unlink(missing_ok=True)
@@ -338,10 +338,10 @@ def _growing(path: Path) -> h5py.File:
     return h5py.File(path, "r+", libver="latest", rdcc_nbytes=_CACHE)
 
 
-def _publish(made: Path, path: Path, force: bool) -> None:
+def _publish(made: Path, path: Path, overwrite: bool) -> None:
     """Give a complete file its name; a link refuses a taken one in the same step."""
     try:
-        if force:
+        if overwrite:
             os.replace(made, check_target(path))
         else:
             os.link(made, path)

@@ -147,7 +147,7 @@ def run(
     overrides: Iterable[str] = (),
     *,
     out: str | Path | None = None,
-    force: bool = False,
+    overwrite: bool = False,
     band: bool = False,
     progress: Callable[[Progress], None] | None = None,
     announce: Callable[[str], None] | None = None,
@@ -160,7 +160,7 @@ def run(
         As for :func:`check`, or a resolved model.
     out : path-like, optional
         The result file; by default the case's name with ``.h5``, numbered where that is taken.
-    force : bool
+    overwrite : bool
         Overwrite `out`.
     band : bool
         Also compute the 90 % model band, see :func:`model_band`; it costs less than a second for each bearing.
@@ -181,8 +181,8 @@ def run(
     """
     from lambda_core.runs.launch import launch
 
-    path = None if out is None else Path(out)
-    found = launch(ready(source, overrides, announce), path, force=force, band=band, report=progress, announce=announce)
+    path, model = None if out is None else Path(out), ready(source, overrides, announce)
+    found = launch(model, path, overwrite=overwrite, band=band, report=progress, announce=announce)
     return found.rerun_by(rerun)
 
 

@@ -49,7 +49,7 @@ def launch(
     model: Runnable,
     out: Path | None = None,
     *,
-    force: bool = False,
+    overwrite: bool = False,
     band: bool = False,
     report: Report | None = None,
     announce: Announce | None = None,
@@ -61,7 +61,7 @@ def launch(
     out : pathlib.Path, optional
         The result file; by default the case's name in the working directory, with a number
         where that is taken.
-    force : bool
+    overwrite : bool
         Overwrite `out`.
     band : bool
         Write the model band of each bearing.
@@ -69,12 +69,12 @@ def launch(
         Called with the progress of the run; with a sentence before what takes a while.
     """
     began = time.perf_counter()
-    path = destination(model, out, force)
+    path = destination(model, out, overwrite)
     _check_end(model)
     engine, provenance, attached = prepared(model, announce)
     if band:
         provenance = _with_bands(model, provenance, announce)
-    return run(engine, provenance, path, force=force, report=report, attached=attached, began=began)
+    return run(engine, provenance, path, overwrite=overwrite, report=report, attached=attached, began=began)
 
 
 def relaunch(path: Path, model: Runnable, *, report: Report | None = None, announce: Announce | None = None) -> Result:
@@ -137,7 +137,7 @@ def _check_end(model: Runnable) -> None:
         raise UsageError(f"a duration of {show(end, 'time', 3)}{slow}: at most {show(MOST_TIME, 'time')} are simulated")
 
 
-def destination(model: Runnable, out: Path | None, force: bool) -> Path:
+def destination(model: Runnable, out: Path | None, overwrite: bool) -> Path:
     """Return where the result goes; UsageError where that cannot be."""
     if out is None:
         path, number = Path(f"{model.name}.h5"), 1
@@ -148,7 +148,7 @@ def destination(model: Runnable, out: Path | None, force: bool) -> Path:
         path = out
         if path.is_dir():
             raise UsageError(f"{path} is a folder: name a file in it, for example {path / model.name}.h5")
-        check_new(check_target(path), force)
+        check_new(check_target(path), overwrite)
     check_folder(path.absolute().parent, path)
     return path
 

@@ -41,7 +41,7 @@ def run(
     provenance: Provenance,
     path: Path,
     *,
-    force: bool = False,
+    overwrite: bool = False,
     report: Report | None = None,
     attached: Attachments | None = None,
     began: float | None = None,
@@ -55,7 +55,7 @@ def run(
     provenance : Provenance
         The models and the keys of the code that `engine` runs.
     path : pathlib.Path
-        Where the result goes; must not exist unless `force` is set.
+        Where the result goes; must not exist unless `overwrite` is set.
     report : callable, optional
         Called with a :class:`Progress` some ten times a second.
     attached : Attachments, optional
@@ -77,7 +77,7 @@ def run(
     """
     attached = attached or Attachments.of(provenance, None)
     channels = attached.channels(engine)
-    writer = ResultWriter.create(path, provenance, channels, Status(process=this_process()), force=force)
+    writer = ResultWriter.create(path, provenance, channels, Status(process=this_process()), overwrite=overwrite)
     return _begun(engine, provenance, writer, report, attached, began).drive()
 
 

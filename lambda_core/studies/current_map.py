@@ -16,6 +16,7 @@ from lambda_core.analysis.electric.current_numbers import UNITS
 from lambda_core.analysis.rotor.bearing_alone import bearing_number
 from lambda_core.case.case_io import refuse_bearing
 from lambda_core.domain.errors import SolverError, UsageError
+from lambda_core.domain.lists import listed
 from lambda_core.domain.units import parse
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.studies.definition import Parameter, Study
@@ -101,7 +102,7 @@ def electric_map(
     if out is not None:
         check_target(Path(out), overwrite, "the map", (".csv",))
     if isinstance(source, str | Path) and is_study(Path(source)):
-        if folder is not None or speed is not None or list(overrides):
+        if folder is not None or speed is not None or listed(overrides, "overrides"):
             raise UsageError(f"{source} is a map already: its case, speeds and folder cannot be changed")
         found = _read_on(Path(source), bearing, executor, workers, progress)
     else:
@@ -158,7 +159,7 @@ def _study(
     from lambda_core.model.laws.law_context import max_speed
     from lambda_core.model.resolve_machine import resolve_machine
 
-    case = read_case(source, list(overrides))
+    case = read_case(source, listed(overrides, "overrides"))
     if isinstance(case, Case):
         refuse_bearing(bearing)
         model, responses = model_of(case), list(UNITS)

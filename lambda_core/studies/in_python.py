@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.lists import listed
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -74,8 +75,10 @@ def study(
             "name": case.name,
             "case": "case.toml",
             "mode": mode,
-            "responses": list(asks),
-            "parameters": [{"path": path, "values": list(values)} for path, values in varies.items()],
+            "responses": listed(asks, "asks"),
+            "parameters": [
+                {"path": path, "values": listed(values, f"values of {path}")} for path, values in varies.items()
+            ],
         }
     )
     ready = prepare(definition, workers, announce, case)

@@ -328,7 +328,7 @@ def _run(model: BearingModel | MachineModel, path: Path) -> Result:
             raise
         except ResultError:  # damaged, or of another program: begun anew
             pass
-    return launch(model, path, force=True)
+    return launch(model, path, overwrite=True)
 
 
 def _left_by_others(result: Result) -> Result:

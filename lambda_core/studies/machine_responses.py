@@ -45,8 +45,9 @@ class MachinePoint:
     def summary(self) -> MachineEquilibrium:
         """The equilibrium in the words of the machine interface."""
         from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
+        from lambda_core.solver.drivers.preload import preloads
 
-        return equilibrium_of(self.model, self.state, self.equilibria)
+        return equilibrium_of(self.model, self.state, self.equilibria, preloads(self.model, self.kernels))
 
     @cached_property
     def modes(self) -> MachineModes:

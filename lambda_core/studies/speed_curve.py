@@ -17,6 +17,7 @@ from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.lists import listed
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.results.answer import Answer, answers
@@ -113,7 +114,7 @@ def stribeck(
     """
     from lambda_core.solver.drivers.compiled_laws import Kernels
 
-    given, changes = list(speeds_rpm), tuple(overrides)
+    given, changes = list(speeds_rpm), tuple(listed(overrides, "overrides"))
     if any(not speed > 0.0 for speed in given):
         raise UsageError("speeds of a Stribeck curve are above zero: the axis is logarithmic")
     if (len(given) or points) < 2:

@@ -313,7 +313,7 @@ def test_the_command_writes_it(c_compiler: tuple[str, ...], tmp_path: Path, caps
     assert main(command) == 0
     assert json.loads(capsys.readouterr().out) == {"file": str(target)}
     assert main(command) == 2
-    assert "overwrite it with --force" in capsys.readouterr().err
+    assert "overwrite it (--force" in capsys.readouterr().err
     with zipfile.ZipFile(target) as archive:
         assert {"modelDescription.xml", "resources/case.toml"} <= set(archive.namelist())
 
@@ -337,9 +337,9 @@ def test_what_cannot_be_exported_is_said(
 def test_a_place_that_takes_no_file_is_refused_before_the_work(c_compiler: tuple[str, ...], tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="does not exist"):
         api.export_fmu(CASE, out=tmp_path / "nowhere" / "no.fmu", announce=pytest.fail)
-    for force in (False, True):
+    for overwrite in (False, True):
         with pytest.raises(UsageError, match="it is a folder"):
-            api.export_fmu(CASE, out=tmp_path, force=force, announce=pytest.fail)
+            api.export_fmu(CASE, out=tmp_path, overwrite=overwrite, announce=pytest.fail)
 
 
 def test_code_that_needs_python_is_refused() -> None:

@@ -191,7 +191,7 @@ def test_copies_of_killed_processes_are_swept_away(provenance: MakeProvenance, t
 def test_nothing_left_to_do_is_said(provenance: MakeProvenance, tmp_path: Path) -> None:
     path = tmp_path / "r.h5"
     for solver in ({"duration": 0.05}, {}):
-        run(FakeEngine(), provenance(**solver), path, force=True)
+        run(FakeEngine(), provenance(**solver), path, overwrite=True)
         before = path.read_bytes()
         with pytest.raises(UsageError, match="nothing is left to do"):
             resume(FakeEngine(), provenance(**solver), path)

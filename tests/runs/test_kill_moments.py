@@ -268,7 +268,7 @@ def test_other_code_does_not_go_on(short: Path, monkeypatch: pytest.MonkeyPatch)
 
 def test_overwriting_keeps_every_other_file(kind: Kind, short: Path) -> None:
     (short.parent / "measurement.h5").write_text("x")
-    api.run(kind.source, ["solver.duration=0.1 ms"], out=short, force=True)
+    api.run(kind.source, ["solver.duration=0.1 ms"], out=short, overwrite=True)
     assert {file.name: file.stat().st_size > 1000 for file in short.parent.iterdir()} == {
         "run.h5": True, "measurement.h5": False,
     }  # fmt: skip

@@ -157,10 +157,10 @@ def test_an_existing_result_is_never_overwritten_silently(provenance: MakeProven
     path = tmp_path / "r.h5"
     run(FakeEngine(), provenance(duration=0.01), path)
     before = path.read_bytes()
-    with pytest.raises(UsageError, match="exists: choose another name with --out, or overwrite it with --force"):
+    with pytest.raises(UsageError, match="exists: choose another name"):
         run(FakeEngine(), provenance(duration=0.02), path)
     assert path.read_bytes() == before
-    run(FakeEngine(), provenance(duration=0.02), path, force=True)
+    run(FakeEngine(), provenance(duration=0.02), path, overwrite=True)
     assert path.read_bytes() != before
 
 

@@ -63,7 +63,7 @@ def test_c2_1_only_regular_files_are_written(tmp_path: Path, capsys: pytest.Capt
         with pytest.raises(UsageError, match=kind):
             check_target(path)
         with pytest.raises(UsageError, match="folder" if path.is_dir() else "only regular files"):
-            api.run(CASE, SHORT, out=path, force=True)
+            api.run(CASE, SHORT, out=path, overwrite=True)
         assert main(["init", CASE, "--out", str(path), "--force"]) == 2, path
         assert main(["report", CASE, "--out", str(path), "--force"]) == 2, path
         assert "has a bug" not in capsys.readouterr().err
@@ -221,10 +221,10 @@ def test_c3_of_two_runs_into_one_file_the_later_wins_and_the_other_says_so(tmp_p
     def meanwhile(_: object) -> None:
         if not begun:
             begun.append(True)
-            api.run(CASE, SHORT, out=path, force=True)
+            api.run(CASE, SHORT, out=path, overwrite=True)
 
     with pytest.raises(PartialResultError, match="deleted, renamed or replaced"):
-        api.run(CASE, LONG, out=path, force=True, progress=meanwhile)
+        api.run(CASE, LONG, out=path, overwrite=True, progress=meanwhile)
     assert api.result(path).status().state == "finished"
     assert [file.name for file in tmp_path.iterdir()] == ["r.h5"]
 

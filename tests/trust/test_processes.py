@@ -118,7 +118,7 @@ def test_on_windows_files_are_renamed_while_closed(tmp_path: Path, monkeypatch: 
 
     monkeypatch.setattr(os, "replace", watched)
     there = tmp_path / "there.h5"
-    api.run(CASE, SHORT, out=there, force=True)
+    api.run(CASE, SHORT, out=there, overwrite=True)
     api.resume(there, ["solver.duration=2 ms"])
     assert opened
     assert not any(opened)
@@ -126,12 +126,13 @@ def test_on_windows_files_are_renamed_while_closed(tmp_path: Path, monkeypatch: 
     assert (first["load"] == second["load"][: len(first["time"])]).all()
 
 
-def test_on_windows_names_of_devices_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(files, "ON_WINDOWS", True)
+def test_names_of_devices_that_windows_cannot_open_are_refused(tmp_path: Path) -> None:
     for name in ("nul.h5", "CON", "com1.toml"):
-        with pytest.raises(UsageError, match="Windows keeps the name for a device"):
+        with pytest.raises(UsageError, match="Windows opens no file with the name of a device"):
             files.check_target(Path(name))
     assert files.check_target(Path("nulled.h5")) == Path("nulled.h5")
+    with pytest.raises(UsageError, match="Windows opens no file"):
+        api.init_case("CON", path=tmp_path / "CON.toml")
 
 
 def test_on_windows_commands_are_quoted_for_its_shell(monkeypatch: pytest.MonkeyPatch) -> None:

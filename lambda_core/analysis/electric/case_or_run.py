@@ -26,6 +26,7 @@ from lambda_core.case.case_io import read_case, toml_tables
 from lambda_core.case.electric import Electric, MachineElectric
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.lists import listed
 from lambda_core.model.bearing_model import Solver
 from lambda_core.results.convergence import window as averaged
 from lambda_core.solver.drivers.held_ring import held
@@ -97,7 +98,7 @@ def options_of_run(result: Result, overrides: Iterable[str] = ()) -> Electric | 
     UsageError
         When an override is of anything but the section electric: the run is over.
     """
-    changes = list(overrides)
+    changes = listed(overrides, "overrides")
     for text in changes:
         if not text.strip().startswith(_SECTION):
             raise UsageError(f'"{text}": the run is over, only options of the section electric can be changed')

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.lists import listed
 from lambda_core.results.answer import answers
 
 if TYPE_CHECKING:
@@ -29,11 +30,12 @@ def machine_equilibrium(
     """Solve a machine; :func:`lambda_core.api.quasistatic` for a machine of several bearings."""
     from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
     from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
-    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+    from lambda_core.solver.drivers.preload import preloads
+    from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels, solve_shaft
 
-    model = ready_machine_of(source, overrides, announce)
-    state = solve_shaft(model, announce)
-    found = equilibrium_of(model, state)
+    model, kernels = ready_machine_of(source, overrides, announce), SharedKernels(announce)
+    state = solve_shaft(model, announce, kernels)
+    found = equilibrium_of(model, state, preload=preloads(model, kernels))
     if not band:
         return found
     from lambda_core.analysis.band.model_band import bands_of_machine
@@ -93,7 +95,7 @@ def machine_of(source: Source | MachineModel, overrides: Iterable[str] = ()) -> 
 
     if not isinstance(source, MachineModel):
         return resolve_machine(source, overrides)
-    if list(overrides):
+    if listed(overrides, "overrides"):
         raise UsageError("a resolved machine takes no overrides: change the case and resolve it")
     return source
 

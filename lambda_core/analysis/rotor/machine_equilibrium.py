@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -35,6 +36,7 @@ from lambda_core.results.summary import Summary
 from lambda_core.results.verdict import Verdict
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.held_rollers import HeldRollers
+from lambda_core.solver.drivers.preload import Preload, first_contact
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 from lambda_core.solver.drivers.structure import point_on, static_rows, stretch
 
@@ -69,7 +71,8 @@ class BearingEquilibrium(Banded):
         decimals=FLOATING, digits=3, group="load", axes="yz",
     )  # fmt: skip
     displacement_um: list[float] = quantity(
-        "of the inner ring against the outer ring: x, y, z", "um", label="displacement of the rings",
+        "of the inner ring against the outer ring: x, y, z; x from the first contact of a bearing that takes thrust "
+        "from one side", "um", label="displacement of the rings",
         column="displacement", decimals=FLOATING, digits=3, group="place", axes="xyz",
     )  # fmt: skip
     misalignment_mrad: list[float] = quantity(
@@ -77,8 +80,17 @@ class BearingEquilibrium(Banded):
         column="misalignment", decimals=FLOATING, digits=3, group="place", axes="yz",
     )  # fmt: skip
     outer_ring_um: list[float] = Field(description="of the outer ring in the housing: x, y, z")
-    clearance_um: float = quantity(
-        "in operation",
+    preload_force_N: float | None = quantity(
+        "thrust without loads and weight, warm and turning; null unless the bearing takes thrust from one side", "N",
+        label="preload force", column="preload force", decimals=FLOATING, digits=4, group="load", default=None,
+    )  # fmt: skip
+    lift_off_N: float | None = quantity(
+        "thrust on a rigid shaft that brings the opposite bearing back to its first contact; null without a rigid "
+        "preload of two", "N",
+        label="lift-off thrust", column="lift-off thrust", decimals=FLOATING, digits=4, group="load", default=None,
+    )  # fmt: skip
+    clearance_um: float | None = quantity(
+        "radial, in operation; null of angular contact, whose rings are set against each other",
         "um",
         label="clearance in operation",
         column="clearance",
@@ -239,7 +251,10 @@ class MachineEquilibrium(Answer):
 
 
 def equilibrium_of(
-    model: MachineModel, state: ShaftState, equilibria: Sequence[Equilibrium] | None = None
+    model: MachineModel,
+    state: ShaftState,
+    equilibria: Sequence[Equilibrium] | None = None,
+    preload: Mapping[str, Preload] = MappingProxyType({}),
 ) -> MachineEquilibrium:
     """Put the equilibrium into the units of the interface.
 
@@ -251,6 +266,7 @@ def equilibrium_of(
         else _bearing(model, state, i, equilibria[i] if equilibria else ring.equilibrium())
         for i, ring in enumerate(state.rings)
     ]
+    bearings = [one if one.name not in preload else _preloaded(one, preload[one.name]) for one in bearings]
     moved = state.displacement[: NODE * model.body.positions.size].reshape(-1, NODE)
     cuts, forces = internal_forces(model.body, state.displacement, model.gravity)
     lives = [b.reference_life_h for b in bearings if b.reference_life_h is not None]
@@ -287,6 +303,10 @@ def equilibrium_of(
     return found
 
 
+def _preloaded(one: BearingEquilibrium, found: Preload) -> BearingEquilibrium:
+    return one.model_copy(update={"preload_force_N": found.force, "lift_off_N": found.lift_off})
+
+
 def _moved(motion: FloatArray) -> BodyMoved:
     return BodyMoved(displacement_um=_listed(1e6 * motion[:3]), tilt_mrad=_listed(1e3 * motion[3:]))
 
@@ -313,7 +333,7 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
     assert judged is not None  # a rating of rating_of has limits
     return BearingEquilibrium(
         **_in_machine(bearing, state, index, pose, reaction),
-        clearance_um=1e6 * bearing.model.geometry.clearance,
+        clearance_um=None if bearing.takes and bearing.nominal_angle else 1e6 * bearing.model.geometry.clearance,
         loaded_balls=alone.loaded_balls,
         max_load_N=alone.max_load_N,
         max_load_ring=alone.max_load_ring,
@@ -345,7 +365,7 @@ def _rollers(model: MachineModel, state: ShaftState, index: int, ring: HeldRolle
     assert judged is not None  # its rating has limits
     return BearingEquilibrium(
         **_in_machine(bearing, state, index, pose, reaction),
-        clearance_um=1e6 * ring.rollers.clearance,
+        clearance_um=None if ring.rollers.contact_angle else 1e6 * ring.rollers.clearance,
         loaded_balls=answer.loaded_rollers,
         max_load_N=answer.max_load_N,
         max_load_ring=found.largest_ring,
@@ -379,7 +399,7 @@ def _in_machine(
         "axial_load_N": float(-reaction[0]),
         "force_N": _listed(reaction[:3]),
         "moment_Nm": _listed(reaction[3:]),
-        "displacement_um": _listed(1e6 * pose[:3]),
+        "displacement_um": [1e6 * float(pose[0] - first_contact(bearing)), *_listed(1e6 * pose[1:3])],
         "misalignment_mrad": _listed(1e3 * pose[3:]),
         "outer_ring_um": _listed(1e6 * state.outer[index, :3]),
         "stiffness": six(state.stiffness[index]),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.case.case_io import is_machine
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.lists import listed
 from lambda_core.results.answer import answers
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ def thermal(
     from lambda_core.analysis.thermal.temperatures import run_of, steady_temperatures
 
     run = run_of(source)
-    if run is not None and list(overrides):
+    if run is not None and listed(overrides, "overrides"):
         raise UsageError("the losses of a run take no overrides: they are those of its case")
     if run is not None and run.is_machine:
         from lambda_core.analysis.thermal.machine_temperature_report import steady_of

@@ -51,7 +51,7 @@ def export_fmu(
     vary: Iterable[str] = (),
     platforms: Iterable[str] = ("linux",),
     processor: str = "x86-64-v3",
-    force: bool = False,
+    overwrite: bool = False,
     announce: Callable[[str], None] | None = None,
 ) -> Path:
     """Write a bearing or a machine as a co-simulation FMU.
@@ -78,7 +78,7 @@ def export_fmu(
         own, and which products and sums are rounded as one is the same for all: all have the same bits.
     processor : str
         The least processor of x86-64 that runs it: "x86-64-v3" (default), "x86-64-v2", "x86-64-v4", or "native".
-    force : bool
+    overwrite : bool
         Overwrite a file that stands there.
     announce : callable, optional
         Called with a sentence before something is compiled.
@@ -99,11 +99,12 @@ def export_fmu(
     from lambda_core.case.case_io import read_case
     from lambda_core.case.case_writer import standalone_toml
     from lambda_core.domain.files import check_folder, check_new, check_target
+    from lambda_core.domain.lists import listed
     from lambda_core.export.fmu.varied import varied
     from lambda_core.model.api import check
     from lambda_core.solver.drivers.given import COUPLINGS
 
-    wanted = tuple(dict.fromkeys(platforms))
+    wanted = tuple(dict.fromkeys(listed(platforms, "platforms")))
     if fmi not in _VERSIONS:
         raise UsageError(f"FMI {fmi} is not written: 2 or 3")
     if couple not in COUPLINGS:
@@ -121,11 +122,11 @@ def export_fmu(
             raise UsageError(unknown_name("platform", name, PLATFORMS))
         compiler(name)
     loaded = read_case(source, overrides)
-    options = tuple(vary)
+    options = tuple(listed(vary, "vary"))
     varied(options, loaded)
     check(loaded)
     target = check_target(Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu"))
-    check_folder(check_new(target, force).parent, target)
+    check_folder(check_new(target, overwrite).parent, target)
     task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}
     task |= {"vary": options, "platforms": wanted}
     if processor == os.environ.get(_CPU, "native"):

@@ -6,13 +6,12 @@ import math
 
 from lambda_core.case.holding import Dof
 from lambda_core.case.machine import MachineBearing
-from lambda_core.case.parts import Bearing
 from lambda_core.domain.elements import POSE
 from lambda_core.elements.roller.roller_equilibrium import takes_one_side, thrust_problem
 from lambda_core.formulas.ratings import dynamic_rating, fatigue_load_limit, static_rating
 from lambda_core.model.bearing_model import BearingModel, TimeFunction
 from lambda_core.model.bodies.rigid_bodies import refuse_far
-from lambda_core.model.geometry.resolve_clearance import picked
+from lambda_core.model.geometry.axial_play import axial_play, bought_clearance
 from lambda_core.model.laws.time_functions import added, initial, time_function
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.machine_model import GROUND, LOCKED, MountedBearing, Seating
@@ -47,7 +46,7 @@ def mounted(
         model = facing(model, rollers, takes)
     if model.geometry.kind.on_sphere:
         ledger.assume(f"{name}: a self-aligning bearing follows every tilt of the shaft without resistance")
-    play = axial_play(given, model) if takes else 0.0
+    play = axial_play(model, bought_clearance(given, model)) if takes else 0.0
     drawn = TimeFunction.constant(growth - takes * (play + (given.preload or 0.0)))
     motions = [time_function(getattr(given.support, dof).motion) for dof in POSE]
     prescribed = (added(drawn, motions[0]), *motions[1:])
@@ -86,22 +85,6 @@ def refuse_motion(name: str, given: MachineBearing, is_carried: bool, ledger: Le
             )
         elif dof == "x" and given.preload_force is not None:
             ledger.problem(where, "`preload_force` makes the ring slide along x; give either it or this motion")
-
-
-def axial_play(given: Bearing, model: BearingModel) -> float:
-    """Return how far the inner ring moves from the middle until balls touch, as bought, without load [m].
-
-    A sin(alpha_0) with cos(alpha_0) = 1 - G_r/(2 A), A = r_i + r_o - D_w (Harris and Kotzalas 2006, eq. 2.9). What fits
-    and temperatures take of the clearance afterwards adds to the preload. Rollers between ribs have their end play;
-    tapered ones touch where they are drawn.
-    """
-    g = model.geometry
-    if model.rollers is not None:
-        return 0.0 if model.rollers.contact_angle else model.rollers.end_play
-    distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
-    bought = g.clearance if model.mounting is None else picked(model.mounting.bought, given.clearance_pick)
-    cosine = 1.0 - 0.5 * max(bought, 0.0) / distance
-    return distance * math.sqrt(max(0.0, 1.0 - cosine**2))
 
 
 def _seat(name: str, given: MachineBearing, model: BearingModel, carrier: int, ledger: Ledger) -> tuple[float, ...]:

@@ -1,0 +1,33 @@
+"""Compute how far rings move along the axis until the elements touch."""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.case.parts import Bearing
+from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.geometry.resolve_clearance import picked
+
+
+def axial_play(model: BearingModel, clearance: float) -> float:
+    """Return how far the inner ring moves from the middle until its elements touch, without load [m].
+
+    A sin(alpha_0) with cos(alpha_0) = 1 - G_r/(2 A), A = r_i + r_o - D_w (Harris and Kotzalas 2006, eq. 2.9). Rollers
+    between ribs have their end play; tapered ones touch where they are drawn.
+
+    Parameters
+    ----------
+    clearance : float
+        G_r, radial [m].
+    """
+    g = model.geometry
+    if model.rollers is not None:
+        return 0.0 if model.rollers.contact_angle else model.rollers.end_play
+    distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
+    cosine = 1.0 - 0.5 * max(clearance, 0.0) / distance
+    return distance * math.sqrt(max(0.0, 1.0 - cosine**2))
+
+
+def bought_clearance(given: Bearing, model: BearingModel) -> float:
+    """Return the clearance before mounting [m]; what fits and temperatures take of it adds to the preload."""
+    return model.geometry.clearance if model.mounting is None else picked(model.mounting.bought, given.clearance_pick)
