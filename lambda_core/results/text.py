@@ -195,7 +195,7 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Seque
         *([line("catalogues", f"{'   '.join(says)} {units.unit('N mm')}")] if says else []),
         *(line("" if i else "rating life", text) for i, text in enumerate(rated)),
         *([line("", f"L_10rh by the model band {ends(life_band, 'h', units)} h")] if life_band else []),
-        *([line("", contamination_text(*modified))] if rating.modified_life_h is not None else []),
+        *([line("", life_factor_text(*modified))] if rating.modified_life_h is not None else []),
         line("safety", *(f"{words} {facts[name].number(getattr(rating, name))}" for name, words in safeties)),
     ]
 
@@ -205,10 +205,15 @@ def _lives(found: Iterable[tuple[str, float | None]]) -> str:
     return "  ".join(f"{name} {hours(life)}" for name, life in found if life is not None)
 
 
-def contamination_text(factor: float | None, contamination: float | None, is_given: bool) -> str:
-    """Say which a_ISO modified lives have, and with which e_C."""
+def contamination_text(contamination: float | None, *, is_given: bool) -> str:
+    """Say which e_C modified lives were computed with, and why."""
     given = "" if is_given else ": normal cleanliness, the case gives none (life.contamination)"
-    return f"a_ISO {number(factor, 2)} with e_C {contamination:g}{given}"
+    return f"e_C {contamination:g}{given}"
+
+
+def life_factor_text(factor: float | None, contamination: float | None, is_given: bool) -> str:
+    """Say which a_ISO modified lives have, and with which e_C."""
+    return f"a_ISO {number(factor, 2)} with {contamination_text(contamination, is_given=is_given)}"
 
 
 def verdict_lines(verdict: Verdict | None, units: UnitSystem = SI) -> list[str]:

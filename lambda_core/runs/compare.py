@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -43,7 +44,7 @@ def compare(
     result : path-like, optional
         Result of the same case, or its file: its simulation becomes the first column.
     contamination : float, optional
-        e_C of ISO 281, for modified lives.
+        e_C of ISO 281, for modified lives; default: that of the case, or else the lower end of normal cleanliness.
     bearing : str, optional
         Which one of a machine: under the load that it carries there.
     announce : callable, optional
@@ -88,10 +89,21 @@ def compare(
     if rollers is not None:
         if result is not None:
             raise UsageError("results of roller bearings in motion do not exist: leave the result out")
-        return compare_rollers(rollers, solve_rollers(rollers), of_rollers, contamination)
+        clean = _clean(contamination, rollers.contamination, rollers.bearing.pitch_diameter)
+        return compare_rollers(rollers, solve_rollers(rollers), of_rollers, clean)
     model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
     simulated = result if result is None or isinstance(result, Result) else Result(result)
-    return comparison_of(model, ask(model, chosen, contamination=contamination, announce=announce), simulated)
+    clean = _clean(contamination, model.contamination, model.geometry.pitch_diameter)
+    answers = ask(model, chosen, contamination=clean[0], announce=announce)
+    return comparison_of(model, answers, clean, simulated)
+
+
+def _clean(asked: float | None, given: float | None, pitch_diameter: float) -> tuple[float, bool]:
+    """Return the e_C that counts, and whether caller or case gives it: otherwise that of normal cleanliness."""
+    from lambda_core.model.settings.contamination import known_contamination
+
+    known = given if asked is None else asked
+    return known_contamination(known, pitch_diameter), known is not None
 
 
 def _compare_in_machine(
@@ -114,15 +126,19 @@ def _compare_in_machine(
     machine = ready_machine_of(source, overrides, announce)
     number = bearing_number(machine, bearing)
     state = solve_shaft(machine, announce)
-    given = machine.bearings[number].model.contamination if contamination is None else contamination
+    mounted = machine.bearings[number].model
+    clean = _clean(contamination, mounted.contamination, mounted.geometry.pitch_diameter)
     ring, (for_balls, for_rollers) = state.rings[number], methods
     if isinstance(ring, HeldRollers):
         found = rollers_on_shaft(ring)
         name = f"{machine.name}, {machine.bearings[number].name}"
-        return compare_rollers(dataclasses.replace(found.model, name=name), found.solved, for_rollers, given)
-    inputs = comparison_inputs(ring.equilibrium(), contamination=given)
+        return compare_rollers(dataclasses.replace(found.model, name=name), found.solved, for_rollers, clean)
+    x, y, z = state.reactions[number][:3]
+    loads = (math.hypot(y, z), abs(float(x)))
+    inputs = comparison_inputs(ring.equilibrium(), contamination=clean[0], loads=loads)
     alone = alone_under_load(machine, state, number)
     return comparison_of(
         dataclasses.replace(alone, name=f"{machine.name}, {machine.bearings[number].name}"),
         evaluate_methods(for_balls, inputs),
+        clean,
     )

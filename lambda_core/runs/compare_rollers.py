@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 
 def compare_rollers(
-    model: RollerModel, solved: SolvedRollers, methods: Iterable[Method], contamination: float | None = None
+    model: RollerModel, solved: SolvedRollers, methods: Iterable[Method], clean: tuple[float, bool]
 ) -> Comparison:
     """Ask every method about a solved roller bearing.
 
     Parameters
     ----------
-    contamination : float, optional
-        e_C of ISO 281, for modified lives.
+    clean : (float, bool)
+        e_C of ISO 281 for modified lives, and whether case or caller gives it.
     """
     radial, axial = solved.state.carried
     inputs = RollerMethodInputs(
@@ -37,7 +37,7 @@ def compare_rollers(
         oil_height=model.friction.oil_height,
         state=solved.state,
         friction=solved.friction,
-        contamination=contamination,
+        contamination=clean[0],
     )
     return Comparison(
         case=model.name,
@@ -45,4 +45,6 @@ def compare_rollers(
         headline=headline_of(model, radial, axial),
         methods=[compared(answer) for answer in evaluate_methods(methods, inputs)],
         assumptions=list(model.assumptions),
+        contamination=clean[0],
+        contamination_given=clean[1],
     )

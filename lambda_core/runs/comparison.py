@@ -18,6 +18,7 @@ from lambda_core.results.averages import finite
 from lambda_core.results.provenance import differences, model_data
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Summary
+from lambda_core.results.text import contamination_text
 from lambda_core.views.method import GROUP_UNITS, MethodAnswer
 
 if TYPE_CHECKING:
@@ -62,6 +63,8 @@ class Comparison(Answer):
     headline: str
     methods: list[ComparedMethod]
     assumptions: list[str] = Field(description="of the case")
+    contamination: float = Field(description="e_C of ISO 281 that modified lives were computed with")
+    contamination_given: bool = Field(description="whether case or caller gives it; otherwise normal cleanliness")
 
     def value(self, method: str, group: str, name: str) -> float | None:
         """Return one number, None where that method has none."""
@@ -79,11 +82,17 @@ class Comparison(Answer):
         for method in self.methods:
             notes = [method.reason] if method.reason else method.assumptions
             lines += [f"{method.name}: {units.sentence(note)}" for note in notes]
+        if any("modified rating life" in number.name for method in self.methods for number in method.numbers):
+            lines.append(f"modified lives: {contamination_text(self.contamination, is_given=self.contamination_given)}")
         return "\n".join(lines)
 
 
-def comparison_of(model: BearingModel, answers: Iterable[MethodAnswer], result: Result | None = None) -> Comparison:
+def comparison_of(
+    model: BearingModel, answers: Iterable[MethodAnswer], clean: tuple[float, bool], result: Result | None = None
+) -> Comparison:
     """Put the answers of methods, and a simulation of the same model, side by side.
+
+    `clean` is e_C of ISO 281, and whether case or caller gives it.
 
     Raises
     ------
@@ -105,6 +114,8 @@ def comparison_of(model: BearingModel, answers: Iterable[MethodAnswer], result: 
         headline="\n".join(headline(model)),
         methods=methods,
         assumptions=list(model.assumptions),
+        contamination=clean[0],
+        contamination_given=clean[1],
     )
 
 

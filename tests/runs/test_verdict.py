@@ -91,3 +91,41 @@ def test_every_bearing_of_a_machine_is_judged() -> None:
     assert isinstance(found, MachineEquilibrium)
     assert [one.verdict.met for one in found.bearings] == [True, True]
     assert found.text().startswith("verdict left     MET: L_nmrh")
+
+
+def test_one_bearing_compare_and_machines_assume_the_same_contamination_and_say_so() -> None:
+    case = {key: value for key, value in CASE.items() if key not in ("life", "requirements", "bodies")}
+    shaft = {
+        **{key: case[key] for key in ("name", "lubricant", "operation")},
+        "shaft": {"sections": [{"length": "200 mm", "diameter": "40 mm"}]},
+        "bearings": {name: {**CASE["bearing"], "at": at} for name, at in (("a", "30 mm"), ("b", "170 mm"))},
+        "loads": {"pull": {"at": "100 mm", "force_z": "-10 kN"}},
+    }
+    words = "e_C 0.5: normal cleanliness, the case gives none (life.contamination)"
+    rating, other, machine = api.quasistatic(case).rating, api.compare(case), api.quasistatic(shaft)  # type: ignore[union-attr]
+    assert rating is not None
+    assert (rating.contamination, other.contamination, machine.bearings[0].contamination) == (0.5, 0.5, 0.5)  # type: ignore[union-attr]
+    found = other.value("iso-281", "life", "modified rating life, hours")
+    assert rating.modified_life_h == pytest.approx(found, rel=1e-9)
+    assert all(one.modified_life_h and not one.contamination_given for one in machine.bearings)  # type: ignore[union-attr]
+    assert words in api.quasistatic(case).text()
+    assert f"modified lives: {words}" in other.text()
+    assert f"with {words}" in machine.text()
+    shafted = api.compare(shaft, bearing="a").value("iso-281", "life", "modified rating life, hours")
+    assert shafted == pytest.approx(machine.bearings[0].modified_life_h, rel=1e-6)  # type: ignore[union-attr]
+
+
+def test_compare_follows_the_contamination_of_the_case() -> None:
+    name = ("iso-281", "life", "modified rating life, hours")
+    case = {**CASE, "life": {"contamination": 0.2}}
+    assert api.compare(case).value(*name) == api.compare(CASE, contamination=0.2).value(*name)
+    assert "modified lives: e_C 0.2" in api.compare(case).text()
+    rollers = {
+        "name": "rollers",
+        "bearing": {"designation": "SKF NU 208 ECP"},
+        "lubricant": {"name": "FVA3A", "temperature": "60 degC"},
+        "loads": {"radial": "10 kN"},
+        "operation": {"speed": "1500 rpm"},
+    }
+    assert api.compare({**rollers, "life": {"contamination": 0.2}}).contamination == 0.2
+    assert not api.compare(rollers).contamination_given

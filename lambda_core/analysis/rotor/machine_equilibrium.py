@@ -109,10 +109,10 @@ class BearingEquilibrium(Banded):
     equivalent_load_N: float | None = same_as(Rating, "equivalent_load_N")
     basic_life_h: float | None = same_as(Rating, "basic_life_h", "L_10h of ISO 281; null at rest or without load")
     reference_life_h: float | None = same_as(Rating, "reference_life_h")
-    modified_life_h: float | None = same_as(Rating, "modified_life_h", "L_nmh of ISO 281; needs life.contamination")
-    modified_reference_life_h: float | None = same_as(
-        Rating, "modified_reference_life_h", "L_nmrh; needs life.contamination"
-    )
+    modified_life_h: float | None = same_as(Rating, "modified_life_h", "L_nmh of ISO 281")
+    modified_reference_life_h: float | None = same_as(Rating, "modified_reference_life_h", "L_nmrh")
+    contamination: float | None = same_as(Rating, "contamination", default=None)
+    contamination_given: bool = same_as(Rating, "contamination_given", default=False)
     viscosity_ratio: float | None = same_as(Rating, "viscosity_ratio", "kappa")
     static_safety: float | None = same_as(Rating, "static_safety", "C_0 over P_0")
     friction_torque_Nmm: float | None = same_as(BearingSummary, "friction_torque_Nmm")
@@ -342,8 +342,10 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
         equivalent_load_N=rating.equivalent_load_N,
         basic_life_h=rating.basic_life_h,
         reference_life_h=rating.reference_life_h,
-        modified_life_h=rating.modified_life_h if rating.contamination_given else None,
-        modified_reference_life_h=rating.modified_reference_life_h if rating.contamination_given else None,
+        modified_life_h=rating.modified_life_h,
+        modified_reference_life_h=rating.modified_reference_life_h,
+        contamination=rating.contamination,
+        contamination_given=rating.contamination_given,
         viscosity_ratio=rating.viscosity_ratio,
         static_safety=rating.static_safety,
         friction_torque_Nmm=alone.friction_torque_Nmm if found.converged else None,

@@ -14,7 +14,7 @@ from lambda_core.model.checks.describe import assumption_block, verdict_line
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.results.band_text import ends, named_sources
 from lambda_core.results.quantity import Quantity, quantities
-from lambda_core.results.text import line
+from lambda_core.results.text import contamination_text, line
 
 if TYPE_CHECKING:
     from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
@@ -180,10 +180,16 @@ def _shaft_lines(report: MachineEquilibrium) -> list[str]:
     bending = [f"{'bending moment':<{HEAD}}{max(moments)[0]:.4g} N m at {max(moments)[1]:.4g} mm"] if moments else []
     resting = report.speed_rpm == 0.0
     life = f"{hours(report.system_life_h)} (L_10rh of all bearings)" if report.system_life_h is not None else _NO_LIFE
+    clean = {
+        contamination_text(one.contamination, is_given=one.contamination_given)
+        for one in report.bearings
+        if one.contamination is not None and one.modified_life_h is not None
+    }
     lines = [
         f"{'deflection':<{HEAD}}{largest[0]:.3g} um at {largest[1]:.4g} mm",
         *bending,
         f"{'system life':<{HEAD}}{_AT_REST if resting else life}",
+        *(f"{'modified lives':<{HEAD}}with {text}" for text in sorted(clean)),
         f"{'friction torque':<{HEAD}}{_AT_REST if resting else _torque(report)}",
         *_band_lines(report),
         f"{'drive torque':<{HEAD}}{_digits(report.drive_torque_Nm)} N m",
