@@ -119,9 +119,7 @@ class Summary(Record):
         label="ends of Newton's iterations", decimals=SMALL, group="trust", default=None,
     )  # fmt: skip
 
-    simulated_s: float = quantity(
-        "simulated time", "s", label="simulated time", decimals=FLOATING, digits=4, group="trust"
-    )
+    simulated_s: float = quantity("simulated time", "s", decimals=FLOATING, digits=4, group="trust")
     wall_s: float = Field(description="wall time of the integration")
     wall_per_simulated_second: float | None
     vibrations: Followed | None = Field(description="how far vibrations can be believed")

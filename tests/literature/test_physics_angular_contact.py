@@ -61,6 +61,7 @@ class Ball:
     loads: np.ndarray  # inner, outer [N]
     axes: np.ndarray  # semi-major, inner, outer [m]
     spins: np.ndarray  # spin about the normal against each ring, inner, outer [rad/s]
+    radius: float  # of its centre [m]
     orbit: float  # [rad/s]
     spin: np.ndarray  # against the frame: axial, radial, tangential [rad/s]
 
@@ -82,6 +83,7 @@ def ball(*changes: str) -> Ball:
         channels["load"].copy(),
         channels["semi_axis_a"].copy(),
         channels["spin_velocity"].copy(),
+        float(state[L.BR]),
         orbit,
         state[L.BWX : L.BWX + 3] - np.array([orbit, 0.0, 0.0]),
     )
@@ -248,3 +250,30 @@ def test_the_gyroscopic_moment_turns_the_ball_when_friction_gives_way() -> None:
         lean.append(abs(one.spin[2]) / float(np.hypot(one.spin[0], one.spin[1])))
     assert lean[2] < math.radians(0.5)
     assert lean[1] / lean[0] == pytest.approx(9.0, rel=0.3)
+
+
+@pytest.mark.parametrize("rpm", [3000, 6000])
+def test_friction_carries_the_gyroscopic_moment_in_harris_size_and_newtons_direction(rpm: int) -> None:
+    """Harris (ch. 9): M_g = J omega_R omega_m sin(beta), J = rho pi D^5/60. Newton and Euler give the direction.
+
+    The traction T of each ring in the radial plane follows from the balance of forces on the ball alone. Its axis
+    keeps still in the turning frame, so their moment about the direction of travel is J Omega x omega there:
+    +J omega_m w_r. In the printed balance of forces, Q_i sin(a_i) - Q_o sin(a_o) - (M_g/D)(l_i cos(a_i) - l_o cos(a_o))
+    = 0, the tractions have the opposite direction.
+    """
+    one = ball(f"operation.speed={rpm} rpm", "loads.axial=22250 N")
+    density = 7830.0
+    mass, inertia = math.pi / 6.0 * density * BALL**3, density * math.pi * BALL**5 / 60.0
+    (sine_i, sine_o), (cosine_i, cosine_o) = np.sin(one.angles), np.cos(one.angles)
+    inner, outer = one.loads
+    unbalanced = [
+        inner * sine_i - outer * sine_o,
+        inner * cosine_i - outer * cosine_o + mass * one.radius * one.orbit**2,
+    ]
+    tractions = np.linalg.solve([[cosine_i, cosine_o], [-sine_i, -sine_o]], np.negative(unbalanced))
+    moment = 0.5 * BALL * float(tractions[0] - tractions[1])
+    size = inertia * one.orbit * float(np.hypot(one.spin[0], one.spin[1])) * abs(math.sin(one.pitch_angle))
+    assert abs(moment) == pytest.approx(size, rel=0.02)
+    assert moment == pytest.approx(inertia * one.orbit * float(one.spin[1]), rel=0.02)
+    printed = -size  # of the traction at both rings, with any l_i + l_o = 2
+    assert moment * printed < 0.0

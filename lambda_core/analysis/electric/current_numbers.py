@@ -26,46 +26,32 @@ class CurrentNumbers(Record):
     """Films, voltages and discharges; None where nothing discharges."""
 
     film_um: float | None = quantity(
-        "smallest central film of a loaded contact",
-        "um",
-        label="smallest central film of a loaded contact",
-        group="currents",
+        "smallest central film of a loaded contact", "um", label="smallest film", group="currents"
     )
     film_parameter: float | None = quantity(
-        "Lambda of the smallest central film", "", label="Lambda of the smallest central film", group="currents"
+        "Lambda of the smallest central film", label="film parameter Lambda", group="currents"
     )
     bearing_capacitance_pF: float | None = quantity(
-        "capacitance of the balls, touching films by their area",
-        "pF",
-        label="capacitance of the balls, touching films by their area",
-        group="currents",
+        "capacitance of the balls, touching films by their area", "pF", label="bearing capacitance", group="currents"
     )
     bearing_voltage_ratio: float | None = quantity(
-        "bearing over common-mode voltage", "", label="bearing over common-mode voltage", group="currents"
+        "bearing over common-mode voltage", label="bearing voltage ratio", group="currents"
     )
     bearing_voltage_V: float | None = quantity(
-        "largest bearing voltage, either sign", "V", label="largest bearing voltage, either sign", group="currents"
+        "largest bearing voltage, either sign", "V", label="largest bearing voltage", group="currents"
     )
     metal_share: float | None = quantity(
-        "share of contacts and time in which asperities touch",
-        "",
-        label="share of contacts and time in which asperities touch",
-        group="currents",
+        "share of contacts and time in which asperities touch", label="share of metal contact", group="currents"
     )
-    discharges_per_s: float | None = quantity(
-        "discharges through the bearing", "1/s", label="discharges through the bearing", group="currents"
-    )
+    discharges_per_s: float | None = quantity("discharges through the bearing", "1/s", group="currents")
     breakdown_voltage_V: float | None = quantity(
-        "bearing voltage at discharges, median", "V", label="bearing voltage at discharges, median", group="currents"
+        "bearing voltage at discharges, median", "V", label="breakdown voltage", group="currents"
     )
     peak_current_A: float | None = quantity(
-        "peak current of discharges, median", "A", label="peak current of discharges, median", group="currents"
+        "peak current of discharges, median", "A", label="peak current", group="currents"
     )
     current_density_A_per_mm2: float | None = quantity(
-        "median peak current over the Hertzian area, J_b",
-        "A/mm2",
-        label="median peak current over the Hertzian area, J_b",
-        group="currents",
+        "median peak current over the Hertzian area, J_b", "A/mm2", label="current density J_b", group="currents"
     )
     arc_power_mW: float | None = quantity("power of arcs", "mW")
 
