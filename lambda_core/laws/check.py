@@ -8,7 +8,7 @@ index), the inferred return type, and only then the same probe in machine code.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -173,6 +173,12 @@ def _faults(model: Law, par: FloatArray, compiled: CompiledKernel | None, sample
             yield f"{model.label} {outcome.error} {_where(model, role, arguments)}"
             return
         plain.append(outcome)
+    if role.elementwise:
+        several = trials[_CELLS.index(max(_CELLS))]
+        faults = list(_cell_faults(model, role, in_python, [several, *trials[samples:]]))
+        yield from faults
+        if faults:
+            return
     machine = compiled or compile_kernel(model)
     outcomes = [compiled_call(machine.dispatcher, role, arguments) for arguments in trials]
     for arguments, expected, outcome in zip(trials, plain, outcomes, strict=True):
@@ -183,9 +189,6 @@ def _faults(model: Law, par: FloatArray, compiled: CompiledKernel | None, sample
     if all(outcome.status != 1 for outcome in outcomes):
         sentence = model.errors.get(outcomes[0].status, "")
         yield f"{model.label} is valid nowhere in the range of a ball bearing: status {outcomes[0].status} ({sentence})"
-    if role.elementwise:
-        several = trials[_CELLS.index(max(_CELLS))]
-        yield from _cell_faults(model, role, machine, [several, *trials[samples:]])
     for slope in role.slopes:
         yield from _slope_faults(model, role, machine, trials, slope)
 
@@ -244,14 +247,14 @@ def _by_meaning(role: Role, outputs: tuple[FloatArray, ...]) -> Iterator[tuple[i
         yield from ((index, outputs[0][index : index + 1]) for index in range(len(role.outputs)))
 
 
-def _cell_faults(model: Law, role: Role, machine: CompiledKernel, trials: list[list[Any]]) -> Iterator[str]:
+def _cell_faults(model: Law, role: Role, kernel: Callable[..., int], trials: list[list[Any]]) -> Iterator[str]:
     """Check that each cell depends on its own inputs only, and vanishes at rest where it must.
 
-    The solver hands over the cells of all contacts of a raceway at once: a law that writes into another cell than its
-    own would change the next contact, and nothing stands between the two.
+    The solver hands over the cells of all contacts of a raceway at once: a law of the program that writes into another
+    cell than its own would change the next contact. A law of others is handed one cell at a time.
     """
     for tried in trials:
-        whole = compiled_call(machine.dispatcher, role, tried)
+        whole = plain_call(kernel, role, tried)
         if whole.status != 1 or whole.outputs[0].size == 1:
             continue
         for cell in range(whole.outputs[0].size):
@@ -259,7 +262,7 @@ def _cell_faults(model: Law, role: Role, machine: CompiledKernel, trials: list[l
                 value[cell : cell + 1].copy() if argument.kind == "a" and argument.name != "par" else value
                 for argument, value in zip(role.arguments, tried, strict=True)
             ]
-            single = compiled_call(machine.dispatcher, role, part)
+            single = plain_call(kernel, role, part)
             pieces = tuple(values[cell : cell + 1] for values in whole.outputs)
             if single.status == 1 and relative_difference(single.outputs, pieces) > RTOL:
                 yield f"{model.label} is not elementwise: a cell computed alone differs {_where(model, role, part)}"
@@ -271,7 +274,7 @@ def _cell_faults(model: Law, role: Role, machine: CompiledKernel, trials: list[l
             np.zeros_like(value) if argument.name == name else value
             for argument, value in zip(role.arguments, arguments, strict=True)
         ]
-        at_rest = compiled_call(machine.dispatcher, role, still)
+        at_rest = plain_call(kernel, role, still)
         if at_rest.status == 1 and np.any(at_rest.outputs[0] != 0.0):
             yield f"{model.label} returns {role.outputs[0]} = {np.abs(at_rest.outputs[0]).max():g} where {name} is 0"
 

@@ -32,7 +32,6 @@ from lambda_core.laws.law import Law
 from lambda_core.laws.par import par_layout
 
 Announce = Callable[[str], None]
-CHECKED_VARIABLE = "LAMBDA_BEARING_CHECKED"
 
 
 def cache_folder() -> Path:
@@ -42,11 +41,6 @@ def cache_folder() -> Path:
     import platformdirs
 
     return Path(platformdirs.user_cache_dir("lambda-bearing")) / "kernels"
-
-
-def is_checked() -> bool:
-    """Tell whether the laws of others are to be compiled with a check of every index, somewhat slower."""
-    return os.environ.get(CHECKED_VARIABLE, "") not in ("", "0")
 
 
 def _without_indices(hook: Callable[[Any], object]) -> Callable[[Any], object]:
@@ -146,12 +140,12 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
     """
     start, kernel, reached = time.perf_counter(), plain_function(model), kernel_reach(model)
     role, layout = ROLES[model.role], par_layout(model)
-    words = f"{model.role} {reached.key} {binding.source(role, layout, binding.taken_by(kernel))}"
+    is_foreign = project_of(model.distribution) != OWN
+    words = f"{model.role} {reached.key} {binding.source(role, layout, binding.taken_by(kernel), fenced=is_foreign)}"
     key = hashlib.sha256(words.encode()).hexdigest()
     if (packed := _packed(model, key, start)) is not None:
         return packed
-    checked = is_checked() and project_of(model.distribution) != OWN
-    folder = cache_folder() / f"{model.role}-{key[:24]}-{environment()}{'-checked' if checked else ''}"
+    folder = cache_folder() / f"{model.role}-{key[:24]}-{environment()}{'-checked' if is_foreign else ''}"
     if folder in _in_memory:
         return _in_memory[folder]
     from lambda_core.laws.jit import inlined, machine_code
@@ -163,11 +157,11 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
         if announce is not None:
             announce(f"compiling {model.label} (once)")
 
-    options = {"boundscheck": True} if checked else {}
-    if checked:
+    options = {"boundscheck": True} if is_foreign else {}
+    if is_foreign:
         sys.unraisablehook = _without_indices(sys.unraisablehook)
     machine_code.make_callable((*reached.helpers, kernel), **options)
-    wanted, flat = signature(model.role), binding.bound(kernel, role, layout)
+    wanted, flat = signature(model.role), binding.bound(kernel, role, layout, fenced=is_foreign)
     try:
         dispatcher = machine_code.compile_into(flat, wanted.args, folder, on_miss, **inlined.LAW, **options)
     except Exception as error:  # Numba answers odd source code with exceptions of many kinds

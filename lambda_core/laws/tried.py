@@ -13,7 +13,7 @@ from pathlib import Path
 from lambda_core.domain import role, roles
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.laws.check import check_choice
-from lambda_core.laws.kernels import CompiledKernel, cache_folder, is_checked, sources_key
+from lambda_core.laws.kernels import CompiledKernel, cache_folder, sources_key
 from lambda_core.laws.law import Law
 
 
@@ -56,8 +56,7 @@ def _folder(choices: Sequence[Choice]) -> Path:
         code = (choice.compiled.key, choice.compiled.made)
         declared = (law.label, sorted(law.errors.items()), len(law.states), *code, choice.par.size)
         digest.update(repr(declared).encode() + choice.par.tobytes())
-    way = "-checked" if is_checked() else ""
-    return cache_folder() / f"tried-{digest.hexdigest()[:24]}{way}"
+    return cache_folder() / f"tried-{digest.hexdigest()[:24]}"
 
 
 @cache

@@ -35,7 +35,7 @@ from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
 from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.results.text import contamination_text, line, warning_lines
+from lambda_core.results.text import life_factor_text, line, warning_lines
 
 if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
@@ -402,7 +402,7 @@ def _life_lines(found: RollerQuasiStatic) -> list[str]:
         named = zip(lives, ("ISO 16281", "ISO 281"), strict=True)
         texts = [f"{hours(life)} ({standard})" for life, standard in named if life is not None]
         lines += [line(words, *texts)] if texts else []
-    return [*lines, line("", contamination_text(*modified))] if found.life_factor is not None else lines
+    return [*lines, line("", life_factor_text(*modified))] if found.life_factor is not None else lines
 
 
 def _ring_line(ring: str, parts: dict[str, float], units: UnitSystem) -> str:

@@ -18,7 +18,6 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.elements.ball.raceways import raceways
 from lambda_core.laws.check import check_choice
-from lambda_core.laws.kernels import CHECKED_VARIABLE, is_checked
 from lambda_core.laws.law import Law
 from lambda_core.laws.runaway import FAR
 from lambda_core.laws.state import ROLE
@@ -40,8 +39,7 @@ _CELLS = 64
 def took_part(others: Iterable[Law]) -> str:
     """Say which laws of others took part in what failed."""
     names = dict.fromkeys(law.label for law in others)
-    hint = "" if is_checked() else f"; {CHECKED_VARIABLE}=1 runs them with every index checked"
-    return f"laws of others took part: {', '.join(names)}{hint}"
+    return f"laws of others took part: {', '.join(names)}"
 
 
 @contextmanager

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import logging
+import math
 import multiprocessing
 import time
 from collections.abc import Mapping, Sequence
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
     from lambda_core.solver.drivers.compiled_laws import Kernels
     from lambda_core.solver.drivers.equilibrium import Equilibrium
-    from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels
+    from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels
 
 _Model = TypeVar("_Model", "BearingModel", "MachineModel", "BearingModel | MachineModel")
 
@@ -224,7 +225,10 @@ def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) ->
         from lambda_core.studies.machine_responses import machine_point
 
         solved = machine_point(model, shared_kernels())
-        rows = {name: value for name, (value, _, _) in machine_columns(model, solved.equilibria, names).items()}
+        rows = {
+            name: value
+            for name, (value, _, _) in machine_columns(model, solved.state, solved.equilibria, names).items()
+        }
         return evaluate(names, solved, rows, known)
     found = _equilibrium(model)
     point = StaticPoint(found, quasistatic_of(found), kernels_of(model))
@@ -232,14 +236,14 @@ def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) ->
 
 
 def machine_columns(
-    model: MachineModel, equilibria: Sequence[Equilibrium], names: tuple[str, ...]
+    model: MachineModel, state: ShaftState, equilibria: Sequence[Equilibrium], names: tuple[str, ...]
 ) -> dict[str, tuple[float | None, str, str]]:
     """Return value, unit and meaning of the rows of comparison methods of each bearing among `names`."""
     columns: dict[str, tuple[float | None, str, str]] = {}
-    for bearing, found in zip(model.bearings, equilibria, strict=True):
+    for bearing, found, (x, y, z, *_) in zip(model.bearings, equilibria, state.reactions, strict=True):
         own = f"{bearing.name}."
         rows = tuple(name.removeprefix(own) for name in names if "/" in name and name.startswith(own))
-        for name, (value, unit, meaning) in method_columns(found, rows).items():
+        for name, (value, unit, meaning) in method_columns(found, rows, (math.hypot(y, z), abs(x))).items():
             columns[own + name] = (value, unit, f"{bearing.name}: {meaning}")
     return columns
 
@@ -255,16 +259,24 @@ def method_rows(found: Equilibrium, names: tuple[str, ...]) -> dict[str, float |
     return {name: value for name, (value, _, _) in method_columns(found, names).items()}
 
 
-def method_columns(found: Equilibrium, names: tuple[str, ...]) -> dict[str, tuple[float | None, str, str]]:
-    """Return value, unit and meaning of the rows of comparison methods among `names`."""
+def method_columns(
+    found: Equilibrium, names: tuple[str, ...], loads: tuple[float, float] | None = None
+) -> dict[str, tuple[float | None, str, str]]:
+    """Return value, unit and meaning of the rows of comparison methods among `names`.
+
+    `loads` are radial and axial [N]; default: those of the bearing's case.
+    """
     wanted = [name for name in names if "/" in name]
     if not wanted:
         return {}
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry
+    from lambda_core.model.settings.contamination import known_contamination
     from lambda_core.views.method import evaluate_methods
 
-    inputs = comparison_inputs(found)
+    model = found.context.model
+    clean = known_contamination(model.contamination, model.geometry.pitch_diameter)
+    inputs = comparison_inputs(found, contamination=clean, loads=loads)
     columns: dict[str, tuple[float | None, str, str]] = {}
     for name in wanted:
         label, _, row = name.partition("/")

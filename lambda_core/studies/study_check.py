@@ -314,7 +314,7 @@ def _probe_machine(
     warm = with_temperatures(model)
     state = solve_shaft(warm, announce)  # compiles or loads; not timed
     equilibria = [ring.equilibrium() for ring in state.rings]
-    columns = machine_columns(warm, equilibria, rows)
+    columns = machine_columns(warm, state, equilibria, rows)
     if study.mode == "dynamic":
         run = machine_estimate(warm, announce)
         if run.processor_s is None or run.simulated_s is None:

@@ -42,7 +42,7 @@ def status_of(returned: Any) -> Any:
     return returned
 
 
-def source(role: Role, layout: Layout, taken: tuple[str, ...], *, alone: bool = False) -> str:
+def source(role: Role, layout: Layout, taken: tuple[str, ...], *, alone: bool = False, fenced: bool = False) -> str:
     """Return the generated function as text.
 
     Parameters
@@ -56,6 +56,8 @@ def source(role: Role, layout: Layout, taken: tuple[str, ...], *, alone: bool = 
     alone : bool
         For one contact, whose numbers are numbers. Otherwise those in which contacts differ are arrays, as are cells
         and outputs of all contacts one after another, and the status is another one than 1 where any contact has one.
+    fenced : bool
+        An elementwise kernel is handed one cell at a time, so that no index of it reaches another cell or contact.
     """
     counts: list[str] = []
     record, _ = _record(layout, "0", counts, iter(range(1000)))
@@ -64,21 +66,32 @@ def source(role: Role, layout: Layout, taken: tuple[str, ...], *, alone: bool = 
         *counts,
         f"record = {record}",
     ]
+    known = {argument.name: argument for argument in role.arguments}
+    written = next(argument.name for argument in role.arguments if argument.output)
+    if fenced and role.elementwise and not role.batched:
+        cell = [f"stretch({name}, k, 1)" if _is_cells(known[name]) else _named(name) for name in taken]
+        return "\n    ".join([*lines, *_looped(f"{written}.size", ", ".join(cell))]) + "\n"
     if alone or not role.batched:
         return "\n    ".join([*lines, f"return kernel({', '.join(map(_named, taken))})"]) + "\n"
     first = next(argument.name for argument in role.arguments if argument.each)
     if role.elementwise:
-        written = next(argument.name for argument in role.arguments if argument.output)
         lines.append(f"cells = {written}.size // {first}.size")
-    known = {argument.name: argument for argument in role.arguments}
     handed = ", ".join(_of_contact(role, known[name]) for name in taken)
-    lines += [
+    return "\n    ".join([*lines, *_looped(f"{first}.size", handed)]) + "\n"
+
+
+def _looped(count: str, handed: str) -> list[str]:
+    """Return the lines that call the kernel `count` times, with 1 for a status where every call has 1."""
+    return [
         "failed = 0",
-        f"for k in range({first}.size):",
+        f"for k in range({count}):",
         f"    failed |= status_of(kernel({handed})) ^ 1",
         "return failed ^ 1",
     ]
-    return "\n    ".join(lines) + "\n"
+
+
+def _is_cells(argument: Argument) -> bool:
+    return argument.kind == "a" and argument.name != "par"
 
 
 def _named(name: str) -> str:
@@ -104,7 +117,13 @@ def taken_by(kernel: Callable[..., int]) -> tuple[str, ...]:
 
 @lru_cache(maxsize=256)
 def bound(
-    kernel: Callable[..., int], role: Role, layout: Layout, *, alone: bool = False, strict: bool = False
+    kernel: Callable[..., int],
+    role: Role,
+    layout: Layout,
+    *,
+    alone: bool = False,
+    strict: bool = False,
+    fenced: bool = False,
 ) -> FunctionType:
     """Return the function that takes the flat array and calls the kernel with the record.
 
@@ -112,7 +131,7 @@ def bound(
     ----------
     kernel : function
         It is called with a record in place of the flat array.
-    role, layout, alone
+    role, layout, alone, fenced
         As for :func:`source`.
     strict : bool
         For calls in plain Python: a record that refuses to be read by position (:class:`PositionError`).
@@ -126,7 +145,7 @@ def bound(
     for place, each in enumerate(_layouts(layout)):
         base: type = namedtuple(each.name, each.names)  # type: ignore[misc]
         scope[f"Record{place}"] = type(each.name, (_Strict, base), {}) if strict else base
-    exec(compile(source(role, layout, taken_by(kernel), alone=alone), FILE, "exec"), scope)
+    exec(compile(source(role, layout, taken_by(kernel), alone=alone, fenced=fenced), FILE, "exec"), scope)
     made: FunctionType = scope["flat"]
     made.__name__ = made.__qualname__ = kernel.__name__
     return made
