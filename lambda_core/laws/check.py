@@ -189,6 +189,8 @@ def _faults(model: Law, par: FloatArray, compiled: CompiledKernel | None, sample
     if all(outcome.status != 1 for outcome in outcomes):
         sentence = model.errors.get(outcomes[0].status, "")
         yield f"{model.label} is valid nowhere in the range of a ball bearing: status {outcomes[0].status} ({sentence})"
+    if role.elementwise:
+        yield from _rest_faults(model, role, machine, several)
     for slope in role.slopes:
         yield from _slope_faults(model, role, machine, trials, slope)
 
@@ -248,7 +250,7 @@ def _by_meaning(role: Role, outputs: tuple[FloatArray, ...]) -> Iterator[tuple[i
 
 
 def _cell_faults(model: Law, role: Role, kernel: Callable[..., int], trials: list[list[Any]]) -> Iterator[str]:
-    """Check that each cell depends on its own inputs only, and vanishes at rest where it must.
+    """Check that each cell depends on its own inputs only.
 
     The solver hands over the cells of all contacts of a raceway at once: a law of the program that writes into another
     cell than its own would change the next contact. A law of others is handed one cell at a time.
@@ -267,14 +269,17 @@ def _cell_faults(model: Law, role: Role, kernel: Callable[..., int], trials: lis
             if single.status == 1 and relative_difference(single.outputs, pieces) > RTOL:
                 yield f"{model.label} is not elementwise: a cell computed alone differs {_where(model, role, part)}"
                 return
-    arguments = trials[0]
+
+
+def _rest_faults(model: Law, role: Role, machine: CompiledKernel, arguments: list[Any]) -> Iterator[str]:
+    """Check that an elementwise output vanishes at rest where it must."""
     name = role.vanishes_with
     if name:
         still = [
             np.zeros_like(value) if argument.name == name else value
             for argument, value in zip(role.arguments, arguments, strict=True)
         ]
-        at_rest = plain_call(kernel, role, still)
+        at_rest = compiled_call(machine.dispatcher, role, still)
         if at_rest.status == 1 and np.any(at_rest.outputs[0] != 0.0):
             yield f"{model.label} returns {role.outputs[0]} = {np.abs(at_rest.outputs[0]).max():g} where {name} is 0"
 

@@ -165,7 +165,7 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
     try:
         dispatcher = machine_code.compile_into(flat, wanted.args, folder, on_miss, **inlined.LAW, **options)
     except Exception as error:  # Numba answers odd source code with exceptions of many kinds
-        if role.batched:
+        if role.batched or is_foreign:
             _check_alone(model, kernel, wanted)
         raise PluginError(f"{model.label} cannot be compiled: {gist(error)}") from None
     _check_return(model, machine_code.returned_type(dispatcher), wanted.return_type)

@@ -86,9 +86,11 @@ def _of_hostile(entries: Entries) -> list[str]:
 
 
 def _of_kills(entries: Entries) -> list[str]:
-    met = [entry for entry in entries if entry.get("met")]
-    over = sum(entry["verdict"] == "usage" for entry in met)
-    return [f"killed with a file open: {len(met)} of {len(entries)}; gone on with: {len(met) - over}; finished: {over}"]
+    left = [float(entry["left"]) for entry in entries if entry.get("left")]
+    if not left:
+        return ["killed with work left: none"]
+    shares = f"{100.0 * min(left):.0f} to {100.0 * max(left):.0f} % of the samples left"
+    return [f"killed with work left: {len(left)} of {len(entries)}, {shares}"]
 
 
 def _of_soak(entries: Entries) -> list[str]:
@@ -100,6 +102,9 @@ _NOTES: dict[str, Callable[[Entries], list[str]]] = {
     "cases": _of_cases,
     "hostile": _of_hostile,
     "kills": _of_kills,
+    "points": _of_kills,
+    "kills_of_machines": _of_kills,
+    "points_of_machines": _of_kills,
     "soak": _of_soak,
 }
 

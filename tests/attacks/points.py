@@ -13,26 +13,25 @@ from typing import Any
 
 from lambda_core.results import hdf5
 from lambda_core.results.writer import ResultWriter
-from tests.attacks.damage import LIMIT, Said, command, gone_on_with, line, made_once, undisturbed_result
+from tests.attacks.damage import LIMIT, Said, command, gone_on_with, line, made_once, undisturbed_result, work_left
 from tests.attacks.trial import Trial, attempt
+
+_TRIES = 12  # at meeting a run that has work left
 
 
 def killed_at_a_point(seed: int, number: int, folder: Path) -> Said:
-    """Kill a run before or after one of its writes to the file, go on, and compare."""
+    """Kill a run that has work left before or after one of its writes to the file, go on, and compare."""
     undisturbed, counts = undisturbed_result(folder), _counts(folder)
     pick = random.Random(seed * 1_000_003 + number)
-    name = pick.choice(sorted(counts))
-    call, behind = pick.randrange(counts[name]), pick.random() < 0.5
-    while True:  # some calls follow the clock: a run may have fewer of them than the counted one
+    for _ in range(_TRIES):  # some calls follow the clock, and some come at the end alone: those leave no work
+        name = pick.choice(sorted(counts))
+        call, behind = pick.randrange(counts[name]), pick.random() < 0.5
+        at = {"point": f"{'after' if behind else 'before'} call {call} of {name}"}
         (folder / "out.h5").unlink(missing_ok=True)
         ended = Trial(command(folder), folder, before=partial(_patch, name, call, behind)).wait(LIMIT)
-        if ended.verdict == "killed" or call == 0:
-            break
-        call //= 2
-    at = {"point": f"{'after' if behind else 'before'} call {call} of {name}"}
-    if ended.verdict != "killed":
-        return ended.but("missed", f"nothing was killed {at['point']}"), line(command(folder)), at
-    return gone_on_with(folder, undisturbed), line(command(folder)), at
+        if ended.verdict == "killed" and (left := work_left(folder, undisturbed)) > 0.0:
+            return gone_on_with(folder, undisturbed), line(command(folder)), at | {"left": left}
+    return ended.but("missed", "no run had work left when it was killed"), line(command(folder)), at
 
 
 def _points() -> dict[str, tuple[Any, str]]:
