@@ -1,4 +1,4 @@
-"""Build of the wheel, with the machine code of the solver and the built-in laws.
+"""Build wheels with machine code of solver and laws.
 
 This file is both the build backend, hatchling's with more requirements for a wheel, and its hook. A wheel takes a pack
 where the compiler is there: Numba and the other dependencies of the program, and a C compiler. Otherwise it has none,

@@ -1,4 +1,7 @@
-"""``python -m benchmarks``: measure, print, and on request write the table of docs/performance.md."""
+"""Measure performance: ``python -m benchmarks``.
+
+``--write`` puts the tables into docs/performance.md.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""This version and another one on the same cases, in turn: ratios that hold on a machine that others use.
+"""Compare this version with another one in turn.
+
+The ratios of times also hold on a machine that others use.
 
 Both run with the laws and constants named that b7aec9b had by default (:mod:`benchmarks.endstates`), so that later
 defaults do not count as a difference. Counts of evaluations depend on no clock at all.

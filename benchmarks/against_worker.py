@@ -1,4 +1,6 @@
-"""Processor time of integrations, asked for line by line: run by the interpreter of the version that is measured.
+"""Time integrations in the interpreter of one version.
+
+Reads its tasks line by line and prints processor times.
 
 A question is one line of JSON on stdin (case, overrides, duration), the answer one on stdout. Uses nothing but
 ``lambda_core.api`` and the engine, wherever the version keeps it, so that versions with other rooms can be asked too.

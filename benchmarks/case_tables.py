@@ -1,4 +1,6 @@
-"""Compare the solver tables of 200 cases: ``python -m benchmarks.case_tables --against PYTHON``.
+"""Compare solver tables of 200 cases with another version.
+
+``python -m benchmarks.case_tables --against PYTHON``.
 
 case_tables.jsonl holds 200 single-bearing cases, one JSON object a line, drawn at random in November 2026: five kinds
 of bearings from the catalogue and of own geometry, every kind of time function, support and load, laws of every role,

@@ -1,4 +1,7 @@
-"""Print hashes of the solver tables of cases as one JSON object; runs in the interpreter of either version."""
+"""Print hashes of the solver tables as JSON.
+
+Runs in the interpreter of either version.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Time of a catalogue search while somebody types, with the built-in rows and with many rows of the user's own."""
+"""Time searches in the catalogue while a user types."""
 
 from __future__ import annotations
 

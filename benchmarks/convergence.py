@@ -1,4 +1,6 @@
-"""``python -m benchmarks.convergence``: how dissipated power settles with the grid and the tolerance.
+"""Measure how power converges with grid and tolerance.
+
+``python -m benchmarks.convergence``.
 
 Grid: every point is brought to its quasi-static equilibrium again; the tangential forces at a frozen state would say
 nothing. Tolerance: the same stretch of time of the same bearing without a cage, whose motion would be chaotic.

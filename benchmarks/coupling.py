@@ -1,4 +1,6 @@
-"""``python -m benchmarks.coupling [--fmu]``: a rotor in a host on one bearing, against its mass inside the bearing.
+"""Compare a coupled rotor with its mass inside the bearing.
+
+``python -m benchmarks.coupling [--fmu]``.
 
 The host knows mass and load of the rotor and leads the inner ring (``couple="motion"``); the bearing answers with its
 reaction. A push begins after about a millisecond and stays. Reference is the bearing that owns the ring, with the same

@@ -1,4 +1,6 @@
-"""``python -m benchmarks.coupling_by_force``: a bearing that owns its ring, held by a spring of the host.
+"""Couple a bearing that owns its ring to a host.
+
+``python -m benchmarks.coupling_by_force``: a spring of the host holds the ring.
 
 The host knows the stiffness of a support and puts its force on the ring (``couple="force"``), one number per step.
 Reference is the bearing with the same support of its own. A push of the case of ``benchmarks.coupling``.

@@ -1,4 +1,6 @@
-"""``python -m benchmarks.coupling_repeated``: the rotor of ``benchmarks.coupling``, each step until both sides agree.
+"""Repeat each coupling step until both sides agree.
+
+``python -m benchmarks.coupling_repeated``: the rotor of ``benchmarks.coupling``.
 
 The host takes the mean of the reactions at both ends of a step, which it knows only after the step: the FMU takes it
 back and repeats it. Either the last answer is put in (by itself), or stiffness and damping that the FMU's directional

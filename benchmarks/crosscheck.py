@@ -1,4 +1,7 @@
-"""The page on the cross-check with CVODE: ``python -m benchmarks.crosscheck [--write]``."""
+"""Write the page on the cross-check with CVODE.
+
+``python -m benchmarks.crosscheck [--write]``.
+"""
 
 from __future__ import annotations
 

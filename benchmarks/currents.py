@@ -1,4 +1,4 @@
-"""Bearing currents: what the circuit adds to a simulated second, a risk map, and how well its books balance."""
+"""Time the circuit, a risk map and their balances."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Print hashes of results as one JSON object; runs in the interpreter of the version that is asked.
+"""Print hashes of results as JSON.
+
+Runs in the interpreter of the version under test.
 
 Uses nothing but ``lambda_core.api`` and h5py, so that it also runs with versions whose packages are arranged
 differently.

@@ -1,4 +1,6 @@
-"""Compare the results of two versions bit by bit: ``python -m benchmarks.endstates --against PYTHON``.
+"""Compare the results of two versions bit by bit.
+
+``python -m benchmarks.endstates --against PYTHON``.
 
 This version and the one that the interpreter PYTHON belongs to run the same cases. The built-in cases run with the laws
 and constants that b7aec9b had by default, so that later defaults do not count as a difference. With ``--recent`` the

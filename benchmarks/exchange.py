@@ -1,4 +1,6 @@
-"""``python -m benchmarks.exchange``: the laws of every role exchanged one at a time in a run of the 6319.
+"""Exchange every law in a run of the 6319.
+
+``python -m benchmarks.exchange``: one law at a time.
 
 Everything else stays as it is. Where the standard run would not ask a role (a full film carries no load on asperities),
 or a law needs an oil with data of its own, the whole table of the role has another set-up, which it names.

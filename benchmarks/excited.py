@@ -1,4 +1,6 @@
-"""The 6220 through its transition: constant speed, growing axial excitation, ball speeds by azimuth before and after.
+"""Run the 6220 through its transition under growing excitation.
+
+The speed is constant; ball speeds by azimuth before and after.
 
 ``python -m benchmarks.excited [--write]`` prints or writes the page and its figure; tests/syla2026/test_excited.py
 looks at the same run.

@@ -1,4 +1,6 @@
-"""Rerun converged cases with a hundredth of the tolerance: ``python -m benchmarks.false_convergence --count 200``.
+"""Repeat converged cases with a hundredth of the tolerance.
+
+``python -m benchmarks.false_convergence --count 200``.
 
 Draws operating points as :mod:`benchmarks.static_points` does, runs each until it says "converged", and runs it again
 with `solver.tolerance` a hundred times smaller for twice as long. The friction torques agree within the combined 95 %

@@ -1,4 +1,7 @@
-"""The parts of a step repeated inside compiled code, so that a call from Python is not timed with them."""
+"""Repeat parts of a step in compiled code.
+
+So their times contain no call from Python.
+"""
 
 # Numba infers the types of compiled functions.
 # mypy: disable-error-code="no-untyped-def, no-untyped-call"

@@ -1,4 +1,7 @@
-"""Compare our integrator with CVODE and SciPy's, on the same compiled right-hand side in the same process."""
+"""Compare our integrator with CVODE and SciPy.
+
+All use the same compiled right-hand side in one process.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The machine, the versions and the load that a measurement was taken on."""
+"""Describe the computer, its versions and its load."""
 
 from __future__ import annotations
 

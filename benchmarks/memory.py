@@ -1,4 +1,4 @@
-"""Memory over a long run: it must not grow with the simulated time."""
+"""Measure the memory of a long run."""
 
 from __future__ import annotations
 

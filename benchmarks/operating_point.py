@@ -1,4 +1,4 @@
-"""Quasi-static operating points: the time of one point of a map, as a study computes it."""
+"""Time quasi-static operating points as a study solves them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""``python -m benchmarks.packages``: what the example packages cost, wall time per simulated second over the same case.
+"""Measure the cost of the example packages.
+
+``python -m benchmarks.packages``: wall time per simulated second over the same case.
 
 Runs without and with each package take turns, and of each the fastest counts.
 """

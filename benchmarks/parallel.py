@@ -1,4 +1,4 @@
-"""Several runs at once: what a core still yields when its neighbours work too, and what studies make of it."""
+"""Measure parallel processes and the efficiency of studies."""
 
 from __future__ import annotations
 

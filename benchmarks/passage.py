@@ -1,4 +1,4 @@
-"""One timed integration of a model, in pieces, with what it says about friction and cage."""
+"""Time one integration in pieces and read its results."""
 
 from __future__ import annotations
 

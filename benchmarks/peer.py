@@ -1,4 +1,4 @@
-"""The nearest open peer: Exudyn's rigid ball bearing, planar, without lubricant, and our full model.
+"""Compare with Exudyn's planar ball bearing without lubricant.
 
 Needs the package exudyn (extra "peers"). Both compute the 6208 at 2 kN radial and 2750 1/min. Exudyn's bearing has nine
 balls as rigid bodies, Hertz's exponent, dry friction and springs for a cage; ours everything that the default has.

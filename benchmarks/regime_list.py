@@ -1,4 +1,4 @@
-"""Hard regimes: the table of what each one is, and what must be seen to have happened."""
+"""List hard regimes and the events they must show."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hard regimes: whether each one happened, and how far its energy balance closes.
+"""Run hard regimes; check events and energy balance.
 
 ``python -m benchmarks.regimes [--write]`` runs all of them and prints or writes the page; tests/solver/test_regimes.py
 runs the same table.

@@ -1,4 +1,4 @@
-"""Equal bearings on one shaft: the tables of one bearing laid several times, side by side, on one inner body.
+"""Repeat one bearing on a shared shaft.
 
 A case describes one bearing; compiled code works on tables of any length. The shaft is body 0; bearing i brings an
 outer ring, body 1 + 2 i, and a cage, body 2 + 2 i.

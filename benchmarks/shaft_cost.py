@@ -21,7 +21,7 @@ MOST = 1.3  # times the sum
 _PIECES = 100  # short ones: of each a repeat is found that nothing else on the machine held up
 _MILLISECONDS, _MILLISECONDS_QUICK = 200, 40
 _REPEATS = 5
-_COUNTED = ("steps", "newton_iterations", "rests", "jacobians", "ball_jacobians", "factorisations")
+_COUNTED = ("steps", "newton_iterations", "bypasses", "jacobians", "ball_jacobians", "factorisations")
 MACHINE = "machine"
 Engine = MachineEngine | BearingEngine
 Passage = tuple[tuple[float, ...], Mapping[str, float]]  # time of each piece [s], counters
@@ -68,7 +68,7 @@ def measure(effort: Effort) -> Section:
     table = Table(
         f"A machine and its bearings alone, 6208 and 6206, {1e3 * duration:.0f} ms",
         (
-            "what", "steps", "Newton iterations", "rests", "Jacobians", "of single balls", "factorisations",
+            "what", "steps", "Newton iterations", "bypasses", "Jacobians", "of single balls", "factorisations",
             "bearings evaluated", "ms", "us per bearing evaluated",
         ),
         tuple(rows),

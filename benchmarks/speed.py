@@ -1,4 +1,4 @@
-"""Wall time per simulated second and per revolution, at settings that reach the same accuracy."""
+"""Time simulated seconds and revolutions at equal accuracy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From the command line to the first step: cold, warm, and with a law never used before; every command, warm."""
+"""Time cold and warm starts of all commands."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Solve random operating points of the whole catalogue: ``python -m benchmarks.static_points --count 2000``.
+"""Solve random operating points of the catalogue.
+
+``python -m benchmarks.static_points --count 2000``.
 
 Draws bearings of all kinds, 1 to 20 000 1/min, oils, 20 to 90 degC, and radial, axial or combined loads from 1 to 25 %
 of the basic dynamic rating (self-aligning and double-row bearings included). Every point has a quasi-static solution

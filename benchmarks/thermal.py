@@ -1,4 +1,4 @@
-"""Temperatures: an hour of warm-up; the loss at printed reference speeds over the reference heat of ISO 15312."""
+"""Time a warm-up; compare losses with ISO 15312."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Times that a busy machine disturbs little: minima over repeats of the same work."""
+"""Take times as minima over repeats."""
 
 from __future__ import annotations
 

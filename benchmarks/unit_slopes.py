@@ -1,4 +1,6 @@
-"""``python -m benchmarks.unit_slopes``: stiffness and damping of a driven bearing, from its FMU and by differences.
+"""Compare stiffness and damping of an FMU with differences.
+
+``python -m benchmarks.unit_slopes``.
 
 All reactions of both rings with all poses and rates and the speed, by the FMU's directional derivatives (one call for
 each input), and by a host that sets each input to both sides and reads. Both in turn, the shortest of several,

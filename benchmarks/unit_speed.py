@@ -1,4 +1,6 @@
-"""``python -m benchmarks.unit_speed``: what an FMU takes compared with the program, export and steps of 0.1 ms.
+"""Compare the speed of an FMU with the program.
+
+``python -m benchmarks.unit_speed``: export and steps of 0.1 ms.
 
 All ways through the same time are taken in turn, the shortest of several counts: the engine in Python that stops where
 a host stops; the same without stops, as a run has it; steps of ``api.iterate``, which look at every channel; FMUs whose
@@ -17,7 +19,7 @@ from pathlib import Path
 
 from lambda_core import api
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.solver.drivers.given import given_names, start
+from lambda_core.solver.drivers.external_inputs import given_names, start
 
 CASE, CHANGES = "6208-axial-1300", ("solver.duration=0.2 s",)
 STEP, STEPS = 1e-4, 300  # [s], communication steps

@@ -1,4 +1,4 @@
-"""The one door: everything that a face, a script or a plugin may ask of the program.
+"""Offer every public function of the program.
 
 What stands behind a name is imported when the name is first asked for. The imports below are for type checkers and
 readers, and they are the list of the names: this module reads them in its own text.

@@ -1,4 +1,4 @@
-"""Build machines in Python: shaft, bearings, gears and loads in a few lines.
+"""Build machines in Python.
 
 The case file is the reference: a :class:`Machine` collects what stands in one, and every question is answered for the
 case that it would write.

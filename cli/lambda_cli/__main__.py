@@ -1,4 +1,4 @@
-"""``python -m lambda_cli``: the same program where the script is not on the path."""
+"""Run the program by ``python -m lambda_cli``."""
 
 import sys
 

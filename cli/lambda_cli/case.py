@@ -1,4 +1,4 @@
-"""The commands init, check and schema: make, look at and describe case files."""
+"""Define the commands init, check and schema."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The table of commands: where each one lives, loaded only when it is called.
+"""List the commands; load each one when it is called.
 
 A command is a function or a typer application in a module of its own. One whose module is
 not installed is not listed. Further packages bring commands through the entry-point group

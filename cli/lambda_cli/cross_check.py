@@ -1,4 +1,4 @@
-"""The command cross-check: our integrator and an independent one on the same equations."""
+"""Define the command cross-check."""
 
 from __future__ import annotations
 

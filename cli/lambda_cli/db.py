@@ -1,4 +1,4 @@
-"""`lambda-bearing db`: search, show, add, remove, import, export and check the catalogue."""
+"""Define the commands `lambda-bearing db`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command duty: life and losses over the phases of a duty cycle."""
+"""Define the command duty."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command electric: bearing voltage and discharges of a case or a run."""
+"""Define the command electric."""
 
 from __future__ import annotations
 

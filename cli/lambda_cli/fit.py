@@ -1,4 +1,4 @@
-"""The command fit: parameters of a case from measured operating points."""
+"""Define the command fit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The second Ctrl+C, or request to terminate, ends the program at once, whatever it is doing.
+"""End the program at the second request to stop.
+
+The first Ctrl+C or request to terminate lets it finish properly.
 
 Python hears signals only between two instructions of its own: inside a law that never returns it hears none. A thread
 of its own does, for compiled code lets other threads work meanwhile.

@@ -1,4 +1,4 @@
-"""The program ``lambda-bearing``: finds the command, runs it, and turns errors into messages and exit codes.
+"""Run a command; turn errors into messages and exit codes.
 
 stdout carries data, stderr carries talk. Exit codes: 0 ok, 1 bug, 2 usage, 3 invalid case,
 4 solver failed, 5 partial result, 130 interrupted.

@@ -1,4 +1,4 @@
-"""The commands measured list, compare and add: measured series next to the program."""
+"""Define the commands measured list, compare and add."""
 
 from __future__ import annotations
 

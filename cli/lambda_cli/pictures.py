@@ -1,4 +1,4 @@
-"""Pictures printed into terminals that can show them: kitty's graphics protocol or sixel."""
+"""Print pictures into terminals with kitty's graphics or sixel."""
 
 from __future__ import annotations
 

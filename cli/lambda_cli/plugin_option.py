@@ -1,4 +1,4 @@
-"""``--plugin FILE.py``, which every command takes: laws of one file, for one call."""
+"""Define the option ``--plugin FILE.py`` of every command."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`lambda-bearing plugins`: what is installed, what each model takes, and whether it keeps the rules."""
+"""Define the commands `lambda-bearing plugins`."""
 
 from __future__ import annotations
 

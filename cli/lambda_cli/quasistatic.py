@@ -1,4 +1,4 @@
-"""The commands quasistatic and modes: a case at its operating point, without time."""
+"""Define the commands quasistatic and modes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command recent: the case files that were worked on last."""
+"""Define the command recent."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command report: one self-contained, printable page about a run or a study."""
+"""Define the command report."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command resume: go on with a run that was interrupted or is to be longer."""
+"""Define the command resume."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Begin the program: nothing is imported yet, so that Ctrl+C ends it in one line at once."""
+"""Start the program before any other import.
+
+So Ctrl+C ends it at once with one line.
+"""
 
 from __future__ import annotations
 

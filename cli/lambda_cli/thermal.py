@@ -1,4 +1,4 @@
-"""The command thermal: temperatures that the losses of bearings give them."""
+"""Define the command thermal."""
 
 from __future__ import annotations
 

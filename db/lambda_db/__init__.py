@@ -1,1 +1,4 @@
-"""The catalogue: bearings, lubricants, materials and cages in SQLite, every value with its source and grade."""
+"""Store bearings, lubricants, materials and cages in SQLite.
+
+Every value has its source and grade.
+"""

@@ -1,4 +1,7 @@
-"""The core database: built from the seeds at first use, named by their hash and its own, put in place in one step."""
+"""Build the core database from the seeds.
+
+It is built at first use, named by the hash of seeds and schema, and put in place in one step.
+"""
 
 from __future__ import annotations
 

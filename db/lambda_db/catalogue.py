@@ -1,4 +1,7 @@
-"""The catalogue over SQLite: the core's Protocol, answered from built-in, plugin and user rows."""
+"""Implement the catalogue of the core over SQLite.
+
+It combines built-in, plugin and user rows.
+"""
 
 from __future__ import annotations
 

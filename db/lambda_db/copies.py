@@ -1,4 +1,7 @@
-"""Rows of one's own that begin as copies: what is changed gets the new source, the rest keeps its own."""
+"""Make user rows as copies of other rows.
+
+Changed values get the new source, the others keep theirs.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Inner geometry that no catalogue prints, estimated: every ball count and standard ball, ranked by what is printed.
+"""Estimate inner geometry that no catalogue prints.
+
+Every number of balls with every standard ball is ranked by the printed values.
 
 A candidate (Z, D_w) on the pitch circle is scored by squared residuals over their standard deviations:
 

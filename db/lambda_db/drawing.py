@@ -1,4 +1,7 @@
-"""A bearing's cross-section as text, to scale: a terminal cell is taken as twice as high as wide."""
+"""Draw a cross-section of a bearing as text.
+
+A terminal cell counts as twice as high as wide.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SQLite connections: one way to open them, with transactions that SQLAlchemy controls."""
+"""Open SQLite connections with transactions under SQLAlchemy's control."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The derivation applied to table rows: what a bearing's row prints, its candidates, and a row completed by them."""
+"""Complete catalogue rows by the estimated inner geometry."""
 
 from __future__ import annotations
 

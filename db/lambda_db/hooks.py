@@ -1,4 +1,7 @@
-"""Entry point of the catalogue; imports nothing heavy, SQLAlchemy is loaded when the catalogue is opened."""
+"""Register the catalogue without heavy imports.
+
+SQLAlchemy is loaded when the catalogue is opened.
+"""
 
 from __future__ import annotations
 

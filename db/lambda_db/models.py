@@ -1,4 +1,6 @@
-"""The tables: SQLAlchemy 2 typed models, STRICT, with CHECK constraints that carry the sentence people read.
+"""Define the tables with types and constraints.
+
+SQLAlchemy 2, STRICT; a CHECK constraint contains the sentence of its error.
 
 Columns hold the numbers as their source prints them; the unit is the end of the column's name
 (:mod:`lambda_db.units`). Keys ignore case. Rows reach each other by natural keys, so that a user's row can

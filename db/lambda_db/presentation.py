@@ -1,4 +1,7 @@
-"""Catalogue rows as people read them: engineers' units, one entry per value with source and grade."""
+"""Show catalogue rows in engineers' units.
+
+Each value has its source and grade.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Cases that were worked on last: a short list of files in the user's data folder."""
+"""Keep a short list of recent case files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""From the cells of a file to a row of a table: types, units and required columns, every problem with its reason."""
+"""Convert cells of a file to rows of a table.
+
+It checks types, units and required columns, and gives a reason for every problem.
+"""
 
 from __future__ import annotations
 

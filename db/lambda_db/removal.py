@@ -1,4 +1,7 @@
-"""Taking rows out of the user's own database; what is built in, or a plugin's, stays."""
+"""Remove rows from the user's own database.
+
+Built-in rows and those of plugins stay.
+"""
 
 from __future__ import annotations
 

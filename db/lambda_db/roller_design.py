@@ -1,4 +1,7 @@
-"""The table of roller bearings: boundary dimensions, ratings and inner geometry of one row of rollers."""
+"""Define the table of roller bearings.
+
+Boundary dimensions, ratings and inner geometry of one row of rollers.
+"""
 
 from __future__ import annotations
 

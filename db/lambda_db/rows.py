@@ -1,4 +1,7 @@
-"""From table rows to the core's catalogue rows: SI values, each with its source, grade and status."""
+"""Convert table rows to the core's catalogue rows.
+
+SI values, each with its source, grade and status.
+"""
 
 from __future__ import annotations
 

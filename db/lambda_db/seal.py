@@ -1,4 +1,6 @@
-"""The seal of the user's own catalogue: a digest of every row, renewed with each change that the program makes.
+"""Keep a digest of every row of the user's catalogue.
+
+The program renews it with each of its changes.
 
 SQLite keeps no checksums: a text or number that a failing disk has changed reads as well as the one before, and so does
 one that a person has changed with another tool. Neither is used until somebody has said that it is right.

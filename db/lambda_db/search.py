@@ -1,4 +1,7 @@
-"""Search as one types: words match designation, maker, series or a dimension; ``d=40 C>30`` compares numbers."""
+"""Search the catalogue by words and comparisons.
+
+Words match designation, maker, series or a dimension; ``d=40 C>30`` compares numbers.
+"""
 
 from __future__ import annotations
 

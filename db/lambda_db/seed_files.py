@@ -1,4 +1,7 @@
-"""Seed folders: one CSV per table, or TOML files with arrays of tables of the same names and columns."""
+"""Read seed folders of CSV and TOML files.
+
+One CSV per table, or TOML files with arrays of tables of the same names and columns.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The tables that people bring rows for, and which rows belong to which."""
+"""List the tables of seeds and their dependent rows."""
 
 from __future__ import annotations
 

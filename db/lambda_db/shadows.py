@@ -1,4 +1,7 @@
-"""Rows of plugins that stand in front of others: same key, another folder; and sources that change their text."""
+"""Find plugin rows that hide others.
+
+They have the same key in another folder, or a source whose text differs.
+"""
 
 from __future__ import annotations
 

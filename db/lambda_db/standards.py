@@ -1,4 +1,7 @@
-"""Printed tables under the derivation of inner geometry: ball sizes, ISO 76 f_0, ISO 281 f_c, published designs."""
+"""Hold printed tables for the derivation of geometry.
+
+Ball sizes, ISO 76 f_0, ISO 281 f_c, published designs.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Rows in and out: import and add into the user's database, export to CSV and TOML; a round trip is exact."""
+"""Import and export rows.
+
+CSV and TOML; a round trip is exact.
+"""
 
 from __future__ import annotations
 

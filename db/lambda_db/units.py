@@ -1,4 +1,7 @@
-"""Units of the catalogue's columns and properties: printed numbers in the tables, SI floats at the Protocol."""
+"""Define units of the catalogue's columns and properties.
+
+Tables have the printed numbers, the Protocol SI floats.
+"""
 
 from __future__ import annotations
 

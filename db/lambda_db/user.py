@@ -1,4 +1,7 @@
-"""The user's own database: WAL, a busy timeout for several writers, versions by PRAGMA user_version."""
+"""Open and write the user's own database.
+
+WAL, a busy timeout for several writers, versions by PRAGMA user_version.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Public names and their numpydoc docstrings, read for the API reference and for the test that they are complete."""
+"""Read public names and their numpydoc docstrings.
+
+For the API reference and the test that docstrings are complete.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Draws the pictures of the gallery and of the tutorial: ``python docs/tools/gallery.py [PICTURE ...]``.
+"""Draw the pictures of the gallery and the tutorial.
+
+``python docs/tools/gallery.py [PICTURE ...]``.
 
 Every picture has the commands that make it; the gallery page prints them (docs/tools/renew.py), this tool types them
 in a temporary folder and keeps what they draw in docs/images/gallery, small. Pages as a browser shows them need

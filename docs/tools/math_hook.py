@@ -1,4 +1,4 @@
-"""Formulas of the pages, set when the site is built: LaTeX between dollars becomes MathML, which browsers draw.
+"""Convert formulas between dollars to MathML.
 
 No script and no font is loaded. Code is left alone.
 """

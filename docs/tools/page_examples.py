@@ -1,4 +1,4 @@
-"""The examples of the pages: found, run as a reader would type them, compared with what the page prints.
+"""Run the examples of the pages and compare their output.
 
 A page is followed from top to bottom in an empty folder:
 

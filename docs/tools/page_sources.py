@@ -1,4 +1,4 @@
-"""Code on the pages that is taken from the example packages: the page shows the very lines that the tests run.
+"""Copy code of the example packages into the pages.
 
 Above a block of code stands ``<!-- from FILE: NAME NAME ... -->``: the block then holds the definitions of these names
 in the file, in this order, with their decorators. The file is named from the root of the repository.

@@ -1,4 +1,4 @@
-"""The table of errors and exit codes, from the error classes."""
+"""Generate the tables of errors and exit codes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The model reference: every built-in law, comparison method and view, from what they declare."""
+"""Generate the reference of laws, comparison methods and views."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Renew what the pages take from the code: ``python docs/tools/renew.py [--check] [--examples]``.
+"""Renew the generated pages: ``python docs/tools/renew.py``.
+
+Options: ``[--check] [--examples]``.
 
 Without options every generated page, and every generated part of another page, is written anew. ``--check`` writes
 nothing and fails when one is stale. ``--examples`` also runs the examples of all pages and puts today's numbers in.

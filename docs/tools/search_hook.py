@@ -1,4 +1,4 @@
-"""The search of the pages: an option is found by its path and by each of its words.
+"""Index options by their path and their words.
 
 The index takes ``bodies.inner_ring.tilt_y`` for one word. Its parts are added when the site has been built.
 """

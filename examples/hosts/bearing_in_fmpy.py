@@ -1,4 +1,6 @@
-"""``python bearing_in_fmpy.py FMU``: an FMU of a bearing by force, simulated by FMPy at two oil temperatures.
+"""Simulate an FMU of a bearing by force in FMPy.
+
+``python bearing_in_fmpy.py FMU``: at two oil temperatures.
 
 The FMU: ``lambda-bearing export fmu 6208-axial-1300 --vary "lubricant.temperature=20..90 degC"``.
 """

@@ -1,4 +1,7 @@
-"""``python bearing_in_omsimulator.py FMU``: an FMU of a bearing by force in OMSimulator 3, with a push from outside."""
+"""Simulate an FMU of a bearing in OMSimulator 3.
+
+``python bearing_in_omsimulator.py FMU``: by force, with an external push.
+"""
 
 from __future__ import annotations
 

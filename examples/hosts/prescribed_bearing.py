@@ -1,4 +1,6 @@
-"""A bearing with a prescribed motion of its inner ring: from Python, or as an FMU of version 2 through FMPy.
+"""Prescribe the motion of an inner ring.
+
+From Python, or as an FMU of version 2 through FMPy.
 
 Both have the same methods, so that a host is written once. Poses are x, y, z [m], tilt_y, tilt_z [rad] of the inner
 ring, the outer ring stands still.

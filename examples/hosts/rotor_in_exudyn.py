@@ -1,4 +1,6 @@
-"""A rigid rotor on two bearings in Exudyn; the bearings are its force elements.
+"""Simulate a rigid rotor on two bearings in Exudyn.
+
+The bearings are its force elements.
 
 ``python rotor_in_exudyn.py [FMU]``: with bearings from Python, or from an FMU of the same case. For Exudyn 1.13
 or later.

@@ -1,4 +1,6 @@
-"""``python shaft_in_fmpy.py FMU``: an FMU of a shaft in two bearings, pushed in FMPy; draws shaft-fmu.png.
+"""Push an FMU of a shaft in FMPy.
+
+``python shaft_in_fmpy.py FMU`` draws shaft-fmu.png.
 
 The FMU: ``lambda-bearing init box --template geared-shaft``, then ``lambda-bearing export fmu box.toml``.
 """

@@ -1,4 +1,7 @@
-"""Answer questions about the case as it stands, without a run: equilibrium, temperatures, currents, friction."""
+"""Answer questions about the case without a run.
+
+Equilibrium, temperatures, currents, friction.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The server of the builder in a browser, with a lock: who drives the builder works with the user's rights.
+"""Protect the builder in a browser by a password.
+
+Who drives the builder has the rights of the user.
 
 Any page that is open in a browser may send requests to this machine. What it cannot do is know a secret, or say that
 it came from elsewhere than it did: every path begins with a random word, Origin and Host must be those of the address.

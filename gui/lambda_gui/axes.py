@@ -1,4 +1,4 @@
-"""The sketch of axes and signs: the bearing seen from +x, drawn in braille dots."""
+"""Sketch axes and signs in braille dots."""
 
 from __future__ import annotations
 

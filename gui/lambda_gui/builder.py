@@ -1,4 +1,4 @@
-"""The builder's screen: tree, form, help, and the numbers that follow."""
+"""Define the builder's screen: tree, form, help, numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The application as far as files of cases go: opening, saving, unsaved work."""
+"""Open and save case files; keep unsaved work."""
 
 from __future__ import annotations
 

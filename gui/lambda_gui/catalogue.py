@@ -1,4 +1,7 @@
-"""The catalogue: filter as one types, details with sources and grades, take, or edit a copy."""
+"""Define the screen of the catalogue.
+
+It filters while the user types, shows sources and grades, and takes or copies a row.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A one-line choice that opens a list with a line of help for every entry."""
+"""Define a choice that opens a list with help."""
 
 from __future__ import annotations
 

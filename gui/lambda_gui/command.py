@@ -1,4 +1,4 @@
-"""The command gui of the command line: the model builder in the terminal, or served to a browser."""
+"""Define the command gui."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command palette finds every option of the case by its name or its help."""
+"""List every option of the case in the command palette."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Show the numbers derived from a case: geometry, loads, pressures, films, lives, friction, or its mistakes."""
+"""Show numbers derived from a case, or its errors."""
 
 from __future__ import annotations
 

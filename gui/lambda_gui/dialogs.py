@@ -1,4 +1,4 @@
-"""Small questions: one of several answers, a line of text, a case to open."""
+"""Define small dialogs: answers, a text, a case."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Set up a duty cycle of the open case: a line for each phase; F5 adds up life and losses."""
+"""Set up and solve a duty cycle of the case."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tables that come into a case and go: those under names, and the numbered ones of a list."""
+"""Add and remove tables of a case."""
 
 from __future__ import annotations
 

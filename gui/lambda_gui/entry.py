@@ -1,4 +1,4 @@
-"""Text entry: what a person types, what it completes to, what is written in the case."""
+"""Define text entries with completion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Form rows for plain options: a text or number, a choice, yes or no, several lines."""
+"""Define form rows for plain options."""
 
 from __future__ import annotations
 

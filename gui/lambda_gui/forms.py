@@ -1,4 +1,4 @@
-"""The form of a node: its rows, made from the declarations of the case."""
+"""Make the form of a node from the case's declarations."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The line over the model: its name, what is unsaved, mistakes, runs that go on."""
+"""Show name, unsaved changes, errors and runs."""
 
 from __future__ import annotations
 

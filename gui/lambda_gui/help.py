@@ -1,4 +1,4 @@
-"""The help screen: what has the keyboard, the keys of the screen, marks, axes and signs."""
+"""Define the help screen: keys, marks, axes and signs."""
 
 from __future__ import annotations
 

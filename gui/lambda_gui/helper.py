@@ -1,4 +1,4 @@
-"""The builder's side of its helper process, and the estimates it asks for."""
+"""Ask the helper process for estimates."""
 
 from __future__ import annotations
 

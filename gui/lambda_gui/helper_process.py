@@ -1,4 +1,6 @@
-"""The process that does the heavy work of the builder: equilibria, views, figures.
+"""Run the heavy work of the builder in a process.
+
+Equilibria, views, figures.
 
 It is a process of its own because compiled code takes seconds to load and holds the
 interpreter meanwhile. ``python -m lambda_gui.helper_process`` reads one JSON object per line

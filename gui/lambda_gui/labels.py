@@ -1,4 +1,4 @@
-"""Label the options of a case in plain words; the help of an option has its name in the file."""
+"""Label the options of a case in plain words."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rows for the models that fill the roles of the force elements, with the parameters of each."""
+"""Define rows for laws and their parameters."""
 
 from __future__ import annotations
 

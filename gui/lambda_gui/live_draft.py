@@ -1,4 +1,4 @@
-"""A screen over a draft: it is checked, estimated and kept aside as it changes."""
+"""Check, estimate and back up a draft as it changes."""
 
 from __future__ import annotations
 

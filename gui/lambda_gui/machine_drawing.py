@@ -1,4 +1,7 @@
-"""Draw a shaft in its bearings to scale, two pixels per character, and its deflection below."""
+"""Draw a shaft in its bearings and its deflection.
+
+To scale, two pixels per character.
+"""
 
 from __future__ import annotations
 

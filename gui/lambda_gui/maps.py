@@ -1,4 +1,7 @@
-"""Fields of values as maps in the terminal: two cells of the map in each character."""
+"""Draw fields of values as maps in the terminal.
+
+Each character has two cells of the map.
+"""
 
 from __future__ import annotations
 

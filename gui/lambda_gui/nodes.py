@@ -1,4 +1,4 @@
-"""Nodes of the model tree, and what the declarations of a case say about their options."""
+"""Define nodes of the model tree and their options."""
 
 from __future__ import annotations
 

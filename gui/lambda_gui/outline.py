@@ -1,4 +1,4 @@
-"""Build the model tree: its nodes, and the options of the case on each of them.
+"""Build the model tree and its options.
 
 The order is that in which a multibody model is set up. Every declared option has one place. A new option appears on the
 node of its section, and a new section gets a node, without a change here.

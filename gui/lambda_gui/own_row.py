@@ -1,4 +1,4 @@
-"""A catalogue row of one's own that begins as a copy of another."""
+"""Edit a user row that begins as a copy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Pictures in terminals that can show them: kitty's graphics protocol or sixel; text charts stand everywhere else."""
+"""Show pictures in terminals with kitty's graphics or sixel.
+
+Other terminals get text charts.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Places that form rows read and write: options of the draft, and parts of a value such as one term of a sum."""
+"""Read and write the values of form rows.
+
+A value is an option of the draft, or a part of one such as a term of a sum.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Unsaved work that survives a crash: one small file per case that is being edited."""
+"""Keep unsaved work for recovery after a crash."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Results and studies of a folder, and whether they have changed."""
+"""List results and studies of a folder and their changes."""
 
 from __future__ import annotations
 

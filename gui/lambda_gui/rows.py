@@ -1,4 +1,7 @@
-"""Form rows: one option each, with label, entry, help, mistake and mark of change."""
+"""Define form rows of one option each.
+
+Label, entry, help, error and mark of change.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs: the queue, and live traces of the one under the cursor."""
+"""Show the queue of runs and live traces."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers of the builder in the units that the person reads."""
+"""Show numbers in the user's units."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rows for what changes over time: a value, a ramp, a harmonic, a table of points, or a sum of these."""
+"""Define rows for values that change over time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Draw the bearing, or the shaft in its bearings, to scale: two pixels per character cell."""
+"""Draw the bearing or the shaft to scale."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Set up a study of the open case: options that vary, responses, cost; F5 runs it."""
+"""Set up and run a study of the case."""
 
 from __future__ import annotations
 

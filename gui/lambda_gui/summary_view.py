@@ -1,4 +1,4 @@
-"""The summary of a result, laid out for a narrow column."""
+"""Show the summary of a result in a narrow column."""
 
 from __future__ import annotations
 

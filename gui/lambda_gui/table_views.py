@@ -1,4 +1,4 @@
-"""Tables for results: what differs between several, and the points of a study."""
+"""Define tables of results and of study points."""
 
 from __future__ import annotations
 

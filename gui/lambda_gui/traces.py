@@ -1,4 +1,4 @@
-"""Live traces of a run: friction torque, cage speed, ball loads."""
+"""Draw live traces of a run."""
 
 from __future__ import annotations
 

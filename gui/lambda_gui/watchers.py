@@ -1,4 +1,4 @@
-"""Forms of observers and events, whose names and parameters are those of what is installed."""
+"""Define forms of observers and events."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from pydantic import PrivateAttr, ValidationError, model_validator
 from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.salvage import InvalidCase, StandIns, invalid_case
 from lambda_core.domain.errors import CaseError, Problem
-from lambda_core.domain.handed_laws import named, packed, unpack
+from lambda_core.domain.inline_laws import named, packed, unpack
 
 _DEEPEST = 20  # levels of tables and lists
 _LAWS_IN = ("models", "forces", "electric")  # where a program may hand over a law in place of its name

@@ -1,4 +1,4 @@
-"""Designations as engineers write them: maker, catalogue designation, suffixes ("SKF 6208-2Z/C3")."""
+"""Parse designations of ball bearings ("SKF 6208-2Z/C3")."""
 
 from __future__ import annotations
 

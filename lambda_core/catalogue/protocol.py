@@ -1,4 +1,6 @@
-"""The catalogue as the core sees it: rows with a source and a grade for every value.
+"""Define the catalogue that the core expects.
+
+Every value has its source and grade.
 
 The store behind it (SQLite, in ``lambda_db``) is plugged in through the hook
 ``lambda_catalogue``; the core never imports it.

@@ -1,4 +1,4 @@
-"""Designations of roller bearings as engineers write them ("SKF NU 208 ECP/C3", "32216 J2/Q")."""
+"""Parse designations of roller bearings ("SKF NU 208 ECP/C3")."""
 
 from __future__ import annotations
 

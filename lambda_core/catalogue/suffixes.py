@@ -1,4 +1,4 @@
-"""Suffixes of deep-groove ball bearings: what makers write behind a designation, and what a model takes from it.
+"""Interpret suffixes of deep groove ball bearings.
 
 Clearance classes are those of ISO 5753-1 and read alike everywhere; seals, cages and the rest follow the makers'
 own conventions, which agree where two makers use the same letters. The suffixes themselves are rows of the catalogue.

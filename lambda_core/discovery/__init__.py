@@ -1,1 +1,1 @@
-"""Plugins: hooks, entry points, what is installed, starting a new one."""
+"""Find, check and create plugins."""

@@ -1,4 +1,7 @@
-"""Trying models out in a process of its own: a law that loops for ever or writes out of bounds ends only that."""
+"""Try laws in a process of their own.
+
+A law that never ends or writes out of bounds ends only that process.
+"""
 
 from __future__ import annotations
 

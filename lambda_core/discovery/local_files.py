@@ -1,4 +1,4 @@
-"""Plugins that are one file: nothing to package, nothing to install, and only those that somebody named.
+"""Load plugins of one file that the user names.
 
 Three ways lead in, each on purpose: ``--plugin FILE.py`` for one call, the variable ``LAMBDA_BEARING_PLUGINS`` for
 files and folders, and the folder ``plugins`` with the user's settings. The working directory is none of them, and
@@ -16,7 +16,7 @@ from functools import partial
 from pathlib import Path
 from types import ModuleType
 
-from lambda_core.domain.handed_laws import digest_of, packed, unpack
+from lambda_core.domain.inline_laws import digest_of, packed, unpack
 from lambda_core.domain.installed import ON_VARIABLE, Source
 from lambda_core.domain.plugin_errors import PluginError
 

@@ -1,4 +1,4 @@
-"""Discovery of plugins: entry points in, a frozen registry of everything they bring out.
+"""Discover plugins and register what they provide.
 
 Each entry point of the group ``lambda_bearing.plugins`` is loaded on its own. One that
 fails, misspells a hook, claims a taken name or is written for another version of the
@@ -25,7 +25,7 @@ from lambda_core.discovery.collect import Collection, Entry
 from lambda_core.discovery.local_files import add_file, file_sources, take_guests
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError, nearest, unknown_name
-from lambda_core.domain.handed_laws import HandedLaw, handed_laws, when_changed
+from lambda_core.domain.inline_laws import InlineLaw, inline_laws, when_changed
 from lambda_core.domain.installed import CASES, COMMANDS, OFF_VARIABLE, OWN, PLUGINS, Source, installed, switched_off
 from lambda_core.domain.plugin_errors import PluginError, PluginFault, describe
 from lambda_core.laws.law import Law, law_of
@@ -107,7 +107,7 @@ def as_guests_of(data: bytes) -> None:
 @lru_cache(maxsize=1)
 def registry() -> Registry:
     """Return the registry of this process, discovered at the first call; broken plugins are logged."""
-    handed = [Source(law.project, law.digest, law.label, partial(_hooks_of, law)) for law in handed_laws()]
+    handed = [Source(law.project, law.digest, law.label, partial(_hooks_of, law)) for law in inline_laws()]
     found = discover([*installed(PLUGINS), *file_sources(), *handed], off=switched_off())
     for fault in found.faults:
         if fault.is_broken and fault.entry_point not in _told_by_caller:
@@ -150,7 +150,7 @@ def _own_laws_alone() -> Registry:
     return discover([source for source in installed(PLUGINS) if source.project == OWN])
 
 
-def _hooks_of(handed: HandedLaw) -> ModuleType:
+def _hooks_of(handed: InlineLaw) -> ModuleType:
     """Return a module that brings one law that was handed over."""
 
     def register_law(register: Callable[[Any], None]) -> None:

@@ -1,4 +1,4 @@
-"""Plugins: what is installed, what each law is, whether it keeps its contract, and how to start a new one."""
+"""List, check and create plugin packages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Write roles and quantities into pages: `python -m lambda_core.discovery.reference FILE.md ...`."""
+"""Write roles and quantities into pages.
+
+`python -m lambda_core.discovery.reference FILE.md ...`.
+"""
 
 from __future__ import annotations
 

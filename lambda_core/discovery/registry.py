@@ -1,4 +1,4 @@
-"""The frozen registry: every model, method, view and data folder that can be chosen."""
+"""Register every model, method, view and data folder."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ import pluggy
 
 from lambda_core.discovery.collect import Collection, is_own, law_fault
 from lambda_core.domain.errors import CaseError, nearest, unknown_name
-from lambda_core.domain.handed_laws import NOTEBOOK
+from lambda_core.domain.inline_laws import NOTEBOOK
 from lambda_core.domain.installed import project_of
 from lambda_core.domain.plugin_errors import PluginError, PluginFault, blamed, describe, went_on_without
 from lambda_core.domain.roles import ROLES

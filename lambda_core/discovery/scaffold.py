@@ -1,4 +1,4 @@
-"""Starting a plugin: a small package that installs, passes its tests and can be changed file by file."""
+"""Create a plugin package that passes its tests."""
 
 from __future__ import annotations
 

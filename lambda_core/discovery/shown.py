@@ -1,4 +1,4 @@
-"""One installed view and what it shows of a subject: found by name, its options read."""
+"""Find an installed view and apply it."""
 
 from __future__ import annotations
 

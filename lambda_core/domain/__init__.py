@@ -1,1 +1,1 @@
-"""The words of the field, once: errors, units, roles, channels; theory of bearings that needs no model."""
+"""Define errors, units, roles, channels and other shared terms."""

@@ -1,4 +1,7 @@
-"""One thread for linear algebra: matrices here have tens to hundreds of rows, threads would wait for each other."""
+"""Limit linear algebra to one thread.
+
+Matrices have tens to hundreds of rows; threads would wait for each other.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The channels of a simulation: names, dimensions, units and meanings of what can be written.
+"""Define names, dimensions and units of all channels.
 
 Dimensions are named and labelled (:data:`DIMENSIONS`); ``ball`` counts the balls from 1.
 Every sample carries every channel.

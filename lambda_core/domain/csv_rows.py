@@ -1,4 +1,6 @@
-"""Read the cells of a CSV file: the one reader of measurements, tables over time, voltages and load spectra.
+"""Read the cells of a CSV file.
+
+The only reader of measurements, tables over time, voltages and load spectra.
 
 Commas separate cells, or semicolons or tabs where the first line has them. Empty lines and those that begin with # are
 left out.

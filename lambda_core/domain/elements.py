@@ -1,4 +1,4 @@
-"""Bodies, their degrees of freedom, and the force elements between them: every name, once."""
+"""Name bodies, degrees of freedom and force elements."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Errors that people see: what was wrong, where, what is allowed, and the process's exit code."""
+"""Define the errors that users see and their exit codes."""
 
 from __future__ import annotations
 

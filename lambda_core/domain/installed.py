@@ -1,4 +1,4 @@
-"""Installed packages that extend the program: what they name in their entry points, none imported."""
+"""List installed packages that extend the program."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ways in which oil gets to the balls, in the words of bearing catalogues."""
+"""Define ways of lubrication as bearing catalogues name them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The tree of declared options: which tables and which options stand where, read from pydantic classes."""
+"""Read the tree of declared options from pydantic classes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Text of strangers on terminals and in spreadsheets: it is shown, and does nothing else."""
+"""Make foreign text harmless in terminals and spreadsheets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Processes of this host, and locks between them, on every system.
+"""Name processes of this computer and lock between them.
 
 Which process writes a file is known by its number and its start: numbers are given out again.
 """

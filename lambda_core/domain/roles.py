@@ -1,4 +1,4 @@
-"""The roles of the contact pipeline: for each, the kernel's arguments and what it returns.
+"""Define the roles of laws and their arguments.
 
 A kernel is a plain Python function of float64 scalars (``f``) and contiguous float64
 arrays (``a``), SI units, that writes its outputs and returns an int64 status: 1 is OK,
@@ -204,7 +204,7 @@ ROLES: dict[str, Role] = {
         ),
         Role(
             "contact_state",
-            "rates of change of what a contact keeps from one moment to the next, for the laws that read it",
+            "rates of change of the states of a contact, for the laws that read them",
             arguments_of(
                 "t f time [s]; load f normal load, 0 while the contact is open, as all that follows to the power [N]; "
                 "semi_a f semi-axis across rolling [m]; semi_b f semi-axis along rolling [m]; "
@@ -260,7 +260,7 @@ ROLES: dict[str, Role] = {
         ),
         Role(
             "capacitance",
-            "whole capacitance of one contact from that of its Hertzian area",
+            "total capacitance of one contact from that of its Hertzian area",
             arguments_of(
                 "C_hertz f capacitance of the Hertzian area [F]; h f central film [m]; "
                 "semi_a f semi-axis across rolling [m]; semi_b f semi-axis along rolling [m]; "

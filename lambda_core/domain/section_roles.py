@@ -1,4 +1,7 @@
-"""Roles whose law a case chooses in a section of its own: they act on a motion, or drive it, from outside."""
+"""Define roles whose law a section chooses.
+
+Such laws act on a motion, or drive it, from outside.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Units in which numbers are shown to people: those of the program, or customary ones of the United States.
+"""Define the unit systems of printed numbers.
 
 Files, JSON and everything inside stay as they are; only what is printed or drawn is put into other units.
 """

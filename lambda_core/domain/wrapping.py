@@ -1,4 +1,4 @@
-"""Lines of a report fitted to the width of a terminal."""
+"""Wrap lines of a report to the terminal's width."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Values of a parameter as they stand in a study file: numbers with units, plain numbers, names.
+"""Read values of parameters in study files.
 
 What a study varies goes into the case as text, exactly as a person would write it. So arithmetic on
 ranges is done in the unit that the file uses, and whether that unit suits the option is for the case to say.

@@ -1,1 +1,1 @@
-"""Kinds of rolling elements: what is particular to each, in one folder."""
+"""Hold each kind of rolling element in its folder."""

@@ -1,4 +1,4 @@
-"""Declare kinds of rolling elements, of their contacts, and of the bearings that have them."""
+"""Declare kinds of rolling elements, contacts and bearings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A shaft on its bearings as a rotor of ROSS, the open program for rotordynamics (package ross-rotordynamics).
+"""Convert a shaft in bearings to a rotor of ROSS.
 
 ROSS has z along the shaft: its x is our y, its y our z, its z our x; rotations likewise. Its bearing elements know
 radial and axial forces alone; moments and what couples them to forces are added to the rotor's matrices.

@@ -1,4 +1,7 @@
-"""Stiffness and damping of every bearing at the operating point, for other programs: JSON and CSV."""
+"""Write stiffness and damping of every bearing.
+
+JSON and CSV.
+"""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Fit parameters to measurements, and tell how well a result is known."""
+"""Fit parameters to measurements and state their uncertainty."""

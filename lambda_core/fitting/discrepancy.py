@@ -1,4 +1,4 @@
-"""The discrepancy between a fitted model and what would be measured: errors of its laws.
+"""Model the errors of laws in a fit.
 
 A fit finds the best values of its parameters under laws that are not exact. Measured values are taken as
 

@@ -1,4 +1,4 @@
-"""Write the case with its fitted values, and where they come from."""
+"""Write the case with its fitted values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Robust weighted least squares with errors of measured values and of operating conditions."""
+"""Solve robust weighted least squares with errors in both variables."""
 
 from __future__ import annotations
 

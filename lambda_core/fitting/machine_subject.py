@@ -1,4 +1,4 @@
-"""Fit a machine, or one of its bearings: its columns, its parameters, its predictions."""
+"""Fit a machine, or one of its bearings."""
 
 from __future__ import annotations
 

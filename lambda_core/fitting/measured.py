@@ -1,4 +1,4 @@
-"""The catalogue of measured series, and how far the program is from each of them without any fit."""
+"""List measured series and compare them with the program."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Read measured operating points from a CSV file; every mistake is reported with its line and column."""
+"""Read measured operating points from a CSV file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Calls of the model of a fit: answers are remembered, derivatives are updated where calls are costly."""
+"""Call the model of a fit and remember its answers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Choose the operating point whose measurement would tell most about the parameters."""
+"""Choose the operating point to measure next."""
 
 from __future__ import annotations
 

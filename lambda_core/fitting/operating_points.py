@@ -1,4 +1,4 @@
-"""Quasi-static predictions of measured quantities at operating points of one bearing."""
+"""Predict measured quantities of one bearing."""
 
 from __future__ import annotations
 

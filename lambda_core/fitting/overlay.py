@@ -1,4 +1,4 @@
-"""Add measured series to pictures: the columns of a file have the names of the axes."""
+"""Add measured series to pictures."""
 
 from __future__ import annotations
 

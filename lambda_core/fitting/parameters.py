@@ -1,4 +1,7 @@
-"""Parameters of a fit: start, bounds and what was known before the measurements."""
+"""Define parameters of a fit.
+
+Start, bounds and knowledge before the measurements.
+"""
 
 from __future__ import annotations
 

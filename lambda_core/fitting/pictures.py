@@ -1,4 +1,4 @@
-"""Pictures of a fit: measured and predicted values, and the residuals over the operating conditions."""
+"""Draw measured and predicted values and their residuals."""
 
 from __future__ import annotations
 

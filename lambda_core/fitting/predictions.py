@@ -1,4 +1,4 @@
-"""Bands of predicted values with the errors of fitted parameters, laws and new measurements."""
+"""Compute bands of predicted values."""
 
 from __future__ import annotations
 

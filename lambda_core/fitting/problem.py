@@ -1,4 +1,4 @@
-"""The fit problem of a case: measured operating points against quasi-static solutions."""
+"""Set up the fit problem of a case."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The answer of a fit, as the machine interface and in lines."""
+"""Write the answer of a fit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tests of residuals: a law that is wrong leaves a pattern over speed, load or temperature."""
+"""Test residuals for patterns that a wrong law leaves."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Subjects of a fit: one bearing, a machine, or one bearing of a machine; words, parameters, predictions."""
+"""Define subjects of a fit.
+
+One bearing, a machine, or one bearing of a machine.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compute traction over slide-roll ratio of an oil by every traction law.
+"""Compute traction over slide-roll ratio by every law.
 
 The contact is that of a traction machine: a steel ball on the flat face of a steel disc, with a full film.
 """

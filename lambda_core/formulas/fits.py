@@ -1,4 +1,6 @@
-"""Operating clearance: unmounted clearance minus what interference fits and temperatures take, every step named.
+"""Compute the operating clearance step by step.
+
+Unmounted clearance minus the effects of interference fits and temperatures.
 
 Elastic thick rings (Lame); diametral quantities, SI. Dimensions hold at 20 degC (ISO 1) unless told otherwise.
 """

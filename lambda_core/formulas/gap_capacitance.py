@@ -1,4 +1,7 @@
-"""Capacitance of a gap between a ball and a raceway; plain Python, compiled with the code that calls it."""
+"""Compute the capacitance of a gap between ball and raceway.
+
+Plain Python, compiled with the code that calls it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Forces of a spur or helical gear on its shaft. SI in and out."""
+"""Compute forces of a spur or helical gear.
+
+SI in and out.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Exact Hertz theory of an elliptic contact by complete elliptic integrals (set-up time only, never per step).
+"""Solve Hertz's elliptic contact exactly.
+
+Complete elliptic integrals; for set-up, never per step.
 
 Directions as everywhere in this package: x along rolling, y across; ``semi_a`` is the semi-axis of the contact
 ellipse across rolling (y), ``semi_b`` along rolling (x). ``e_eff`` is E' with 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2.

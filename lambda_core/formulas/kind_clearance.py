@@ -1,5 +1,6 @@
-"""Internal clearance of ball bearings that are no deep groove ones: axial of four-point contact and two rows, radial of
-self-aligning bearings.
+"""Tabulate clearance of other ball bearings.
+
+Axial of four-point contact and two rows, radial of self-aligning bearings.
 
 Micrometres over bores in millimetres, as SKF prints them (general catalogue 6000, Russian edition: four-point contact
 page 453, table 1; double row angular contact page 438, table 2; self-aligning with cylindrical bore page 477, table 5):

@@ -1,4 +1,4 @@
-"""Kinematics of a ball bearing whose balls roll without sliding at both raceways (epicyclic motion).
+"""Compute epicyclic kinematics of a ball bearing.
 
 Angular speeds in rad/s, counted positive about the shaft axis; ``gamma = D_w cos(alpha)/d_m`` with the pitch
 diameter. Sources: Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 1, ch. 10.

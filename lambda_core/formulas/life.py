@@ -1,4 +1,6 @@
-"""Rating life of ball bearings, deep-groove and angular contact: ISO 281, ISO/TS 16281, static safety after ISO 76.
+"""Compute rating lives and static safety of ball bearings.
+
+ISO 281, ISO/TS 16281, ISO 76; deep groove and angular contact.
 
 SI in and out. Lives are in million revolutions unless a name says otherwise.
 """

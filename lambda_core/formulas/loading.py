@@ -1,4 +1,4 @@
-"""Words for the load distribution, one definition behind each: loaded balls, largest contact load."""
+"""Define loaded balls and the largest contact load."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Oils from the data every oil has: two viscosities, a density, Gold's coefficient; and what alpha_p means.
+"""Compute oil properties from two viscosities and a density.
+
+With Gold's coefficient, and the meaning of alpha_p.
 
 SI in and out; the standards' own units inside.
 """

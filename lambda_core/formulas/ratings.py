@@ -1,4 +1,6 @@
-"""Load ratings of radial ball bearings from their inner geometry (ISO 281, ISO 76), of one row or several.
+"""Compute load ratings from inner geometry (ISO 281, ISO 76).
+
+Radial ball bearings of one row or several.
 
 Self-aligning bearings, whose outer raceway is a sphere, have factors of their own: the standards' formulas with that
 sphere's radius for the outer groove, inner grooves of 0.53 D_w, no reduction of f_c, and 4600 MPa in place of 4200.

@@ -1,1 +1,1 @@
-"""Laws: what one is, the contract of its role, and the checks that it keeps it."""
+"""Define laws, the contracts of roles and their checks."""

@@ -1,4 +1,7 @@
-"""Calling a kernel on trial: in plain Python with protected inputs, in machine code between guard cells."""
+"""Call a kernel on trial.
+
+In plain Python with protected inputs, in machine code between guard cells.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Trying a model out before it is used: the kernel convention, checked by calling the kernel.
+"""Check a model against the kernel convention.
 
 Compiled code checks neither bounds nor exceptions, so the order matters: names and order of
 the arguments, what the kernel reaches, a probe in plain Python (which does notice a wrong
@@ -256,16 +256,16 @@ def _cell_faults(model: Law, role: Role, kernel: Callable[..., int], trials: lis
     cell than its own would change the next contact. A law of others is handed one cell at a time.
     """
     for tried in trials:
-        whole = plain_call(kernel, role, tried)
-        if whole.status != 1 or whole.outputs[0].size == 1:
+        together = plain_call(kernel, role, tried)
+        if together.status != 1 or together.outputs[0].size == 1:
             continue
-        for cell in range(whole.outputs[0].size):
+        for cell in range(together.outputs[0].size):
             part = [
                 value[cell : cell + 1].copy() if argument.kind == "a" and argument.name != "par" else value
                 for argument, value in zip(role.arguments, tried, strict=True)
             ]
             single = plain_call(kernel, role, part)
-            pieces = tuple(values[cell : cell + 1] for values in whole.outputs)
+            pieces = tuple(values[cell : cell + 1] for values in together.outputs)
             if single.status == 1 and relative_difference(single.outputs, pieces) > RTOL:
                 yield f"{model.label} is not elementwise: a cell computed alone differs {_where(model, role, part)}"
                 return

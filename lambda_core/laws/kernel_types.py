@@ -1,4 +1,4 @@
-"""Types of kernels, by role: names, order and kinds of the arguments, for type checkers.
+"""Define kernel types by role for type checkers.
 
 A test compares them with :data:`lambda_core.domain.roles.ROLES`. A role with optional arguments has no type of its own:
 its kernels name as many of these as they want.

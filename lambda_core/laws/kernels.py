@@ -1,4 +1,4 @@
-"""Compiled kernels: from a model's plain Python function to a pointer that compiled code calls.
+"""Compile kernels and return pointers to them.
 
 Compiled code is kept on disk in folders named by everything it depends on, so an edited
 law, an edited helper two files down and an edited constant are all seen by the next

@@ -1,4 +1,4 @@
-"""A law: a kernel that fills one role of the contact pipeline, its parameters, and where it comes from."""
+"""Define a law: kernel, role, parameters and source."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Literal, Required, TypedDict, TypeVar, Unpack, overload
 
 from pydantic import BaseModel
 
-from lambda_core.domain.handed_laws import MARK
+from lambda_core.domain.inline_laws import MARK
 from lambda_core.domain.installed import OWN, project_of
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import ROLE_API

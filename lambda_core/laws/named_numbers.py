@@ -1,4 +1,4 @@
-"""Records of numbers with names, and the flat array as which they travel.
+"""Convert records of numbers to flat arrays.
 
 A kernel reads ``par.limit_ratio`` and ``par.knots[i]``. The solver hands every law one flat float64 array: in order of
 declaration a number is one word, an array is its length and then its values, and a record within a record stands in

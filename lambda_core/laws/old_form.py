@@ -1,4 +1,4 @@
-"""Explain how to convert a law from an earlier role interface."""
+"""Explain how to convert laws of earlier role versions."""
 
 from __future__ import annotations
 

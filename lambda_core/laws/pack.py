@@ -1,4 +1,4 @@
-"""Machine code that came with the installation: libraries with the solver's units and the built-in laws.
+"""Load machine code that the installation contains.
 
 A wheel may hold such a pack (:mod:`lambda_core.export.fmu.pack_builder` builds it): one library for each system, whose
 functions are called through ctypes, without Numba. It is used where it was made from the sources that are installed,

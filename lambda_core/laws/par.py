@@ -1,4 +1,7 @@
-"""From validated parameters to what a kernel reads: `prepare`, run once, and the record it returns."""
+"""Convert validated parameters to the kernel's record.
+
+`prepare` runs once and returns the record.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Declaring a law's parameters: default, unit, published range and source in one line each."""
+"""Declare a law's parameters with unit, range and source."""
 
 from __future__ import annotations
 

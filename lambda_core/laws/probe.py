@@ -1,4 +1,4 @@
-"""Arguments for trying a kernel out: the range that each may take in a ball bearing, and draws from it.
+"""Draw arguments for trying a kernel.
 
 The ranges span what the dynamics of deep-groove ball bearings from 10 to 300 mm can ask of a
 law, transients included, and are wider than the range in which most laws were measured.

@@ -1,4 +1,4 @@
-"""States that run away: a rate that grows with its state until no number holds it."""
+"""Detect states that grow without bound."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Largest shear stress of a traction law over pressure: laws without a limit leave a bearing without equilibrium."""
+"""Check the largest shear stress of traction laws.
+
+A law without a limit leaves a bearing without equilibrium.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""States: what a contact keeps from one moment to the next, with a law that says how it changes."""
+"""Define states of contacts and their rates."""
 
 from __future__ import annotations
 

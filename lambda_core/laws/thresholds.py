@@ -1,4 +1,6 @@
-"""Arguments at which a kernel may take another path: the numbers in its own code, and what lies between them.
+"""Find arguments at which a kernel changes its path.
+
+From the numbers in its own code.
 
 Draws from the range of a ball bearing rarely meet a branch like ``if 1.2e9 < p[i] < 1.2005e9``. The numbers that
 decide it stand in the code, so a kernel is tried at them, near them and between each two.

@@ -1,4 +1,7 @@
-"""Laws that were tried out and found in order: kept with the compiled code, so that the next process need not."""
+"""Remember laws that passed their trial.
+
+The record is kept with the compiled code, so the next process skips the trial.
+"""
 
 from __future__ import annotations
 

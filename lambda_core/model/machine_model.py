@@ -13,7 +13,7 @@ from lambda_core.model.bearing_model import ZERO, BearingModel, ElectricModel, S
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.settings.machine_heat import MachineHeat
 
-PLACES = (0, 1, 2, 4, 5)  # of a pose (solver.drivers.held_ring) among the six rows of a node
+PLACES = (0, 1, 2, 4, 5)  # of a pose (solver.drivers.bearing_reaction) among the six rows of a node
 # [N/m] of a seat that is locked in a body that moves: a hundred to a thousand times as stiff as a bearing
 LOCKED = 1e11
 GROUND, SHAFT = -1, 0  # numbers of bodies; the others follow

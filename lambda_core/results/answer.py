@@ -1,4 +1,7 @@
-"""Let answers remember their question: the same one for a changed case, tables with units, a picture."""
+"""Let answers remember their question.
+
+The same question for a changed case, tables with units, a picture.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Averages over whole cage revolutions, from the running integrals of a simulation.
+"""Average running integrals over complete cage revolutions.
 
 Every average is a difference of integrals divided by a difference of angle or time, so it
 is exact for the steps that were taken and does not depend on how often samples are kept.

@@ -1,11 +1,10 @@
-"""Declare the summary of one bearing of a run: averages, and its end state."""
+"""Declare the summary of one bearing of a run."""
 
 from __future__ import annotations
 
 from pydantic import Field
 
 from lambda_core.formulas.loading import Ring
-from lambda_core.results.bent import Bent
 from lambda_core.results.currents import Currents
 from lambda_core.results.event_rows import EventSeen, ObserverNumber
 from lambda_core.results.limits import Shoulder
@@ -13,6 +12,7 @@ from lambda_core.results.model_band import Banded
 from lambda_core.results.quantity import FLOATING, quantity
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import Record
+from lambda_core.results.ring_deformation import RingDeformation
 from lambda_core.results.verdict import Verdict
 
 
@@ -112,7 +112,7 @@ class BearingSummary(Banded):
         "mean tilt about y and z", "mrad", label="inner ring tilt about", column="tilt y, z", decimals=2,
         group="place", axes="yz",
     )  # fmt: skip
-    bent: list[Bent] = Field(description="elastic rings and cage; empty where all are rigid", default=[])
+    bent: list[RingDeformation] = Field(description="elastic rings and cage; empty where all are rigid", default=[])
     max_pressure_GPa: float | None = quantity(
         "largest Hertzian pressure of the averaging window", "GPa", label="largest contact pressure", column="p_max",
         decimals=2, group="contact",

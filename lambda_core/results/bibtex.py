@@ -1,4 +1,7 @@
-"""References as BibTeX: one entry per publication, whatever number of laws and values goes back to it."""
+"""Write references as BibTeX.
+
+One entry per publication, for any number of laws and values.
+"""
 
 from __future__ import annotations
 

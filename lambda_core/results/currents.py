@@ -1,4 +1,4 @@
-"""Bearing currents of a run in its summary: from what the run wrote of its circuit."""
+"""Summarise the bearing currents of a run."""
 
 from __future__ import annotations
 

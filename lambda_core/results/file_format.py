@@ -1,4 +1,6 @@
-"""Lay out a result file: what stands where (the table for people is docs/results.md).
+"""Lay out a result file.
+
+docs/results.md describes it.
 
 ``/time`` and ``/machine`` are of the machine, ``/bearings/NAME`` of each bearing; with one bearing everything of it is
 also linked at the root, so that readers of HDF5 find ``/load``.

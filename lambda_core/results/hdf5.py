@@ -1,4 +1,4 @@
-"""HDF5 files on real disks: opened while they grow, copied whole, never surprised by a full disk."""
+"""Open, copy and write HDF5 files safely."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Summarise shaft and bodies of a machine: their motion, what holds them, what all bearings have together."""
+"""Summarise shaft and bodies of a machine."""
 
 from __future__ import annotations
 

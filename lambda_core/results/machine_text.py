@@ -1,4 +1,4 @@
-"""Write the summary of a machine in lines for people: a column for each bearing, then the machine."""
+"""Write the summary of a machine in lines."""
 
 from __future__ import annotations
 

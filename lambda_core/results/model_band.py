@@ -1,4 +1,4 @@
-"""The model band of results: what ranges of parameters and the choice of laws leave open."""
+"""Define the model band of results."""
 
 from __future__ import annotations
 

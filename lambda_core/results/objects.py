@@ -1,4 +1,6 @@
-"""Texts and dimension scales of HDF5 objects by h5py's lower level, which takes a fifth of the time.
+"""Read HDF5 texts and scales by h5py's lower level.
+
+It takes a fifth of the time.
 
 A result has about a hundred datasets, each with two texts and up to three scales: by h5py's own attributes and
 dimensions they take longer than the numbers of a short run.

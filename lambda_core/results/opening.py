@@ -1,4 +1,4 @@
-"""Opening a result file: what it must be, and its pieces as what they mean."""
+"""Open a result file and check it."""
 
 from __future__ import annotations
 

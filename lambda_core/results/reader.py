@@ -1,4 +1,4 @@
-"""Reading a result file: finished, still growing, or left behind by a killed process."""
+"""Read a result file: finished, growing or incomplete."""
 
 from __future__ import annotations
 

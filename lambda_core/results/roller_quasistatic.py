@@ -1,4 +1,4 @@
-"""The quasi-static answer of a roller bearing in the words of the machine interface."""
+"""Declare the quasi-static answer of a roller bearing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Speed of the cage of balls that roll without slip, from samples of a run: the reference of cage slip."""
+"""Compute the cage speed of balls without slip.
+
+From samples of a run: the reference of cage slip.
+"""
 
 from __future__ import annotations
 

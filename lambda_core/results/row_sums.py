@@ -1,4 +1,6 @@
-"""Checksums of the rows that a run writes: a run goes on only from the numbers that it wrote itself.
+"""Keep checksums of the rows of a run.
+
+A run continues only from numbers that it wrote itself.
 
 HDF5 looks after its own structure, not after the numbers: a byte that a disk changes in them shows nowhere.
 """

@@ -1,4 +1,4 @@
-"""The state of a run, as it stands in its result file."""
+"""Define the state of a run in its file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hold the samples of a run between engine and file: of the machine, and of each of its bearings."""
+"""Hold samples of a run between engine and file."""
 
 from __future__ import annotations
 

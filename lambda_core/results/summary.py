@@ -1,4 +1,4 @@
-"""The machine interface: what one run says about friction, kinematics, films and capacitances."""
+"""Summarise one run (the `--json` object)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,6 @@ from lambda_core.formulas.loading import CARRYING, Ring, carries, largest_contac
 from lambda_core.results.answer import dataset, declared_numbers
 from lambda_core.results.averages import Interval, finite
 from lambda_core.results.bearing_summary import BearingSummary, Contact, Equilibrium
-from lambda_core.results.bent import bent_parts
 from lambda_core.results.convergence import (
     settings_of,
     shortfalls,
@@ -28,7 +27,6 @@ from lambda_core.results.convergence import (
     window_of,
 )
 from lambda_core.results.currents import currents_of
-from lambda_core.results.followed import FOURTH_POWERS, ITERATION_WORK, Followed, followed
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_warning, warnings, worst
 from lambda_core.results.machine_numbers import (
     ElementForce,
@@ -41,12 +39,14 @@ from lambda_core.results.machine_numbers import (
     total,
 )
 from lambda_core.results.model_band import sum_of_bands
+from lambda_core.results.numerical_damping import FOURTH_POWERS, ITERATION_WORK, NumericalDamping, numerical_damping
+from lambda_core.results.observed import observed_numbers, occurred_events
 from lambda_core.results.quantity import FLOATING, SMALL, quantity, shown
 from lambda_core.results.rating import rated_verdict
 from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.ring_deformation import ring_deformations
 from lambda_core.results.rolling import ROLLING, rolling_of
 from lambda_core.results.run_status import Status
-from lambda_core.results.watched import events_seen, observed_numbers
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
@@ -122,7 +122,7 @@ class Summary(Record):
     simulated_s: float = quantity("simulated time", "s", decimals=FLOATING, digits=4, group="trust")
     wall_s: float = Field(description="wall time of the integration")
     wall_per_simulated_second: float | None
-    vibrations: Followed | None = Field(description="how far vibrations can be believed")
+    vibrations: NumericalDamping | None = Field(description="how far vibrations can be believed")
     solver_statistics: dict[str, float]
     assumptions: list[str]
 
@@ -215,7 +215,7 @@ def summarise(result: Result) -> Summary:
         simulated_s=time,
         wall_s=status.wall,
         wall_per_simulated_second=finite(_quotient(status.wall, time)),
-        vibrations=followed(settings_of(first), status, time),
+        vibrations=numerical_damping(settings_of(first), status, time),
         solver_statistics={name: count for name, count in status.statistics.items() if name not in _NO_COUNTS},
         assumptions=list(result.of_machine().assumptions) if of_machine else alone.assumptions,
         **(machine_numbers(result, bearings, start) if of_machine else {}),
@@ -253,7 +253,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         contacts=contact_list(end),
         inner_ring_displacement_um=[finite(1e6 * value) for value in chosen.interval.position()],
         inner_ring_tilt_mrad=[finite(1e3 * angle) for angle in extremes.tilt],
-        bent=bent_parts(result, start),
+        bent=ring_deformations(result, start),
         max_pressure_GPa=finite(1e-9 * extremes.pressure),
         min_film_um=finite(1e6 * extremes.film),
         film_um=span(1e6 * end["film_central"][carrying]),
@@ -263,7 +263,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         capacitance_note=capacitance_note(end["load"], end["capacitance"]),
         currents=currents_of(result, start),
         observed=observed_numbers(result, start),
-        events=events_seen(result),
+        events=occurred_events(result),
         verdict=rated_verdict(
             result.rating,
             finite(1e-9 * extremes.pressure),

@@ -14,12 +14,12 @@ from lambda_core.results.quantity import quantities, remaining, shown
 
 if TYPE_CHECKING:
     from lambda_core.results.bearing_summary import BearingSummary
-    from lambda_core.results.bent import Bent
     from lambda_core.results.currents import Currents
     from lambda_core.results.limits import Shoulder
     from lambda_core.results.model_band import ModelBand
     from lambda_core.results.quasistatic import QuasiStatic, RingShape
     from lambda_core.results.rating import Rating
+    from lambda_core.results.ring_deformation import RingDeformation
     from lambda_core.results.summary import Summary
     from lambda_core.results.verdict import Verdict
 
@@ -224,7 +224,7 @@ def verdict_lines(verdict: Verdict | None, units: UnitSystem = SI) -> list[str]:
     return [line("verdict", sentence), *([line("margins", *margins)] if margins else [])]
 
 
-def _oval(found: Bent, units: UnitSystem) -> str:
+def _oval(found: RingDeformation, units: UnitSystem) -> str:
     """Say how oval an elastic part was."""
     mean, most = (units.text(value, "um", 2) for value in (found.mean_ovality_um, found.largest_ovality_um))
     return f"{found.part} {mean} on average, {most} at most"

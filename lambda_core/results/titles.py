@@ -1,4 +1,4 @@
-"""Titles of publications, where they are known for certain: from reference lists and title pages, letter by letter.
+"""Hold titles of publications from their title pages.
 
 Laws name their sources by authors, year and journal; a bibliography wants the title too. What is not here has none.
 """

@@ -1,4 +1,4 @@
-"""Judge a solution against its required life and against limits, with margins."""
+"""Judge a solution against required life and limits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Writing a result file while it is read, killed, or out of disk."""
+"""Write a result file during a run.
+
+It may be read or killed, and the disk may be full.
+"""
 
 from __future__ import annotations
 

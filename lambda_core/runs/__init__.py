@@ -1,1 +1,1 @@
-"""One run: the loop, stepping, resuming, cross-check, estimate, comparison with methods."""
+"""Run, step, resume, cross-check and estimate cases."""

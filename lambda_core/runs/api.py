@@ -1,4 +1,4 @@
-"""Solve, run, resume and cross-check a case, and estimate what a run takes."""
+"""Solve, run, resume and cross-check a case."""
 
 from __future__ import annotations
 

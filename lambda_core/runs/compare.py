@@ -1,4 +1,4 @@
-"""Compare a case or its result with methods of the literature."""
+"""Compare a case or its result with methods."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def _compare_in_machine(
     from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
     from lambda_core.runs.compare_rollers import compare_rollers
     from lambda_core.runs.comparison import comparison_of
-    from lambda_core.solver.drivers.held_rollers import HeldRollers
+    from lambda_core.solver.drivers.roller_reaction import RollerReaction
     from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
     from lambda_core.views.method import evaluate_methods
 
@@ -129,7 +129,7 @@ def _compare_in_machine(
     mounted = machine.bearings[number].model
     clean = _clean(contamination, mounted.contamination, mounted.geometry.pitch_diameter)
     ring, (for_balls, for_rollers) = state.rings[number], methods
-    if isinstance(ring, HeldRollers):
+    if isinstance(ring, RollerReaction):
         found = rollers_on_shaft(ring)
         name = f"{machine.name}, {machine.bearings[number].name}"
         return compare_rollers(dataclasses.replace(found.model, name=name), found.solved, for_rollers, clean)

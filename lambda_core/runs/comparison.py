@@ -1,4 +1,4 @@
-"""Comparison methods in the words of the machine interface: side by side, with the simulation where there is one."""
+"""Declare the answers of comparison methods."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Our integrator against CVODE: the same model from the same start, how far the two get from each other.
+"""Compare our integrator with CVODE on one model.
 
 With its cage on a prescribed path a bearing has one trajectory, and two integrators must find the same. A free cage is
 chaotic: single trajectories part, what agrees is the mean dissipated power, within the confidence intervals of both.

@@ -1,4 +1,4 @@
-"""The same equations integrated by SUNDIALS CVODE, an integrator that none of us wrote.
+"""Integrate the same equations with SUNDIALS CVODE.
 
 Right-hand side and Jacobian are those that our own BDF works on, compiled; steps, orders, error control, Newton
 iteration and linear algebra are CVODE's (Hindmarsh et al. 2005, ACM Trans. Math. Softw. 31, 363). Needs the extra

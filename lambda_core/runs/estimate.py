@@ -1,4 +1,4 @@
-"""Estimate equilibrium, rating life and processor time of a case before it is run."""
+"""Estimate a case before it is run."""
 
 from __future__ import annotations
 

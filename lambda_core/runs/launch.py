@@ -1,4 +1,7 @@
-"""From a resolved model to a running simulation: where the result goes, and what must be the same to go on."""
+"""Start a simulation from a resolved model.
+
+It places the result and checks what a continued run must have in common.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs: an engine is advanced, its samples and integrals are written, and the run knows when it is done.
+"""Run an engine until it converges or ends.
 
 The running integrals are recorded 40 times per nominal cage revolution, at the ends of the
 first steps past a fixed grid of times. Neither records nor samples depend on when the
@@ -14,7 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from lambda_core.domain.errors import UsageError
-from lambda_core.domain.handed_laws import digest_of
+from lambda_core.domain.inline_laws import digest_of
 from lambda_core.domain.processes import locked
 from lambda_core.laws.kernels import cache_folder
 from lambda_core.model.bearing_model import BearingModel

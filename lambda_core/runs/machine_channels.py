@@ -1,4 +1,4 @@
-"""List the channels of shaft and bodies in the result of a machine."""
+"""List channels of shaft and bodies."""
 
 from __future__ import annotations
 

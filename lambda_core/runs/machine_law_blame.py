@@ -1,4 +1,7 @@
-"""Blame a plugin law that broke the run of a machine; apart, so that one bearing loads no code of machines."""
+"""Blame a plugin law that broke a machine's run.
+
+Apart, so that one bearing loads no code of machines.
+"""
 
 from __future__ import annotations
 

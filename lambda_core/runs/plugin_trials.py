@@ -1,4 +1,6 @@
-"""Try plugins that are no laws on the first samples of a run: observers, events, views, sections, methods.
+"""Try plugins on the first samples of a run.
+
+Observers, events, views, sections and methods.
 
 `plugins check` tries them on a short run of a 6208 in a process of its own; `check` tries the observers and events of a
 case on the first two samples of that case.
@@ -19,7 +21,7 @@ from lambda_core.discovery.registry import Registry
 from lambda_core.discovery.survey import CheckCard, chosen_others
 from lambda_core.domain.errors import LambdaError, Problem, SolverError
 from lambda_core.model.bearing_model import BearingModel, ChosenEvent, ChosenObserver
-from lambda_core.runs.watch import Watch
+from lambda_core.runs.observers import Watch
 
 if TYPE_CHECKING:
     from lambda_core.model.machine_model import MachineModel

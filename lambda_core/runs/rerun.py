@@ -1,4 +1,4 @@
-"""Run a case again: make its model ready, with the temperatures that it wants, and change what a result has run."""
+"""Run a case again, with its temperatures and changes."""
 
 from __future__ import annotations
 

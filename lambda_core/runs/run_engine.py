@@ -1,4 +1,4 @@
-"""Adapt the dynamics of one bearing and of a machine to the run loop."""
+"""Adapt the dynamics of bearings and machines to runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One stretch of a run, from a start or a checkpoint to an end: the engine is advanced, what it brings is written."""
+"""Advance a run from its start or checkpoint."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ from lambda_core.results.rolling import rolling_of
 from lambda_core.results.run_status import Rows, State, Status, this_process
 from lambda_core.results.samples import RunChannels, Samples
 from lambda_core.results.writer import ResultWriter
+from lambda_core.runs.observers import Watch
 from lambda_core.runs.progress import Progress, Report, StopRequest, stop_request
 from lambda_core.runs.record_times import RECORDS_PER_REVOLUTION, next_multiple, record_interval
 from lambda_core.runs.run_engine import RunEngine
-from lambda_core.runs.watch import Watch
 from lambda_core.solver.drivers.engine import Advance
 
 if TYPE_CHECKING:

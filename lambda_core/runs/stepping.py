@@ -1,4 +1,4 @@
-"""A run step by step, for programs that look at every step, or give loads and motions: co-simulation.
+"""Step a run for co-simulation and observation.
 
 No result file is written and nothing is averaged. As long as nobody pushes and steps need not end anywhere, the
 dynamics are those of a run with the same longest step, bit for bit.
@@ -20,7 +20,7 @@ from lambda_core.domain.errors import SolverError, UsageError, unknown_name
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.runs.record_times import next_multiple
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.solver.drivers.given import (
+from lambda_core.solver.drivers.external_inputs import (
     MOST_ITERATIONS,
     MOST_ITERATIONS_PER_SECOND,
     Coupling,
@@ -130,7 +130,7 @@ class _Machine:
     """A machine that is pushed at its markers, loads and gears, and turned by its coupling."""
 
     def __init__(self, machine: MachineModel, couple: Coupling, announce: Announce | None) -> None:
-        from lambda_core.solver.drivers.machine_given import check_coupling
+        from lambda_core.solver.drivers.machine_inputs import check_coupling
         from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_start
 
         check_coupling(machine, couple)

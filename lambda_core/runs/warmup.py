@@ -1,4 +1,4 @@
-"""Compiling ahead: the solver and every installed law, so that no run has to wait."""
+"""Compile the solver and every installed law."""
 
 from __future__ import annotations
 

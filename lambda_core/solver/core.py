@@ -1,4 +1,4 @@
-"""The compiled core, wherever its code comes from: out of the pack of the installation, or compiled here."""
+"""Choose the compiled core: pack or native."""
 
 from __future__ import annotations
 

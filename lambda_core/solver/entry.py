@@ -1,4 +1,7 @@
-"""Entry points of the compiled core: compiled once each, kept on disk, handed out as pointers."""
+"""Compile the entry points of the core.
+
+They are kept on disk and passed as pointers.
+"""
 
 from __future__ import annotations
 

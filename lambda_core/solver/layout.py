@@ -1,4 +1,7 @@
-"""Types of what the compiled code works on, and how its helpers are compiled; :mod:`.arrays` has the arrays."""
+"""Define types and options of compiled code.
+
+:mod:`.arrays` has the arrays.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Linear algebra of one dense block: factors with row pivoting, and their solution."""
+"""Factor and solve one dense block."""
 
 from __future__ import annotations
 

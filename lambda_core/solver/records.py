@@ -1,4 +1,6 @@
-"""Records that compiled code works on: the name, unit and frame of every number that is not a state in a vector.
+"""Define records of compiled code.
+
+Name, unit and frame of every number that is not in the state vector.
 
 Frames: *inertial* x (shaft), y, z; *turning* x, r, t, which goes round with one ball's azimuth; *contact* t along
 rolling, s across, n from ball to raceway. All fields take eight bytes, so that a record of floats is also a vector.

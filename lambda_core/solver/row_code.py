@@ -1,4 +1,4 @@
-"""Types of the functions that rows of rollers are computed with.
+"""Define function types of rows of rollers.
 
 They are entry points of their own, called by pointer: the code of balls has none of it, and machines without rollers
 never compile it. The addresses stand in tables, Bundle.rollers and Factors.rollers.

@@ -1,4 +1,7 @@
-"""Vectors of three components, as tuples: they live in registers and cost what their components cost."""
+"""Compute with three-component vectors as tuples.
+
+They live in registers.
+"""
 
 # Numba infers the types of compiled functions.
 from __future__ import annotations

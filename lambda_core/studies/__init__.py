@@ -1,1 +1,4 @@
-"""Studies: many points of one case, quasi-static or dynamic, on any executor, resumable."""
+"""Evaluate one case over many points.
+
+Quasi-static or dynamic, on any executor, resumable.
+"""

@@ -1,4 +1,4 @@
-"""Choose bearings of the catalogue by load, speed and required life."""
+"""Choose bearings by load, speed and required life."""
 
 from __future__ import annotations
 

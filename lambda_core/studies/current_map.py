@@ -1,4 +1,7 @@
-"""The map of bearing currents over speed and temperature: a study, so that it has workers, and goes on after a kill."""
+"""Map bearing currents over speed and temperature.
+
+As a study, so it has workers and can be resumed.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The study file: which case, what varies, how points are chosen, what is asked of each."""
+"""Define the study file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.problems import problems
 from lambda_core.domain.errors import CaseError, Problem, UsageError
 from lambda_core.domain.files import read_text
-from lambda_core.domain.handed_laws import named
+from lambda_core.domain.inline_laws import named
 
 Mode = Literal["quasi-static", "dynamic"]
 Kind = Literal["crossed", "zipped", "latin-hypercube", "sobol", "saltelli", "optimise"]

@@ -1,4 +1,7 @@
-"""The points of a study: counted before any is made, the same in every process."""
+"""Design the points of a study.
+
+They are counted before any is made, and the same in every process.
+"""
 
 from __future__ import annotations
 

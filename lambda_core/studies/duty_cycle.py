@@ -1,4 +1,4 @@
-"""Life and losses over a duty cycle: the equilibrium of each phase, added up.
+"""Compute life and losses over a duty cycle.
 
 The damage of the phases adds (Palmgren 1924, Z. VDI 68, 339; Miner 1945, J. Appl. Mech. 12, A159): a bearing that
 would live L_i under phase i alone lives T/sum(t_i/L_i) under all of them, T = sum(t_i). All phases load the same place

@@ -1,4 +1,4 @@
-"""Run a study from Python: what varies as a mapping, the points as a table."""
+"""Run a study from Python."""
 
 from __future__ import annotations
 

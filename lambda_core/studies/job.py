@@ -1,4 +1,4 @@
-"""One point of a study in a worker process: resolve, solve or run, and read the responses.
+"""Compute one point of a study in a worker.
 
 A task is plain data; kernels, catalogue and base case are kept by the process for the next task.
 """

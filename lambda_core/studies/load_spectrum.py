@@ -1,4 +1,4 @@
-"""Read a load spectrum: a CSV file with a phase of a duty cycle in each line.
+"""Read a load spectrum from a CSV file.
 
 The first line names the columns: ``time [s]``, options of the case with their units (``gears.wheel.power [kW]``,
 ``operation.speed [rpm]``, ``loads.belt.force_z [N]``), and perhaps ``name``. An empty cell leaves the option as the

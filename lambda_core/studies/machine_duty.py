@@ -1,4 +1,4 @@
-"""Life and losses of a machine over a duty cycle: every bearing's cycle, and the life of all of them."""
+"""Compute lives and losses of machines over a duty cycle."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Define the responses of a study of a machine: of the machine, and ``NAME.RESPONSE`` of each of its bearings.
+"""Define responses of a machine and its bearings.
+
+``NAME.RESPONSE`` is that of one bearing.
 
 Every response of a study of one bearing exists for each bearing ("left.min_film_um"), as do the rows of comparison
 methods ("left.skf/friction/total"). Bearing currents are those of the machine's circuit with all its bearings.

@@ -1,4 +1,4 @@
-"""Responses that are computed from an equilibrium or from the channels of a run."""
+"""Compute responses from an equilibrium or a run."""
 
 from __future__ import annotations
 

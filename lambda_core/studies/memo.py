@@ -1,4 +1,4 @@
-"""Outcomes of jobs that are known by a name of what they are of: found once, read by whoever asks again."""
+"""Keep outcomes of jobs for whoever asks again."""
 
 from __future__ import annotations
 

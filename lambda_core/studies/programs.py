@@ -1,4 +1,4 @@
-"""Programs that outlive the process that started them, as workers of a director.
+"""Start programs that outlive their parent, as workers.
 
 What such a program says goes to files in a folder of its own, so that a later process finds it again.
 """

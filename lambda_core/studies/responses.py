@@ -3,7 +3,7 @@
 Names are those of the machine interface (:class:`~lambda_core.results.summary.Summary` and
 :class:`~lambda_core.results.quasistatic.QuasiStatic`), where it has them. ``friction_breakdown_Nmm`` stands for
 all its parts, and ``METHOD/GROUP/ROW`` for a row of a comparison method ("skf/friction/total"). Observers, events and
-states of contacts add their own (:mod:`~lambda_core.studies.watched_responses`).
+states of contacts add their own (:mod:`~lambda_core.studies.observed_responses`).
 """
 
 from __future__ import annotations
@@ -241,10 +241,10 @@ def bearing_names(model: BearingModel | MachineModel) -> tuple[str, ...]:
 def responses_of(model: BearingModel | MachineModel) -> Mapping[str, Response]:
     """Return the responses of a bearing or a machine, those of its observers, events and states included."""
     from lambda_core.studies.machine_responses import machine_responses
-    from lambda_core.studies.watched_responses import watched_responses
+    from lambda_core.studies.observed_responses import observed_responses
 
     bearings = bearing_names(model)
-    return {**(machine_responses(bearings) if bearings else RESPONSES), **watched_responses(model)}
+    return {**(machine_responses(bearings) if bearings else RESPONSES), **observed_responses(model)}
 
 
 def method_rows_among(names: Sequence[str], known: Mapping[str, Response]) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""A queue of single runs and studies, each a program of its own, one at a time.
+"""Queue runs and studies, one at a time.
 
 A run outlives whoever asked for it: what it says goes to a file, and a queue that is opened later finds the runs that
 are still going on. The result file is the truth; nothing else is needed to look at it or to go on with it.

@@ -1,4 +1,4 @@
-"""The director of many jobs: hands tasks to workers, keeps what they bring, survives what happens to them.
+"""Give jobs to workers and keep their results.
 
 Studies, the reproduction of experiments and the builder's runs all go through it. They differ in what a task is and
 does, where outcomes are kept (:class:`Store`), and where tasks are worked on (:mod:`.pool`).

@@ -1,4 +1,4 @@
-"""The manifest of a study: every point, its state and its responses, in one SQLite file of the study's folder.
+"""Store the points of a study in SQLite.
 
 Only the process that directs the study writes it; others may read at any time.
 """

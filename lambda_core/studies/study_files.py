@@ -1,4 +1,4 @@
-"""Study files to start from: they come with the program, wherever it is installed."""
+"""Offer study files to start from."""
 
 from __future__ import annotations
 

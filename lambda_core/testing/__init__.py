@@ -1,4 +1,4 @@
-"""Checks for the tests of people who write plugins: one line tests a law against its role's contract.
+"""Check plugins in their authors' tests.
 
 from lambda_core.testing import check_model
 

@@ -1,4 +1,4 @@
-"""Checks of laws: the contract of a role, single calls, limits, monotony and symmetry."""
+"""Check laws: contract, calls, limits, monotony, symmetry."""
 
 from __future__ import annotations
 

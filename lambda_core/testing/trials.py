@@ -1,4 +1,4 @@
-"""Trial inputs: what comparison methods and views see in the tests of their packages."""
+"""Make trial inputs for comparison methods and views."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Observers and events: what plugins register through the hooks ``lambda_observers`` and ``lambda_events``.
+"""Define observers and events of plugins.
+
+Hooks ``lambda_observers`` and ``lambda_events``.
 
 An observer turns the samples of a run into channels of its own, written next to those of the program; an event says at
 which samples something happens, and may end the run. Both look at samples alone and change nothing of the motion.

@@ -1,4 +1,4 @@
-"""A bearing in motion as plain data: where every part is in each frame, and what pushes it.
+"""Describe a bearing in motion as plain data.
 
 What animations are drawn from, whatever draws them. Inertial frame, SI; see docs/frames.md.
 """

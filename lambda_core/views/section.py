@@ -1,4 +1,7 @@
-"""Sections of a report: what plugins register through the hook ``lambda_sections``."""
+"""Define sections of a report.
+
+Hook ``lambda_sections``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The table of a study: one row per point, parameters and responses with units."""
+"""Define the table of a study."""
 
 from __future__ import annotations
 

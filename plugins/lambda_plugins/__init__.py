@@ -1,4 +1,4 @@
-"""Every built-in law of the contact pipeline, named here and imported when somebody chooses it."""
+"""List the built-in laws; import each when it is chosen."""
 
 from __future__ import annotations
 

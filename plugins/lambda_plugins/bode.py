@@ -1,4 +1,4 @@
-"""Bode's equations of one oil: density, viscosity and permittivity from one set of constants.
+"""Define Bode's density, viscosity and permittivity of an oil.
 
 T in K, p in bar, as published (Bode 1989; constants of a mineral oil in Syla et al. 2026, Table 5).
 """

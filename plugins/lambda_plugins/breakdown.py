@@ -1,4 +1,4 @@
-"""Voltage at which a lubricating film breaks down, patch of surface by patch of surface.
+"""Define the breakdown voltage of a lubricating film.
 
 Statistics of roughness decide over the onset of discharges (Jackson, Saha and Janik 2025, J. Tribol. 147, 051103; not
 read in the original): mean films of half a micrometre break down at a few volts, where oil stands 15 V/um and more.

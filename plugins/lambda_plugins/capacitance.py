@@ -1,4 +1,4 @@
-"""Whole capacitance of a contact, surroundings included, from that of its Hertzian area."""
+"""Extend the Hertzian capacitance of a contact by its surroundings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Drag and churning on each ball in a bearing without a bath, whose cavity holds a mixture of oil and air.
+"""Define drag of balls in an oil-air mixture.
 
 Oil jet, lubrication through the inner ring ("under-race") and oil-air leave a few percent of oil among the balls. The
 mixture is taken as one fluid, and each ball as a single sphere in it.

@@ -1,4 +1,7 @@
-"""The arc in a film that broke down: i = (V - U)/R, until it is too small to burn on."""
+"""Define the arc in a film that broke down.
+
+i = (V - U)/R, until the current is too small.
+"""
 
 from __future__ import annotations
 

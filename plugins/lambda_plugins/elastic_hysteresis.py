@@ -1,4 +1,7 @@
-"""Losses in the solids as they are rolled through the contact: an equal and opposite couple on both bodies."""
+"""Define hysteresis losses of rolling in the solids.
+
+An equal and opposite couple acts on both bodies.
+"""
 
 from __future__ import annotations
 

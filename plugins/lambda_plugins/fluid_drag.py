@@ -1,4 +1,6 @@
-"""Drag and churning of the oil on the balls after catalogues of bearing makers, shared among the immersed balls.
+"""Define drag of balls after bearing catalogues.
+
+The immersed balls share it.
 
 A catalogue gives one torque M(n) for the whole bearing. Each ball takes a part in proportion to its submerged volume,
 as a drag force against its orbit and a churning moment against its spin, such that at kinematic speeds the power of all

@@ -1,4 +1,6 @@
-"""Oils known by two kinematic viscosities: Walther over temperature, Roelands or Barus over pressure.
+"""Define oils by two kinematic viscosities.
+
+Walther over temperature, Roelands or Barus over pressure.
 
 Per cell the laws need ln(eta_0) at the cell's temperature. Walther's double exponential is therefore fitted once, by a
 polynomial in 1/T (error below 1e-5 in ln eta), and so are the powers of pressure and viscosity that go with it.

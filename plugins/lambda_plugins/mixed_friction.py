@@ -1,4 +1,4 @@
-"""Mixed lubrication: share of the load on asperities and their coefficient of friction."""
+"""Define asperity load and boundary friction."""
 
 from __future__ import annotations
 

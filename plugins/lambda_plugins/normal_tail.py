@@ -1,4 +1,4 @@
-"""The normal quantile of the upper tail in plain Python, for laws that draw from a normal distribution."""
+"""Compute the upper normal quantile in plain Python."""
 
 from __future__ import annotations
 

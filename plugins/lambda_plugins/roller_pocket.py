@@ -1,4 +1,7 @@
-"""Contact of a roller with its pocket in the cage: two bars across rolling, two end faces along the roller."""
+"""Define the contact of a roller with its pocket.
+
+Two bars across rolling, two end faces along the roller.
+"""
 
 from __future__ import annotations
 

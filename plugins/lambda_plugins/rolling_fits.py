@@ -1,4 +1,6 @@
-"""More published laws of rolling resistance: fits to solved line contacts, strip by strip, and one of point contacts.
+"""Define more published laws of rolling resistance.
+
+Fits to solved line contacts, strip by strip, and one of point contacts.
 
 A power law in the load per length, F/l = c W^m, sums over Hertz's ellipse in closed form: the strips carry
 w(s) = 3 Q/(4 a) (1 - s^2), and the integral of (1 - s^2)^m ds over -1..1 is sqrt(pi) Gamma(m + 1)/Gamma(m + 1.5).

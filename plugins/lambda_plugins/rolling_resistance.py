@@ -1,4 +1,4 @@
-"""Hydrodynamic rolling resistance of the inlet: force on each surface, by strips of the ellipse.
+"""Define hydrodynamic rolling resistance by strips of the ellipse.
 
 A strip at s = y/a carries the load per length w(s) = 3 Q/(4 a) (1 - s^2) of Hertz's pressure; a line-contact formula
 gives its resistance, and the sum over the ellipse depends on one number alone: it is integrated once, before the run,

@@ -1,4 +1,7 @@
-"""Smooth shapes that several laws share; plain Python, compiled together with the kernels that call them."""
+"""Define smooth shapes that several laws share.
+
+Plain Python, compiled with the kernels that call them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Drag and churning on each ball as on a single sphere in oil."""
+"""Define drag on each ball as on a sphere."""
 
 from __future__ import annotations
 

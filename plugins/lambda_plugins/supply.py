@@ -1,4 +1,4 @@
-"""Supply of oil to a contact: how much the film and the rolling resistance lose where the inlet is not full."""
+"""Define loss of film and rolling resistance by starvation."""
 
 from __future__ import annotations
 

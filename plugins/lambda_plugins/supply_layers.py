@@ -1,4 +1,7 @@
-"""Supply of oil from a layer on the tracks: a layer that is given, and one that contacts press aside while they run."""
+"""Define the supply from oil layers on the tracks.
+
+A given layer, and one that contacts press aside while they run.
+"""
 
 from __future__ import annotations
 

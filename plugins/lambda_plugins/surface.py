@@ -1,4 +1,4 @@
-"""Deviations of a raceway from its nominal surface: waviness and a local defect.
+"""Define waviness and local defects of a raceway.
 
 Heights count along the surface's normal, towards the ball; azimuth and contact angle are places on the raceway, which
 turns with its ring. The penetration of ball and raceway grows by the height, so a rigid surface does work on the

@@ -1,4 +1,4 @@
-"""Define time functions in addition to those of a case file."""
+"""Define additional time functions."""
 
 from __future__ import annotations
 

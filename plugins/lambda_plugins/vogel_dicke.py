@@ -1,4 +1,4 @@
-"""Vogel's law over temperature with Dicke's pressure term: oils measured that way (FVA3)."""
+"""Define oils by Vogel's law with Dicke's pressure term."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Chart, tables and chapter of the comparison with SKF's catalogue model."""
+"""Make chart, tables and chapter of the catalogue comparison."""
 
 from __future__ import annotations
 

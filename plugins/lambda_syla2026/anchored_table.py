@@ -1,4 +1,4 @@
-"""Table 4 with the anchored set: oil temperatures from the printed SKF row, and what the set misses.
+"""Compute Table 4 with the anchored set.
 
 The paper says that every method had the measured bath temperature, and prints none. Where SKF's model gives the printed
 row is the temperature of each point; whether that is right shows in rows that were not used for it.

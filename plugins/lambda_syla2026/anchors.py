@@ -1,4 +1,6 @@
-"""The friction torque against SKF's catalogue model: other bearings than the 6319, grooves, random cases, Stribeck.
+"""Compare the friction torque with SKF's catalogue model.
+
+Other bearings than the 6319, grooves, random cases, Stribeck.
 
 No number of Table 4 enters. "default" is what any case gets, "blind" the first set. Both sides are without drag and
 cage, with SKF's factor of replenishment, quasi-static; the mean is over the positions of the balls.

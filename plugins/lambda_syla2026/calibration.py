@@ -1,4 +1,7 @@
-"""tau_e alone fitted on one row of Table 4 and the other row predicted: by runs, and for every law of two terms."""
+"""Fit tau_e on one row of Table 4.
+
+It predicts the other row, by runs and for every law of two terms.
+"""
 
 from __future__ import annotations
 

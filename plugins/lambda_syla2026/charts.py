@@ -1,4 +1,4 @@
-"""The figures of the reproduction as data: drawn by the house's drawing like any other view."""
+"""Make the figures of the reproduction as data."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Fig. 5: above which axial excitation the balls of the 6220 run differently."""
+"""Repeat Fig. 5: onset of altered running of the 6220."""
 
 from __future__ import annotations
 

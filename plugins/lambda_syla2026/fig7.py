@@ -1,4 +1,4 @@
-"""Fig. 7: capacitance of the Hertzian contacts of the 6208 under axial load."""
+"""Repeat Fig. 7: contact capacitance of the 6208."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Many models worked on side by side, each once: what is found is kept on disk and not done again.
+"""Solve many models in parallel, each once.
+
+Results are kept on disk.
 
 A job is a case, changes to it and a kind of reading. Its numbers stand in a file named by the hash of the
 resolved model; a run's own result file lies in the same folder. Both belong to the code of the solver, whose hash names

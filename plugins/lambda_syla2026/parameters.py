@@ -1,4 +1,4 @@
-"""The parameter sets: the blind one with a published range for each value, and what the anchored one has instead."""
+"""Read the blind and the anchored parameter set."""
 
 from __future__ import annotations
 

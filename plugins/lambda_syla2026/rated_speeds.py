@@ -1,4 +1,4 @@
-"""The loss at SKF's printed reference speeds over the heat that ISO 15312 lets a bearing give up.
+"""Compare losses at SKF's reference speeds with ISO 15312.
 
 A reference speed is the speed at which a bearing under 5 % of its static rating, in a mineral oil of 12 mm2/s to the
 middle of the lowest ball, reaches 70 degC in surroundings of 20 degC. So the loss there should be q_r A_r.

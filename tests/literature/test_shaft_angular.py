@@ -21,7 +21,7 @@ from lambda_core.formulas.hertz import ball_raceway_radii, stiffness_constant
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.resolve_machine import resolve_machine
-from lambda_core.solver.drivers.held_ring import HeldRing
+from lambda_core.solver.drivers.bearing_reaction import BearingReaction
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 
 from .statics import STEEL
@@ -125,7 +125,7 @@ def alone() -> BearingModel:
 )
 def test_loads_and_stiffness_of_one_bearing(pose: list[float]) -> None:
     """Force, moment and the 5 x 5 stiffness at a pose; contact angles of the balls; all to 0.1 %."""
-    ring = HeldRing(alone(), FREE, 500.0, KERNELS.of(alone()))
+    ring = BearingReaction(alone(), FREE, 500.0, KERNELS.of(alone()))
     at = of_touching(pose[0]) + np.array([0.0, *pose[1:]])
     found = ring.reaction(at)
     while ring.refresh():

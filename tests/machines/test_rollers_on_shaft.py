@@ -15,8 +15,8 @@ from lambda_core.elements.roller.roller_equilibrium import balance
 from lambda_core.model.laws.law_context import build_context
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.resolve_machine import resolve_machine
-from lambda_core.solver.drivers.held_ring import HeldRing
-from lambda_core.solver.drivers.held_rollers import HeldRollers
+from lambda_core.solver.drivers.bearing_reaction import BearingReaction
+from lambda_core.solver.drivers.roller_reaction import RollerReaction
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 
 PINNED = {"tilt_y": "free", "tilt_z": "free"}  # outer rings that follow, so that no bearing bears a moment
@@ -62,18 +62,18 @@ def pair(preload: str, force: str = "0 N", at: str = "30 mm", across: str = "0 N
 
 
 @cache
-def compiled(takes: str) -> HeldRing:
+def compiled(takes: str) -> BearingReaction:
     """Return a 32208 in compiled code."""
     model = of("32208", takes).model
-    return HeldRing(model, 0.0, 1000.0, KERNELS.of(model))
+    return BearingReaction(model, 0.0, 1000.0, KERNELS.of(model))
 
 
 @cache
-def of(designation: str, takes: str | None = None) -> HeldRollers:
+def of(designation: str, takes: str | None = None) -> RollerReaction:
     own: dict[str, Any] = {"designation": designation, "at": "30 mm"} | ({"takes": takes} if takes else {})
     model = resolve_machine({**SHARED, "shaft": THICK, "bearings": {"one": own}}).bearings[0].model
     assert model.rollers is not None
-    return HeldRollers(model, model.rollers, KERNELS.of(model))
+    return RollerReaction(model, model.rollers, KERNELS.of(model))
 
 
 def test_levers_share_the_load() -> None:
@@ -181,7 +181,7 @@ def test_a_cone_that_faces_the_other_way_is_the_mirror_image() -> None:
 def test_the_compiled_contacts_answer_the_same() -> None:
     """Compiled rollers with the law iso-line: both follow ISO 16281, the law in proportion to E'; 0.5 % for slices."""
     ring = of("SKF NU 208 ECP")
-    kernels = HeldRing(ring.model, 0.0, 1000.0, KERNELS.of(ring.model))
+    kernels = BearingReaction(ring.model, 0.0, 1000.0, KERNELS.of(ring.model))
     softer = STEEL / build_context(ring.model, "ball_inner", ring.frame, ring.oil).e_eff
     for pose in ((0.0, 0.0, -40e-6, 0.0, 0.0), (0.0, 10e-6, -40e-6, 3e-4, 0.0)):
         assert softer * kernels.reaction(pose)[1:3] == pytest.approx(ring.reaction(pose)[1:3], rel=5e-3, abs=1.0)

@@ -15,7 +15,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.discovery import local_files, manager
-from lambda_core.domain import handed_laws
+from lambda_core.domain import inline_laws
 from lambda_core.domain.installed import ON_VARIABLE
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.plugins import OK, law
@@ -47,7 +47,7 @@ def untouched(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]
     monkeypatch.setenv(manager.OFF_VARIABLE, "")
     monkeypatch.setattr(local_files, "user_folder", lambda: tmp_path / "config" / "plugins")
     monkeypatch.setattr(local_files, "_texts", {})
-    monkeypatch.setattr(handed_laws, "_laws", {})
+    monkeypatch.setattr(inline_laws, "_laws", {})
     manager.registry.cache_clear()
     yield
     monkeypatch.undo()
@@ -74,7 +74,7 @@ def test_a_file_is_used_once_it_is_named(file: Path) -> None:
         api.check("6319-cp10-1500", CHOICE)
     api.use_plugin(file)
     found = traction("6319-cp10-1500")
-    assert found.distribution == f"short.py {handed_laws.digest_of(LAW.encode())}"
+    assert found.distribution == f"short.py {inline_laws.digest_of(LAW.encode())}"
     assert 'traction = "short.py:short"' in api.check("6319-cp10-1500", CHOICE).case_toml
 
 
@@ -177,7 +177,7 @@ def test_workers_get_the_files_and_laws_of_the_director(file: Path) -> None:
     guests = local_files.guests()
     file.unlink()
     local_files._texts.clear()
-    handed_laws._laws.clear()
+    inline_laws._laws.clear()
     manager.registry.cache_clear()
     manager.as_guests_of(guests)
     assert traction("6319-cp10-1500").distribution.startswith("short.py ")
@@ -203,7 +203,7 @@ def test_a_result_names_the_file_that_its_law_came_from(file: Path, tmp_path: Pa
     api.use_plugin(file)
     out = tmp_path / "r.h5"
     result = api.run("6208-axial-1300", [*CHOICE, "solver.duration=0.2 ms"], out=out)
-    origin = f"short.py {handed_laws.digest_of(LAW.encode())}"
+    origin = f"short.py {inline_laws.digest_of(LAW.encode())}"
     assert result.headline.splitlines()[-1] == f"laws of others: traction short ({origin})"
     assert [law.distribution for law in api.cite(out).laws if law.law == "traction/short"] == [origin]
     longer = ["solver.duration=0.3 ms"]

@@ -12,7 +12,7 @@ import pytest
 from lambda_core import api
 from lambda_core.discovery import manager
 from lambda_core.discovery.manager import registry
-from lambda_core.domain import handed_laws
+from lambda_core.domain import inline_laws
 from lambda_core.domain.roles import DEFAULT_MODELS, ROLES
 from lambda_core.laws.check import parameters_of
 from lambda_core.laws.jit.binding import STRIDE
@@ -33,10 +33,10 @@ from lambda_core.solver.vec import cosine_sine
 @pytest.fixture(scope="module", autouse=True)
 def untouched() -> Iterator[None]:
     """Take back the law that was handed over: other tests of this process know nothing of it."""
-    before = dict(handed_laws._laws)
+    before = dict(inline_laws._laws)
     yield
-    handed_laws._laws.clear()
-    handed_laws._laws.update(before)
+    inline_laws._laws.clear()
+    inline_laws._laws.update(before)
     manager.registry.cache_clear()
 
 

@@ -12,7 +12,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.discovery import manager
-from lambda_core.domain import handed_laws
+from lambda_core.domain import inline_laws
 from lambda_core.domain.errors import CaseError
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.plugins import OK, Parameters, State, law, parameter
@@ -28,10 +28,10 @@ TURN = 3.0  # turns of the spiral over its decay
 @pytest.fixture(scope="module", autouse=True)
 def untouched() -> Iterator[None]:
     """Take back the laws that were handed over: other tests of this process know nothing of them."""
-    before = dict(handed_laws._laws)
+    before = dict(inline_laws._laws)
     yield
-    handed_laws._laws.clear()
-    handed_laws._laws.update(before)
+    inline_laws._laws.clear()
+    inline_laws._laws.update(before)
     manager.registry.cache_clear()
 
 

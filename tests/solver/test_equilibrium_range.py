@@ -189,7 +189,7 @@ def test_what_is_beyond_a_limit_is_said_where_nothing_is_found(monkeypatch: pyte
         return continue_static(*arguments, friction=friction, **options)
 
     monkeypatch.setattr("lambda_core.solver.drivers.equilibrium.continue_static", search)
-    monkeypatch.setattr("lambda_core.solver.drivers.equilibrium.from_warmer_oil", lambda *_: None)
+    monkeypatch.setattr("lambda_core.solver.drivers.equilibrium.by_viscosity_continuation", lambda *_: None)
     with pytest.raises(SolverError, match=r"none with friction; .*the oil at -55 degC is outside"):
         solve(api.check("6319-cp10-1500", ["lubricant.temperature=-55 degC"]))
 

@@ -11,7 +11,7 @@ import pytest
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.ball_paths import follow_paths
-from lambda_core.solver.drivers.warmer_oil import StaticReport
+from lambda_core.solver.drivers.viscosity_continuation import StaticReport
 
 
 def nine() -> Any:

@@ -10,7 +10,7 @@ import pytest
 from scipy.optimize import least_squares
 
 from lambda_core import api
-from lambda_core.results.followed import added
+from lambda_core.results.numerical_damping import added
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.dynamics import BearingEngine

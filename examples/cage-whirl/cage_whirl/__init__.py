@@ -1,4 +1,7 @@
-"""The run ends when the cage's centre leaves the middle by more than a share of its clearance in the pockets."""
+"""End a run when the cage leaves the middle.
+
+The limit is a share of its clearance in the pockets.
+"""
 
 import numpy as np
 

@@ -1,4 +1,7 @@
-"""A traction law with a limiting shear stress, and the parameters that two oils have for it."""
+"""Define a traction law with a limiting shear stress.
+
+Two oils have parameters for it.
+"""
 
 from __future__ import annotations
 

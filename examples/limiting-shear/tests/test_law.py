@@ -1,4 +1,4 @@
-"""The law keeps the contract of its role, and its two limits."""
+"""Test the role's contract and both limits of the law."""
 
 import numpy as np
 from limiting_shear import gecim_winer

@@ -1,4 +1,7 @@
-"""The pull of an electric machine's field on a rotor that stands out of the middle: it grows with the eccentricity."""
+"""Define the magnetic pull on an eccentric rotor.
+
+It grows with the eccentricity.
+"""
 
 import math
 from typing import Annotated, NamedTuple

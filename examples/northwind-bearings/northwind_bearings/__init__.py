@@ -1,4 +1,7 @@
-"""Bearings of an invented maker, with an oil, a comparison method, a view and a command."""
+"""Add bearings of an invented maker.
+
+With an oil, a comparison method, a view and a command.
+"""
 
 from pathlib import Path
 

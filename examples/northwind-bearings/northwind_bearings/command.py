@@ -1,4 +1,4 @@
-"""The command `lambda-bearing northwind`: the maker's bearings, as the catalogue has them."""
+"""Define the command `lambda-bearing northwind`."""
 
 import json
 from contextlib import closing

@@ -1,4 +1,4 @@
-"""The oldest answer to the question which ball carries most: Stribeck's number."""
+"""Compute the largest ball load by Stribeck's number."""
 
 from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 

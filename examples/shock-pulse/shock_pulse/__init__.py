@@ -1,4 +1,4 @@
-"""A shock as tests of products prescribe it: half a sine, and nothing before and after it."""
+"""Define a half-sine shock as product tests prescribe it."""
 
 from math import cos, pi, sin
 from typing import Annotated

@@ -1,4 +1,7 @@
-"""A ring on springs, in a bearing too wide to touch it, under a shock: one mass, one spring, forced by half a sine."""
+"""Test a ring on springs under a half-sine shock.
+
+One mass, one spring: the bearing is too wide to touch the ring.
+"""
 
 import numpy as np
 from shock_pulse import half_sine

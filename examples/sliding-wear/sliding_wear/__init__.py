@@ -1,4 +1,7 @@
-"""Wear of the raceway contacts after Archard: a rate and its time integral for each contact, and a picture of them."""
+"""Compute wear of the raceway contacts after Archard.
+
+A rate and its time integral for each contact, and a picture of them.
+"""
 
 import numpy as np
 

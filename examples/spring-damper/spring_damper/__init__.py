@@ -1,4 +1,4 @@
-"""A spring that gets stiffer the farther it is pressed, and a damper, between two bodies, or a body and the ground."""
+"""Define a progressive spring with a damper between bodies."""
 
 from typing import Annotated
 

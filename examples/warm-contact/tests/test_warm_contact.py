@@ -1,4 +1,4 @@
-"""The rate is the heat balance's; both laws keep the rules of their roles."""
+"""Test the heat balance and the contracts of both laws."""
 
 from warm_contact import warm, warm_eyring
 

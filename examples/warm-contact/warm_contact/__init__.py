@@ -1,4 +1,7 @@
-"""Every contact has a temperature, which its losses raise and the bearing around it takes down; traction reads it."""
+"""Give every contact a temperature that its traction reads.
+
+Losses raise it, the bearing around it lowers it.
+"""
 
 from typing import NamedTuple
 

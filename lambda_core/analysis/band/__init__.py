@@ -1,1 +1,4 @@
-"""The model band of results: ranges of parameters, laws exchanged, and what both do to results."""
+"""Compute the model band of results.
+
+Ranges of parameters and exchanged laws change the results.
+"""

@@ -1,4 +1,4 @@
-"""Change one value or law of a resolved model without resolving all of it again."""
+"""Change one value or law of a resolved model."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Ranges of a case's parameters: published with the laws, of the clearance class, or usual for an option."""
+"""Collect the ranges of a case's parameters.
+
+Published with the laws, of the clearance class, or usual for an option.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The model band: how far results may be off because parameters and laws are known within ranges only."""
+"""Compute how far uncertain parameters and laws move results."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names of columns in a file of measurements: operating conditions and measured quantities."""
+"""Name the columns of a file of measurements."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The bearing as a part of an electric circuit: what its films let through, and where they break down.
+"""Compute a bearing as a part of an electric circuit.
 
 A reader of contact samples; nothing here acts back on the motion.
 """

@@ -29,7 +29,7 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.domain.lists import listed
 from lambda_core.model.bearing_model import Solver
 from lambda_core.results.convergence import window as averaged
-from lambda_core.solver.drivers.held_ring import held
+from lambda_core.solver.drivers.bearing_reaction import held
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel

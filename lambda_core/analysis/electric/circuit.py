@@ -1,4 +1,7 @@
-"""The circuit around the films, and the bearing as a meter sees it: capacitance, impedance, voltage ratio."""
+"""Define the circuit around the films.
+
+With the bearing as a meter sees it: capacitance, impedance, voltage ratio.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Places in the arrays that the compiled integrator works on, by name."""
+"""Name the positions in arrays of the compiled integrator."""
 
 from __future__ import annotations
 

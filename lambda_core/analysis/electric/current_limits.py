@@ -1,4 +1,4 @@
-"""Limits of bearing currents in circulation, with where they come from.
+"""Define published limits of bearing currents.
 
 None of them was read in its original here: results list them, and the program decides nothing by them.
 """

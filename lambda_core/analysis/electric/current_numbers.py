@@ -1,4 +1,4 @@
-"""Bearing currents of one operating point in a dozen numbers: what maps and studies ask of it."""
+"""Summarise bearing currents of an operating point."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The table of discharges in a file: CSV for spreadsheets, HDF5 with everything that belongs to it."""
+"""Write the table of discharges as CSV or HDF5."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Discharges as a table, and what can be counted on it."""
+"""Hold discharges as a table and count them."""
 
 from __future__ import annotations
 

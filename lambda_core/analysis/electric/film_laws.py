@@ -1,4 +1,4 @@
-"""The laws of a film that breaks down, compiled and with their parameters, as the integration calls them."""
+"""Compile the breakdown laws of films with their parameters."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The film from outside: what thickness belongs to a measured capacitance of the bearing."""
+"""Find the film thickness from a measured capacitance."""
 
 from __future__ import annotations
 

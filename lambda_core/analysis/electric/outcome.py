@@ -1,4 +1,4 @@
-"""Bearing voltage, discharges and impedance in the words of the machine interface."""
+"""Summarise bearing voltage, discharges and impedance."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bearing currents over speed and temperature: which corners of the operation discharge."""
+"""Map bearing currents over speed and temperature."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Common-mode voltage of the winding as corners of straight lines: what each kind of source makes of a span of time.
+"""Define common-mode voltages by corners of straight lines.
 
 Every corner is found from the number of its period alone: a span that is cut into stretches has the same corners.
 """

@@ -1,1 +1,1 @@
-"""Rate equilibria: lives, safety and catalogue friction, by the installed methods."""
+"""Rate equilibria by the installed methods."""

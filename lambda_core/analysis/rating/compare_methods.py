@@ -1,4 +1,4 @@
-"""Every comparison method on one case: the equilibrium first, then the methods side by side."""
+"""Apply every comparison method to one case."""
 
 from __future__ import annotations
 

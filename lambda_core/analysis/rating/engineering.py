@@ -1,4 +1,4 @@
-"""Life, safety and catalogue friction of a quasi-static solution: the numbers an engineer asks for first."""
+"""Compute life, safety and catalogue friction of an equilibrium."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lambda_core.model.settings.contamination import known_contamination
 from lambda_core.results.rating import Rating
 from lambda_core.results.verdict import limits_of
 from lambda_core.solver.drivers.equilibrium import Equilibrium
-from lambda_core.solver.drivers.held_rollers import HeldRollers
+from lambda_core.solver.drivers.roller_reaction import RollerReaction
 from lambda_core.views.method import Method, evaluate_methods
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ def mounted_rating(model: MachineModel, state: ShaftState, number: int, found: E
     from lambda_core.discovery.manager import registry
 
     ring = state.rings[number]
-    if isinstance(ring, HeldRollers):
+    if isinstance(ring, RollerReaction):
         return rollers_on_shaft(ring).rating
     x, y, z = state.reactions[number][:3]
     return rating_of(found, registry().methods, (float(np.hypot(y, z)), abs(float(x))))

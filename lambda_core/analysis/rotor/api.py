@@ -1,4 +1,4 @@
-"""Answer questions about a machine at its operating point: equilibrium, modes, pictures."""
+"""Answer questions about a machine at its operating point."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Take one bearing of a machine by itself, under the load that it carries there."""
+"""Take one bearing out of a machine with its load."""
 
 from __future__ import annotations
 

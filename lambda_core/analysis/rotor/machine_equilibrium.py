@@ -35,8 +35,8 @@ from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Summary
 from lambda_core.results.verdict import Verdict
 from lambda_core.solver.drivers.equilibrium import Equilibrium
-from lambda_core.solver.drivers.held_rollers import HeldRollers
 from lambda_core.solver.drivers.preload import Preload, first_contact
+from lambda_core.solver.drivers.roller_reaction import RollerReaction
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 from lambda_core.solver.drivers.structure import point_on, static_rows, stretch
 
@@ -262,7 +262,7 @@ def equilibrium_of(
     """
     bearings = [
         _rollers(model, state, i, ring)
-        if isinstance(ring, HeldRollers)
+        if isinstance(ring, RollerReaction)
         else _bearing(model, state, i, equilibria[i] if equilibria else ring.equilibrium())
         for i, ring in enumerate(state.rings)
     ]
@@ -357,7 +357,7 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
     )
 
 
-def _rollers(model: MachineModel, state: ShaftState, index: int, ring: HeldRollers) -> BearingEquilibrium:
+def _rollers(model: MachineModel, state: ShaftState, index: int, ring: RollerReaction) -> BearingEquilibrium:
     """Return what there is to say of one bearing with rollers."""
     bearing, reaction, pose = model.bearings[index], state.reactions[index], state.pose(model, index)
     found = rollers_on_shaft(ring)

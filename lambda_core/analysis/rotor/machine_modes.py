@@ -1,4 +1,4 @@
-"""Natural frequencies, critical speeds and bearing matrices of a machine at its operating point."""
+"""Compute natural frequencies and critical speeds of a machine."""
 
 from __future__ import annotations
 

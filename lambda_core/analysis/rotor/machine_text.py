@@ -1,4 +1,4 @@
-"""Write the equilibrium and the modes of a machine for people."""
+"""Write the equilibrium and the modes of a machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One roller bearing of a machine at its operating point: the answer of one that is alone, from its pose there."""
+"""Answer for one roller bearing of a machine."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from lambda_core.results.bearing_summary import Contact
 from lambda_core.results.rating import Rating
 from lambda_core.results.roller_quasistatic import RollerQuasiStatic, SolvedRollers, roller_answer
 from lambda_core.results.verdict import limits_of
-from lambda_core.solver.drivers.held_rollers import HeldRollers
+from lambda_core.solver.drivers.roller_reaction import RollerReaction
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ def _film(found: RollerFriction | None, ring: str, roller: int, loads: FloatArra
     return 1e6 * float(found.film[ring][roller, int(np.argmax(loads))])
 
 
-def rollers_on_shaft(ring: HeldRollers) -> RollersOnShaft:
+def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
     """Return what a roller bearing answers at the last pose of its rings."""
     model, bearing, motion, state = ring.model, ring.rollers, ring.motion, ring.state
     oil = _oil_state(ring.oil)

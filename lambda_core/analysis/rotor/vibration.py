@@ -1,4 +1,4 @@
-"""Stiffness and damping of housed bearings, natural frequencies and critical speeds at the operating point."""
+"""Compute stiffness, damping and critical speeds of housed bearings."""
 
 from __future__ import annotations
 

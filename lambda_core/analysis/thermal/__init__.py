@@ -1,1 +1,1 @@
-"""Temperatures from losses: a thermal network around the bearing, steady and over time."""
+"""Compute temperatures from losses by a thermal network."""

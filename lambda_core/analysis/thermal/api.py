@@ -1,4 +1,4 @@
-"""Answer what temperatures a bearing's or a machine's own losses give it."""
+"""Answer questions about temperatures of bearings and machines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Describe one bearing in a thermal network: nodes, heat, conductances inside it and to its seats."""
+"""Describe one bearing in a thermal network.
+
+Nodes, heat, conductances inside it and to its seats.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Temperatures as data to draw: over time, and where the heat goes."""
+"""Make charts of temperatures and heat flows."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Conductances inside a bearing: rolling contacts, oil on surfaces, solid parts, seats. SI throughout."""
+"""Compute conductances inside a bearing.
+
+Rolling contacts, oil on surfaces, solid parts, seats. SI throughout.
+"""
 
 from __future__ import annotations
 

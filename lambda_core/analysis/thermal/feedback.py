@@ -1,4 +1,4 @@
-"""The loop of torque and temperature: temperatures -> viscosity and clearance -> loss -> temperatures.
+"""Solve the loop of temperatures, viscosity, clearance and loss.
 
 It is the same for one bearing and for all bearings of a machine.
 """

@@ -1,4 +1,7 @@
-"""Thermal speed rating after ISO 15312: the speed at which a bearing in oil reaches 70 degC by its own loss."""
+"""Compute the thermal reference speed by ISO 15312.
+
+The speed at which a bearing in oil reaches 70 degC by its own loss.
+"""
 
 from __future__ import annotations
 

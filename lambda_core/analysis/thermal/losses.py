@@ -1,4 +1,4 @@
-"""The quasi-static point as the network sees it: heat and inner conductances over inlet temperature and clearance.
+"""Tabulate losses over inlet temperature and clearance.
 
 Of everything that the temperatures change, the laws of the contacts see two numbers: the temperature of the oil at
 their inlets and the clearance in operation.

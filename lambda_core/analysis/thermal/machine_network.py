@@ -1,4 +1,4 @@
-"""Join bearings, shaft, housing and surroundings to one thermal network; a bearing alone is the case of one."""
+"""Join bearings, shaft, housing and surroundings to one network."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Draw the temperatures of a machine: along the shaft and by bearing, or over time."""
+"""Draw the temperatures of a machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Find the temperatures of a machine: the equilibrium of the shaft and the losses of all bearings follow them."""
+"""Find the temperatures of a machine.
+
+Shaft equilibrium and losses of all bearings follow them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A thermal network: nodes that store heat, conductances between them, temperatures that are held."""
+"""Solve a thermal network.
+
+Nodes that store heat, conductances between them, prescribed temperatures.
+"""
 
 from __future__ import annotations
 

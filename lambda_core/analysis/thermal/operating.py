@@ -1,4 +1,7 @@
-"""A bearing at the temperatures that its own losses give it: what operation.temperatures = "computed" means."""
+"""Solve a bearing at temperatures from its own losses.
+
+For operation.temperatures = "computed".
+"""
 
 from __future__ import annotations
 

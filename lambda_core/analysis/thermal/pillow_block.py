@@ -1,4 +1,4 @@
-"""Surround one bearing alone: a pillow block and a shaft that is long on both sides."""
+"""Surround one bearing by a pillow block and shaft."""
 
 from __future__ import annotations
 

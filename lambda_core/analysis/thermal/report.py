@@ -1,4 +1,4 @@
-"""Temperatures in the words of the machine interface: steady, and over time."""
+"""Summarise temperatures, steady and over time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Carry several bearings: a shaft that conducts along its length, in one housing."""
+"""Describe shaft and housing of several bearings."""
 
 from __future__ import annotations
 

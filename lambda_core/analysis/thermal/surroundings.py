@@ -1,4 +1,7 @@
-"""Conductances from housing and shaft to the surroundings, in ready sets. SI throughout."""
+"""Define conductances from housing and shaft to surroundings.
+
+SI throughout.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Find the temperatures of one bearing under its own losses, steady and over time."""
+"""Find temperatures of one bearing under its losses."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Temperatures over time: the network with the losses of the quasi-static points at every moment."""
+"""Integrate temperatures over time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Questions that the program asks a kind of ball bearing: raceways, proportions, limits, and how a case writes it."""
+"""Define the questions that a kind of ball bearing answers."""
 
 from __future__ import annotations
 

@@ -1,1 +1,4 @@
-"""Rollers: slices, profiles, load distribution, ratings, lives, rolling resistance and ribs, as pure functions."""
+"""Compute rollers by pure functions.
+
+Slices, profiles, load distribution, ratings, lives, rolling resistance and ribs.
+"""

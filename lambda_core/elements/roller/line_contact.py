@@ -1,4 +1,4 @@
-"""Hertz line contact and the approach of rollers of finite length.
+"""Compute Hertz line contact and approach of finite rollers.
 
 Lengths in m, forces in N, pressures in Pa. ``e_eff`` is E' with 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2, as in
 :mod:`lambda_core.formulas.hertz`; ``radius`` is the reduced radius R, 1/R = 1/R_1 + 1/R_2. Every argument may be an

@@ -1,4 +1,4 @@
-"""Film thickness of line contacts, and the factors of heat and asperities that go with it.
+"""Compute films of line contacts and their reductions.
 
 Scalars or arrays; written with NumPy's functions alone, so that they compile as they stand.
 """

@@ -1,4 +1,6 @@
-"""Profiles of rollers and raceways: the drop below the cylinder or cone over the coordinate along the contact.
+"""Define profiles of rollers and raceways.
+
+The drop below cylinder or cone over the coordinate along the contact.
 
 ``x`` is the distance from the middle along the contact line [m], an array or a float; every drop is in m, zero or more
 and even in x. A profile is any function of x; :func:`total` adds them.

@@ -1,4 +1,4 @@
-"""Contact of a tapered roller's sphere end with the rib of the inner ring: geometry, load, sliding and film.
+"""Compute the contact of a tapered roller with its rib.
 
 All lines of a tapered bearing meet in the apex on the bearing's axis. The plane through the axis and the roller has
 the local axes e1 along the common generatrix of roller and inner raceway, away from the apex, and e2 from there towards

@@ -1,4 +1,4 @@
-"""Radial internal clearance of cylindrical and needle roller bearings with cylindrical bore."""
+"""Tabulate radial clearance of roller bearings with cylindrical bore."""
 
 from __future__ import annotations
 

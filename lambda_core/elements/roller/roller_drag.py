@@ -1,4 +1,4 @@
-"""Drag of rollers in an oil bath after SKF's catalogue model."""
+"""Compute drag of rollers in an oil bath (SKF)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Quasi-static equilibrium of a row of rollers that move, tilt and touch ribs between rigid rings.
+"""Solve the quasi-static equilibrium of a row of rollers.
 
 Every roller has three degrees of freedom in its plane, the inner ring five. All contacts are springs that only push:
 laminae of ISO 16281 on both raceways, Hertz's point contact at ribs. Their energy is convex in the displacements, so

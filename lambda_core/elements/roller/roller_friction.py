@@ -1,4 +1,4 @@
-"""Friction torque of a roller bearing in its quasi-static equilibrium: raceways, ribs and the oil bath.
+"""Compute the friction torque of a roller bearing.
 
 Rolling resistance of the inlets, losses in the solids, sliding of the raceways that carries the traction, sliding of
 roller ends on ribs, drag of rollers in the oil bath. The cage is left out. Every torque is a dissipated power over the

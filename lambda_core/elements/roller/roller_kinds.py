@@ -1,4 +1,4 @@
-"""Kinds of roller bearings, by the ribs that guide their rollers."""
+"""Define kinds of roller bearings by their ribs."""
 
 from __future__ import annotations
 

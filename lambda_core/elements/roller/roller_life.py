@@ -1,4 +1,4 @@
-"""Lives of radial roller bearings: ISO 281 and, lamina by lamina, ISO 16281.
+"""Compute roller lives by ISO 281 and ISO 16281.
 
 Lives are in million revolutions. The system exponent is 9/8 (Weibull slope of line contact), the load-life exponent of
 a lamina 9/2, of a bearing 10/3 in ISO 281 and 4 between loads of the same distribution.

@@ -1,4 +1,4 @@
-"""Kinematics of rollers that roll without sliding on both raceways, and the inertial loads that follow."""
+"""Compute kinematics and inertial loads of rolling rollers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Load ratings and equivalent loads of radial roller bearings (ISO 281, ISO 76), ratings of laminae (ISO 16281).
+"""Compute load ratings of radial roller bearings.
+
+ISO 281, ISO 76; ratings of laminae by ISO 16281.
 
 SI in and out; the standards' formulas are in mm and N, converted inside.
 """

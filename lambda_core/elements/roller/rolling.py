@@ -1,4 +1,4 @@
-"""Hydrodynamic rolling resistance of line contacts and the torque that it makes in a bearing."""
+"""Compute hydrodynamic rolling resistance of line contacts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Load over the slices of a roller: independent laminae, or one deflection matrix of all slices.
+"""Distribute the load over the slices of a roller.
 
 Shapes: `drop` and positions have one value per slice, (n,); approach and tilt may be arrays of rollers, (...); loads
 are (..., n). The approach counts at the roller's middle; slice k has approach - x_k tan(tilt) - drop_k. The moment is

@@ -1,1 +1,1 @@
-"""Bearings for other programs: co-simulation units (FMI) with the compiled solver inside, and no Python."""
+"""Export bearings and machines as FMUs without Python."""

@@ -1,4 +1,4 @@
-"""The circuit of all bearings in their library: films, the network around them, and the discharges through them.
+"""Put the circuit of all bearings into their library.
 
 A step of the host is a stretch of the integration that a run takes: the contacts at both ends, the source a straight
 line between. The host is the source; that of the case is left out.

@@ -1,4 +1,4 @@
-"""The model description of a bearing or a machine, by the standards FMI 2.0 and FMI 3.0 (fmi-standard.org)."""
+"""Write the model description of FMI 2.0 and 3.0."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A bearing or a machine frozen at its start: everything that compiled code works on, in one image."""
+"""Freeze a bearing or a machine at its start.
+
+One image contains everything that compiled code works on.
+"""
 
 from __future__ import annotations
 
@@ -27,8 +30,8 @@ from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.integrator_memory import CONTROL, Memory
 from lambda_core.solver.drivers.compiled_laws import derive_oils
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.solver.drivers.given import Coupling, given_names, start
-from lambda_core.solver.drivers.machine_given import check_coupling
+from lambda_core.solver.drivers.external_inputs import Coupling, given_names, start
+from lambda_core.solver.drivers.machine_inputs import check_coupling
 from lambda_core.solver.drivers.machine_motion import MachineEngine, MachineStart, changed_start, machine_start
 from lambda_core.solver.drivers.solver_context import assemble
 from lambda_core.solver.integrator.blocks import blocks_t, factors_t
@@ -170,7 +173,8 @@ def freeze(
     Raises
     ------
     SolverError, UsageError
-        As for :func:`lambda_core.solver.drivers.given.start` and :func:`lambda_core.export.fmu.curves.constants`.
+        As for :func:`lambda_core.solver.drivers.external_inputs.start` and
+        :func:`lambda_core.export.fmu.curves.constants`.
     """
     begun = (_OneBearing if isinstance(model, BearingModel) else _Machine)(model, couple, announce)  # type: ignore[arg-type]
     core, context, memory, scratch = begun.engine.parts()

@@ -1,4 +1,4 @@
-"""The header that is written for each case: what the library's C has to know of it."""
+"""Write the C header of each case."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from lambda_core.solver.arrays.fault_roles import ROLES
 from lambda_core.solver.arrays.integrator_memory import COUNT
 from lambda_core.solver.drivers.ball_paths import NO_PATH, PATH_ITERATIONS, PATH_SHARE, PATH_TOLERANCE
 from lambda_core.solver.drivers.equilibrium import MAX_ITERATIONS
-from lambda_core.solver.drivers.given import MOST_ITERATIONS, MOST_ITERATIONS_PER_SECOND
-from lambda_core.solver.drivers.machine_given import SHAFT_SPIN
+from lambda_core.solver.drivers.external_inputs import MOST_ITERATIONS, MOST_ITERATIONS_PER_SECOND
+from lambda_core.solver.drivers.machine_inputs import SHAFT_SPIN
 from lambda_core.solver.drivers.ring_values import rings_of_contacts
 from lambda_core.solver.records import STATIC_REPORT
 from lambda_core.solver.status import Status

@@ -1,4 +1,6 @@
-"""One run of bytes that holds a model's arrays and what leads to them: an instance, a saved state, a checkpoint.
+"""Store a model's arrays and pointers as bytes.
+
+An instance, a saved state, a checkpoint.
 
 At its beginning stand the arguments of the solver's compiled functions, as words of eight bytes: an array is its number
 and size of items, where its bytes are, shape and strides; a pointer to a function is an address; a named tuple is its

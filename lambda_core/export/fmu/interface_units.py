@@ -1,4 +1,4 @@
-"""Units of the interface: exponents of SI units, and what engineers read."""
+"""Define the units of the interface."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The shared library of a bearing: the compiled solver, the image, and the interface in C around them."""
+"""Build the shared library of a bearing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Define names, units and positions of the inputs and outputs of a machine's FMU.
+"""Define inputs and outputs of a machine's FMU.
 
 Names are those of a case and of a result: ``gears.wheel.force_z``, ``bearings.left.load``, ``shaft.spin``.
 """
@@ -22,7 +22,7 @@ from lambda_core.model.machine_model import SHAFT, BearingPart, MachineModel, Pl
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.machine_assembly import member_numbers
-from lambda_core.solver.drivers.machine_given import SHAFT_SPIN, load_places
+from lambda_core.solver.drivers.machine_inputs import SHAFT_SPIN, load_places
 from lambda_core.solver.drivers.machine_motion import MachineStart
 
 _UNITS = {"force": "N", "moment": "N m"}

@@ -1,4 +1,4 @@
-"""Build the pack of a wheel: the solver's units and the built-in laws in one library per system.
+"""Build the pack of machine code of a wheel.
 
 The build of a wheel runs ``python -m lambda_core.export.fmu.pack_builder FOLDER``, with the sources of the wheel in
 front of all others. :mod:`lambda_core.laws.pack` uses what is written here.

@@ -1,4 +1,4 @@
-"""From a case to a co-simulation unit (FMU): one file that other programs load, without Python inside."""
+"""Write a case as a co-simulation unit (FMU)."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from lambda_core.case.machine import MachineCase
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
-    from lambda_core.solver.drivers.given import Coupling
+    from lambda_core.solver.drivers.external_inputs import Coupling
 
 PROCESSORS = {
     "x86-64-v3": "of Intel since 2013 and AMD since 2015",
@@ -102,7 +102,7 @@ def export_fmu(
     from lambda_core.domain.lists import listed
     from lambda_core.export.fmu.varied import varied
     from lambda_core.model.api import check
-    from lambda_core.solver.drivers.given import COUPLINGS
+    from lambda_core.solver.drivers.external_inputs import COUPLINGS
 
     wanted = tuple(dict.fromkeys(listed(platforms, "platforms")))
     if fmi not in _VERSIONS:

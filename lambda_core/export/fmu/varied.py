@@ -1,4 +1,4 @@
-"""Options of a case that a host may change: which, between what limits, and what they are at first."""
+"""Check the options that a host may change."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Pictures and pages about results: views chosen and drawn, reports written."""
+"""Choose and draw views; write reports."""

@@ -1,4 +1,4 @@
-"""Animations of a run as files: MP4 and GIF from drawn frames, glTF from the scene itself."""
+"""Write animations as MP4, GIF and glTF."""
 
 from __future__ import annotations
 

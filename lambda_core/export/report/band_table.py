@@ -1,4 +1,4 @@
-"""The table of a report that sets the scatter of averages apart from the model band."""
+"""Tabulate the scatter of averages and the model band."""
 
 from __future__ import annotations
 

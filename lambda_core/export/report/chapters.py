@@ -1,4 +1,4 @@
-"""Build the chapters of a report: a run, a case at its operating point, or a study."""
+"""Build the chapters of a report."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Views of one subject: which there are, their data, their figures on disk."""
+"""List the views of a subject and draw them."""
 
 from __future__ import annotations
 

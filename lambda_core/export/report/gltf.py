@@ -1,4 +1,4 @@
-"""A scene as binary glTF 2.0 with its motion: for viewers of three dimensions, slides and web pages.
+"""Write a scene with its motion as glTF 2.0.
 
 One node per part, moved by key frames of translation and rotation. Lengths in metres as in the inertial frame;
 displacements are true to scale. glTF has y upwards, so the scene hangs under a node that turns z up.

@@ -1,4 +1,4 @@
-"""Tables of a report: key figures, losses, contacts, points of a study, values and laws with their sources."""
+"""Make the tables of a report."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Render reports: one self-contained, printable document about runs, cases and studies."""
+"""Render reports as one self-contained HTML document."""
 
 from __future__ import annotations
 

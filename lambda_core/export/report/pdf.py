@@ -1,4 +1,4 @@
-"""A page as PDF: printed by a browser that is installed, or by WeasyPrint; nothing is fetched for it."""
+"""Print a page as PDF by a browser or WeasyPrint."""
 
 from __future__ import annotations
 

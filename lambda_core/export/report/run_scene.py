@@ -1,4 +1,4 @@
-"""The frames of an animation, from the channels of a run."""
+"""Make frames of an animation from channels."""
 
 from __future__ import annotations
 

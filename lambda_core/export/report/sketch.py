@@ -1,4 +1,4 @@
-"""Sketch a bearing in section, and a shaft with what stands on it, as SVG."""
+"""Sketch a bearing or a shaft as SVG."""
 
 from __future__ import annotations
 

@@ -1,1 +1,4 @@
-"""Elastic bodies as matrices: shafts as beams, their modes, and reduced models from outside. SI in and out."""
+"""Describe elastic bodies by matrices.
+
+Shafts as beams, their modes, imported reduced models. SI in and out.
+"""

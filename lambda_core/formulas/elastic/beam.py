@@ -1,4 +1,6 @@
-"""A Timoshenko beam element with four nodes of six degrees of freedom: stiffness, mass, gyroscopic matrix.
+"""Compute matrices of a Timoshenko beam element.
+
+Four nodes of six degrees of freedom: stiffness, mass, gyroscopic matrix.
 
 All six motions are cubic along the element (Lagrange through equally spaced nodes). The solution of Timoshenko's
 equations under loads at the ends, deflection cubic and lean of the sections quadratic, is one of these, so that static

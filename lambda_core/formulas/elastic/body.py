@@ -1,4 +1,4 @@
-"""An elastic body: its matrices, where its nodes are, and a shaft of round sections as one."""
+"""Define an elastic body by matrices and nodes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Merge the short pieces of a shaft into sections that bend like them.
+"""Merge short pieces of a shaft into sections.
 
 An element takes a section of its own however short it is, so a contour that was sampled finely would fill the memory.
 Pieces shorter than a fiftieth of their diameter, and of nearly one diameter, are merged up to a twentieth of it. Over

@@ -1,4 +1,6 @@
-"""Reduced models from outside: mass, stiffness and nodes of any finite-element program, in one file.
+"""Check imported reduced models.
+
+Mass, stiffness and nodes of any finite-element program, in one file.
 
 docs/shaft-reference.md describes the file. Units are SI, or millimetres, tonnes and newtons.
 """

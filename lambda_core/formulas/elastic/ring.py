@@ -1,4 +1,6 @@
-"""A ring, or a cage, that bends in its plane without stretching: Fourier modes n >= 2, in a bedding or free. SI.
+"""Compute inextensional bending of rings and cages.
+
+Fourier modes n >= 2, in a bedding or free. SI.
 
 Radial displacement w = sum of c_n cos(n th) + s_n sin(n th), and a tangential one that keeps the length,
 v = -integral of w dth (Love 1927, Theory of Elasticity, art. 293; Timoshenko, Vibration Problems in Engineering).

@@ -1,4 +1,4 @@
-"""Round sections of a shaft: area, moments, and the share of the area that carries shear."""
+"""Compute area, moments and shear factor of round sections."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Natural frequencies of elastic bodies at rest and turning, and their reduction to few coordinates."""
+"""Compute natural frequencies and reduce elastic bodies."""
 
 from __future__ import annotations
 

@@ -1,1 +1,4 @@
-"""From plain Python functions to machine code on disk: all that touches Numba's or Python's internals."""
+"""Compile plain Python functions and keep the machine code.
+
+All use of Numba's or Python's internals is here.
+"""

@@ -1,4 +1,4 @@
-"""Between the solver's arrays and a kernel's named numbers: a few lines of generated Python for each law.
+"""Generate the code between solver arrays and kernels.
 
 The solver calls every law with one flat array of parameters, always in the same form, so that laws can be exchanged
 without compiling the solver. What is written here makes a record of that array and hands it to the kernel; compiled, it

@@ -1,4 +1,7 @@
-"""Compiled code on disk, through Numba's own cache: in a folder that we name, without loading the compiler on a hit."""
+"""Keep compiled code on disk through Numba's cache.
+
+In a folder that the program names; a hit does not load the compiler.
+"""
 
 # Numba's caching classes carry only part of their types.
 # mypy: disable-error-code="no-untyped-call,attr-defined,assignment"

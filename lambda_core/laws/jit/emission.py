@@ -1,4 +1,4 @@
-"""Machine code of LLVM's modules for this system and for others."""
+"""Emit machine code of LLVM modules."""
 
 from __future__ import annotations
 
@@ -51,26 +51,28 @@ class Target:
         return not self.triple or self.triple.startswith("x86_64")
 
 
-def machine_code(whole: Any, target: Target) -> bytes:
+def machine_code(module_ir: Any, target: Target) -> bytes:
     """Return an object file of a module, which is optimised no further."""
     codegen = cpu_target.target_context.codegen()
     cpu, features = (codegen._get_host_cpu_name(), codegen._tm_features) if target.is_x86 else ("generic", "")
     if target.triple:
         llvm.initialize_all_targets()
         llvm.initialize_all_asmprinters()
-    machine = llvm.Target.from_triple(target.triple or whole.triple).create_target_machine(
+    machine = llvm.Target.from_triple(target.triple or module_ir.triple).create_target_machine(
         cpu=cpu, features=features, opt=3, reloc="pic", codemodel="default"
     )
     if target.triple:
-        text = re.sub('^target triple = ".*"$', f'target triple = "{target.triple}"', str(whole), flags=re.MULTILINE)
+        text = re.sub(
+            '^target triple = ".*"$', f'target triple = "{target.triple}"', str(module_ir), flags=re.MULTILINE
+        )
         layout = f'target datalayout = "{machine.target_data}"'
         text = re.sub('^target datalayout = ".*"$', layout, text, flags=re.MULTILINE)
-        whole = llvm.parse_assembly(text if target.is_x86 else _without_x86(text))
-    made: bytes = machine.emit_object(whole)
+        module_ir = llvm.parse_assembly(text if target.is_x86 else _without_x86(text))
+    made: bytes = machine.emit_object(module_ir)
     return made
 
 
-def exact(whole: Any, *, fused: bool) -> Any:
+def exact(module_ir: Any, *, fused: bool) -> Any:
     """Return a module whose arithmetic is that of IEEE 754 as it is written, so that every processor has its bits.
 
     Parameters
@@ -79,7 +81,7 @@ def exact(whole: Any, *, fused: bool) -> Any:
         Whether products and sums that may be rounded as one are written so: for processors that have such an
         instruction. Which ones would otherwise be settled for each kind of processor anew.
     """
-    text = str(whole)
+    text = str(module_ir)
     if fused:
         text = _FUNCTION.sub(_fuse, text)
         for kind, name in _FMA.items():

@@ -1,4 +1,6 @@
-"""Functions whose addresses stand in a table: which law a contact has is read while compiled code runs.
+"""Select functions by tables of addresses at run time.
+
+A contact's law is read while compiled code runs.
 
 A tuple of functions would fix their number when the solver is compiled; a table has as many rows as there are bearings,
 raceways and cages.

@@ -1,4 +1,6 @@
-"""Options of ``numba.njit`` for functions that exist inside their compiled callers only; none on the plain way.
+"""Define options of functions that exist in callers only.
+
+Options of ``numba.njit``; none without Numba's internals.
 
 They come from :mod:`inside_callers`.
 """

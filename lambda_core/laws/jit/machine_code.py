@@ -1,4 +1,4 @@
-"""Numba's side of the compiled-code service: its documented part; the rest is in `parts` and `disk_cache`.
+"""Use the documented part of Numba.
 
 Import it inside functions: Numba takes more than a second to load.
 """

@@ -1,4 +1,4 @@
-"""The plain way to machine code: nothing but what Python and Numba document.
+"""Compile with documented parts of Python and Numba only.
 
 Taken where ``LAMBDA_BEARING_PLAIN_JIT`` is 1, or where Numba's internals are not those that :mod:`disk_cache` and
 :mod:`inside_callers` know. The same keys and results; but nothing is kept on disk, so every process compiles for

@@ -1,4 +1,4 @@
-"""Compiled code taken out of the process: one object file without Python, for a library of its own.
+"""Write compiled code as an object file without Python.
 
 What Numba made of each function, optimised, is linked as it is: optimised again it would round otherwise, and the
 library would not have the bits of a run. Behind every function stand the doors by which Python would call it; they are
@@ -151,9 +151,9 @@ def _kept(pointer: Pointer, name: str, cache: Path, targets: Sequence[Target], *
         made.append(machine_code(part, target))
         with suppress(OSError):  # a cache that cannot be written costs time only
             file.parent.mkdir(parents=True, exist_ok=True)
-            beside = file.with_name(f"{os.getpid()}.part")
-            beside.write_bytes(made[-1])
-            beside.replace(file)
+            temporary = file.with_name(f"{os.getpid()}.part")
+            temporary.write_bytes(made[-1])
+            temporary.replace(file)
     return made
 
 
@@ -171,8 +171,8 @@ def _alone(pointer: Pointer, name: str, *, alike: bool) -> Any:
     return exact(part, fused=fuses())
 
 
-def _refuse_unlike(whole: Any) -> None:
-    unlike = sorted({each.name for each in whole.functions if each.is_declaration} & _UNLIKE)
+def _refuse_unlike(module_ir: Any) -> None:
+    unlike = sorted({each.name for each in module_ir.functions if each.is_declaration} & _UNLIKE)
     if unlike:
         raise SolverError(
             f"a law calls {', '.join(unlike)}, whose digits differ from system to system: export for linux alone"
@@ -184,14 +184,14 @@ def data_code(name: str, data: bytes, target: Target) -> bytes:
     codegen = cpu_target.target_context.codegen()
     module = ir.Module("data")
     _constant(module, name, ir.ArrayType(BYTE, len(data)), bytearray(data)).align = 64
-    whole = llvm.parse_assembly(_head(codegen) + str(module.globals[name]))
-    _within(whole, name)
-    return machine_code(whole, target)
+    module_ir = llvm.parse_assembly(_head(codegen) + str(module.globals[name]))
+    _within(module_ir, name)
+    return machine_code(module_ir, target)
 
 
-def _within(whole: Any, name: str) -> None:
+def _within(module_ir: Any, name: str) -> None:
     """Keep a name within the library: another bearing in the same process has it, too."""
-    found = [each for each in (*whole.functions, *whole.global_variables) if each.name == name]
+    found = [each for each in (*module_ir.functions, *module_ir.global_variables) if each.name == name]
     found[0].visibility = "hidden"
 
 
@@ -286,19 +286,19 @@ def _door(module: ir.Module, entry: Entry, called: ir.Function) -> None:
     builder.ret(builder.call(called, arguments))
 
 
-def _run(whole: Any, *names: str) -> None:
+def _run(module_ir: Any, *names: str) -> None:
     """Run passes that change no arithmetic."""
     passes = llvm.create_new_module_pass_manager()
     for name in names:
         getattr(passes, name)()
     codegen = cpu_target.target_context.codegen()
-    passes.run(whole, llvm.create_pass_builder(codegen._tm, llvm.create_pipeline_tuning_options(speed_level=0)))
+    passes.run(module_ir, llvm.create_pass_builder(codegen._tm, llvm.create_pipeline_tuning_options(speed_level=0)))
 
 
-def _without_python(whole: Any, callers: Mapping[str, str]) -> None:
+def _without_python(module_ir: Any, callers: Mapping[str, str]) -> None:
     """Put functions that do nothing in the place of Python's, and drop what only they were given."""
     stubs: dict[str, str] = {}
-    for each in [*whole.functions, *whole.global_variables]:
+    for each in [*module_ir.functions, *module_ir.global_variables]:
         name = each.name
         if not each.is_declaration or name.startswith("llvm.") or name in _LIBM:
             continue
@@ -314,11 +314,11 @@ def _without_python(whole: Any, callers: Mapping[str, str]) -> None:
             if shape
             else f"@{name} = global ptr null"
         )
-    whole.link_in(llvm.parse_assembly("\n".join(stubs.values())))
-    for each in [*whole.functions, *whole.global_variables]:
+    module_ir.link_in(llvm.parse_assembly("\n".join(stubs.values())))
+    for each in [*module_ir.functions, *module_ir.global_variables]:
         if each.name in stubs:
             each.linkage = "internal"
-    _run(whole, "add_always_inliner_pass", "add_global_dead_code_eliminate_pass")
+    _run(module_ir, "add_always_inliner_pass", "add_global_dead_code_eliminate_pass")
 
 
 def is_function(kind: Any) -> bool:

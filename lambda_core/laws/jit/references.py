@@ -1,4 +1,4 @@
-"""Named tuples of arrays and functions that compiled code takes by their address.
+"""Pass named tuples to compiled code by address.
 
 Numba hands a tuple over field by field: an array takes seven words, a tuple of forty arrays three hundred arguments
 that every function takes apart and puts together again. That was three quarters of the code that LLVM was given.

@@ -1,4 +1,4 @@
-"""Machine code of what generated functions call: parts of arrays, and the status of a kernel."""
+"""Generate code for parts of arrays and kernel status."""
 
 # Numba's compiler carries only part of its types.
 # mypy: disable-error-code="no-untyped-call,no-untyped-def,untyped-decorator"

@@ -1,4 +1,4 @@
-"""Name all parts of Numba's interface that may change without notice."""
+"""Name the parts of Numba that may change."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Named tuples of arrays and functions as words of eight bytes, which compiled code takes by their address.
+"""Store named tuples as words that compiled code reads.
 
 Numba is not needed here: what stands in the words is the same wherever compiled code comes from. :mod:`.references`
 reads the fields in code that is compiled here.

@@ -1,1 +1,1 @@
-"""Arrays that compiled code works on, and how they are made: known without the compiler."""
+"""Make the arrays of compiled code without the compiler."""

@@ -1,4 +1,4 @@
-"""State vector, tables and workspaces of the compiled code, in one bundle.
+"""Bundle state vector, tables and workspaces.
 
 State vector y, float64, shape (states of rolling elements + n_active + states of contacts,):
 
@@ -148,7 +148,7 @@ RESULTS = 6  # rows that laws write
     body_wrenches=Array(R.WRENCH),
     contact_wrenches=Array(R.WRENCH),
     ball_wrenches=Array(R.WRENCH),
-    resting=INTEGERS,
+    bypassed=INTEGERS,
     bearing_powers=Array(R.RUNNING),
     state_slopes=ARRAY2,
     state_pivots=INTEGERS,
@@ -195,7 +195,7 @@ class Bundle(NamedTuple):
     body_wrenches: Any  # WRENCH (bodies,) of all contacts
     contact_wrenches: Any  # WRENCH (bodies,): the share of raceways, pockets and lands, where bearings are several
     ball_wrenches: Any  # WRENCH (Z,)
-    resting: Any  # int64 (bearings,): 1 where forces of the last evaluation stand
+    bypassed: Any  # int64 (bearings,): 1 where forces of the last evaluation stand
     bearing_powers: Any  # RUNNING (bearings,): what pockets, lands, drag and weights of each have of the powers
     states: Any  # (states of contacts,)
     state_rates: Any  # (states of contacts,) their time derivatives

@@ -1,4 +1,4 @@
-"""Factors of the block-arrow matrix, and of what is left of it where there are several bearings."""
+"""Define factors of the block-arrow matrix."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Roles as the fault that a kernel leaves behind names them."""
+"""Name roles in the fault of a kernel."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ COUNT = np.dtype(
         ("jacobians", np.int64),  # of all balls
         ("ball_jacobians", np.int64),  # of single balls, during an iteration
         ("factorisations", np.int64),
-        ("rests", np.int64),  # of bearings in iterations in which others were evaluated
+        ("bypasses", np.int64),  # of bearings in iterations in which others were evaluated
     ],
     align=True,
 )

@@ -1,4 +1,4 @@
-"""Blocks of the Jacobian and the workspaces in which they are made."""
+"""Define blocks and workspaces of the Jacobian."""
 
 from __future__ import annotations
 

@@ -1,1 +1,4 @@
-"""Contacts of the cage with balls and rings, ball with ball. Compiled."""
+"""Compute contacts of the cage and between balls.
+
+Compiled.
+"""

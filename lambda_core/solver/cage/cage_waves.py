@@ -1,4 +1,6 @@
-"""Elastic cages: how far their waves carry pockets and guided surfaces, and what guides do to the waves.
+"""Move pockets and guides of elastic cages.
+
+Guides load the waves of the cage.
 
 A cage bends in its plane as an elastic ring does (contact.ring_waves): w = sum of c_n cos(n a) + s_n sin(n a) outwards
 and, since its circumference keeps its length, v = sum of (-c_n sin(n a) + s_n cos(n a))/n along it, a the azimuth in

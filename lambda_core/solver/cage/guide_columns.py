@@ -1,4 +1,4 @@
-"""Slopes of the forces of pockets, neighbouring balls and lands, by differences of their laws."""
+"""Differentiate forces of pockets, neighbours and lands."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Contacts of the cage with balls (pockets) and rings (lands); ball with ball when there is no cage."""
+"""Compute contacts of the cage.
+
+With balls (pockets) and rings (lands); ball with ball without a cage.
+"""
 
 from __future__ import annotations
 

@@ -1,1 +1,4 @@
-"""Contact of a ball with a raceway: kinematics, stages, wrench, tangent, losses, capacitance. Compiled."""
+"""Compute the contact of a ball with a raceway.
+
+Compiled.
+"""

@@ -1,4 +1,7 @@
-"""One raceway contact on its own, cell by cell: what a view shows of it. Compiled when it is first asked for."""
+"""Show one raceway contact cell by cell.
+
+Compiled at first use.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Contact identification: exact sphere in torus with ring tilt, and the velocities there.
+"""Find contacts and their velocities.
+
+Exact sphere in torus with ring tilt.
 
 Vectors have components along x (shaft), r (radial at the ball), t (tangential), a right-handed frame
 that turns with the ball's azimuth.

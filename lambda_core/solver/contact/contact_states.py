@@ -1,4 +1,4 @@
-"""States that contacts keep of their own: handed to the laws that read them, and their rates.
+"""Pass states of contacts to laws and their rates back.
 
 They stand behind the motion in the state vector: stepped, controlled and sampled with it. A law reads one behind its
 parameters, where it is written before every call, so that laws without states know nothing of it. Rounding may carry

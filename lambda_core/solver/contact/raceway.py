@@ -1,4 +1,4 @@
-"""The contact pipeline of ball-raceway contacts: from their kinematics to the wrenches on the balls.
+"""Compute wrenches of raceway contacts from kinematics.
 
 Stages, each a kernel of the model: normal force, damping, film with thermal correction, asperity
 share, shear in every cell (rheology, traction, temperature), rolling resistance, hysteresis.

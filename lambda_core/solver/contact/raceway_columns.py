@@ -1,4 +1,4 @@
-"""Slopes of the forces of the raceway contacts of a ball with its own and the rings' states."""
+"""Differentiate forces of raceway contacts."""
 
 from __future__ import annotations
 

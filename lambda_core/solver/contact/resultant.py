@@ -1,4 +1,4 @@
-"""Resultant of a raceway contact: forces and couples of shear, load and rolling losses on the ball."""
+"""Sum forces and couples of a raceway contact."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Elastic rings under contacts: how far their waves carry a raceway outwards, and what contacts do to the waves.
+"""Move raceways of elastic rings.
+
+Contacts load the waves of the ring.
 
 Those of an elastic cage are moved likewise; what its guides do is in cage.cage_waves.
 

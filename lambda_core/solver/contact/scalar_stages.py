@@ -1,4 +1,6 @@
-"""Stages of raceway contacts whose laws take no cells: load, damping, film, rolling losses.
+"""Evaluate laws without cells.
+
+Load, damping, film, rolling losses.
 
 A law is called once for all contacts from place `first` on, `count` of them, which lie in scratch. It takes what it
 needs from scratch.lanes and leaves its results in scratch.out, layout.STRIDE numbers apart.

@@ -1,4 +1,4 @@
-"""Slip and shear stress in the cells of a raceway contact."""
+"""Compute slip and shear stress in contact cells."""
 
 from __future__ import annotations
 

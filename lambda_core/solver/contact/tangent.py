@@ -1,4 +1,4 @@
-"""Derivative of one raceway contact's wrench with respect to its kinematics.
+"""Differentiate a raceway wrench by its kinematics.
 
 Shear along the slip costs one extra evaluation of the cells for all five slip kinematics together, penetration and
 entrainment one each; laws are called once for all of them. Kernels are elementwise, so a plugin needs no derivative of

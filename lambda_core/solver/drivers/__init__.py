@@ -1,1 +1,4 @@
-"""Python around the compiled code: its inputs and its calls. No compiled code imports it."""
+"""Drive the compiled code from Python.
+
+No compiled code imports it.
+"""

@@ -1,4 +1,4 @@
-"""Describe what the compiled solver integrates: bodies, bearings between them, and what ties bodies together.
+"""Describe bodies, bearings and ties to the solver.
 
 A single bearing and a machine both become an :class:`Assembly`; :func:`lambda_core.solver.drivers.tables.build` writes
 it down as the tables of compiled code.

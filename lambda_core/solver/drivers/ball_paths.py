@@ -1,4 +1,7 @@
-"""Axial and radial velocity of balls along their paths, in addition to their orbital speed, where loads differ."""
+"""Compute velocities of balls along their paths.
+
+Axial and radial, in addition to the orbital speed, where loads differ.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import EquilibriumError
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.solver_context import SolverContext
-from lambda_core.solver.drivers.warmer_oil import StaticReport
+from lambda_core.solver.drivers.viscosity_continuation import StaticReport
 
 log = logging.getLogger("lambda_core")
 

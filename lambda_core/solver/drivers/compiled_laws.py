@@ -1,4 +1,4 @@
-"""The compiled kernels of a model's laws, tried out before any compiled code calls them."""
+"""Compile and try the laws of a model."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Damping of the bearing about its quasi-static equilibrium, for rotordynamics: six by six, balls following."""
+"""Compute the damping matrix of a bearing.
+
+Six by six about the quasi-static equilibrium; balls follow.
+"""
 
 from __future__ import annotations
 

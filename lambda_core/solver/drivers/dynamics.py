@@ -1,4 +1,4 @@
-"""Integrate the motion of one or more bearings over time: the compiled integrator behind Python."""
+"""Integrate the motion of bearings over time."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from lambda_core.solver.drivers.engine import (
     usual_interval,
 )
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, solve
-from lambda_core.solver.drivers.given import make_room
+from lambda_core.solver.drivers.external_inputs import make_room
 from lambda_core.solver.drivers.modes import ring_modes
 from lambda_core.solver.drivers.observation import Scratch
 from lambda_core.solver.drivers.readings import (
@@ -50,7 +50,7 @@ from lambda_core.solver.status import Status
 CAPACITY = 512  # samples that the buffer holds
 _COUNTERS = (
     "steps", "rejected", "failed", "newton_iterations", "rhs_calls", "jacobians", "ball_jacobians", "factorisations",
-    "rests",
+    "bypasses",
 )  # fmt: skip
 _BUFFER = ("sample_t", "sample_y")  # of the memory
 # Of the blocks, what is kept from one step to the next; the rest is room to work in.
@@ -332,7 +332,7 @@ class BearingEngine(MotionEngine[Channels, Sums]):
     equilibrium : Equilibrium, optional
         Start from this instead of solving for it.
     given : sequence of str
-        Loads and motions from outside, see :mod:`lambda_core.solver.drivers.given`.
+        Loads and motions from outside, see :mod:`lambda_core.solver.drivers.external_inputs`.
     capacity : int
         Samples that the buffer holds.
 

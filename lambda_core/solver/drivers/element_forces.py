@@ -1,4 +1,4 @@
-"""Compute forces and powers of force elements at samples, off the hot path."""
+"""Compute forces and powers of elements at samples."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Say how an integration ended, and choose the time between samples."""
+"""Report the end of an integration; choose samples."""
 
 from __future__ import annotations
 

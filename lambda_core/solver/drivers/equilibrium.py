@@ -1,4 +1,4 @@
-"""Quasi-static equilibrium: loads, contact angles, ball kinematics and friction without time.
+"""Solve the quasi-static equilibrium of a bearing.
 
 A five-degree-of-freedom inner ring, every ball at its azimuth with centrifugal force, gyroscopic
 moment and the ball's motion from the equilibrium of its own friction, on the same kernels as
@@ -38,7 +38,7 @@ from lambda_core.solver.drivers.law_inputs import guides, times
 from lambda_core.solver.drivers.ring_values import are_ribs, contacts_by_ring, losses_by_ring, rings_of_contacts
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.tables import bearing_of_land
-from lambda_core.solver.drivers.warmer_oil import StaticReport, from_warmer_oil
+from lambda_core.solver.drivers.viscosity_continuation import StaticReport, by_viscosity_continuation
 from lambda_core.solver.records import CONTACT_CHANNELS, STATIC_REPORT
 from lambda_core.solver.status import Status
 
@@ -307,7 +307,7 @@ def _with_friction(compiled: Core, context: SolverContext, state: FloatArray, *,
     try:
         return found(context, state)
     except SolverError as error:
-        near = from_warmer_oil(context, start, found) if strict and not _limitless(context) else None
+        near = by_viscosity_continuation(context, start, found) if strict and not _limitless(context) else None
         if near is None:
             beyond = operating_warnings(context.model) if strict else []
             raise SolverError("; ".join([str(error), *beyond])) from None

@@ -1,4 +1,4 @@
-"""Names of the inputs that the report of a fault holds."""
+"""Name the inputs in a fault report."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Spread the load of a roller over the slices of its contact with a raceway."""
+"""Spread the load of a roller over its slices."""
 
 from __future__ import annotations
 

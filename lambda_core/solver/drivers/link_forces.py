@@ -1,4 +1,4 @@
-"""Put the forces of connections by laws into the equilibrium of a machine, and make them linear about it."""
+"""Put laws of connections into a machine's equilibrium."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from lambda_core.model.laws.law_context import build_context, prepare
 from lambda_core.model.laws.time_functions import spin_at_start
 from lambda_core.model.machine_model import GROUND, SHAFT, BearingPart, Carrier, MachineLink, MachineModel, is_on_cage
 from lambda_core.solver.drivers.compiled_laws import Kernels
-from lambda_core.solver.drivers.held_rollers import Ring
+from lambda_core.solver.drivers.roller_reaction import Ring
 from lambda_core.solver.drivers.structure import Rows, point_on
 
 ROLE = "force_element"
@@ -52,7 +52,7 @@ class LinkForce:
     ----------
     rows : Rows
         Of the unknowns.
-    ring : HeldRing or HeldRollers
+    ring : BearingReaction or RollerReaction
         Of the bearing among whose laws the connection's own stands.
     """
 

@@ -1,4 +1,6 @@
-"""A shaft as rigid lumps on its exact static stiffness: what the dynamics of the whole move.
+"""Divide a shaft into rigid lumps.
+
+They move on its exact static stiffness.
 
 Lumps stand at every bearing, disc and spring, in the middle of the pieces between them, and at the ends of long
 overhangs.

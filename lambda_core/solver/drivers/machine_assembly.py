@@ -1,4 +1,4 @@
-"""Turn a machine into the assembly that the compiled solver integrates: lumps, rings, cages, bodies and their ties.
+"""Describe a machine to the compiled solver.
 
 Members stand in the order: first lump, outer ring of the first bearing, the other lumps, then the other outer rings and
 cages bearing by bearing. A bearing's inner ring is the lump at its place; every bearing has its own origin at its place

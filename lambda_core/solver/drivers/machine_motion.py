@@ -1,4 +1,4 @@
-"""Start the motion of a machine from its quasi-static equilibrium, and read shaft, bodies and markers from it."""
+"""Start and read the motion of a machine."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from lambda_core.solver.drivers.engine import usual_interval
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.lumps import LumpedShaft, lump, unbalance_of_lumps
 from lambda_core.solver.drivers.machine_assembly import machine_assembly, member_numbers, with_free_bodies
-from lambda_core.solver.drivers.machine_given import MachineGiven, machine_given
+from lambda_core.solver.drivers.machine_inputs import MachineInputs, machine_inputs
 from lambda_core.solver.drivers.readings import Channels, MachineReadings, MachineSamples, ReadBearing, Sums
 from lambda_core.solver.drivers.rigid_shaft import bearing_on_rigid_shaft
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, solve_shaft
@@ -51,7 +51,7 @@ class MachineStart:
     motion : MotionStart
         What the engine begins with.
     readings : MachineReadings
-    given : MachineGiven, optional
+    given : MachineInputs, optional
         Loads and speed from another program.
     """
 
@@ -61,7 +61,7 @@ class MachineStart:
     equilibria: tuple[Equilibrium, ...]
     motion: MotionStart[MachineSamples, list[Sums]]
     readings: MachineReadings
-    given: MachineGiven | None = None
+    given: MachineInputs | None = None
 
     @property
     def drive_torque(self) -> float:
@@ -118,7 +118,7 @@ def _begun(
     context = context_of(_with_guided_cages(assembly, equilibria, state.outer) if leads_cages else assembly)
     names = [bearing.name for bearing in machine.bearings]
     bearings = tuple(map(ReadBearing, names, alone, context.assembly.spans()))
-    given = machine_given(machine, shaft, context) if is_given else None
+    given = machine_inputs(machine, shaft, context) if is_given else None
     changes = any(term.kind != "constant" for function in machine.prescribed_motions for term in function.terms)
     changes = changes or leads_cages or (given is not None and given.turns)
     solvers = [bearing.model.solver for bearing in machine.bearings]

@@ -1,4 +1,4 @@
-"""Vibrations that a bearing can make where it stands: eigenvalues of the Jacobian that the integrator has in hand."""
+"""Compute vibration modes from the integrator's Jacobian."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Quasi-static equilibria of changed models, from that of a solved one."""
+"""Solve changed models from the equilibrium of another."""
 
 from __future__ import annotations
 

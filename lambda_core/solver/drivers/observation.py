@@ -1,4 +1,4 @@
-"""States as channels of a result: what compiled code writes about samples, by name."""
+"""Convert states to channels of a result."""
 
 from __future__ import annotations
 

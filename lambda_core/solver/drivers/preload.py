@@ -1,4 +1,4 @@
-"""Preload of the bearings of a shaft: the thrust between them without loads, and what takes it away."""
+"""Compute the preload force of a shaft and its lift-off."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.geometry.axial_play import axial_play
 from lambda_core.model.machine_model import MachineModel, MountedBearing
-from lambda_core.solver.drivers.held_rollers import HeldRollers
+from lambda_core.solver.drivers.roller_reaction import RollerReaction
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 
 
@@ -70,7 +70,7 @@ def _lift_off(model: MachineModel, state: ShaftState, index: int) -> float | Non
     if len(opposite) != 1 or len(same) != 1 or any(other.seating.force for other in model.bearings):
         return None
     others = [(one, ring) for one, ring in zip(model.bearings, state.rings, strict=True) if not one.takes]
-    if any(one.is_locked_along and (not isinstance(ring, HeldRollers) or ring.holds_along) for one, ring in others):
+    if any(one.is_locked_along and (not isinstance(ring, RollerReaction) or ring.holds_along) for one, ring in others):
         return None  # a third bearing carries a share
     gained = [
         model.bearings[i].takes * (state.pose(model, i)[0] - first_contact(model.bearings[i]))

@@ -1,4 +1,4 @@
-"""Read channels and running integrals of every bearing from the states of a motion.
+"""Read channels and running integrals of every bearing.
 
 Of one bearing all integrals are exact. Of several the integrator adds up what pockets, lands and drag dissipate for all
 together: samples say how much of it is whose.

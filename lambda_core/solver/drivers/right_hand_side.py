@@ -1,4 +1,4 @@
-"""One model's compiled right-hand side and Jacobian for callers in Python, through the handle of the integrator.
+"""Call the compiled right-hand side from Python.
 
 A call costs a microsecond; the state in hand and what comes of it stand in the integrator's memory.
 """

@@ -1,4 +1,4 @@
-"""Take a machine that is one bearing on a rigid shaft as that bearing alone."""
+"""Solve a machine with a rigid shaft as one bearing."""
 
 from __future__ import annotations
 

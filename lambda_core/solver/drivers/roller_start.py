@@ -1,4 +1,4 @@
-"""First guess of rollers: pressed as their quasi-static answer has them, rolling without sliding."""
+"""Guess the first state of rollers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Write rollers down as the tables that compiled code works on, and give them their code."""
+"""Write rollers as tables of compiled code."""
 
 from __future__ import annotations
 

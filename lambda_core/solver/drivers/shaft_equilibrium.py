@@ -1,4 +1,6 @@
-"""One quasi-static equilibrium of a shaft in its bearings: Newton's method on shaft nodes and outer rings.
+"""Solve the quasi-static equilibrium of a shaft.
+
+Newton's method on shaft nodes and outer rings.
 
 Every bearing answers a pose of its inner ring against the outer one with a force, a moment and a stiffness, its balls
 in equilibrium throughout. Contacts open and close, so that the steps are damped as Levenberg and Marquardt do:
@@ -20,13 +22,13 @@ from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.machine_model import GROUND, PLACES, BearingPart, MachineModel, MountedBearing
+from lambda_core.solver.drivers.bearing_reaction import BearingReaction
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
 from lambda_core.solver.drivers.first_state import free_contact_angle
-from lambda_core.solver.drivers.held_ring import HeldRing
-from lambda_core.solver.drivers.held_rollers import HeldRollers, Ring
 from lambda_core.solver.drivers.link_forces import SolvedLink, link_forces
-from lambda_core.solver.drivers.loose_motion import loose_motion
+from lambda_core.solver.drivers.roller_reaction import Ring, RollerReaction
 from lambda_core.solver.drivers.structure import static_rows, structure
+from lambda_core.solver.drivers.unconstrained_motion import unconstrained_motion
 
 _GUESS = np.array([5e7, 1e8, 1e8, 1e3, 1e3])  # [N/m, N m/rad] of a bearing before its contacts are known
 _LOOSE = np.array([0.0, 1.0, 1.0, 1.0, 1.0])  # of rollers that nothing holds along x
@@ -55,7 +57,7 @@ class ShaftState:
         Force and moment of each bearing on the shaft [N, N m].
     stiffness : float64[:, :, :], shape (bearings, 5, 5)
         Of each bearing alone.
-    rings : list of HeldRing or HeldRollers
+    rings : list of BearingReaction or RollerReaction
         At their last poses.
     drive_torque : float
         Of the coupling on the shaft [N m].
@@ -282,14 +284,14 @@ def _ring(bearing: MountedBearing, kernels: Kernels, announce: Announce) -> Ring
     """Return a bearing by the pose of its inner ring."""
     model = bearing.model
     if model.rollers is not None:
-        return HeldRollers(model, model.rollers, kernels, announce)
+        return RollerReaction(model, model.rollers, kernels, announce)
     angle = free_contact_angle(model) if bearing.takes else model.geometry.resting_angle
-    return HeldRing(model, angle, 1000.0, kernels, announce)
+    return BearingReaction(model, angle, 1000.0, kernels, announce)
 
 
 def _springs(rings: list[Ring]) -> FloatArray:
     """Return a stiffness of every bearing before its contacts are known, shape (bearings, 5, 5)."""
-    free = [isinstance(ring, HeldRollers) and not ring.holds_along for ring in rings]
+    free = [isinstance(ring, RollerReaction) and not ring.holds_along for ring in rings]
     return np.array([np.diag(_GUESS * _LOOSE if is_free else _GUESS) for is_free in free])
 
 
@@ -371,7 +373,7 @@ def _refuse_loose(system: _System) -> None:
     held = system.tangent(_springs(system.rings), system.start)
     held = held[np.ix_(system.free, system.free)]
     pull = system.elastic(system.start)[system.free]
-    way = loose_motion(held, pull, system.arms[system.free], system.scale)
+    way = unconstrained_motion(held, pull, system.arms[system.free], system.scale)
     if way is not None:
         axis, what = _named(system, int(system.free[np.flatnonzero(np.abs(way) > 0.99)[0]]))
         turned = f"against turning about {axis[-1]}" if axis.startswith("tilt") else f"along {axis}"

@@ -1,4 +1,4 @@
-"""Hold the arrays and pointers that compiled code works on, between a resolved model and its results."""
+"""Hold arrays and pointers of compiled code."""
 
 from __future__ import annotations
 
@@ -169,7 +169,7 @@ def context_of(assembly: Assembly) -> SolverContext:
         body_wrenches=np.zeros(bodies, R.WRENCH),
         contact_wrenches=np.zeros(bodies, R.WRENCH),
         ball_wrenches=np.zeros(balls, R.WRENCH),
-        resting=np.zeros(len(assembly.bearings), dtype=np.int64),
+        bypassed=np.zeros(len(assembly.bearings), dtype=np.int64),
         bearing_powers=np.zeros(len(assembly.bearings), R.RUNNING),
         rollers=roller_code(compiled, bool(lines.size))[0],
         lines=lines,

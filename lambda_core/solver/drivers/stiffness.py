@@ -1,4 +1,7 @@
-"""Stiffness of the bearing about its quasi-static equilibrium: five by five, balls in equilibrium throughout."""
+"""Compute the stiffness matrix of a bearing.
+
+Five by five about the quasi-static equilibrium; balls stay in equilibrium.
+"""
 
 from __future__ import annotations
 

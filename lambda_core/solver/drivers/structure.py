@@ -1,4 +1,4 @@
-"""Springs, dampers and seats of a machine as matrices between the motions of shaft, outer rings and other bodies."""
+"""Assemble springs, dampers and seats of a machine."""
 
 from __future__ import annotations
 

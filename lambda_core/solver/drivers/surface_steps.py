@@ -1,4 +1,4 @@
-"""Steps of time that see the shortest feature of a raceway: a narrow defect must not be stepped over."""
+"""Limit time steps by the shortest surface feature."""
 
 from __future__ import annotations
 

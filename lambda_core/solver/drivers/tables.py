@@ -1,4 +1,4 @@
-"""Write an assembly down as the tables that compiled code works on: bodies, rows of balls, raceways, lands and so on.
+"""Write an assembly as tables of compiled code.
 
 Every bearing appends its entries at their final place. Bodies are the members, then the waves of elastic parts, bearing
 by bearing.

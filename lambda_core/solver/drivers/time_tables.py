@@ -1,4 +1,4 @@
-"""Loads and motions over time as the flat tables that compiled code reads."""
+"""Write loads and motions over time as tables."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Waves of elastic rings and cages as rows of the tables of compiled code, and as channels of a result.
+"""Write waves of elastic rings as tables and channels.
 
 Behind the bodies of a bearing stands one for each number of waves of each elastic body: its y and z are the amplitudes
 of cosine and sine, on supports as stiff and damped as the wave, and no weight.

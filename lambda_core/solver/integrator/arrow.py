@@ -1,4 +1,6 @@
-"""Linear algebra of the block-arrow matrix M = s I - g J: factor and solve in O(Z).
+"""Factor and solve the block-arrow matrix in O(Z).
+
+M = s I - g J.
 
 The blocks of a ball hold the columns of its own bodies alone (:mod:`.reach`). Where there are several bearings, what
 the balls of a row take from the Schur complement is summed in a matrix of that size, and kept: a row is factored anew

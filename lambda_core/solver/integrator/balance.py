@@ -47,7 +47,7 @@ def _quotient(mem, shared, k):
 
 @helper
 def _power_of_speed(mem, shared, k):
-    """Return the kinetic power per mass of a prescribed speed: D(v^2/2) of a BDF, v D(v) of a stage (settle_led).
+    """Return the kinetic power per mass of a prescribed speed: D(v^2/2) of a BDF, v D(v) of a stage.
 
     Such a speed is known, and its kinetic energy with it: v D(v) of the step across a jump would be twice as much.
     """
@@ -102,7 +102,7 @@ def _work_of_motions(bundle, mem):
 def _work_of_loads(bundle, mem):
     """Return what the last Newton correction changes of the power of loads and weights on what is free [W].
 
-    Of balls of a bearing that rests: all corrections since its powers were computed.
+    Of balls of a bypassed bearing: all corrections since its powers were computed.
     """
     system, move, since = bundle.system[0], mem.last_move, mem.since
     tail, power = system.tail, 0.0
@@ -127,7 +127,7 @@ def _work_of_loads(bundle, mem):
 
 
 @helper
-def _led_speeds(bundle):
+def _prescribed_speeds(bundle):
     """Return speed and circumferential speed of the raceways of rings with prescribed motion [m/s]."""
     speed, spin = 0.0, 0.0
     for k in range(bundle.raceways.size):
@@ -182,7 +182,7 @@ def _residual_work(bundle, mem):
         force += _forces_of_residual(
             inertia, new, base, slope, per_gamma, row.first_state, row.balls, row.size, 1.0 / row.ball_radius
         )
-    speed, spin = _led_speeds(bundle)
+    speed, spin = _prescribed_speeds(bundle)
     most = force * (speed + spin)
     return power, min(max(power, -most), most), spin / (speed + spin + 1e-300)
 
@@ -239,11 +239,11 @@ def _work_of_moves(inertia, slope, since):
 def leak_of_iterate(bundle, mem, h):
     """Return the energy that the Newton iteration leaves unaccounted for, over what a step may lose.
 
-    The powers are those of the last iterate, of bearings that rest of an earlier one: off by the work of its forces
+    The powers are those of the last iterate, of bypassed bearings of an earlier one: off by the work of its forces
     on the corrections since at most, and by what of the residual's work is unattributed.
     """
-    power, led, _ = _residual_work(bundle, mem)
-    off = abs(power - led) + _work_of_moves(mem.inertia, mem.slope, mem.since)
+    power, given, _ = _residual_work(bundle, mem)
+    off = abs(power - given) + _work_of_moves(mem.inertia, mem.slope, mem.since)
     return h * off / allowed(mem, h, LEAK, _CLOSER * floor_of(mem, h))
 
 
@@ -260,10 +260,10 @@ def finalise_step(bundle, mem):
         if p >= 0:
             mem.new[p] = mem.base[p] + gamma * mem.new[i]
     _work_of_motions(bundle, mem)
-    power, led, share = _residual_work(bundle, mem)
+    power, given, share = _residual_work(bundle, mem)
     running.iteration = abs(power)
-    running.input += led + _work_of_loads(bundle, mem)
-    running.drive += led * share
+    running.input += given + _work_of_loads(bundle, mem)
+    running.drive += given * share
     running.input_abs = abs(running.input)
 
 

@@ -1,4 +1,6 @@
-"""Our integrator: variable-step BDF of order 2 with a block-arrow Newton iteration.
+"""Integrate by variable-step BDF of order 2.
+
+With a block-arrow Newton iteration.
 
 Order 2 because lightly damped contact modes sit in the unstable wedge of the higher orders. Error is controlled on
 absolute scales per state, and by the energy that a step gives or takes.

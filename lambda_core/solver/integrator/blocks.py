@@ -1,4 +1,4 @@
-"""Types of the Jacobian's blocks and of their factors in compiled code."""
+"""Define types of Jacobian blocks and factors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The Schur complement of several bearings on a shaft: positions are eliminated, speeds are left as a dense block.
+"""Factor the Schur complement of several bearings.
+
+Positions are eliminated; speeds remain as a dense block.
 
 The rate of a position depends on the state of its own body alone, of most on one speed (:mod:`.reach`): its row has a
 few entries, and eliminating it costs few. It is the diagonal that is divided by, 1 but for terms of the order of a

@@ -1,11 +1,11 @@
-"""Newton's correction: the Jacobian and the factors that it is found with, and its size."""
+"""Compute Newton's correction and its size."""
 
 from __future__ import annotations
 
 import math
 
 from lambda_core.solver.integrator.arrow import REFACTOR, arrow_factor, arrow_solve
-from lambda_core.solver.integrator.resting import follow
+from lambda_core.solver.integrator.bypass import follow
 from lambda_core.solver.integrator.state_blocks import solve_states
 from lambda_core.solver.layout import helper, vector_helper
 from lambda_core.solver.motion.bearing_sums import AGAIN

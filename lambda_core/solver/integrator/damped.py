@@ -95,8 +95,8 @@ def solve_damped(evaluate, jacobian, t, h, tolerance, closer, bundle, bl, fa, me
     if residual < 0.0:
         return Status.REFUSED
     for iteration in range(_MAX_ITERATIONS):
-        whole = count.stale == 1
-        if whole:
+        renewed = count.stale == 1
+        if renewed:
             bl.due[:] = 1
             count.jacobians += 1
             count.jacobian_age = 0
@@ -117,7 +117,7 @@ def solve_damped(evaluate, jacobian, t, h, tolerance, closer, bundle, bl, fa, me
             residual = _evaluate(evaluate, t, gamma, bundle, mem)
         else:
             residual = _search(evaluate, t, gamma, residual, bundle, mem)
-            if residual < 0.0 and not whole:
+            if residual < 0.0 and not renewed:
                 count.stale = 1
                 for i in range(mem.new.size):
                     mem.new[i] = mem.last_change[i]

@@ -1,4 +1,7 @@
-"""Factor and solve the blocks of one row of rolling elements in the block-arrow matrix: :mod:`.arrow`."""
+"""Factor the blocks of one row of elements.
+
+For :mod:`.arrow`.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The integrator for vibrations: ESDIRK4(3)6L[2]SA, of order 4, on the arrow structure and iteration of the BDF.
+"""Integrate vibrations by ESDIRK4(3)6L[2]SA.
+
+Order 4, on the arrow structure and iteration of the BDF.
 
 What a BDF of order 2 takes of a swing in a step is (w h)^4/4 of its amplitude and (w h)^2/3 of its frequency, so that
 it needs 51 steps per period for 0.5 % of the frequency; this formula needs four, and leaves the amplitude alone.
@@ -13,7 +15,7 @@ from __future__ import annotations
 
 from lambda_core.solver.integrator.correction import norm
 from lambda_core.solver.integrator.newton import solve_step
-from lambda_core.solver.integrator.stage_balance import add_turn_over, leak_of_stages, settle_led
+from lambda_core.solver.integrator.stage_balance import add_turn_over, leak_of_stages, settle_prescribed
 from lambda_core.solver.integrator.stepping import take_steps
 from lambda_core.solver.integrator.tableau import ERROR, GAMMA, NODES, STAGES, WEIGHTS, A
 from lambda_core.solver.layout import helper
@@ -153,7 +155,7 @@ def _shift(bundle, mem, h):
         weight = h * WEIGHTS[j]
         for i in range(mem.integrals.size):
             mem.integrals[i] += weight * mem.stage_rates[j, i]
-    settle_led(bundle, mem, h)
+    settle_prescribed(bundle, mem, h)
     _put(mem.stage_rates, 0, mem.stage_rates[last])
     for i in range(mem.shared.size):
         mem.shared[i], mem.stage_shared[0, i] = bundle.shared[i], mem.stage_shared[last, i]

@@ -1,4 +1,4 @@
-"""One model's compiled functions and arrays behind one address, which calls from Python hand over."""
+"""Hold functions and arrays of a model behind one address."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Types of the integrator's memory and of the functions that it calls."""
+"""Define types of the integrator's memory."""
 
 from __future__ import annotations
 

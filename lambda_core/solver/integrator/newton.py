@@ -1,13 +1,16 @@
-"""The Newton iteration of one step, with a block-arrow matrix that is renewed in parts."""
+"""Iterate Newton's method of one step.
+
+Parts of the block-arrow matrix are renewed.
+"""
 
 from __future__ import annotations
 
 from lambda_core.solver.integrator.balance import finalise_step, leak_of_iterate
+from lambda_core.solver.integrator.bypass import choose_bypassed, reset_moves
 from lambda_core.solver.integrator.correction import norm, renew, shared_norm, solve_correction
 from lambda_core.solver.integrator.damped import solve_damped
-from lambda_core.solver.integrator.resting import forget_moves, let_rest
 from lambda_core.solver.layout import first_of, helper
-from lambda_core.solver.motion.bearing_sums import rests
+from lambda_core.solver.motion.bearing_sums import is_bypassed
 from lambda_core.solver.status import Status
 
 # Of the error allowed per step, while there is no history. Friction in a contact at rest changes sign within far less:
@@ -68,7 +71,7 @@ def _move_all(bundle, fa, mem, want, again):
     swung = False
     for r in range(bundle.rows.size):
         row, relax = bundle.rows[r], _relax(control.gamma, fa.gamma[r])
-        turn = again and not rests(row.bearing, bundle, want)
+        turn = again and not is_bypassed(row.bearing, bundle, want)
         for j in range(row.first_ball, row.first_ball + row.balls):
             first = first_of(row, j)
             swung |= _move(mem, first, first + row.size, relax, turn)
@@ -116,7 +119,7 @@ def solve_step(evaluate, jacobian, t, h, closer, bundle, bl, fa, mem):
     A ball that bounces on a raceway or in its pocket spoils the convergence of all: where it is slow, the Jacobian is
     renewed at the iterate for the balls that change most. A ball that creeps near gross sliding throws Newton's
     iteration to and fro, whatever its Jacobian: it goes by the secant. Where nothing of that helps the iteration is
-    damped (count.careful, see damped.solve_damped). Of several bearings those that hardly move rest (see resting).
+    damped (count.careful, see damped.solve_damped). Of several bearings those that hardly move rest (see bypass).
     The rates of the running integrals are those of
     the last iterate, brought to the result by what its residual says; the iteration goes on while they do not account
     for the energy.
@@ -136,7 +139,7 @@ def solve_step(evaluate, jacobian, t, h, closer, bundle, bl, fa, mem):
         count.rhs_calls += 1
         if evaluate(t, mem.new, bundle, mem.slope, mem.rates, want) != Status.OK:
             return Status.REFUSED
-        forget_moves(want, bundle, mem)
+        reset_moves(want, bundle, mem)
         if iteration == 0 and count.stale == 1:
             count.jacobians += 1
             count.jacobian_age = 0
@@ -162,6 +165,6 @@ def solve_step(evaluate, jacobian, t, h, closer, bundle, bl, fa, mem):
         if iteration > 0 and size > _SLOW * before:
             _renew_slow(bundle, bl, mem, size)
             limit = min(limit + 1, _MAX_NEWTON + _MAX_LOCAL)
-        want = 1 if good else let_rest(tolerance, bundle, bl, mem)
+        want = 1 if good else choose_bypassed(tolerance, bundle, bl, mem)
         before = size
     return Status.NOT_CONVERGED

@@ -60,7 +60,7 @@ def _settled(mem, end, inertia, k, h):
 
 
 @helper
-def settle_led(bundle, mem, h):
+def settle_prescribed(bundle, mem, h):
     """Add the kinetic energy of rings with prescribed motion to the input of a step, also across jumps."""
     running = running_of(mem.integrals)[0]
     for b in range(bundle.bodies.size):

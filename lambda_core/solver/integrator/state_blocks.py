@@ -1,4 +1,4 @@
-"""States of contacts in Newton's iteration: each contact's own block of the matrix.
+"""Solve contact states by their own blocks.
 
 A block holds the slopes of the rates with the states, fresh at every iterate. How forces and states change each other
 stands in no block: that is left to the iteration, which converges where a step is short against the time in which

@@ -1,4 +1,4 @@
-"""The loop of steps: which step is tried, what becomes of one that fails, when samples are taken.
+"""Choose, repeat and sample time steps.
 
 It is that of every formula of integration: what a formula does in one step comes as functions. The sequence of steps
 depends on nothing but the state, so a continued run is the uninterrupted one, bit for bit.

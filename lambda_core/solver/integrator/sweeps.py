@@ -1,4 +1,7 @@
-"""Sums over rows of blocks, in the order of the rows: loops that vectorise, or keep sums in registers."""
+"""Sum over rows of blocks in fixed order.
+
+The loops vectorise or keep sums in registers.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Coefficients of ESDIRK4(3)6L[2]SA: six stages, of which the first is the last step's last one, and five are implicit.
+"""Define coefficients of ESDIRK4(3)6L[2]SA.
+
+Six stages: the first is the last one of the step before, five are implicit.
 
 Kennedy and Carpenter, Diagonally implicit Runge-Kutta methods for ordinary differential equations. A review,
 NASA/TM-2016-219173, 2016, table 16 (and Appl. Numer. Math. 146 (2019) 221). Order 4, with an embedded formula of

@@ -1,4 +1,6 @@
-"""Forces and powers bearing by bearing, where several share a shaft: what one that rests had last stands.
+"""Sum forces and powers of each bearing.
+
+A bypassed bearing keeps its last sums.
 
 The balls of a bearing touch bodies that those of no other one touch (records.BODY.bearing), so that what its contacts
 do to them is known by the body.
@@ -14,9 +16,9 @@ AGAIN = 3  # of `want` in forces.evaluate
 
 
 @helper
-def rests(bearing, bundle, want):
+def is_bypassed(bearing, bundle, want):
     """Return whether forces and powers of a bearing stand."""
-    return want == AGAIN and bundle.resting[bearing] == 1
+    return want == AGAIN and bundle.bypassed[bearing] == 1
 
 
 @helper
@@ -28,7 +30,7 @@ def _copy(wrench, other):
 @helper
 def keep_contacts(bundle):
     """Keep what contacts do to the bodies, where there are several bearings."""
-    if bundle.resting.size > 1:
+    if bundle.bypassed.size > 1:
         for b in range(bundle.bodies.size):
             _copy(bundle.contact_wrenches[b], bundle.body_wrenches[b])
 
@@ -39,13 +41,13 @@ def clear_again(bundle, rates):
     raceways = bundle.raceways.size
     for b in range(bundle.bodies.size):
         bearing = bundle.bodies[b].bearing
-        if bearing >= 0 and bundle.resting[bearing] == 1:
+        if bearing >= 0 and bundle.bypassed[bearing] == 1:
             _copy(bundle.body_wrenches[b], bundle.contact_wrenches[b])
         else:
             clear(bundle.body_wrenches[b])
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        if bundle.resting[row.bearing] == 1:
+        if bundle.bypassed[row.bearing] == 1:
             continue
         for j in range(row.first_ball, row.first_ball + row.balls):
             clear(bundle.ball_wrenches[j])
@@ -54,8 +56,8 @@ def clear_again(bundle, rates):
                 rates[m * raceways + k] = 0.0
     for i in range(MECHANISMS * raceways, rates.size):
         rates[i] = 0.0
-    for b in range(bundle.resting.size):
-        if bundle.resting[b] == 0:
+    for b in range(bundle.bypassed.size):
+        if bundle.bypassed[b] == 0:
             _clear_powers(bundle.bearing_powers[b])
 
 
@@ -74,13 +76,13 @@ def clear_bearing_powers(bundle):
 @helper
 def powers_of_bearing(bundle, bearing, running):
     """Return where powers of a bearing are summed; one alone sums to the powers of all."""
-    return running if bundle.resting.size == 1 else bundle.bearing_powers[bearing]
+    return running if bundle.bypassed.size == 1 else bundle.bearing_powers[bearing]
 
 
 @helper
 def add_bearing_powers(bundle, running):
     """Add the powers of several bearings to those of all."""
-    if bundle.resting.size == 1:
+    if bundle.bypassed.size == 1:
         return
     for b in range(bundle.bearing_powers.size):
         own = bundle.bearing_powers[b]

@@ -1,4 +1,4 @@
-"""From slopes of forces to rows of the Jacobian: equations of motion of balls and bodies."""
+"""Convert slopes of forces to rows of the Jacobian."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.contact.ring_waves import push_waves
 from lambda_core.solver.faults import report
 from lambda_core.solver.layout import cells_of, drag_law, grid_of, guide_law, helper, part
-from lambda_core.solver.motion.bearing_sums import powers_of_bearing, rests
+from lambda_core.solver.motion.bearing_sums import is_bypassed, powers_of_bearing
 from lambda_core.solver.records import BATCH
 from lambda_core.solver.vec import clear, increase
 
@@ -202,7 +202,7 @@ def land_forces(bundle, running, want):
     for i in range(bundle.lands.size):
         land = bundle.lands[i]
         bearing = bundle.rows[land.row].bearing
-        if rests(bearing, bundle, want):
+        if is_bypassed(bearing, bundle, want):
             continue
         cage, ring = bundle.bodies_now[land.cage], bundle.bodies_now[land.ring]
         law, par = guide_law(bundle.laws.guides, land.law), part(bundle.par, land.parameters)

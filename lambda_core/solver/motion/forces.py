@@ -1,4 +1,4 @@
-"""The right-hand side: all force elements, then the equations of motion, and the powers on demand."""
+"""Evaluate the right-hand side and the powers."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from lambda_core.solver.motion.bearing_sums import (
     add_bearing_powers,
     clear_again,
     clear_bearing_powers,
+    is_bypassed,
     keep_contacts,
     powers_of_bearing,
-    rests,
 )
 from lambda_core.solver.motion.equations import ball_rates, body_rates
 from lambda_core.solver.motion.force_elements import cage_forces, clear_forces, drag_force, land_forces, raceway_forces
@@ -76,7 +76,7 @@ def _raceways(t, y, bundle, dydt, rates, want):
         rates[:] = 0.0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        if rests(row.bearing, bundle, want):
+        if is_bypassed(row.bearing, bundle, want):
             continue
         if row.kind == ROLLERS:
             if roller_code(bundle.rollers, 0).evaluate(CONTACTS, t, y, r, bundle, dydt, rates, want) != 1:
@@ -93,7 +93,7 @@ def _guides(t, y, bundle, dydt, rates, want):
     running = running_of(rates)[0]
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        if rests(row.bearing, bundle, want):
+        if is_bypassed(row.bearing, bundle, want):
             continue
         if row.kind == ROLLERS:
             if roller_code(bundle.rollers, 0).evaluate(GUIDES, t, y, r, bundle, dydt, rates, want) != 1:
@@ -118,7 +118,7 @@ def evaluate(t, y, bundle, dydt, rates, want):
     want : int
         0, 1; or 2: as 1, and the raceways' share of the forces (bundle.ball_wrenches, bundle.body_wrenches) and of
         `rates` is there already, left by a caller that has gone through them itself; or 3: as 1, and of bearings that
-        rest (bundle.resting) forces, powers and rates of the last evaluation stand.
+        rest (bundle.bypassed) forces, powers and rates of the last evaluation stand.
 
     Returns
     -------
@@ -143,7 +143,7 @@ def evaluate(t, y, bundle, dydt, rates, want):
     turn_waves(bundle)
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        if rests(row.bearing, bundle, want):
+        if is_bypassed(row.bearing, bundle, want):
             continue
         if row.kind == ROLLERS:
             if roller_code(bundle.rollers, 0).evaluate(MOTION, t, y, r, bundle, dydt, rates, want) != 1:

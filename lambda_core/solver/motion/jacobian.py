@@ -1,4 +1,4 @@
-"""Jacobian of the right-hand side in block-arrow form, by the chain rule through the stages.
+"""Compute the block-arrow Jacobian by the chain rule.
 
 Each ball couples to itself and to the bodies:
 
@@ -79,8 +79,8 @@ def _guide_columns(balls, j, row, bundle, bl):
         return pocket_columns(balls[j - row.first_ball], j, row, bundle, bl)
     z, i = row.balls, j - row.first_ball
     for side in (BEFORE, AFTER):
-        beside = balls[(i + (1 if side == AFTER else z - 1)) % z]
-        if neighbour_columns(balls[i], beside, row, bundle, bl) != 1:
+        neighbour = balls[(i + (1 if side == AFTER else z - 1)) % z]
+        if neighbour_columns(balls[i], neighbour, row, bundle, bl) != 1:
             return 0
         neighbour_block(row, bl, bl.cross[j, side])
     return 1

@@ -1,4 +1,4 @@
-"""Force elements between two bodies, or a body and the ground, whose law comes from elsewhere."""
+"""Compute force elements with a law between bodies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Loads and motions over time: values with two derivatives, and the shared state they prescribe."""
+"""Evaluate prescribed loads and motions over time.
+
+Values with two derivatives.
+"""
 
 from __future__ import annotations
 

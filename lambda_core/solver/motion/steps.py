@@ -1,4 +1,4 @@
-"""Differences that the Jacobian takes of cheap functions: their steps, and what they add to slopes of forces."""
+"""Take differences of cheap functions for the Jacobian."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Elastic structures that tie bodies together, shafts, housings, springs: one matrix of stiffness, one of damping.
+"""Compute forces of elastic structures between bodies.
+
+One matrix of stiffness and one of damping.
 
 Forces are -K (u - u_0) - C du/dt of positions, components of axes and angles about them, with the potential
 (u - u_0).K (u - u_0)/2: small deflections of linear bodies. A force along a component of a body's axis is a moment on

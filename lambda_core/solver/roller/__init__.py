@@ -1,1 +1,4 @@
-"""Rollers in motion: line contacts, ribs, pockets, equations of motion. Compiled."""
+"""Compute rollers in motion.
+
+Line contacts, ribs, pockets, equations of motion. Compiled.
+"""

@@ -1,4 +1,6 @@
-"""Capacitance of the contacts of a roller: flats of its slices with the gaps on their sides, and open gaps.
+"""Compute the capacitance of roller contacts.
+
+Flats of slices with the gaps on their sides, and open gaps.
 
 A line that carries has the capacitance that its law gives for the flat of all slices. One that is open has that of the
 law without a flat, at the distance of the nearest slice. Ribs count where they carry.

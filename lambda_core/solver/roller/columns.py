@@ -1,4 +1,6 @@
-"""Blocks of the Jacobian of a row of rollers: an entry point of its own, called by pointer.
+"""Compute Jacobian blocks of rollers.
+
+An entry point of its own, called by pointer.
 
 A contact's wrench depends on the states through twelve kinematic numbers (records.LINE_DRIVERS). Its slopes with them
 are differences of the whole contact, taken once; their slopes with the states are differences of the kinematics. Forces

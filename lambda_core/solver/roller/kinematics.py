@@ -1,4 +1,4 @@
-"""Contacts of a roller with raceways and ribs: where they are, and the velocities there.
+"""Find contacts of a roller and their velocities.
 
 Raceways and ribs are cones about the axis of their body, rollers are cones whose end faces are spheres about a point of
 their axis. Vectors have the components x, r, t of the frame that turns with the roller's azimuth.

@@ -1,4 +1,6 @@
-"""Line contact of a roller with a raceway: loads of slices, then the stages of a point contact with slices for cells.
+"""Compute the line contact of a roller.
+
+Loads of slices, then the stages of a point contact with slices as cells.
 
 Slice k, at x_k along the contact, approaches by delta + x_k tilt - drop_k and carries the load that the normal law has
 for it; film, rolling resistance and hysteresis follow from the load spread evenly over the length that carries. Loads

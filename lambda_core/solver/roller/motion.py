@@ -1,4 +1,7 @@
-"""Equations of motion of rollers: a symmetrical top whose axis tilts and skews in the frame that turns with it."""
+"""Compute equations of motion of rollers.
+
+A symmetrical top whose axis tilts and skews in the frame that turns with it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pocket of a roller: bars and end faces, at stations along the roller.
+"""Compute the contact of a roller with its pocket.
 
 At every station the law of the pocket sees how far the roller's axis is from its place, and how fast it moves; the
 station has a share of the force that the law has for the whole length. So a roller that skews touches a bar at one end.

@@ -1,4 +1,7 @@
-"""Blocks of rollers in the block-arrow matrix: entry points of their own, called by pointer."""
+"""Factor roller blocks of the block-arrow matrix.
+
+Entry points of their own, called by pointer.
+"""
 
 from __future__ import annotations
 

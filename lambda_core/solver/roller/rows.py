@@ -1,4 +1,7 @@
-"""Rows of rollers in the right-hand side, in samples and in energies: entry points of their own, called by pointer."""
+"""Evaluate rows of rollers.
+
+Right-hand side, samples and energies; entry points of their own, called by pointer.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Entry points of rollers, compiled when a machine first has some."""
+"""Compile the entry points of rollers at first use."""
 
 from __future__ import annotations
 

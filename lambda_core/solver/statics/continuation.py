@@ -1,4 +1,6 @@
-"""Quasi-static equilibrium on the dynamic model's own forces, by pseudo-transient continuation.
+"""Solve the equilibrium by pseudo-transient continuation.
+
+On the forces of the dynamic model.
 
 Every ball stays at its azimuth. Unknowns: axial and radial position, orbital speed and spin
 vector of each ball, position and tilt of the free rings. Positions follow their accelerations like an overdamped

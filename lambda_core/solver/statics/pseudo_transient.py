@@ -1,4 +1,4 @@
-"""The pseudo-transient system of the quasi-static equilibrium: its rates and its Jacobian blocks."""
+"""Define the pseudo-transient system and its Jacobian."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Capacitance of the contacts by the analytical method of Syla et al. 2026, section 4.3.
+"""Compute contact capacitances by Syla et al. 2026, section 4.3.
 
 Entrainment speed from geometry alone, isothermal film of Chittenden, area of the Hertzian ellipse (eq. 2-3), plate
 capacitor C = eps_0 eps_r A/h_cen (eq. 32) with the permittivity at the maximum Hertzian pressure, and the factor of

@@ -1,4 +1,4 @@
-"""Speeds and characteristic frequencies of the bearing with pure rolling at both raceways."""
+"""Compute kinematic speeds and frequencies for pure rolling."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The project's own quasi-static equilibrium, shown as one method among the others."""
+"""Offer the quasi-static equilibrium as a comparison method."""
 
 from __future__ import annotations
 

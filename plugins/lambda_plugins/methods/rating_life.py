@@ -1,4 +1,4 @@
-"""Rating life by the standards: ISO 281 from the catalogue's C, ISO/TS 16281 from the load of every ball."""
+"""Compute rating lives by ISO 281 and ISO/TS 16281."""
 
 from __future__ import annotations
 

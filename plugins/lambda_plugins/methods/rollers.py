@@ -1,4 +1,7 @@
-"""Comparison methods for roller bearings: Palmgren's torque, Houpert's rolling resistance, lives, kinematics."""
+"""Define comparison methods for roller bearings.
+
+Palmgren's torque, Houpert's rolling resistance, lives, kinematics.
+"""
 
 from __future__ import annotations
 

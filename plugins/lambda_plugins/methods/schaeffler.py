@@ -1,4 +1,6 @@
-"""Friction torque after the Schaeffler catalogue: M = M_0 (speed, oil) + M_1 (load), the model of Palmgren.
+"""Compute the friction torque of Schaeffler's catalogue.
+
+M = M_0 (speed, oil) + M_1 (load), the model of Palmgren.
 
 Source: Schaeffler, Rolling Bearings HR 1 (2019), "Friction and increases in temperature"; M_0 is printed as eq.
 (38)-(39) of Syla et al. 2026. M_0 holds churning, drag and rolling resistance together: it must not be added to a

@@ -1,4 +1,6 @@
-"""Friction torque after the SKF catalogue model: M = M_rr + M_sl + M_drag + M_seal.
+"""Compute the friction torque of SKF's catalogue.
+
+M = M_rr + M_sl + M_drag + M_seal.
 
 Source: SKF, Rolling bearings, catalogue PUB BU/P1 17000 EN (2018), chapter "Friction". Public functions
 take SI; the catalogue's formulas are in mm, N, 1/min, mm2/s and give N mm, converted inside.

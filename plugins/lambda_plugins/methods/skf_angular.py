@@ -1,4 +1,6 @@
-"""SKF's friction variables of the kinds that are no deep groove ball bearings.
+"""Define SKF's friction variables of other ball bearings.
+
+Those that are not deep groove ball bearings.
 
 Angular contact of one and two rows, four-point contact, self-aligning. Source: SKF, general catalogue 6000, "Friction":
 tables 2a, 3, 3b and 5, footnote: F_a is the external axial load.

@@ -1,4 +1,4 @@
-"""SKF's chart of the drag loss factor V_M of ball bearings, read as numbers.
+"""Read SKF's chart of the drag loss factor V_M.
 
 SKF, Rolling bearings, catalogue 17000 EN (2018), chapter Friction, diagram of V_M over H/d_m, ball bearings. The points
 are those of a public digitisation (JRaposo-m, SKF-Bearing-Selection-Tool): of the enlarged part of the chart up to 0.2,

@@ -1,4 +1,6 @@
-"""Drag loss M_drag of the SKF catalogue model in two editions, for single-row ball bearings (K_Z of deep groove ones).
+"""Compute SKF's drag loss M_drag in two editions.
+
+Single-row ball bearings; K_Z of deep groove ball bearings.
 
 The older formula is printed as eq. (40) of Syla et al. 2026 after the SKF catalogue of 2008. V_M is a chart over H/d_m
 in both editions, not available as numbers: it is an input. SI in and out, mm, 1/min and mm2/s inside.

@@ -1,4 +1,6 @@
-"""Friction torque of roller bearings after the SKF catalogue model, M = M_rr + M_sl + M_drag.
+"""Compute SKF's friction torque of roller bearings.
+
+M = M_rr + M_sl + M_drag.
 
 Source: SKF, Rolling bearings, catalogue PUB BU/P1 17000 EN (2018), chapter "Friction". The constants were read in the
 table of a public tool that implements the catalogue, those of needle bearings are not in it.

@@ -1,4 +1,6 @@
-"""Friction torque of contact seals after SKF: M_seal = K_S1 d_s^beta + K_S2, for seals on both sides.
+"""Compute SKF's friction torque of contact seals.
+
+M_seal = K_S1 d_s^beta + K_S2, for seals on both sides.
 
 SKF, General catalogue 6000 (2008), chapter Friction, table 4 (exponent and constants of contact seals), read in its
 German edition; the same numbers stand in the edition 10000 EN (2013), after the public transcription of JRaposo-m,

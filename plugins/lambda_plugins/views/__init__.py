@@ -1,4 +1,7 @@
-"""Built-in views of results and studies; matplotlib is imported when something is drawn."""
+"""Offer the built-in views of results and studies.
+
+matplotlib is imported when a view is drawn.
+"""
 
 from __future__ import annotations
 

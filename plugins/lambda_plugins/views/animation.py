@@ -1,4 +1,7 @@
-"""Frames of a moving bearing, drawn with matplotlib: balls, cage, load vectors, seen along the axis."""
+"""Draw frames of a moving bearing.
+
+Balls, cage and load vectors, seen along the axis.
+"""
 
 from __future__ import annotations
 

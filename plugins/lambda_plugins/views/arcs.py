@@ -1,4 +1,4 @@
-"""Both arcs of each ring of a four-point contact bearing, over azimuth."""
+"""Draw the four contacts of a four-point contact bearing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The balls of one run: orbital speed, spin and skidding over azimuth."""
+"""Draw orbital speed, spin and skidding of the balls."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The cage of one run: its orbit, its whirl, and the forces in its pockets."""
+"""Draw orbit, whirl and pocket forces of the cage."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Electrical capacitance of one run: over time, its spectrum, and of the contacts over azimuth."""
+"""Draw the electrical capacitance of a run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Draw any channel of a run over time: those of the program, of observers and of states of contacts."""
+"""Draw any channel of a run over time.
+
+Channels of the program, of observers and of states of contacts.
+"""
 
 from __future__ import annotations
 

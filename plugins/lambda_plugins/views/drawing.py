@@ -1,4 +1,7 @@
-"""Figures of views with matplotlib: what the hook ``lambda_figure`` of the built-in plugin returns."""
+"""Draw figures of views with matplotlib.
+
+The hook ``lambda_figure`` of the built-in plugin returns them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bearing currents of one run: voltage with discharges, discharges over the raceways, impedance."""
+"""Draw the bearing currents of a run."""
 
 from __future__ import annotations
 

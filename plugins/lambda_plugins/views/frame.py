@@ -1,4 +1,4 @@
-"""The frame of a panel: axes and their scales and limits, marks, legend."""
+"""Draw the frame of a panel: axes, marks, legend."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Friction torque of one run: its parts, and how well its mean is known."""
+"""Draw the parts and the convergence of the friction torque."""
 
 from __future__ import annotations
 

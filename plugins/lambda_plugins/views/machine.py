@@ -1,4 +1,4 @@
-"""The motion of a machine: orbits of its shaft, and the forces of the bearings over time."""
+"""Draw orbits and bearing forces of a machine."""
 
 from __future__ import annotations
 

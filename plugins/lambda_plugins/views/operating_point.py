@@ -1,4 +1,7 @@
-"""A machine at its operating point: deflection and bending moment of its shaft, natural frequencies over speed."""
+"""Draw a machine at its operating point.
+
+Deflection and bending moment of its shaft, natural frequencies over speed.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One panel of a figure: series, marks, fields and arrows on matplotlib axes."""
+"""Draw one panel of a figure on matplotlib axes."""
 
 from __future__ import annotations
 

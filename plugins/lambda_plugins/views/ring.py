@@ -1,4 +1,4 @@
-"""The inner ring of one run: its orbit and the spectrum of its motion."""
+"""Draw orbit and spectrum of the inner ring."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The shape of elastic rings and cage of one run: bent round the shaft at the end, and its waves over time."""
+"""Draw the shape and waves of elastic rings."""
 
 from __future__ import annotations
 

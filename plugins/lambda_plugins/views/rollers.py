@@ -1,4 +1,4 @@
-"""Rollers of one run: pressure along their contacts, tilt and skew, loads of ribs."""
+"""Draw pressure, tilt, skew and rib loads of rollers."""
 
 from __future__ import annotations
 

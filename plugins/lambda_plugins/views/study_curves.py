@@ -1,4 +1,7 @@
-"""Studies: responses over one parameter; methods that answer the same question share their axes."""
+"""Draw responses of a study over one parameter.
+
+Methods that answer the same question share their axes.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Texts of cases, studies and results are drawn as they are: no formulas are read in them."""
+"""Draw texts without reading formulas in them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The vibration of a ring, as a sensor sees it: over time, its spectrum, and the spectrum of its envelope."""
+"""Draw the vibration of a ring and its spectra."""
 
 from __future__ import annotations
 

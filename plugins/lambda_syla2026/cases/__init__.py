@@ -1,1 +1,4 @@
-"""Bearings and operating points of the paper as case files (entry-point group ``lambda_bearing.cases``)."""
+"""Offer the paper's operating points as case files.
+
+Entry-point group ``lambda_bearing.cases``.
+"""

@@ -1,4 +1,4 @@
-"""The network while arcs burn: the nodes that take part, and the channels between them.
+"""Build the network while arcs burn.
 
 While arcs burn the network is linear too: an open channel is a resistance R with a voltage fall against the current.
 The nodes that matter are the rings, the ball and balls that metal joins to a ring; the other balls keep their charge,

@@ -1,4 +1,6 @@
-"""One stretch of a discharge with the same channels open: until a film breaks down, or an arc dies.
+"""Integrate a discharge while its channels do not change.
+
+The interval ends when a film breaks down or an arc quenches.
 
 From corner to corner of the source the modes are exact, so that steps only look for the first change: they double, and
 with them the decay functions, exp(-2 x) = exp(-x)^2, without an exponential of their own.

@@ -1,4 +1,4 @@
-"""Types of the arrays that the compiled network works on, and how its helpers are compiled."""
+"""Define array types of the compiled network."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""One discharge: arcs through the films of one ball, from the breakdown until the last one quenches.
+"""Integrate one discharge of a ball.
+
+From the breakdown until the last arc quenches.
 
 The first film that breaks down lets the ball's voltage collapse within a nanosecond; the other film of the ball then
 carries the full bearing voltage. Where it breaks down too, the rotor's charge flows through both: both contacts of a

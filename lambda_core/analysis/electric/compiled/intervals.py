@@ -1,4 +1,4 @@
-"""Contacts over one part of an interval between samples: what holds while capacitances are constant."""
+"""Hold contact values constant between samples."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Assemble the network: rotor, insulated outer rings and the balls of all bearings are its nodes."""
+"""Assemble the network.
+
+Rotor, insulated outer rings and the balls of all bearings are its nodes.
+"""
 
 from __future__ import annotations
 

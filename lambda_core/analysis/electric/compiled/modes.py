@@ -1,4 +1,6 @@
-"""The network between two switching edges: capacitances and conductances are constant, so its modes are exact.
+"""Solve the network exactly between two switching edges.
+
+Capacitances and conductances are constant there.
 
 C dv/dt + G v = i with C and G symmetric. v = S y with S' C S = 1 and S' G S = diag(lambda), so that every mode obeys
 dy/dt = -lambda y + b on its own, b = S' i, and y = S' q with the charges q = C v of the nodes. Row a of the array `s`

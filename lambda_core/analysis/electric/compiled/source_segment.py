@@ -1,4 +1,4 @@
-"""The source between two of its corners: straight lines through points in time."""
+"""Interpolate the source between its corners."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The network through time: from switching edge to switching edge, and through every discharge on the way."""
+"""Integrate the network from switching edge to edge.
+
+Discharges on the way are included.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Kinds of ball bearings: every module of this folder declares one as KIND, and nothing else has to know of it."""
+"""Collect the kinds of ball bearings.
+
+Every module of this folder declares one as KIND.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Single row angular contact ball bearings, filled over a low shoulder."""
+"""Define single-row angular contact ball bearings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Four-point contact ball bearings: two arcs on each ring for one row; from two of what follows the third.
+"""Define four-point contact ball bearings.
 
 With the distance A of the groove centres, the free contact angle alpha_0 and the resting angle alpha_s, that of the
 shims which the arcs are ground with, rings that move against each other until balls touch have

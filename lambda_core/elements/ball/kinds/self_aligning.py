@@ -1,4 +1,4 @@
-"""Self-aligning ball bearings: two rows on one sphere of the outer ring about the bearing's centre.
+"""Define self-aligning ball bearings.
 
 On a sphere of radius R a ball rests at the contact angle alpha: its centre lies R - D_w/2 from the middle, so that
 

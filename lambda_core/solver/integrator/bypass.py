@@ -1,6 +1,6 @@
-"""Bearings that rest in Newton's later iterations, while another one on the same shaft still iterates.
+"""Bypass converged bearings in Newton's later iterations.
 
-All bearings of a whole take the same steps, which one of them needs so short; to the others the first correction of
+All bearings of a machine take the same steps, which one of them needs so short; to the others the first correction of
 such a step is nearly nothing. Where a bearing's states have moved by no more than the iteration may leave, root mean
 square, since its contacts were computed, they are not computed again: what these moves change of its forces and rates
 follows from its Jacobian, so that rings and balls stay in balance. What is left out is of the second order of the
@@ -20,20 +20,20 @@ from lambda_core.solver.motion.bearing_sums import AGAIN
 
 
 @helper
-def forget_moves(want, bundle, mem):
-    """Begin to add up the moves since this evaluation, of bearings that rest since an earlier one."""
+def reset_moves(want, bundle, mem):
+    """Begin to add up the moves since this evaluation, of bearings bypassed since an earlier one."""
     since = mem.since
     if want != AGAIN:
         since[:] = 0.0
         return
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        if bundle.resting[row.bearing] == 0:
+        if bundle.bypassed[row.bearing] == 0:
             since[row.first_state : row.first_state + row.size * row.balls] = 0.0
     tail = bundle.system[0].tail
     for i in range(bundle.active.size):
         bearing = bundle.bodies[bundle.active[i] // NS].bearing
-        if bearing < 0 or bundle.resting[bearing] == 0:
+        if bearing < 0 or bundle.bypassed[bearing] == 0:
             since[tail + i] = 0.0
 
 
@@ -57,35 +57,35 @@ def _moved(b, bundle, mem):
 
 
 @helper
-def let_rest(tolerance, bundle, bl, mem):
-    """Choose the bearings that rest in the next iteration; returns the `want` to evaluate it with.
+def choose_bypassed(tolerance, bundle, bl, mem):
+    """Choose the bearings to bypass in the next iteration; returns the `want` to evaluate it with.
 
     None whose Jacobian is to be renewed: that is done where forces are computed. Never one alone, one whose balls touch
     each other, nor contacts that keep states, which are iterated with slopes of their own.
     """
-    if bundle.resting.size == 1 or bundle.states.size > 0:
+    if bundle.bypassed.size == 1 or bundle.states.size > 0:
         return 1
-    for b in range(bundle.resting.size):
-        bundle.resting[b] = 1 if _moved(b, bundle, mem) <= tolerance else 0
+    for b in range(bundle.bypassed.size):
+        bundle.bypassed[b] = 1 if _moved(b, bundle, mem) <= tolerance else 0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         if row.caged == 0:
-            bundle.resting[row.bearing] = 0
+            bundle.bypassed[row.bearing] = 0
         for j in range(row.first_ball, row.first_ball + row.balls):
             if mem.count[0].stale == 1 and bl.due[j] == 1:
-                bundle.resting[row.bearing] = 0
-    for b in range(bundle.resting.size):
-        mem.count[0].rests += bundle.resting[b]
+                bundle.bypassed[row.bearing] = 0
+    for b in range(bundle.bypassed.size):
+        mem.count[0].bypasses += bundle.bypassed[b]
     return AGAIN
 
 
 @helper
 def follow(gamma, bundle, bl, fa, mem):
-    """Add to the residual in mem.change what moves of resting bearings change of their rates, by their Jacobian."""
+    """Add to the residual in mem.change what moves of bypassed bearings change of their rates, by their Jacobian."""
     since, change, own, tail = mem.since, mem.change, fa.tail, bundle.system[0].tail
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        if bundle.resting[row.bearing] == 0:
+        if bundle.bypassed[row.bearing] == 0:
             continue
         n, columns = bl.reach.width[r], bl.reach.columns[r]
         for q in range(n):

@@ -28,7 +28,7 @@ class RingMode(Record):
     shift_percent: float = Field(description="of the frequency, by the integration")
 
 
-class Followed(Record):
+class NumericalDamping(Record):
     """How far vibrations can be believed."""
 
     resolve_Hz: float = Field(description="highest resolved frequency; 0 for averages")
@@ -102,12 +102,12 @@ def added(angle: float, *, fine: bool) -> tuple[float, float]:
     return -math.log(abs(root)) / angle, (cmath.phase(root) / angle if angle < _FASTEST else 0.0) - 1.0
 
 
-def followed(settings: Solver, status: Status, time: float) -> Followed | None:
+def numerical_damping(settings: Solver, status: Status, time: float) -> NumericalDamping | None:
     """Return how far the vibrations of a run can be believed; None of a result of an older version."""
     powers = status.statistics.get(FOURTH_POWERS, 0.0)
     if not powers > 0.0 or not time > 0.0:
         return None
-    found = Followed(resolve_Hz=settings.resolve, step_s=(powers / time) ** (1.0 / 3.0), modes=[])
+    found = NumericalDamping(resolve_Hz=settings.resolve, step_s=(powers / time) ** (1.0 / 3.0), modes=[])
     for frequency, damping in status.modes:
         more, shift = found.at(frequency)
         swing = RingMode(

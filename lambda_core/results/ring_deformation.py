@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 _CHANNEL = "_ovality"  # behind the name of a body: system.state_channels
 
 
-class Bent(Record):
+class RingDeformation(Record):
     """One part that bends."""
 
     part: str = Field(description="inner ring, outer ring or cage")
@@ -23,7 +23,7 @@ class Bent(Record):
     largest_ovality_um: float = Field(description="the largest there")
 
 
-def bent_parts(result: Result, start: float) -> list[Bent]:
+def ring_deformations(result: Result, start: float) -> list[RingDeformation]:
     """Return how oval every elastic part was from time `start` [s] on; empty where all are rigid."""
     written = {channel.name for channel in result.channels}
     names = [f"{body}{_CHANNEL}" for body in BODIES if f"{body}{_CHANNEL}" in written]
@@ -34,7 +34,7 @@ def bent_parts(result: Result, start: float) -> list[Bent]:
             sums[name] += float(block[name].sum())
             most[name] = max(most[name], float(block[name].max(initial=0.0)))
     return [
-        Bent(
+        RingDeformation(
             part=name.removesuffix(_CHANNEL).replace("_", " "),
             mean_ovality_um=1e6 * sums[name] / max(count, 1),
             largest_ovality_um=1e6 * most[name],

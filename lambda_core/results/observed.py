@@ -52,7 +52,7 @@ def _largest(values: FloatArray) -> float:
     return float(np.max(values, initial=-np.inf, where=np.isfinite(values)))
 
 
-def events_seen(result: Result) -> list[EventSeen]:
+def occurred_events(result: Result) -> list[EventSeen]:
     """Return how often each event began, and when first and last."""
     rows = result.watched_events
     if not rows:

@@ -1,4 +1,4 @@
-"""Observers and events of a run: called with its samples, guarded, without any hold on the motion."""
+"""Call observers and events with the samples of a run."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ _NOTHING = 1e-12  # eigenvalue of a stiffness whose diagonal is one: below it is
 _PULLED = 1e-9  # of the loads: less of them along a loose motion is rounding
 
 
-def loose_motion(stiffness: FloatArray, pull: FloatArray, arms: FloatArray, scale: float) -> FloatArray | None:
+def unconstrained_motion(stiffness: FloatArray, pull: FloatArray, arms: FloatArray, scale: float) -> FloatArray | None:
     """Return how loads carry off what a stiffness does not hold; None where they find hold everywhere.
 
     Parameters

@@ -1,4 +1,4 @@
-"""Loads and motions that another program gives while the bearing moves: co-simulation.
+"""Take loads and motions from another program.
 
 A signal is named like the option of a case that it stands for: ``inner_ring.force_z``, ``outer_ring.tilt_y``,
 ``inner_ring.spin``. From the moment at which it is given it goes on with the derivatives that were given with it, until

@@ -1,4 +1,4 @@
-"""Loads and speed that another program gives to a machine while it moves: co-simulation.
+"""Take loads and speed of a machine from another program.
 
 A load acts at a marker, a load or a gear of the case, on the shaft or on a body, and goes to the lumps of the shaft as
 the beam hands it on. A signal is named like the option of a case that it adds to: ``gears.wheel.force_z``,
@@ -19,7 +19,7 @@ from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bodies.locations import carried, carried_by_shaft
 from lambda_core.model.machine_model import GROUND, SHAFT, MachineModel, Place
 from lambda_core.solver import records as R
-from lambda_core.solver.drivers.given import Coupling, check_known
+from lambda_core.solver.drivers.external_inputs import Coupling, check_known
 from lambda_core.solver.drivers.lumps import LumpedShaft
 from lambda_core.solver.drivers.machine_assembly import MemberNumbers, member_numbers
 from lambda_core.solver.drivers.solver_context import SolverContext
@@ -34,7 +34,7 @@ _NOTHING = 1e-15  # share of a load from which on it is rounding
 
 
 @dataclass
-class MachineGiven:
+class MachineInputs:
     """What another program gives to a machine, and the terms of loads and motions that follow it.
 
     Attributes
@@ -105,7 +105,7 @@ def check_coupling(machine: MachineModel, couple: Coupling) -> None:
         )
 
 
-def machine_given(machine: MachineModel, shaft: LumpedShaft, context: SolverContext) -> MachineGiven:
+def machine_inputs(machine: MachineModel, shaft: LumpedShaft, context: SolverContext) -> MachineInputs:
     """Add what another program gives to the loads and motions of a machine.
 
     A load adds to those of the case and is 0 at first; the speed takes the place of the case's, where that is constant.
@@ -124,7 +124,7 @@ def machine_given(machine: MachineModel, shaft: LumpedShaft, context: SolverCont
     values = np.zeros((len(names), 3))
     if SHAFT_SPIN in names:
         values[names.index(SHAFT_SPIN), 0] = machine.speed
-    found = MachineGiven(tuple(names), values, np.zeros(len(names)), dict(enumerate(of_signal.values())))
+    found = MachineInputs(tuple(names), values, np.zeros(len(names)), dict(enumerate(of_signal.values())))
     terms, rows = context.bundle.terms, np.zeros(len(of_signal), R.TERM)
     rows["signal"], rows["kind"] = list(of_signal), R.GIVEN
     if SHAFT_SPIN in names:

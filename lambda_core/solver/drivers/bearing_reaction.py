@@ -1,4 +1,4 @@
-"""One bearing whose inner ring is held somewhere against the outer one: what it answers with, and how stiffly."""
+"""Compute reaction and stiffness of a held bearing."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def held(model: BearingModel, pose: Sequence[float]) -> BearingModel:
     )
 
 
-class HeldRing:
+class BearingReaction:
     """A bearing by the pose of its inner ring; the balls find their places between the rings, without friction.
 
     Parameters

@@ -25,7 +25,9 @@ _TRIES = 12  # steps on the way, those that fail included
 Solve = Callable[[SolverContext, FloatArray], StaticReport]
 
 
-def from_warmer_oil(context: SolverContext, start: FloatArray, solve: Solve) -> tuple[FloatArray, StaticReport] | None:
+def by_viscosity_continuation(
+    context: SolverContext, start: FloatArray, solve: Solve
+) -> tuple[FloatArray, StaticReport] | None:
     """Return the equilibrium of a context and its report, found by way of warmer oil; None where no way leads there.
 
     Parameters
@@ -38,13 +40,13 @@ def from_warmer_oil(context: SolverContext, start: FloatArray, solve: Solve) -> 
     for warmer in _WARMER:
         state, left, step = start.copy(), warmer, warmer
         try:
-            solve(_warmed(context, warmer), state)
+            solve(_thinner(context, warmer), state)
         except SolverError:
             continue
         for _ in range(_TRIES):
             trial, goal = state.copy(), max(left - step, 0.0)
             try:
-                report = solve(_warmed(context, goal), trial)
+                report = solve(_thinner(context, goal), trial)
             except SolverError:
                 step *= 0.5
                 continue
@@ -54,7 +56,7 @@ def from_warmer_oil(context: SolverContext, start: FloatArray, solve: Solve) -> 
     return None
 
 
-def _warmed(context: SolverContext, by: float) -> SolverContext:
+def _thinner(context: SolverContext, by: float) -> SolverContext:
     """Return the same with warmer oil [K]; searches note in the same place which balls the cage drives."""
     oil = context.model.oil
     model = dataclasses.replace(context.model, oil=dataclasses.replace(oil, temperature=oil.temperature + by))

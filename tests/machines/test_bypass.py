@@ -43,11 +43,11 @@ def test_what_a_resting_bearing_did_last_stands(engine: MachineEngine) -> None:
     found, powers = np.zeros(y.size), np.zeros(L.power_count(bundle))
     evaluate(y, 1, found, powers)
     assert not np.array_equal(found, expected)
-    bundle.resting[:] = [1, 0]
+    bundle.bypassed[:] = [1, 0]
     evaluate(moved, AGAIN, found, powers)
     assert np.array_equal(found, expected)
     assert np.array_equal(powers, expected_powers)
-    bundle.resting[:] = [0, 1]  # what moved is left out
+    bundle.bypassed[:] = [0, 1]  # what moved is left out
     evaluate(y, AGAIN, found, powers)
     assert np.array_equal(found, expected)
     assert one.first_ball == 0
@@ -101,12 +101,14 @@ def test_energy_is_balanced_as_well_as_without_it(engine: MachineEngine) -> None
     awake = machine_engine(resolve_machine(tables()))
     context = awake.context
     context.bundle.rows["bearing"], context.bundle.bodies["bearing"] = 0, 0
-    context.bundle = context.bundle._replace(resting=np.zeros(1, dtype=np.int64), bearing_powers=np.zeros(1, R.RUNNING))
+    context.bundle = context.bundle._replace(
+        bypassed=np.zeros(1, dtype=np.int64), bearing_powers=np.zeros(1, R.RUNNING)
+    )
     awake._handle = context.handle(awake._memory)
     assert awake.advance(END).ok
     counted = engine.statistics()
-    assert awake.statistics()["rests"] == 0
-    assert counted["rests"] > 0.1 * counted["newton_iterations"]
+    assert awake.statistics()["bypasses"] == 0
+    assert counted["bypasses"] > 0.1 * counted["newton_iterations"]
     left, ends = [], []
     for found in (engine, awake):
         one = found.integrals()[0]

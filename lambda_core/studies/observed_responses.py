@@ -1,4 +1,4 @@
-"""Define the responses that observers, events and states of contacts of a case add to a study of runs.
+"""Define responses of observers, events and contact states.
 
 An observer's number is ``OBSERVER/NUMBER``; an event has ``EVENT/count``, ``EVENT/first_s`` and ``EVENT/last_s``; a
 state of the contacts ``STATE/last``, the largest of all contacts at the end, and ``STATE/largest``, during the whole
@@ -24,7 +24,7 @@ _OF_EVENTS = (
 Read = Callable[[DynamicPoint], Number]
 
 
-def watched_responses(model: BearingModel | MachineModel) -> dict[str, Response]:
+def observed_responses(model: BearingModel | MachineModel) -> dict[str, Response]:
     """Return the responses of observers, events and states, by name."""
     from lambda_core.model.machine_model import MachineModel
 

@@ -1,4 +1,4 @@
-"""One roller bearing whose inner ring is held somewhere against the outer one: what it answers with, and how stiffly.
+"""Compute reaction and stiffness of a held roller bearing.
 
 The rollers are in the convex equilibrium of :mod:`lambda_core.elements.roller.roller_equilibrium`: laminae of ISO 16281
 on the raceways, points on the ribs.
@@ -21,10 +21,10 @@ from lambda_core.laws.context import Oil
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.time_functions import initial
+from lambda_core.solver.drivers.bearing_reaction import BearingReaction, held
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.first_state import FIRST_AZIMUTH, first_frame
-from lambda_core.solver.drivers.held_ring import HeldRing, held
 from lambda_core.solver.drivers.near_equilibrium import solve_near
 
 _HELD = (True,) * 5
@@ -32,7 +32,7 @@ _TILTS = 3  # from this place of a pose on
 _MIRROR = np.array([-1.0, 1.0, 1.0, -1.0, -1.0])  # of a pose or a wrench, at the middle plane
 
 
-class HeldRollers:
+class RollerReaction:
     """A roller bearing by the pose of its inner ring; the rollers find their places, without friction.
 
     Parameters
@@ -121,4 +121,4 @@ class HeldRollers:
         return solve(there, self._kernels, self._announce, strict=False)
 
 
-Ring = HeldRing | HeldRollers
+Ring = BearingReaction | RollerReaction

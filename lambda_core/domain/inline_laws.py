@@ -1,4 +1,4 @@
-"""Laws that a Python program hands over as objects where a case has a name: in a notebook, or from a script.
+"""Accept laws as Python objects where a case has names.
 
 The rooms below discovery know a law by its marks only; the registry of this process takes what is gathered here.
 """
@@ -19,7 +19,7 @@ NOTEBOOK = "notebook"  # stands where the name of a package, or of a script, wou
 
 
 @dataclass(frozen=True)
-class HandedLaw:
+class InlineLaw:
     """One law that was handed over."""
 
     project: str  # name of the script, or NOTEBOOK
@@ -34,7 +34,7 @@ class HandedLaw:
         return f"{self.project}:{self.name}"
 
 
-_laws: dict[tuple[str, str], HandedLaw] = {}  # by role and label
+_laws: dict[tuple[str, str], InlineLaw] = {}  # by role and label
 _listeners: list[Callable[[], None]] = []
 
 
@@ -43,12 +43,12 @@ def when_changed(listener: Callable[[], None]) -> None:
     _listeners.append(listener)
 
 
-def handed_laws() -> tuple[HandedLaw, ...]:
+def inline_laws() -> tuple[InlineLaw, ...]:
     """Return every law that was handed over in this process."""
     return tuple(_laws.values())
 
 
-def take_laws(laws: tuple[HandedLaw, ...]) -> None:
+def take_laws(laws: tuple[InlineLaw, ...]) -> None:
     """Take laws that another process was handed."""
     if not laws:
         return
@@ -63,13 +63,13 @@ def packed() -> bytes:
         return b""
     from numba import cloudpickle
 
-    data: bytes = cloudpickle.dumps(handed_laws())  # type: ignore[no-untyped-call]
+    data: bytes = cloudpickle.dumps(inline_laws())  # type: ignore[no-untyped-call]
     return data
 
 
 def unpack(data: bytes) -> None:
     """Take the laws that :func:`packed` of another process returned, but for those that are known."""
-    laws: tuple[HandedLaw, ...] = pickle.loads(data) if data else ()
+    laws: tuple[InlineLaw, ...] = pickle.loads(data) if data else ()
     known = {(law.role, law.label): law.digest for law in _laws.values()}
     take_laws(tuple(law for law in laws if known.get((law.role, law.label)) != law.digest))
 
@@ -84,7 +84,7 @@ def name_of(item: Any) -> str:
     """Return the name by which a case chooses a law that is handed over, and keep the law for this process."""
     law = getattr(item, MARK, item)
     project, digest = _origin(law.kernel)
-    handed = HandedLaw(project, digest, law.role, law.name, item)
+    handed = InlineLaw(project, digest, law.role, law.name, item)
     if _laws.get((law.role, handed.label)) != handed:
         take_laws((handed,))
     return handed.label
