@@ -74,7 +74,7 @@ def study_run(
     executor : str or concurrent.futures.Executor
         ``processes``, ``dask`` (a cluster on this machine), a dask scheduler's address or file, or an executor.
     workers : int, optional
-        Default: the processors that this process may use.
+        Default: the processors that this process may use; a study of a few seconds is done by this process alone.
     band : bool
         Also compute the 90 % model band of the case that is varied, see :func:`model_band`.
     progress, announce : callable, optional

@@ -26,7 +26,6 @@ from lambda_core.studies.definition import Parameter, Study
 from lambda_core.studies.design import Plan
 from lambda_core.studies.folders import is_study, prepare, resume, start, status
 from lambda_core.studies.job import point_model
-from lambda_core.studies.pool import HERE
 from lambda_core.studies.store import Manifest, readable
 
 if TYPE_CHECKING:
@@ -41,7 +40,6 @@ DURATION = "50 ms"  # of the march at each point, where the case says nothing
 SPEED, TEMPERATURE = "operation.speed", "lubricant.temperature"
 _EXAMPLES = {"speed": "500 rpm, 10000 rpm", "temperature": "20 degC, 110 degC"}
 Spacing = Literal["linear", "log"]
-_ALONE = 6.0  # estimated work that other processes do not make shorter: they need time to start [s]
 _ZERO_CELSIUS = 273.15
 
 
@@ -86,7 +84,7 @@ def electric_map(
         Which one of a machine the map is of. All bearings stand in the machine's circuit and move with its shaft; the
         folder of a map has all of them.
     executor, workers
-        As for :func:`study_run`; default: this process alone where a map takes a few seconds.
+        As for :func:`study_run`.
     progress, announce : callable, optional
         Called with where the map stands; with a sentence before something is compiled and with the estimate.
 
@@ -115,10 +113,8 @@ def electric_map(
         ready = prepare(study, workers, announce, case)
         if announce is not None:
             announce(ready.estimate.text())
-        work = ready.estimate.seconds_per_point * ready.estimate.points
-        where = HERE if executor == "processes" and workers is None and work < _ALONE else executor
         with _folder(folder) as path:
-            start(ready, path, where=where, workers=workers, report=progress)
+            start(ready, path, where=executor, workers=workers, report=progress)
             found = map_of(path, bearing)
     if out is not None:
         found.write(Path(out))

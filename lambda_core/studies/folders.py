@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +19,7 @@ from lambda_core.studies.definition import Study, read_study, validate_study
 from lambda_core.studies.design import Plan
 from lambda_core.studies.job import RUNS, Outcome, Task, lost, point_hash, point_model, work
 from lambda_core.studies.optimise import Best, best_row, search
-from lambda_core.studies.pool import pool, usable_cores
+from lambda_core.studies.pool import HERE, pool, usable_cores
 from lambda_core.studies.responses import asks_currents
 from lambda_core.studies.scheduler import Director, Report
 from lambda_core.studies.store import Manifest, readable
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
 Where = str | Executor
 _BAND = "model_band"  # name in the manifest
+_ALONE = 6.0  # estimated work that other processes do not make shorter [s]
 
 
 class StudyStatus(BaseModel):
@@ -103,7 +105,13 @@ def prepare(
         study = validate_study(source)
     else:
         study, folder = read_study(source)
-    return check(study, folder, workers or usable_cores(), announce, case)
+    ready = check(study, folder, workers or usable_cores(), announce, case)
+    return ready if workers or not _is_short(ready) else replace(ready, estimate=ready.estimate.alone())
+
+
+def _is_short(ready: Ready) -> bool:
+    """Tell whether other processes, which need time to start, would not make a study shorter."""
+    return ready.study.optimise is None and ready.estimate.points * ready.estimate.seconds_per_point < _ALONE
 
 
 def start(
@@ -115,9 +123,14 @@ def start(
     report: Report | None = None,
     band: bool = False,
 ) -> StudyStatus:
-    """Start a study in a new folder (default: its name) and work until it is done."""
+    """Start a study in a new folder (default: its name) and work until it is done.
+
+    A study of a few seconds is done by this process alone, where nobody says how many are to work.
+    """
     import tomlkit
 
+    if where == "processes" and workers is None and _is_short(ready):
+        where = HERE
     target = folder or Path(ready.study.name)
     text = tomlkit.dumps(ready.study.model_dump(mode="json", exclude_unset=True))
     manifest = Manifest.create(

@@ -64,13 +64,17 @@ class StudyEstimate(BaseModel):
     disk_bytes: float = Field(description="estimate of the result files")
     warnings: list[str] = Field(description="points that cannot work, found by trying the ends of ranges")
 
+    def alone(self) -> StudyEstimate:
+        """Return the estimate for the process of the command alone."""
+        return self.model_copy(update={"workers": 1, "wall_s": self.points * self.seconds_per_point})
+
     def text(self) -> str:
         """Return the lines for people."""
         disk = f", {_bytes(self.disk_bytes)} of result files" if self.disk_bytes else ""
         lines = [
             f"{self.title or self.name}: {self.points} points, {self.mode}, {self.design}",
             *(f"  {parameter}" for parameter in self.parameters),
-            f"about {duration(self.wall_s)} on {self.workers} workers "
+            f"about {duration(self.wall_s)} on {self.workers} worker{'s' * (self.workers > 1)} "
             f"({duration(self.seconds_per_point)} per point){disk}",
             *(f"warning: {warning}" for warning in self.warnings),
         ]

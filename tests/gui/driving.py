@@ -110,12 +110,13 @@ def _draw_complete(self: Compositor, full: bool = False, *what: Any, **how: Any)
 
 async def wait_for(pilot: Pilot[None], what: Callable[[], object], seconds: float = _LONGEST) -> None:
     """Let the builder work until something is so."""
-    end = time.monotonic() + seconds
+    end, pause = time.monotonic() + seconds, 0.01
     await at_rest()
     while not what():
         if time.monotonic() > end:
             raise AssertionError(f"waited {seconds} s in vain; on screen:\n{screen_text(pilot.app)}")  # type: ignore[arg-type]
-        await asyncio.sleep(0.02)
+        await asyncio.sleep(pause)
+        pause = min(1.5 * pause, 0.1)  # to look takes as long as some pauses
         await at_rest()
     if pilot.app.screen_stack:
         _draw(pilot.app.screen._compositor, screen_stack=pilot.app._background_screens)

@@ -16,13 +16,35 @@ from studies import MAP, RUNS
 
 from lambda_core import api
 from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.studies import folders
 from lambda_core.studies.effects import sensitivities
+from lambda_core.studies.pool import Given, Inline
 from lambda_core.views.method import NotApplicable
 from lambda_core.views.table import Column, StudyTable
 
 Write = Callable[..., Path]
 LOADS = 'path = "loads.radial"\nvalues = ["16 kN", "24600 N"]'
 MODELS = 'path = "models.traction"\nvalues = ["ree-eyring", "ree-eyrng"]'
+
+
+def test_a_study_of_a_few_seconds_takes_no_other_process(
+    write: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = []
+
+    def pool(where: str, workers: int) -> Given:
+        asked.append((where, workers))
+        return Given(Inline(), 1)
+
+    monkeypatch.setattr(folders, "pool", pool)
+    short = write(MAP.replace("points = 3", "points = 2"))
+    assert api.study_check(short).workers == 1
+    assert api.study_check(short, workers=2).workers == 2
+    api.study_run(short, tmp_path / "short")
+    api.study_run(short, tmp_path / "given", workers=2)
+    monkeypatch.setattr(folders, "_ALONE", 0.0)
+    api.study_run(short, tmp_path / "long")
+    assert [where for where, _ in asked] == ["here", "processes", "processes"]
 
 
 def test_each_point_is_what_a_single_solution_gives(write: Write, inline: Executor, tmp_path: Path) -> None:
