@@ -41,6 +41,9 @@ def fit(
     draw: Annotated[
         Path | None, typer.Option("--draw", metavar="DIR", help="Write pictures (svg and png) into this folder.")
     ] = None,
+    report: Annotated[
+        Path | None, typer.Option("--report", metavar="FILE", help="Write a page (.html or .pdf) about the fit.")
+    ] = None,
     force: ForceOption = False,
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
@@ -55,6 +58,8 @@ def fit(
 
     if out is not None:
         check_new(out, force)
+    if report is not None:
+        check_new(report, force)
     if draw is not None:
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
@@ -68,5 +73,7 @@ def fit(
         for picture in found.pictures():
             for path in api.draw(in_units(picture, units.system), draw, api.view_stem([str(case)])):
                 typer.echo(str(path), err=True)
+    if report is not None:
+        typer.echo(str(api.report(found, report, overwrite=force, units=units.value)), err=True)
     if found.is_interrupted:
         raise PartialResultError("the fit was interrupted: the values are the best so far")

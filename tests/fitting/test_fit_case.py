@@ -81,6 +81,21 @@ def test_the_fitted_case_predicts_what_was_fitted(report: api.FitReport, tmp_pat
         api.fitted_case(CASE, report, path)
 
 
+def test_a_page_shows_values_points_and_pictures(report: api.FitReport, tmp_path: Path) -> None:
+    page = api.report(report, tmp_path / "fit.html").read_text()
+    assert report.sentence in page
+    for words in ("fitted values", "correlations", "measured and predicted values", "patterns of the residuals"):
+        assert f">{words}" in page
+    assert "0.0400 ± " in page
+    assert page.count('<figure class="picture"') == len(report.pictures()) == 2
+    assert '<p class="state">fitted</p>' in page
+    doubtful = report.model_copy(update={"warnings": ["The residuals show a trend."]})
+    page = api.report([doubtful, report], tmp_path / "two.html", appendices=["all"], units="us").read_text()
+    assert '<p class="state bad">fitted with reservations</p>' in page
+    assert "The residuals show a trend." in page
+    assert "lbf in" in page
+
+
 @pytest.mark.full
 def test_the_temperature_error_of_the_oil_widens_the_errors(rows: list[str], report: api.FitReport) -> None:
     head = HEADER + ",oil temperature error [K]"
@@ -120,13 +135,19 @@ def test_a_point_that_cannot_be_computed_is_named_by_its_line(rows: list[str]) -
 def test_the_command_writes_json_and_the_case(
     rows: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    data, out = tmp_path / "rig.csv", tmp_path / "fitted.toml"
+    data, out, page = (tmp_path / name for name in ("rig.csv", "fitted.toml", "fit.html"))
     data.write_text("\n".join([HEADER, *rows]))
-    assert main(["fit", CASE, str(data), "--vary", "loss_factor", "--json", "--out", str(out), "-q"]) == 0
+    assert (
+        main(
+            ["fit", CASE, str(data), "--vary", "loss_factor", "--json", "--out", str(out), "-q", "--report", str(page)]
+        )
+        == 0
+    )
     found = json.loads(capsys.readouterr().out)
     assert found["parameters"][0]["state"] in ("fitted", "at limit")
     assert np.isfinite(found["rms_error_pct"])
     assert out.is_file()
+    assert "fit to rig.csv" in page.read_text()
 
 
 def test_a_mistake_in_the_file_ends_the_command_with_its_line(

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from lambda_core.export.report.gallery import ViewCard
     from lambda_core.export.report.key_tables import Table
     from lambda_core.export.report.page import Cover
+    from lambda_core.fitting.report import FitReport
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
     from lambda_core.views.chart import ViewData
@@ -254,7 +255,7 @@ def animate(
 
 
 def report(
-    source: str | PathLike[str] | Sequence[str | PathLike[str]],
+    source: str | PathLike[str] | FitReport | Sequence[str | PathLike[str] | FitReport],
     out: str | Path | None = None,
     *,
     overwrite: bool = False,
@@ -271,9 +272,9 @@ def report(
 
     Parameters
     ----------
-    source : path-like or sequence of them
-        A result or its file, a case file (solved at t = 0, without time), or the folder of a study; several stand in
-        one document after tables that compare the results.
+    source : path-like, FitReport, or sequence of them
+        A result or its file, a case file (solved at t = 0, without time), the folder of a study, or a fit; several
+        stand in one document after tables that compare the results.
     out : path-like, optional
         File whose ending says the format: ``.html``, or ``.pdf`` where a browser or WeasyPrint (extra ``pdf``) is
         installed; default: the name of the source with ``.html`` in the working directory.
@@ -302,12 +303,16 @@ def report(
     """
     from lambda_core.export.report.page import comparison_tables, document, write_page
     from lambda_core.export.report.pdf import check_printer, write_pdf
+    from lambda_core.fitting.report import FitReport
     from lambda_core.results.reader import Result
 
-    sources = [source] if isinstance(source, str | PathLike | Result) else list(source)
+    sources = [source] if isinstance(source, str | PathLike | Result | FitReport) else list(source)
     if not sources:
-        raise UsageError("a report needs a result, a case or a study")
-    path = Path(out) if out is not None else Path(f"{view_stem(sources, bearing)}.html")
+        raise UsageError("a report needs a result, a case, a study or a fit")
+    fits = [one for one in sources if isinstance(one, FitReport)]
+    stored = [one for one in sources if not isinstance(one, FitReport)]
+    stem = f"{fits[0].case}-fit" if fits else view_stem(stored, bearing)
+    path = Path(out) if out is not None else Path(f"{stem}.html")
     cover = _cover(project, author, appendices, units)
     _refuse_existing(path, overwrite)
     is_pdf = path.suffix.lower() == ".pdf"
@@ -316,7 +321,11 @@ def report(
     if is_pdf:
         check_printer()
     chapters = [_chapter(one, bearing, cover) for one in sources]
-    runs = [one for one, chapter in zip(sources, chapters, strict=True) if chapter.kind == "run"]
+    runs = [
+        one
+        for one, chapter in zip(sources, chapters, strict=True)
+        if chapter.kind == "run" and not isinstance(one, FitReport)
+    ]
     compared: tuple[Table, ...] = ()
     if len(runs) > 1:
         from lambda_core.runs.stored import side_by_side
@@ -326,12 +335,17 @@ def report(
     return write_pdf(text, path) if is_pdf else write_page(text, path)
 
 
-def _chapter(source: str | PathLike[str], bearing: str | None, cover: Cover) -> Chapter:
-    """Return the chapter about a result, a case or a study."""
+def _chapter(source: str | PathLike[str] | FitReport, bearing: str | None, cover: Cover) -> Chapter:
+    """Return the chapter about a result, a case, a study or a fit."""
     from lambda_core.discovery.manager import registry
     from lambda_core.export.report.chapters import case_inputs
     from lambda_core.export.report.page import run_chapter, study_chapter
+    from lambda_core.fitting.report import FitReport
 
+    if isinstance(source, FitReport):
+        from lambda_core.export.report.fit_chapter import fit_chapter
+
+        return fit_chapter(registry(), source, cover)
     if _is_case(source):
         return _case_chapter(source, bearing, cover)
     subject, kind = subject_of(source, bearing)

@@ -284,8 +284,9 @@ def _pictures(registry: Registry, subject: Any, kind: Any, cover: Cover, *, all_
 def svg(registry: Registry, data: ViewData) -> str:
     """Return a view as SVG for the inside of a page: it takes the width that it is given."""
     buffer = BytesIO()
-    view = registry.view(data.view)
-    with blamed(f'the picture of the view "{view.name}" ({view.distribution})'):
+    view = registry.views.get(data.view)
+    whose = view.distribution if view is not None else "the house"
+    with blamed(f'the picture of the view "{data.view}" ({whose})'):
         registry.figure(view, data).savefig(buffer, format="svg")
     text = buffer.getvalue().decode()
     text = text[text.index("<svg") :]
