@@ -1,4 +1,4 @@
-"""Build the chapter of a report about a fit: values with uncertainty, correlations, points, residuals."""
+"""Build the chapter of a report about a fit."""
 
 from __future__ import annotations
 
