@@ -280,7 +280,7 @@ REFUSED: dict[str, tuple[tuple[str, ...], str]] = {
     "fewer than three balls": (("bearing.geometry.ball_count=2",), "must be at least 3"),
     "more interference than a bearing survives": (("bearing.clearance=-300 um",), "more interference than a bearing"),
     "perfectly smooth surfaces": (("surface.roughness=0 um",), "must be greater than 0"),
-    "rest, until the averages have converged": (("operation.speed=0 rpm",), "averages need turns of the cage"),
+    "rest, until the averages have converged": (("operation.speed=0 rpm",), "averages need revolutions of the cage"),
     "an outer ring that nothing holds": (
         tuple(f"bodies.outer_ring.{axis}=free" for axis in _AXES),
         "is every free degree of freedom of the ring held",

@@ -21,7 +21,7 @@ def cite(
     from lambda_core.domain.errors import UsageError
 
     if as_json and bibtex:
-        raise UsageError("--json and --bibtex exclude each other")
+        raise UsageError("give either --json or --bibtex, not both")
     found = api.cite(api.result(file, bearing))
     if bibtex:
         typer.echo(found.bibtex())

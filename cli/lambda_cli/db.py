@@ -41,7 +41,9 @@ def _opened() -> Iterator[tuple[SqlCatalogue, Registry]]:
     catalogue = models.catalogue()
     try:
         if not isinstance(catalogue, SqlCatalogue):
-            raise UsageError("another plugin provides the catalogue; this command edits the built-in one")
+            raise UsageError(
+                "the catalogue comes from another plugin: edit it there, this command edits the built-in one only"
+            )
         yield catalogue, models
     finally:
         catalogue.close()

@@ -62,7 +62,7 @@ def electric(
     if out is not None:
         api.check_discharges_file(out, overwrite=force)
         if out.exists() and Path(source).exists() and out.samefile(source):
-            raise UsageError(f"{out} is what is read: choose another name with --out")
+            raise UsageError(f"{out} is the input file: choose another name with --out")
     with talk(progress, quiet) as speaker:
         found = api.electric(source, [*(changes or ()), *overrides], announce=speaker.say)
     if out is not None:

@@ -85,4 +85,4 @@ def fmu(
         )
     typer.echo(json.dumps({"file": str(written)}) if as_json else str(written))
     if not vary:
-        typer.echo("this FMU has no parameters: --vary PATH makes an option of the case one", err=True)
+        typer.echo("this FMU has no parameters; --vary PATH=LOW..HIGH makes an option of the case one", err=True)

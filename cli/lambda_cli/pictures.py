@@ -34,7 +34,7 @@ def picture_kind() -> Any:
 def check_overlay(measured: Path | None, draw: Path | None) -> None:
     """Refuse measured points where no picture is drawn; UsageError."""
     if measured is not None and draw is None:
-        raise UsageError("--measured adds points to the picture: give --draw DIR, too")
+        raise UsageError("--measured needs a picture: add --draw DIR")
 
 
 def print_picture(path: Path, kind: Any) -> None:

@@ -39,7 +39,7 @@ def quasistatic(
     source, several = case, api.is_machine(case)
     if draw is not None:
         if not several:
-            raise api.UsageError("--draw goes with a machine; pictures of one bearing: lambda-bearing run, then view")
+            raise api.UsageError("--draw needs a machine; for one bearing use lambda-bearing run, then view")
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
         model = api.check(source, changes or ()) if several else None

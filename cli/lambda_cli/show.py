@@ -38,7 +38,7 @@ def show(
         typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))
         return
     if len(files) > 1:
-        raise api.UsageError("--assumptions are those of one result")
+        raise api.UsageError("--assumptions needs exactly one result")
     result = api.result(files[0], bearing)
     if assumptions:
         lines = list(result.assumptions)

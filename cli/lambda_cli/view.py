@@ -131,7 +131,7 @@ def _sorted_out(words: list[str]) -> tuple[list[str], str]:
     if not sources:
         raise api.UsageError("name a result file or the folder of a study, for example: lambda-bearing view RESULT.h5")
     if len(names) > 1:
-        raise api.UsageError(f"one view at a time, or none for all of them: {', '.join(names)}")
+        raise api.UsageError(f"give one view, or none to draw all: {', '.join(names)}")
     return sources, names[0] if names else ""
 
 

@@ -89,4 +89,4 @@ def read_path(path: Path, table: str | None = None) -> Iterator[Record]:
     elif path.suffix == ".csv":
         yield from read_csv(path, table)
     else:
-        raise CatalogueError(str(path), [Problem("", "is neither a .csv nor a .toml file nor a folder of them")])
+        raise CatalogueError(str(path), [Problem("", "must be a .csv file, a .toml file or a folder of them")])

@@ -90,9 +90,7 @@ def accept(path: Path) -> list[str]:
         If there is none, or the file is damaged, read-only or of a newer version.
     """
     if not path.is_file():
-        raise CatalogueError(
-            str(path), [Problem("", "you have no catalogue of your own: db add and db import make it")]
-        )
+        raise CatalogueError(str(path), [Problem("", "there is no user catalogue yet: db add or db import creates it")])
     engine = open_user_database(path, changed=True)
     try:
         with engine.begin() as connection:

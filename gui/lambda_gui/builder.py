@@ -314,7 +314,7 @@ class BuilderScreen(LiveDraft):
         self._mistake = (at, places[at])
         row = self._row()
         if row is not None and places[at] == ".".join(map(str, row.place.keys)):
-            self.notify("this is the only mistake", timeout=2)
+            self.notify("there is no other error", timeout=2)
             return
         self.go_to(tuple(places[at].split(".")), select=False)
 
@@ -390,9 +390,9 @@ class BuilderScreen(LiveDraft):
             old = ("lubricant", "properties")
         if self.draft.get(*old) is not None:
             self.draft.set(*old, value=None)
-            self.notify(f"[{'.'.join(old)}] belonged to the one before and was taken out; Ctrl+Z brings it back")
+            self.notify(f"[{'.'.join(old)}] belonged to the previous choice and was removed; Ctrl+Z restores it")
         if found.said:
-            self.notify(f"{found.name}: {found.said}; Ctrl+Z takes it back", timeout=8)
+            self.notify(f"{found.name}: {found.said}; Ctrl+Z undoes it", timeout=8)
         self.draft.seal()
         self.go_to((*self.bearing, "designation") if found.kind == "bearing" else ("lubricant", "name"))
         if self.form is not None:

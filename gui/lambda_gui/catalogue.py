@@ -241,7 +241,7 @@ class CatalogueScreen(Screen[Taken | None]):
         self._catch_up()
         row = self._row
         if not isinstance(self.catalogue, SqlCatalogue):
-            self.notify("another plugin provides the catalogue: rows cannot be added here", severity="warning")
+            self.notify("the catalogue comes from another plugin: add rows there", severity="warning")
         elif row is not None:
             self.app.push_screen(OwnRow(self.catalogue, row), self._saved)
 

@@ -223,7 +223,9 @@ class DutyScreen(Screen[None]):
         """Write the cycle into a file of its own in the folder of the case."""
         path = self._draft.path
         if path is None or self._draft.is_changed():
-            self.notify("a duty cycle names the case's file: save the case first (Esc, Ctrl+S)", severity="warning")
+            self.notify(
+                "a duty cycle needs the file of the case: save the case first (Esc, Ctrl+S)", severity="warning"
+            )
             return
         cycle = self.cycle() | {"case": path.name}
         target = path.with_name(f"{cycle['name']}.toml")

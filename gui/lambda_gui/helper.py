@@ -79,7 +79,7 @@ class Helper:
                         self._say(content)
             except (OSError, asyncio.IncompleteReadError):
                 self._deaths += 1
-                raise LambdaError(f"the helper process has ended while it did this: {work}") from None
+                raise LambdaError(f"the helper process ended unexpectedly while it did this: {work}") from None
             except asyncio.CancelledError:
                 await self._stop()  # the answer to a question that nobody waits for must not meet the next one
                 raise

@@ -142,4 +142,4 @@ class LiveDraft(Screen[None]):
             else:
                 self.keeper.drop()
         except LambdaError as error:
-            self.notify(f"unsaved work cannot be kept aside: {error}", severity="warning")
+            self.notify(f"unsaved work cannot be backed up: {error}", severity="warning")

@@ -114,7 +114,7 @@ class OwnRow(ModalScreen[str | None]):
         changed = {k: v for k, v in self._values.items() if len(k) > 1 and v != self._first.get(k)}
         source, grade = get(("source",)), str(get(("grade",)) or "B")
         if changed and not source:
-            self.notify("say where the values come from: the field source", severity="error")
+            self.notify("the field source is empty: enter where the values come from", severity="error")
             return
         origin = {"source": str(source or "copy"), "grade": grade}
         try:

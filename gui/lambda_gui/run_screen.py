@@ -132,7 +132,7 @@ class RunScreen(Screen[None]):
         """Continue a run that was stopped."""
         run = self.run_shown
         if run is None or run.state not in ("stopped", "failed", "done") or run.is_complete:
-            self.notify("only a run that ended before it converged, or a study with points left, can go on", timeout=3)
+            self.notify("nothing to continue: only an unconverged run or an incomplete study can go on", timeout=3)
         elif not run.result.exists():
             self.notify(f"{run.result} does not exist: run the case again", severity="error")
         else:

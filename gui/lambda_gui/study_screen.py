@@ -208,7 +208,7 @@ class StudyScreen(Screen[None]):
     def action_run(self) -> None:
         """Put the study into the queue."""
         if not self.is_fine:
-            self.notify("the study is not checked, or something is wrong with it: see below", severity="warning")
+            self.notify("the study has errors or is not checked yet: see below", severity="warning")
             return
         self.app.run_study(study_tables(self.values, self._usual), self._model.case_toml)  # type: ignore[attr-defined]
 
@@ -216,7 +216,7 @@ class StudyScreen(Screen[None]):
         """Write the study into a file of its own in the folder of the case."""
         path = self._draft.path
         if path is None or self._draft.is_changed():
-            self.notify("a study file names the case's file: save the case first (Esc, Ctrl+S)", severity="warning")
+            self.notify("a study needs the file of the case: save the case first (Esc, Ctrl+S)", severity="warning")
             return
         study = study_tables(self.values, self._usual) | {"case": path.name}
         target = path.with_name(f"{study['name']}.toml")

@@ -210,7 +210,7 @@ def toml_tables(text: str, source: str) -> dict[str, Any]:
 def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> Case:
     """Check plain tables as the case of one bearing; CaseError with every problem at once."""
     if is_machine_case(data):
-        raise CaseError(source, [Problem("", "is a machine of several bearings; this question is about one bearing")])
+        raise CaseError(source, [Problem("", "is a machine of several bearings; this command needs one bearing")])
     return validate(Case, data, source, folder)
 
 
@@ -293,7 +293,7 @@ def overridden(data: Mapping[str, Any], overrides: Iterable[str], root: type[Bas
     tables = dict(data)
     for text in overrides:
         if not isinstance(text, str):
-            raise UsageError(f'{text!r} is no change: write path=value, for example loads.radial="20 kN"')
+            raise UsageError(f'{text!r} is not a change: write path=value, for example loads.radial="20 kN"')
         path, equals, value = text.partition("=")
         parts = [part.strip() for part in path.split(".")]
         if not equals or not all(parts):

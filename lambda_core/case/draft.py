@@ -194,7 +194,7 @@ class Draft:
         """
         target = path or self.path
         if target is None:
-            raise UsageError("this case has no file yet: say where to save it")
+            raise UsageError("this case has no file yet: give a name to save it")
         text = self.text()
         save_text(text, target)
         self.path, self.folder, self.original = target, target.resolve().parent, text

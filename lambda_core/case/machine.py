@@ -293,9 +293,9 @@ class MachineCase(Written):
                 if not re.match(NAME_PATTERN, str(name)):
                     found.append(Problem(f"{table}.{name}", "use letters, digits, dot, dash and underscore in names"))
                 elif table == "markers" and length_in(str(name)) is not None:
-                    found.append(Problem(f"{table}.{name}", "reads as a length: choose a name that does not"))
+                    found.append(Problem(f"{table}.{name}", "looks like a length: choose another name"))
                 elif name in TAKEN.get(table, ()):
-                    found.append(Problem(f"{table}.{name}", f'"{name}" is there already: choose another name'))
+                    found.append(Problem(f"{table}.{name}", f'"{name}" exists already: choose another name'))
         return found
 
 

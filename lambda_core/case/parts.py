@@ -156,9 +156,9 @@ class Bearing(Section):
         # rows on a sphere have both: the angle places the balls, the clearance the inner ring
         spherical = self.geometry is not None and self.geometry.arrangement == "spherical"
         if self.contact_angle is not None and self.clearance is not None and not spherical:
-            raise ValueError("clearance and contact_angle say the same: give one of them")
+            raise ValueError("give either `clearance` or `contact_angle`, not both")
         if self.axial_clearance is not None and self.clearance is not None:
-            raise ValueError("clearance and axial_clearance say the same: give one of them")
+            raise ValueError("give either `clearance` or `axial_clearance`, not both")
         return self
 
     @field_validator("clearance")

@@ -89,7 +89,7 @@ def use_plugin(path: str | Path) -> None:
     """
     file = Path(path)
     if not file.is_file():
-        raise UsageError(f'"{path}" is no file: a plugin of one file is FILE.py')
+        raise UsageError(f'"{path}" is not a file: give the path of a plugin, FILE.py')
     source = add_file(file)
     _told_by_caller.add(source.name)
     registry.cache_clear()

@@ -96,7 +96,7 @@ def check_folder(folder: Path, target: Path | None = None, *, made: bool = False
         with NamedTemporaryFile(prefix=".lambda-bearing-", dir=place):
             pass
     except OSError as error:
-        raise UsageError(f"cannot write {target}: the folder {place} takes no file ({error.strerror})") from None
+        raise UsageError(f"cannot write {target}: the folder {place} is not writable ({error.strerror})") from None
     return folder
 
 

@@ -52,11 +52,11 @@ def ross_rotor(model: MachineModel, state: ShaftState | None = None, announce: A
     except ImportError:
         raise UsageError("the package ross-rotordynamics is not installed: pip install ross-rotordynamics") from None
     if not model.body.elements:
-        raise UsageError("a shaft from outside has no pieces that elements of ROSS could be made of")
+        raise UsageError("an imported shaft has no sections, and a rotor of ROSS needs them")
     if any(SHAFT in (s.place.body, s.to) and GROUND not in (s.place.body, s.to) for s in model.springs):
-        raise UsageError("springs between shaft and other bodies have no place in a rotor of ROSS")
+        raise UsageError("ROSS has no springs between the shaft and other bodies: remove them")
     if model.links or model.hold is not None:
-        raise UsageError("a shaft that is held, and connections by laws, have no place in a rotor of ROSS")
+        raise UsageError("ROSS has no supports of the shaft and no connections by laws: remove them")
     found = state if state is not None else solve_shaft(model, announce)
     body = model.body
     shaft = [_piece(ross, body, node) for node in range(body.positions.size - 1)]

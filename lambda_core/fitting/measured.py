@@ -165,7 +165,9 @@ def add_measured(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries
     """
     source = Path(path)
     if source.suffix != ".toml" or not source.is_file():
-        raise UsageError(f"{source} is no TOML file: write title, source, licence, how_read and uncertainty into one")
+        raise UsageError(
+            f"{source} is not a TOML file: write title, source, licence, how_read and uncertainty into one"
+        )
     series, name = _load(str(source)).series, source.stem
     target = _own_folder() / source.name
     known = {one.name for one in measured_series()}

@@ -168,7 +168,9 @@ def traction(
     ):
         if not low <= value <= high:
             ends = f"{show(low, quantity)} to {show(high, quantity)}"
-            raise UsageError(f"--{option} {show(value, quantity, 4)}: no traction machine runs there; allowed: {ends}")
+            raise UsageError(
+                f"--{option} {show(value, quantity, 4)}: is out of the range of traction machines; allowed: {ends}"
+            )
     ratios = np.array(RATIOS)
     if points is not None:
         ratios = np.unique(np.concatenate([ratios, points.slide_roll_ratio]))

@@ -53,7 +53,7 @@ class KindClearance:
         """
         if name not in self.classes:
             known = ", ".join(self.classes)
-            raise ValueError(f'"{name}" is no class of {self.direction} clearance here: {known}, or write a value')
+            raise ValueError(f'"{name}" is not a class of {self.direction} clearance here: {known}, or write a value')
         for over, to, limits in self.rows:
             found = limits[self.classes.index(name)]
             if over < 1e3 * bore <= to and found is not None:

@@ -243,7 +243,7 @@ def _open(folder: Path) -> Pack:
     """
     held = _manifest(folder / MANIFEST)
     if held["sources"] != sources():
-        raise _UnusableError("the installed sources are not those that it was made from")
+        raise _UnusableError("it was made from other sources than those installed")
     system = _SYSTEMS.get((sys.platform, platform.machine().lower()), "")
     if system not in held["libraries"]:
         raise _UnusableError("it has none for this system")

@@ -100,7 +100,7 @@ def resolve_machine(
     read = read_tables(source, folder).changed(overrides)
     tables, name, folder = merged({}, read.data), read.name, read.folder
     if read.root is not MachineCase:
-        raise CaseError(name, [Problem("bearing", "is one bearing; this question is about a machine with a shaft")])
+        raise CaseError(name, [Problem("bearing", "is one bearing; this command needs a machine with a shaft")])
     found: list[Problem] = []
     case: MachineCase | None = None
     try:
@@ -342,7 +342,7 @@ def _check_one_place(case: MachineCase, stand: Places, ledger: Ledger) -> None:
     for name, bearing in ((name, one) for name, one in case.bearings.items() if f"bearings.{name}" in stand.of):
         other = seen.setdefault(round(bearing.place, 7), name)
         if other != name:
-            ledger.problem(f"bearings.{name}.at", f'is also that of "{other}"; give each bearing a place of its own')
+            ledger.problem(f"bearings.{name}.at", f'is also that of "{other}"; give each bearing its own position')
 
 
 def _check_cells(bearings: Sequence[MountedBearing], ledger: Ledger) -> None:
@@ -363,7 +363,7 @@ def _check_torque(case: MachineCase, ledger: Ledger) -> None:
     if case.operation.torque is None:
         return
     if any(term.kind != "constant" for term in time_function(case.operation.speed).terms):
-        ledger.problem("operation.speed", "where a torque drives the shaft this is the initial speed: write one value")
+        ledger.problem("operation.speed", "must be one value, because with a driving torque it is the initial speed")
     for name, gear in case.gears.items():
         if gear.power is not None:
             ledger.problem(f"gears.{name}.power", "a torque drives the shaft: write the torque of the gear, too")

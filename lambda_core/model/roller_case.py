@@ -230,7 +230,7 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
     if missing or boundary is None or kind is None:
         return None
     if (kind == "tapered") != (values["contact_angle"] is not None):
-        ledger.problem("bearing.rollers.contact_angle", "belongs to tapered rollers, and they need it")
+        ledger.problem("bearing.rollers.contact_angle", "is required for tapered rollers and not allowed for others")
         return None
     number = {name: float(value or 0.0) for name, value in values.items()}
     length = number["roller_length"] or number["effective_length"] + 2.0 * _SHORTER * number["roller_diameter"]
@@ -384,7 +384,7 @@ def _held(case: Case, ledger: Ledger) -> tuple[bool, bool, bool, bool, bool]:
         mode = "spring" if getattr(holding, "stiffness", None) else getattr(holding, "mode", holding)
         written = name in ring.model_fields_set
         if mode not in ("free", "locked"):
-            ledger.problem(f"bodies.inner_ring.{name}", "roller bearings take free or locked")
+            ledger.problem(f"bodies.inner_ring.{name}", "must be free or locked for roller bearings")
         found.append(mode == "locked" or (name.startswith("tilt") and not written))
     if not {"tilt_y", "tilt_z"} & ring.model_fields_set:
         ledger.assume(STRAIGHT)

@@ -55,7 +55,7 @@ class Answer(Record):
         """
         if self._again is None:
             name = type(self).__name__
-            raise UsageError(f"this {name} knows no case: with_ is for answers of a question about a case, not a run")
+            raise UsageError(f"this {name} has no case: `with_` needs an answer about a case, not about a run")
         found: Self = self._again(changes)
         return found
 

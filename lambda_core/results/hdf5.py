@@ -28,7 +28,7 @@ def open_for_reading(path: Path) -> h5py.File:
         return h5py.File(path, "r")
     except (OSError, RuntimeError):
         if path.is_file() and is_cut(path):
-            raise OSError("it is cut: its end is missing") from None
+            raise OSError("it is truncated: its end is missing") from None
         access = h5py.h5p.create(h5py.h5p.FILE_ACCESS)
         access.set_libver_bounds(h5py.h5f.LIBVER_EARLIEST, h5py.h5f.LIBVER_LATEST)
         _look_again(access, _LOOKS)

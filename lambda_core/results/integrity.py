@@ -86,12 +86,12 @@ def check_model(model: Any) -> None:
         table = model.get(part)
         needed = {field.name for field in fields(kind) if field.default is MISSING}
         if not isinstance(table, Mapping) or not needed <= set(table) <= {field.name for field in fields(kind)}:
-            raise ValueError(f"the {part} of its model is not whole")
+            raise ValueError(f"the {part} of its model is incomplete")
         if wrong := [name for name, value in table.items() if name not in _WORDS and not _is_number(value)]:
             raise ValueError(f"{part}.{wrong[0]} of its model is not a number")
     depth = model.get("depth")
     if not isinstance(depth, Mapping) or "cage" not in depth or not _is_number(model.get("roughness")):
-        raise ValueError("its model is not whole")
+        raise ValueError("its model is incomplete")
 
 
 def check_machine(name: str, found: Mapping[str, Any]) -> None:
@@ -103,7 +103,7 @@ def check_machine(name: str, found: Mapping[str, Any]) -> None:
     if not isinstance(seats, Mapping) or not all(
         isinstance(seat, Mapping) and _is_number(seat.get("position")) for seat in seats.values()
     ):
-        raise ValueError("the bearings of its machine are not whole")
+        raise ValueError("the bearings of its machine are incomplete")
 
 
 def _is_number(value: object) -> bool:

@@ -201,7 +201,7 @@ class ResultWriter:
             self._file.close()
         if _identity(self.path) != self._identity:
             raise PartialResultError(
-                f"{self.path} was deleted, renamed or replaced during the run: its result no longer stands there"
+                f"{self.path} was deleted, renamed or replaced during the run: the result is no longer there"
             )
         if not compress:
             hdf5.trim(self.path, size)

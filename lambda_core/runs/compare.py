@@ -82,7 +82,9 @@ def compare(
     )
     if is_machine(source):
         if result is not None:
-            raise UsageError("a result is compared with a case of one bearing; leave it out for one of a machine")
+            raise UsageError(
+                "a result can only be compared with a case of one bearing: leave the result out for a machine"
+            )
         return _compare_in_machine(source, overrides, bearing, (chosen, of_rollers), contamination, announce)
     refuse_bearing(bearing)
     rollers = roller_model(source, overrides) if not hasattr(source, "laws") else None  # type: ignore[arg-type]

@@ -134,7 +134,7 @@ def _check_end(model: Runnable) -> None:
     asked = model.solver.duration
     end = asked or max(bearing.model.solver.max_duration for bearing in model.bearings)
     if not end:
-        raise UsageError("where nothing turns a run needs a duration: --duration, or solver.duration in the file")
+        raise UsageError("nothing turns, so the run needs a duration: --duration, or solver.duration in the file")
     if end > MOST_TIME:
         slow = "" if asked else ", 30 turns of a cage; give --duration"
         raise UsageError(f"a duration of {show(end, 'time', 3)}{slow}: at most {show(MOST_TIME, 'time')} are simulated")

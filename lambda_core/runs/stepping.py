@@ -291,7 +291,7 @@ class Stepping(Iterator[Step]):
             stands where it stood before the step.
         """
         if not self.time_s < time_s < math.inf:
-            raise UsageError(f"a step from {self.time_s:g} s to {time_s:g} s: it has to end later than it begins")
+            raise UsageError(f"a step from {self.time_s:g} s to {time_s:g} s: it must end later than it begins")
         return self._go(time_s, exactly=True)
 
     def state(self) -> dict[str, NDArray[np.float64]]:

@@ -54,7 +54,7 @@ class Parameter(Section):
         if self.values is not None and not self.values:
             raise ValueError("values is an empty list: nothing to study")
         if self.values is not None and self.points is not None:
-            raise ValueError("points belong to a range, not to a list of values")
+            raise ValueError("`points` needs a range, not a list of values")
         return self
 
 
@@ -70,7 +70,7 @@ class Design(Section):
         if self.kind in SAMPLED and self.kind != "optimise" and self.samples is None:
             raise ValueError(f"the number of samples is required for {self.kind}")
         if self.kind not in SAMPLED and self.samples is not None:
-            raise ValueError(f"samples do not belong to a {self.kind} design")
+            raise ValueError(f"`samples` is not allowed for a {self.kind} design")
         if self.kind in ("sobol", "saltelli") and self.samples is not None and self.samples & (self.samples - 1):
             lower = 1 << (self.samples.bit_length() - 1)
             raise ValueError(f"Sobol' points are balanced for powers of two only: {lower} or {2 * lower} samples")
@@ -138,10 +138,10 @@ class Study(Section):
         paths = [parameter.path for parameter in self.parameters]
         double = next((path for path in paths if paths.count(path) > 1), None)
         if double is not None:
-            raise ValueError(f"{double} varies twice")
+            raise ValueError(f"{double} is varied twice: give it once")
         fixed = next((path for path in paths if path in self.set), None)
         if fixed is not None:
-            raise ValueError(f"{fixed} is both set and varied")
+            raise ValueError(f"{fixed} is both set and varied: remove one: remove one")
         if (self.design.kind == "optimise") != (self.optimise is not None):
             raise ValueError('an optimisation needs both design.kind = "optimise" and a table [optimise]')
         return self

@@ -195,15 +195,15 @@ def _coordinate(parameter: Parameter, kind: str) -> Coordinate:
         raise ValueError(f"the ends {values[0]!r} and {values[1]!r} are not numbers")
     scale, (first, last) = found
     if not (math.isfinite(first) and math.isfinite(last)):
-        raise ValueError("the ends of a range have to be finite")
+        raise ValueError("the ends of a range must be finite")
     if math.isclose(first, last, rel_tol=1e-12, abs_tol=0.0):
         raise ValueError(f"the range is empty: it begins and ends at {values[0]!r}")
     if parameter.spacing == "log" and min(first, last) <= 0.0:
         raise ValueError("a logarithmic range needs positive ends")
     if kind not in SAMPLED and parameter.points is None:
-        raise ValueError("say into how many points the range is divided: points = 10")
+        raise ValueError("the number of points is missing: for example points = 10")
     if kind in SAMPLED and parameter.points is not None:
-        raise ValueError(f"points do not belong to {_a(kind)} design: its samples spread over the range")
+        raise ValueError(f"`points` is not allowed for {_a(kind)} design: its samples spread over the range")
     if parameter.points == 1:
         raise ValueError("a range needs at least two points; for one point give `values`")
     return Coordinate(parameter, scale, (first, last))
@@ -219,4 +219,4 @@ def _refuse_twins(values: Sequence[Value], same: Sequence[float | str]) -> None:
         if entry in same[:index]:
             one, other = values[same.index(entry)], values[index]
             text = f"{written(one)} stands twice" if one == other else f"{written(one)} and {written(other)} are equal"
-            raise ValueError(f"{text}: every value once")
+            raise ValueError(f"{text}: give every value once")

@@ -80,7 +80,7 @@ class PhaseResult(Record):
     reference_life_h: float | None = Field(description="L_10rh of ISO/TS 16281, if the phase went on for ever")
     damage: float | None = Field(description="share of the damage by ISO/TS 16281")
     friction_torque_Nmm: float | None = Field(description="quasi-static, without cage")
-    power_loss_W: float | None = Field(description="null where the balls found no steady motion")
+    power_loss_W: float | None = Field(description="null where the balls have no steady motion")
     energy_loss_kJ: float | None = Field(description="in one cycle")
     warnings: list[str]
 
@@ -220,6 +220,8 @@ def _read(source: str | Path | Mapping[str, Any]) -> tuple[Cycle, Case | Machine
         path = Path(source)
         name, folder = path.name, path.parent
         data = _tables(path)
+    if "case" not in data and not {"bearing", "shaft"}.isdisjoint(data):
+        raise CaseError(name, [Problem("", "is a case, not a duty cycle: name it by case = in a file with [[phases]]")])
     try:
         cycle = Cycle.model_validate(data)
     except ValidationError as error:
@@ -277,7 +279,7 @@ def _at(step: _Step, case: str, solve: Callable[[], Solved]) -> Solved:
 
 def _tables(path: Path) -> dict[str, Any]:
     if not path.is_file():
-        raise UsageError(f'"{path}" is no file: a duty cycle is a TOML file with a case and its phases')
+        raise UsageError(f'"{path}" is not a file: give a TOML file with a case and its phases')
     try:
         text = read_text(path)
         return tomllib.loads(text)

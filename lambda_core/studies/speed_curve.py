@@ -116,9 +116,9 @@ def stribeck(
 
     given, changes = list(speeds_rpm), tuple(listed(overrides, "overrides"))
     if any(not speed > 0.0 for speed in given):
-        raise UsageError("speeds of a Stribeck curve are above zero: the axis is logarithmic")
+        raise UsageError("speeds of a Stribeck curve must be above zero: the axis is logarithmic")
     if (len(given) or points) < 2:
-        raise UsageError("a Stribeck curve takes two speeds or more")
+        raise UsageError("a Stribeck curve needs two speeds or more")
     model_at = _models(source, changes, bearing, announce)
     model = model_at(given[0] if given else SLOWEST)
     if not given:

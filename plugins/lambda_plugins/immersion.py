@@ -28,7 +28,7 @@ class OilBath(NamedTuple):
 def oil_geometry(context: Context) -> OilBath:
     """Return the oil bath of a bearing; a grease has one that no ball reaches."""
     if context.lubrication not in ("oil bath", "grease"):
-        raise ValueError(f'it is made for an oil bath, the case has "{context.lubrication}": take "cavity-mixture"')
+        raise ValueError(f'it needs an oil bath, and the case has "{context.lubrication}": take "cavity-mixture"')
     level = context.oil_level if math.isfinite(context.oil_level) else _EVERYWHERE
     return OilBath(level, 0.5 * context.pitch_diameter, 0.5 * context.ball_diameter)
 

@@ -34,7 +34,7 @@ def test_the_valid_case_is_valid(problems: Problems) -> None:
         ({"bearing": {"clearance": "C7"}}, "bearing.clearance", "is not a clearance class"),
         ({"bearing": {"clearance_pick": "midle"}}, "bearing.clearance_pick", "nearest: middle"),
         ({"bearing": {"fits": {"shaft": "12"}}}, "bearing.fits.shaft", "has no unit"),
-        ({"bearing": "6208"}, "bearing", "is not a table"),
+        ({"bearing": "6208"}, "bearing", "is not a table: write its options in [bearing]"),
         ({"lubricant": {"temperature": "40"}}, "lubricant.temperature", 'write "40 degC"'),
         ({"lubricant": {"temperature": None}}, "lubricant.temperature", "is required"),
         ({"lubricant": {"starvation": 1.5}}, "lubricant.starvation", "must be at most 1"),
@@ -227,7 +227,7 @@ def test_clearance_against_raceway_diameters(problems: Problems) -> None:
         ),
         ({"depth": {"cage": False}, "loads": {"cage": {"force_x": "1 N"}}}, "loads.cage", "there is no cage"),
         ({"depth": {"cage": False}, "markers": {"a": {"body": "cage"}}}, "markers.a", "there is no cage"),
-        ({"operation": {"speed": "0 rpm"}}, "solver.duration", "is required where nothing turns"),
+        ({"operation": {"speed": "0 rpm"}}, "solver.duration", "is required if nothing turns"),
         (
             {"solver": {"duration": "2 s", "max_duration": "1 s"}},
             "solver.duration",

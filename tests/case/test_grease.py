@@ -48,7 +48,7 @@ def test_methods_know_that_it_is_a_grease(greased: Path) -> None:
 
 
 def test_a_grease_stands_at_no_level(greased: Path) -> None:
-    with pytest.raises(CaseError, match="is a grease: it stands at no level"):
+    with pytest.raises(CaseError, match="is a grease, which has no level"):
         api.check(greased, ["lubricant.oil_level=2 mm"])
 
 

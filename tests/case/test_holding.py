@@ -113,7 +113,7 @@ def test_a_part_stands_at_a_length_a_marker_or_a_bearing() -> None:
         ({"connections": {"a": {"at": "1 mm", "x": "locked"}}}, "connections.a.x", '"free" or a stiffness'),
         ({"connections": {"a": {"at": "12", "x": "1 N/um"}}}, "connections.a.at", 'a length with its unit, "85 mm"'),
         ({"connections": {"a": {"at": "8 kg", "x": "1 N/um"}}}, "connections.a.at", "kg is not a unit of length"),
-        ({"markers": {"85mm": {"x": "85 mm"}}}, "markers.85mm", "reads as a length"),
+        ({"markers": {"85mm": {"x": "85 mm"}}}, "markers.85mm", "looks like a length"),
     ],
 )
 def test_what_to_write_instead(changes: dict[str, Any], where: str, said: str) -> None:

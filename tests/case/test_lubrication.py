@@ -61,7 +61,7 @@ def test_what_contradicts_the_lubrication_is_an_error() -> None:
         with_lubrication("grease")
     with pytest.raises(LambdaError, match="oil bath"):
         with_lubrication("jet", "thermal.oil_flow=6 l/min")
-    with pytest.raises(LambdaError, match="made for an oil bath"):
+    with pytest.raises(LambdaError, match="needs an oil bath"):
         solve(with_lubrication("oil jet", "models.fluid_drag=sphere-drag"))
 
 

@@ -50,7 +50,7 @@ def test_a_machine_is_saved_with_its_comments(box: Path) -> None:
 def test_what_is_about_one_bearing_refuses_machines(box: Path) -> None:
     with pytest.raises(api.CaseError, match="is a machine of several bearings"):
         load_case(box)
-    with pytest.raises(api.UsageError, match="modes are those of a shaft"):
+    with pytest.raises(api.UsageError, match="modes need a shaft"):
         api.modes("6208-axial-1300")
 
 

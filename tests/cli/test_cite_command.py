@@ -98,4 +98,4 @@ def test_bibtex_has_the_publications_of_the_run_and_no_other(file: Path, capsys:
         assert key in text
     assert "chittenden" not in text
     assert main(["cite", str(file), "--bibtex", "--json"]) == 2
-    assert "exclude each other" in capsys.readouterr().err
+    assert "give either --json or --bibtex" in capsys.readouterr().err

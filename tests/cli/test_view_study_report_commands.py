@@ -77,7 +77,7 @@ def test_view_lists_views_with_their_options(call: Call) -> None:
     [
         (["{run}", "fiml"], '"fiml" is not a known view; nearest: film'),
         (["no.h5", "film"], "no.h5 does not exist"),
-        (["{run}", "film", "pressure"], "one view at a time"),
+        (["{run}", "film", "pressure"], "give one view"),
         (["{run}", "study-map"], "looks at a study, this is one result"),
         (["{run}", "film", "--set", "x=1"], '"x" is not a known option'),
         (["{run}", "contact-map", "--set", "ring"], "write OPTION=VALUE"),

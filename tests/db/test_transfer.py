@@ -172,7 +172,7 @@ rheology = "roelands"
         ("rows.toml", "[[bearings]]\nmaker = 'x'\n", "nearest: bearing"),
         ("rows.toml", "[bearing]\nmaker = 'x'\n", "must be an array of tables"),
         ("rows.toml", "bearing = = 3", "cannot be read as TOML"),
-        ("rows.xls", "", "neither a .csv nor a .toml"),
+        ("rows.xls", "", "must be a .csv file, a .toml file"),
         ("bearing.csv", "designation\n\udcff\n", "cannot be read as CSV"),
     ],
 )

@@ -363,7 +363,7 @@ def test_a_catalogue_that_is_locked_is_not_read_without_its_newest_rows(
 
 
 def test_nothing_is_accepted_of_a_damaged_catalogue(catalogue: SqlCatalogue) -> None:
-    with pytest.raises(CatalogueError, match="no catalogue of your own"):
+    with pytest.raises(CatalogueError, match="no user catalogue yet"):
         user.accept(user_database())
     user_database().parent.mkdir(exist_ok=True)
     user_database().write_bytes(b"not a database, but long enough to be read as one" * 10)

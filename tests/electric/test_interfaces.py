@@ -56,7 +56,7 @@ def test_run_and_case_agree(combined_run: Result) -> None:
 
 
 def test_run_takes_options_of_the_circuit_only(combined_run: Result) -> None:
-    with pytest.raises(UsageError, match="only options of the section electric"):
+    with pytest.raises(UsageError, match="options of \\[electric\\] only"):
         api.electric(combined_run.path, ["loads.radial=1 kN"])
 
 
@@ -128,7 +128,7 @@ def test_what_is_read_is_not_written_over(combined_run: Result, capsys: pytest.C
     path = str(combined_run.path)
     before = combined_run.path.read_bytes()
     assert main(["electric", path, "--out", path, "--force"]) == 2
-    assert "is what is read" in capsys.readouterr().err
+    assert "is the input file" in capsys.readouterr().err
     assert combined_run.path.read_bytes() == before
 
 

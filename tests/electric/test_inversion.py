@@ -57,9 +57,9 @@ def test_starved_bearing_is_recognised(tmp_path: Path, capsys: pytest.CaptureFix
             "line 3: a capacitance or impedance must be greater than 0",
         ),
         ("time [s],capacitance [pF]\n\n0,200\n\n1,-3\n2,200\n", "line 5: a capacitance or impedance must be"),
-        ("time [s],capacitance [pF]\n0,2\n1,2\n2,2\n", "belongs to no film"),
+        ("time [s],capacitance [pF]\n0,2\n1,2\n2,2\n", "corresponds to no film"),
         ("time,capacitance\n0,2\n1,2\n2,2\n", "must name both columns with units"),
-        ("time [s],impedance [kOhm]\n0,2\n1,2\n2,2\n", "say at which frequency"),
+        ("time [s],impedance [kOhm]\n0,2\n1,2\n2,2\n", "give their frequency"),
     ],
 )
 def test_mistakes_are_named(text: str, words: str, tmp_path: Path) -> None:

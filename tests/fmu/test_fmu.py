@@ -321,7 +321,7 @@ def test_the_command_writes_it(c_compiler: tuple[str, ...], tmp_path: Path, caps
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"fmi": 1}, "FMI 1 is not written: 2 or 3"),
+        ({"fmi": 1}, "FMI 1 is not supported: choose 2 or 3"),
         ({"couple": "forces"}, "nearest: force"),
         ({"processor": "x86-64-v5"}, "nearest: x86-64-v"),
     ],

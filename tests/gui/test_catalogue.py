@@ -74,7 +74,7 @@ async def test_the_clearance_that_was_typed_is_taken(hand_written: Path) -> None
             assert model is not None
             assert model.geometry.clearance == pytest.approx(clearance, abs=1e-6)  # middle of C3, not of CN (13 um)
         said = [note.message for note in pilot.app._notifications]
-        assert "6308 C3: C3 of the designation before stays; Ctrl+Z takes it back" in said
+        assert "6308 C3: C3 of the designation before stays; Ctrl+Z undoes it" in said
 
 
 async def test_estimated_geometry_is_marked(hand_written: Path) -> None:

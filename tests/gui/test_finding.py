@@ -46,7 +46,7 @@ async def test_f8_goes_through_all_mistakes_and_typing_keeps_what_is_written(wor
         await pilot.press("f8")
         await wait_for(pilot, lambda: focused_place(pilot) == places[2])
         await pilot.press("f8")
-        await wait_for(pilot, lambda: any("only mistake" in note.message for note in pilot.app._notifications))
+        await wait_for(pilot, lambda: any("no other error" in note.message for note in pilot.app._notifications))
         assert focused_place(pilot) == places[2]
         await write(pilot, "s")
         assert draft.get("solver", "duration") == "1 ms"

@@ -118,7 +118,7 @@ def test_ratings_are_those_of_two_rows() -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"axial_clearance": None}, "is required of two rows"),
+        ({"axial_clearance": None}, "is required for two rows"),
         ({"axial_clearance": "2 mm"}, "lets the balls leave"),
         ({"row_distance": "2 mm"}, "run into each other"),
         ({"row_distance": "28 mm"}, "narrower than the grooves"),

@@ -107,7 +107,7 @@ def test_clearance(catalogue: SqlCatalogue) -> None:
     assert axial() == pytest.approx(19e-6)
     assert axial(clearance="C3") == pytest.approx(30.5e-6)
     assert axial(axial_clearance="-5 um") == pytest.approx(-5e-6)
-    with pytest.raises(api.CaseError, match="is radial"):
+    with pytest.raises(api.CaseError, match="is a radial clearance"):
         axial(clearance="20 um")
 
 

@@ -282,9 +282,9 @@ def test_skf_friction_by_hand() -> None:
     ("bearing", "words"),
     [
         ({"designation": "QJ208", "clearance": "C5"}, "no class of axial clearance"),
-        ({"designation": "QJ208", "clearance": "3 mm"}, "none of four-point contact"),
-        ({"designation": "QJ208", "axial_clearance": "2 mm"}, "none of four-point contact"),
-        ({"designation": "SKF 6208", "axial_clearance": "100 um"}, "is of four-point contact and of two rows"),
+        ({"designation": "QJ208", "clearance": "3 mm"}, "not possible for four-point contact"),
+        ({"designation": "QJ208", "axial_clearance": "2 mm"}, "not possible for four-point contact"),
+        ({"designation": "SKF 6208", "axial_clearance": "100 um"}, "applies to four-point contact and two rows"),
         ({"designation": "QJ208", "geometry": {"shim_angle": "36 deg"}}, "must be below the contact angle"),
     ],
 )

@@ -180,7 +180,7 @@ def test_play_is_the_clearance() -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"axial_clearance": "10 um"}, "write the radial one"),
+        ({"axial_clearance": "10 um"}, "has a radial clearance"),
         ({"geometry": {"row_distance": "9 mm"}}, "follows from ball, pitch"),
         ({"geometry": {"arrangement": "O"}}, "is a bearing of the kind self-aligning"),
         ({"geometry": {"rows": 1}}, "has two rows"),

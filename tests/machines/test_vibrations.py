@@ -205,7 +205,7 @@ def test_a_time_that_no_machine_simulates_is_refused(tmp_path: Path) -> None:
     assert resolve_machine(box(**slow)).solver.max_duration > 1e6  # of an equilibrium nobody asks
     with pytest.raises(api.UsageError, match="30 turns of a cage; give --duration"):
         api.run(box(**slow), out=tmp_path / "run")
-    with pytest.raises(api.UsageError, match="where nothing turns a run needs a duration"):
+    with pytest.raises(api.UsageError, match="nothing turns, so the run needs a duration"):
         api.run(box(operation={"speed": "0 rpm"}, gears={}), out=tmp_path / "run")
     assert not (tmp_path / "run").exists()
 

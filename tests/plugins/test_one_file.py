@@ -237,7 +237,10 @@ def test_from_saved_file_to_result(file: Path, tmp_path: Path) -> None:
     refused = program("check", "6208-axial-1300", "--set", CHOICE[0])
     assert (refused.returncode, refused.stdout) == (3, "")
     missing = program("check", "6208-axial-1300", "--plugin", "none.py")
-    assert (missing.returncode, missing.stderr.strip()) == (2, '"none.py" is no file: a plugin of one file is FILE.py')
+    assert (missing.returncode, missing.stderr.strip()) == (
+        2,
+        '"none.py" is not a file: give the path of a plugin, FILE.py',
+    )
 
 
 def test_a_file_that_cannot_be_used_is_an_answer_in_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -85,8 +85,11 @@ def test_mistakes_are_told_at_their_place(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match=r'phase "b", loads\.radail') as caught:
         api.duty(cycle({"name": "b", "time": "1 h", "changes": {"loads.radail": "1 N"}}))
     assert "nearest: radial" in caught.value.problems[0].message
-    with pytest.raises(UsageError, match="is no file: a duty cycle is"):
+    with pytest.raises(UsageError, match="is not a file: give a TOML file"):
         api.duty(tmp_path / "none.toml")
+    (tmp_path / "case.toml").write_text('name = "case"\n[bearing]\ndesignation = "6208"\n')
+    with pytest.raises(CaseError, match="is a case, not a duty cycle"):
+        api.duty(tmp_path / "case.toml")
     (tmp_path / "bad.toml").write_text("name = day\n")
     with pytest.raises(CaseError, match="line 1"):
         api.duty(tmp_path / "bad.toml")

@@ -108,7 +108,7 @@ def test_steps_end_exactly_where_they_are_asked_to() -> None:
     stepping = api.iterate(CASE, changes)
     for time_s in (1e-9, 0.7e-3, 0.7e-3 + 3e-12, 2e-3):
         assert stepping.step_to(time_s).time_s == time_s
-    with pytest.raises(UsageError, match="has to end later than it begins"):
+    with pytest.raises(UsageError, match="must end later than it begins"):
         stepping.step_to(1e-3)
 
 

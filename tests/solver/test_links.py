@@ -85,7 +85,7 @@ def test_energy_closes_in_a_run(tmp_path: Path) -> None:
     ("changes", "words"),
     [
         (["elements.a.second=ring"], r'elements\.a\.second +"ring" is not a known body or marker; nearest: '),
-        (["elements.a.second=ground"], "the ground does not move: write it as first"),
+        (["elements.a.second=ground"], "the ground cannot move: write it as `first`"),
         (["elements.a.first=inner_ring", "elements.a.second=inner_ring"], "both ends are on one body, inner_ring"),
         (["elements.a.second=cage", "depth.cage=false"], "there is no cage"),
         (
@@ -99,7 +99,7 @@ def test_energy_closes_in_a_run(tmp_path: Path) -> None:
         (["elements.a.second=inner_ring", "elements.a.parameters.stiffness_x=-1 N/m"], "must be at least 0"),
         (
             ["markers.cage.body=inner_ring", "elements.a.second=cage"],
-            '"cage" stands for a marker and for',
+            '"cage" is a marker and also a reserved name',
         ),
         (["elements.a.first=inner_ring"], r"elements\.a\.second +is required"),
     ],

@@ -64,7 +64,7 @@ def test_what_starvation_assumes_is_said() -> None:
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        (["models.supply=oil-layer", "parameters.supply.layer=2 um"], '"oil-layer" finds the film itself'),
+        (["models.supply=oil-layer", "parameters.supply.layer=2 um"], '"oil-layer" computes the film itself'),
         (["parameters.supply.film_factor=0.8"], "gives the film, too"),
     ],
 )

@@ -118,10 +118,10 @@ def test_values_share_one_unit() -> None:
         (['path = "a"\nrange = [-1, 2]\npoints = 4\nspacing = "log"'], "needs positive ends"),
         (['path = "a"'], "either values or a range"),
         (['path = "a"\nvalues = [1]\nrange = [1, 2]'], "either values or a range"),
-        (['path = "a"\nvalues = [1, 2]', 'path = "a"\nvalues = [3, 4]'], "a varies twice"),
+        (['path = "a"\nvalues = [1, 2]', 'path = "a"\nvalues = [3, 4]'], "a is varied twice"),
         (['path = "a"\nvalues = [1]\nstep = 3'], "step is not a known option"),
-        (['path = "a"\nvalues = ["1 kN", "2 kN", "1000 N"]'], "1 kN and 1000 N are equal: every value once"),
-        (['path = "a"\nvalues = ["b", "c", "b"]'], "b stands twice: every value once"),
+        (['path = "a"\nvalues = ["1 kN", "2 kN", "1000 N"]'], "1 kN and 1000 N are equal: give every value once"),
+        (['path = "a"\nvalues = ["b", "c", "b"]'], "b stands twice: give every value once"),
         (['path = "a"\nvalues = ["1 kN", "nan kN"]'], '"nan kN" is not a finite number'),
         (['path = "a"\nvalues = [1.0, nan]'], "nan is not a finite number"),
         (['path = "a"\nrange = [1.0, inf]\npoints = 3'], "inf is not a finite number"),
@@ -140,8 +140,8 @@ def test_parameters_without_sense_are_refused(parameters: list[str], words: str)
     [
         ('[design]\nkind = "sobol"\nsamples = 100', "64 or 128 samples"),
         ('[design]\nkind = "sobol"', "the number of samples is required for sobol"),
-        ("[design]\nsamples = 8", "samples do not belong to a crossed design"),
-        ('[design]\nkind = "latin-hypercube"\nsamples = 8', "points do not belong to a latin-hypercube design"),
+        ("[design]\nsamples = 8", "`samples` is not allowed for a crossed design"),
+        ('[design]\nkind = "latin-hypercube"\nsamples = 8', "`points` is not allowed for a latin-hypercube design"),
         ('[design]\nkind = "optimise"', "needs both"),
         (
             '[design]\nkind = "optimise"\n[optimise]\nminimise = "x"\n'

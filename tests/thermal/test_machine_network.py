@@ -215,7 +215,7 @@ def test_the_losses_of_a_run_give_temperatures_near_its_own(tmp_path: Path) -> N
     expected = temperatures(pair())
     assert found.power_loss_W == pytest.approx(expected.power_loss_W, rel=0.1)
     assert found.temperatures_degC["housing"] == pytest.approx(expected.temperatures_degC["housing"], abs=4.0)
-    with pytest.raises(UsageError, match="take no overrides"):
+    with pytest.raises(UsageError, match="accept no overrides"):
         api.thermal(run.path, ["operation.speed=1 rpm"])
 
 
@@ -273,8 +273,8 @@ COMPUTED = {"operation": {"temperatures": "computed"}}
         ({"thermal": {"shaft_length": "1 m"}}, "thermal.shaft_length", "has no effect"),
         ({"thermal": {"oil_supply": "40 degC"}}, "thermal.oil_supply", "has no effect without thermal.oil_flow"),
         ({"thermal": {"nodes": {"ambient": {}}}}, "thermal.nodes.ambient", "change that"),
-        ({"thermal": {"nodes": {"flange": {}}}}, "thermal.nodes.flange", "no way leads from it"),
-        ({"thermal": {"conductances": "none"}}, "thermal.links", "no way leads from every bearing"),
+        ({"thermal": {"nodes": {"flange": {}}}}, "thermal.nodes.flange", "has no heat path"),
+        ({"thermal": {"conductances": "none"}}, "thermal.links", "a bearing has no heat path"),
         (
             {"thermal": {"links": {"a": {"between": ["left.oil", "housng"], "conductance": "1 W/K"}}}},
             "thermal.links.a.between",

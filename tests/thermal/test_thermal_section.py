@@ -35,7 +35,7 @@ def problems(ordinary: dict[str, Any], thermal: dict[str, Any], **more: Any) -> 
             "thermal.nodes.housing.start",
             "has no effect",
         ),
-        ({"nodes": {"flange": {}}}, "thermal.nodes.flange", "no way leads from it to a held temperature"),
+        ({"nodes": {"flange": {}}}, "thermal.nodes.flange", "has no heat path to a held temperature"),
         ({"links": {"foot": LINK}}, "thermal.links.foot.between", '"flange" is not a known node'),
         (
             {"links": {"foot": LINK | {"between": ["housng", "ambient"]}}},
@@ -55,7 +55,11 @@ def problems(ordinary: dict[str, Any], thermal: dict[str, Any], **more: Any) -> 
             "thermal.links.two.between",
             "joins the same nodes as thermal.links.one",
         ),
-        ({"conductances": "none"}, "thermal.links", "no way leads from the bearing to a held temperature"),
+        (
+            {"conductances": "none"},
+            "thermal.links",
+            "the bearing has no heat path to a held temperature: add thermal.links",
+        ),
         ({"oil_supply": "40 degC"}, "thermal.oil_supply", "has no effect without thermal.oil_flow"),
         ({"ambient": "35 K"}, "thermal.ambient", "-238.15 degC is outside -100 degC to 500 degC"),
         ({"oil_supply": "40 K", "oil_flow": "1 l/min"}, "thermal.oil_supply", "is another unit meant?"),

@@ -232,7 +232,7 @@ def test_c3_of_two_runs_into_one_file_the_later_wins_and_the_other_says_so(tmp_p
 @pytest.mark.full
 def test_c4_a_result_deleted_meanwhile_is_not_called_kept(tmp_path: Path) -> None:
     path = tmp_path / "r.h5"
-    with pytest.raises(PartialResultError, match="no longer stands there"):
+    with pytest.raises(PartialResultError, match="is no longer there"):
         api.run(CASE, LONG, out=path, progress=lambda _: path.unlink(missing_ok=True))
 
 

@@ -18,5 +18,5 @@ def test_a_source_that_is_no_case_is_named(source: Any) -> None:
 
 @pytest.mark.parametrize("change", [1, None, ["loads.radial", "1 N"], {"loads.radial": "1 N"}])
 def test_a_change_that_is_no_text_is_named(change: Any) -> None:
-    with pytest.raises(UsageError, match="is no change: write path=value"):
+    with pytest.raises(UsageError, match="is not a change: write path=value"):
         api.check("6208-axial-1300", [change])

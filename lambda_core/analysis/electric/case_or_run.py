@@ -101,7 +101,7 @@ def options_of_run(result: Result, overrides: Iterable[str] = ()) -> Electric | 
     changes = listed(overrides, "overrides")
     for text in changes:
         if not text.strip().startswith(_SECTION):
-            raise UsageError(f'"{text}": the run is over, only options of the section electric can be changed')
+            raise UsageError(f'"{text}": a finished run accepts options of [electric] only')
     return read_case(toml_tables(result.case_toml, str(result.path)), changes).electric
 
 

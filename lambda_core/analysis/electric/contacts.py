@@ -174,7 +174,7 @@ def contacts_of_run(result: Result) -> Contacts:
     """
     samples = {name: result[name] for name in CHANNELS}
     if samples["time"].size < 3:
-        raise UsageError(f"{result.path}: fewer than three samples")
+        raise UsageError(f"{result.path}: has fewer than three samples, simulate longer or lower output.interval")
     roughness, origin = float(result.model["roughness"]), f"the run {result.path.name}"
     return contacts_of_samples(samples, roughness, origin, of_lines=result.model.get("rollers") is not None)
 
@@ -211,7 +211,7 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
     inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
     relative = orbit - outer
     if inner == outer or relative == 0.0:  # rollers of rings at rest may creep by rounding
-        raise UsageError(f"at rest no {elements[:-1]} passes: give the bearing a speed")
+        raise UsageError(f"at rest no {elements[:-1]} passes a point: give the bearing a speed")
     pitch = 2.0 * math.pi / (z * abs(relative))
     length = default_duration(found) if duration is None else duration
     count = max(math.ceil(length / pitch * phases), 1)

@@ -96,7 +96,7 @@ class FilmModel:
         if not miss(low) > 0.0 > miss(high):
             reach = f"{1e12 * self.capacitance(_MOST):.4g} to {1e12 * self.capacitance(_LEAST):.4g} pF"
             raise UsageError(
-                f"{1e12 * measured:.4g} pF belongs to no film: films of 1/50 to 50 times the case's have {reach}"
+                f"{1e12 * measured:.4g} pF corresponds to no film: films of 1/50 to 50 times the case's have {reach}"
             )
         return math.exp(float(brentq(miss, low, high, xtol=1e-13, rtol=1e-13)))
 
@@ -175,7 +175,7 @@ def film_from_series(
     bearing = of_model(model)
     film = bearing.options.film
     if film.ball_permittivity is not None or film.roughness != "smooth" or bearing.options.cage is not None:
-        raise UsageError("the film is found for balls that conduct, smooth films and no cage: leave out their options")
+        raise UsageError("the inversion assumes conducting balls, smooth films and no cage: remove those options")
     films = FilmModel(found, surroundings(bearing.options, bearing.geometry).rings)
     quantiles = np.quantile(values, (0.16, 0.5, 0.84))
     high, middle, low = (films.scale(float(value)) for value in quantiles)
@@ -217,5 +217,5 @@ def read_measured(path: Path, frequency: float | None) -> FloatArray:
     if not impedance:
         return values
     if frequency is None:
-        raise UsageError(f'"{path}" holds impedances: say at which frequency, --frequency "10 kHz"')
+        raise UsageError(f'"{path}" contains impedances: give their frequency, --frequency "10 kHz"')
     return np.asarray(1.0 / (2.0 * math.pi * frequency * values))

@@ -170,4 +170,6 @@ class Live:
             {name: {c: one[c][: rows.samples] for c in CHANNELS} for name, one in result.bearings.items()}
         )
         if (len(found.circuit["time"]), len(found.discharges["time"])) != (rows.circuit, rows.discharges):
-            raise ResultError(f"{result.path} cannot go on: its circuit does not come to the state that it was left in")
+            raise ResultError(
+                f"{result.path} cannot go on: its circuit does not reproduce the state at which it stopped"
+            )

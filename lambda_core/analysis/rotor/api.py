@@ -81,7 +81,7 @@ def modes(
 
     if not is_machine(source):
         raise UsageError(
-            "modes are those of a shaft in its bearings, and this case has one bearing without a shaft: "
+            "modes need a shaft, and this case has one bearing without a shaft: "
             "lambda-bearing init NAME --template geared-shaft writes a machine to start from"
         )
     model = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]

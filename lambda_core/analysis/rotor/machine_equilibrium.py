@@ -117,7 +117,7 @@ class BearingEquilibrium(Banded):
     static_safety: float | None = same_as(Rating, "static_safety", "C_0 over P_0")
     friction_torque_Nmm: float | None = same_as(BearingSummary, "friction_torque_Nmm")
     power_loss_W: float | None = same_as(
-        BearingSummary, "power_loss_W", "of the friction; null where the balls found no steady motion"
+        BearingSummary, "power_loss_W", "of the friction; null where the balls have no steady motion"
     )
     film_um: list[float] = same_as(BearingSummary, "film_um", "smallest and largest central film under load")
     stiffness: list[list[float]] = Field(
@@ -425,5 +425,5 @@ def _warnings(
         *operating_warnings(model, on_shaft=True),
     ]
     if not found.converged:
-        told.append("the balls found no steady motion at this load: no friction torque")
+        told.append("the balls have no steady motion at this load: no friction torque")
     return told

@@ -51,7 +51,7 @@ def housed_stiffness(model: MachineModel, state: ShaftState) -> FloatArray:
 def bearing_damping(model: MachineModel, equilibria: Sequence[Equilibrium]) -> FloatArray:
     """Return the damping of each bearing for vibrations with the shaft's speed, shape (bearings, 6, 6).
 
-    Zeros at rest, and where the balls of a bearing found no steady motion.
+    Zeros at rest, and where the balls of a bearing have no steady motion.
 
     Parameters
     ----------

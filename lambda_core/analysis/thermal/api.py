@@ -67,7 +67,7 @@ def thermal(
 
     run = run_of(source)
     if run is not None and listed(overrides, "overrides"):
-        raise UsageError("the losses of a run take no overrides: they are those of its case")
+        raise UsageError("the losses of a run accept no overrides: change its case and run it again")
     if run is not None and run.is_machine:
         from lambda_core.analysis.thermal.machine_temperature_report import steady_of
         from lambda_core.analysis.thermal.machine_temperatures import of_run

@@ -14,7 +14,7 @@ def contact_angle(given: Given) -> float:
         return float(given.bearing.contact_angle)
     if given.row is not None and given.row.contact_angle is not None:
         return float(given.ledger.row("bearing.contact_angle", given.row.contact_angle, "angle"))
-    given.ledger.problem("bearing.contact_angle", "is required of two rows")
+    given.ledger.problem("bearing.contact_angle", "is required for two rows")
     return math.nan
 
 

@@ -106,7 +106,7 @@ def export_fmu(
 
     wanted = tuple(dict.fromkeys(listed(platforms, "platforms")))
     if fmi not in _VERSIONS:
-        raise UsageError(f"FMI {fmi} is not written: 2 or 3")
+        raise UsageError(f"FMI {fmi} is not supported: choose 2 or 3")
     if couple not in COUPLINGS:
         raise UsageError(unknown_name("coupling", couple, COUPLINGS))
     if processor not in PROCESSORS:

@@ -68,7 +68,7 @@ def varied(texts: Iterable[str], case: Case | MachineCase) -> tuple[Varied, ...]
     found = tuple(_read(text, written, case) for text in texts)
     paths = [each.path for each in found]
     if twice := sorted({path for path in paths if paths.count(path) > 1}):
-        raise UsageError(f"{twice[0]} is to vary twice: give it one range")
+        raise UsageError(f"{twice[0]} is varied twice: give it one range")
     return found
 
 

@@ -34,7 +34,7 @@ def scene_of(run: Result, *, start: float | None, turns: float, frames: int) -> 
     """
     times = run["time"]
     if times.size < 2:
-        raise UsageError(f"{run.path} holds one moment only: nothing moves")
+        raise UsageError(f"{run.path} has one sample only: an animation needs several")
     turned = np.abs(run["ball_azimuth"] - run["ball_azimuth"][0]).mean(axis=1) / (2.0 * math.pi)
     begin, end = _interval(times, turned, start, turns, str(run.path))
     at = np.linspace(begin, end, frames)

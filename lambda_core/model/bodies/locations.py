@@ -176,7 +176,7 @@ def _fits(table: str, where: str, marker: str, place: Place, ledger: Ledger, *, 
     """Note a marker that this part cannot stand at; a law acts at places that turn with the shaft, too."""
     is_off_axis = max(abs(place.point[1]), abs(place.point[2])) > _SAME
     if table in _ON_AXIS and (place.body != SHAFT or is_off_axis):
-        ledger.problem(f"{where}.at", f'"{marker}" is not on the axis of the shaft, where this has to stand')
+        ledger.problem(f"{where}.at", f'"{marker}" is not on the axis of the shaft: choose a marker on it')
     elif table == "connections" and place.body == SHAFT and is_off_axis and not is_by_law:
         ledger.problem(f"{where}.at", f'"{marker}" turns with the shaft off its axis, where no spring can be attached')
 
@@ -198,7 +198,7 @@ def _ends(
         is_apart = where.startswith("connections.") and case.connections[where.partition(".")[2]].is_by_law
         if other not in carriers and not is_apart and math.dist(markers[other].point, found[where].point) > _SAME:
             at = ", ".join(show(x, "length", 6) for x in found[where].point)
-            ledger.problem(f"{where}.{option}", f'"{other}" stands elsewhere: both ends have to be at {at}')
+            ledger.problem(f"{where}.{option}", f'"{other}" is elsewhere: both ends must be at {at}')
         if option == "outer" and (body == SHAFT or isinstance(body, BearingPart)):
             ledger.problem(
                 f"{where}.outer", f'the outer ring sits in the ground or in one of [bodies], not on "{other}"'

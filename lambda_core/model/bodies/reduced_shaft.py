@@ -33,7 +33,7 @@ def reduced_shaft(path: Path, ledger: Ledger) -> ElasticBody | None:
     if body.positions[0] < 0.0:
         file.problem("nodes: x counts from the left end of the shaft, none is below 0")
     if body.damping is not None:
-        file.problem("damping: that of a shaft turns with it, which is not computed: leave it out")
+        file.problem("damping: a turning shaft with damping is not supported: remove the damping")
     rigid = _rigid_motions(body)
     _check_stiffness(body, rigid, file)
     _check_mass(body, rigid, file)
@@ -65,11 +65,11 @@ def _check_stiffness(body: ElasticBody, rigid: FloatArray, file: ReducedFile) ->
     stretch = np.linalg.eigvalsh(k * np.outer(scale, scale))
     loose = int((stretch <= _LOOSE * stretch[-1]).sum())
     if loose != NODE:
-        file.problem(f"stiffness: {loose} motions take no force, a free shaft has six: parts are not joined")
+        file.problem(f"stiffness: {loose} motions have no stiffness, a free shaft has six: join its parts")
         return
     held = _of_nodes(body, k)
     if np.abs(_turned(held) - held).max() > _ALIKE * np.abs(held).max():
-        file.problem("stiffness: not alike in y and z: a shaft that turns has to be")
+        file.problem("stiffness: must be the same in y and z, because the shaft turns")
 
 
 def _of_nodes(body: ElasticBody, stiffness: FloatArray) -> FloatArray:

@@ -261,7 +261,7 @@ def check_bodies(case: Case, ledger: Ledger) -> None:
     if inner.spin.mode == "locked" and speed.terms:
         ledger.problem("bodies.inner_ring.spin", '"locked" contradicts operation.speed: write "prescribed"')
     if inner.spin.mode == "free" and any(term.kind != "constant" for term in speed.terms):
-        ledger.problem("operation.speed", "where the spin is free this is the initial speed: write one value")
+        ledger.problem("operation.speed", "must be one value, because with a free spin it is the initial speed")
     if not case.depth.cage:
         for where, there in (
             ("loads.cage", case.loads.cage is not None),

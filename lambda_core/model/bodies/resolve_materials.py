@@ -139,7 +139,7 @@ def resolve_oil_level(lubricant: Lubricant, row: LubricantRow | None, ball_diame
     _check_lubrication(lubricant, row, ledger)
     if row is not None and is_grease(row):
         if given:
-            ledger.problem("lubricant.oil_level", f"{row.name} is a grease: it stands at no level; leave the line out")
+            ledger.problem("lubricant.oil_level", f"{row.name} is a grease, which has no level: remove the line")
         return -ball_diameter
     if lubrication != "oil bath":
         if given:

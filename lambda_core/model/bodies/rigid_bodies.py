@@ -93,7 +93,7 @@ def refuse_far(where: str, dof: str, motion: TimeFunction, ledger: Ledger) -> No
     if not peak(motion) <= _FARTHEST:
         quantity = "angle" if dof.startswith("tilt") else "length"
         far, most = show(peak(motion), quantity, 3), show(_FARTHEST, quantity)
-        ledger.problem(where, f"goes to {far}, at most {most}: is the unit right?")
+        ledger.problem(where, f"goes to {far}, allowed up to {most}: check the unit")
 
 
 def connections(case: MachineCase, stand: Places, ledger: Ledger) -> tuple[MachineSpring, ...]:
@@ -182,7 +182,7 @@ def resolve_links(
             continue
         second, to = stand.of[where], stand.carrier(given.to)
         if second.body == GROUND:
-            ledger.problem(f"{where}.at", "the ground does not move: write it as `to`, and what moves as `at`")
+            ledger.problem(f"{where}.at", "the ground cannot move: write it as `to`, and the moving body as `at`")
         first = stand.markers[given.to].point if given.to in stand.markers else second.point
         if to == SHAFT and given.to not in stand.markers:  # no place on it: the nearest on its axis
             first = (first[0], 0.0, 0.0)
@@ -314,4 +314,4 @@ def refuse_idle_dampers(bearings: Sequence[MountedBearing], housing: FloatArray 
         for dof, k, c in zip(POSE, bearing.seating.stiffness, bearing.seating.damping, strict=True):
             if c and math.isinf(k) and housing is None:
                 where = f"bearings.{bearing.name}.support.{dof}.damping"
-                ledger.problem(where, "does nothing: the outer ring is locked in the ground")
+                ledger.problem(where, "has no effect: the outer ring is locked in the ground")

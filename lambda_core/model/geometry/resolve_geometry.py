@@ -40,7 +40,7 @@ class Picker:
         if written is not None:
             if quantity and not LEAST_LENGTH <= written <= MOST_LENGTH:
                 span = f"{mm(LEAST_LENGTH)} to {mm(MOST_LENGTH)}"
-                self.ledger.problem(f"bearing.geometry.{name}", f"{mm(written)} is none of a bearing: {span}")
+                self.ledger.problem(f"bearing.geometry.{name}", f"{mm(written)} is not possible for a bearing: {span}")
             self.ledger.given(path, float(written), quantity)
             return float(written)
         found = getattr(self.row, name) if self.row else None
@@ -95,7 +95,9 @@ def resolve_geometry(
         if found is not None:
             angle, resting, bought, arrangement, apart = found
     elif bearing.axial_clearance is not None:
-        ledger.problem("bearing.axial_clearance", "is of four-point contact and of two rows; here write a clearance")
+        ledger.problem(
+            "bearing.axial_clearance", "applies to four-point contact and two rows only; here write a clearance"
+        )
         return None
     elif (angle := _contact_angle(bearing, row, ledger)) == 0.0:
         bought = clearance_as_bought(bearing, races, ball, bore, catalogue, ledger)

@@ -163,7 +163,7 @@ class LawResolver:
         share, where = self.case.lubricant.starvation, "lubricant.starvation"
         if PRESCRIBED not in chosen.parameters.model_fields:
             self.ledger.problem(
-                where, f'the supply law "{chosen.name}" finds the film itself: leave it out, or take "constant"'
+                where, f'the supply law "{chosen.name}" computes the film itself: remove this option, or use "constant"'
             )
             return False
         if PRESCRIBED in case_texts:

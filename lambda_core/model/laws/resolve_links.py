@@ -37,7 +37,7 @@ def resolve_links(
         if first is None or second is None or law is None:
             continue
         if second[0] is None:
-            ledger.problem(f"{where}.second", "the ground does not move: write it as first, the body as second")
+            ledger.problem(f"{where}.second", "the ground cannot move: write it as `first`, the body as `second`")
         elif first[0] == second[0]:
             ledger.problem(f"{where}.second", f"both ends are on one body, {second[0]}")
         else:
@@ -64,7 +64,7 @@ def resolve_markers(case: Case, ledger: Ledger) -> dict[str, Marker]:
 def _end(case: Case, name: str, where: str, ledger: Ledger) -> End | None:
     """Return the body and the place that a name stands for, None with a problem in the ledger."""
     if name in case.markers and name in (GROUND, *BODIES):
-        ledger.problem(where, f'"{name}" stands for a marker and for what is always called so: rename the marker')
+        ledger.problem(where, f'"{name}" is a marker and also a reserved name: rename the marker')
         return None
     if name == GROUND:
         return None, _CENTRE

@@ -132,10 +132,10 @@ def resolve_heat(
     if check_links(section, nodes.names, ledger):
         lost = nodes.isolated()
         if any(f"{name}.inner_ring" in lost for name in bearings):
-            ledger.problem("thermal.links", "no way leads from every bearing to a held temperature")
+            ledger.problem("thermal.links", "a bearing has no heat path to a held temperature: add thermal.links")
         else:
             for name in [name for name in lost if name in section.nodes]:
-                ledger.problem(f"thermal.nodes.{name}", "no way leads from it to a held temperature: thermal.links")
+                ledger.problem(f"thermal.nodes.{name}", "has no heat path to a held temperature: add thermal.links")
     heat = MachineHeat(section, own, shaft, nodes, *materials, is_alone=body.is_rigid)
     if case.operation.temperatures == "computed":
         for sentence in heat.assumptions:
@@ -232,7 +232,7 @@ def _pairs(bearings: Mapping[str, Thermal], section: MachineThermal, shaft: Sequ
 
 def _check_computed(case: MachineCase, ledger: Ledger) -> None:
     """Refuse temperatures that are given and to be found at once."""
-    found = 'is found where operation.temperatures = "computed"'
+    found = 'is computed with operation.temperatures = "computed"'
     for where, section in (("shaft", case.shaft), ("housing", case.housing)):
         for option in ("temperature", "temperatures"):
             if option in section.model_fields_set:

@@ -43,7 +43,9 @@ def resolve_solver(
     given, fastest = case.solver, [peak(time_function(signal)) for signal in _spins(case)]
     turn = cage_period(geometry, *fastest)
     if math.isinf(turn) and given.duration is None and not is_static:
-        ledger.problem("solver.duration", "is required where nothing turns at first: averages need turns of the cage")
+        ledger.problem(
+            "solver.duration", "is required if nothing turns at first: averages need revolutions of the cage"
+        )
     frequency = highest_frequency(*(time_function(signal) for _, signal in signals_of(case)))
     why = surface_of_its_own(laws) or excited_faster("bearing", frequency, max(fastest))
     resolve = resolution(given, frequency, why, ledger, is_silent=is_static)

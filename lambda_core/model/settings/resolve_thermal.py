@@ -123,9 +123,9 @@ def check_thermal(case: Case, ledger: Ledger) -> None:
     if fine:
         lost = isolated(names, joined(thermal), held_temperatures(thermal))
         if "inner_ring" in lost:
-            ledger.problem("thermal.links", "no way leads from the bearing to a held temperature")
+            ledger.problem("thermal.links", "the bearing has no heat path to a held temperature: add thermal.links")
         for name in [name for name in lost if name in thermal.nodes and "inner_ring" not in lost]:
-            ledger.problem(f"thermal.nodes.{name}", "no way leads from it to a held temperature: thermal.links")
+            ledger.problem(f"thermal.nodes.{name}", "has no heat path to a held temperature: add thermal.links")
     if case.operation.temperatures == "computed":
         _check_computed(case, ledger)
 
@@ -179,10 +179,10 @@ def check_surroundings(thermal: Thermal, ledger: Ledger) -> None:
 def check_nodes(nodes: Mapping[str, ThermalNode], supplies: Iterable[str], ledger: Ledger) -> None:
     """Note nodes that the case cannot change, and starts of nodes that are held."""
     if "ambient" in nodes:
-        ledger.problem("thermal.nodes.ambient", "is held at thermal.ambient: change that")
+        ledger.problem("thermal.nodes.ambient", "is held at thermal.ambient: change that option option")
     for supply in supplies:
         if supply in nodes:
-            ledger.problem(f"thermal.nodes.{supply}", "is held at thermal.oil_supply: change that")
+            ledger.problem(f"thermal.nodes.{supply}", "is held at thermal.oil_supply: change that option option")
     for name, node in nodes.items():
         if node.temperature is not None and node.start is not None:
             ledger.problem(f"thermal.nodes.{name}.start", "has no effect on a node that is held at a temperature")
@@ -212,5 +212,5 @@ def _check_computed(case: Case, ledger: Ledger) -> None:
         if given is not None and getattr(given, part) is not None:
             ledger.problem(
                 f"bearing.temperatures.{part}",
-                f'is found where operation.temperatures = "computed"; to hold it: thermal.nodes.{part}.temperature',
+                f'is computed with operation.temperatures = "computed"; to hold it: thermal.nodes.{part}.temperature',
             )

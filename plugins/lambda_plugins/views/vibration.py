@@ -95,7 +95,9 @@ def vibration(run: RunData, options: VibrationOptions) -> ViewData:
     highest = max(marks.values())
     low = options.above or _ENVELOPE * highest
     if not low < 0.5 / (own.time[1] - own.time[0]):
-        raise UsageError(f"view vibration: above={low:g} Hz is beyond what the samples hold: choose a lower one")
+        raise UsageError(
+            f"view vibration: above={low:g} Hz is above the highest frequency of the samples: choose a lower one"
+        )
     lines = tuple(Mark(name, value, "x") for name, value in marks.items() if value > 0.0)
     end = max(_WIDTH * highest, 1.5 * low)
     panels = (

@@ -73,20 +73,20 @@ def _apart(given: Given) -> float | None:
         apart, said = float(ledger.row("bearing.row_distance", row.row_distance, "length")), row.row_distance
         ledger.assume(f"bearing.row_distance {show(apart, 'length', 4)}: {said.source} (grade {said.grade})")
         return apart
-    ledger.problem(_DISTANCE, "is required of two rows")
+    ledger.problem(_DISTANCE, "is required for two rows")
     return None
 
 
 def _axial_clearance(given: Given) -> float | None:
     bearing, row, ledger = given.bearing, given.row, given.ledger
     if bearing.clearance is not None and (given.named_class is None or row is None):
-        ledger.problem(_PATH, "is radial: of two rows write contact_angle and axial_clearance")
+        ledger.problem(_PATH, "is a radial clearance: for two rows write contact_angle and axial_clearance")
         return None
     if bearing.axial_clearance is not None:
         ledger.given(_AXIAL, bearing.axial_clearance, "small_length")
         return float(bearing.axial_clearance)
     if row is None:
-        ledger.problem(_AXIAL, "is required of two rows")
+        ledger.problem(_AXIAL, "is required for two rows")
         return None
     limits = given.class_of(DOUBLE_ROW, _AXIAL)
     return None if limits is None else given.picked(limits)

@@ -68,7 +68,7 @@ def _resolve(given: Given) -> Angles | None:
         return None
     value = bearing.clearance if given.named_class is None else None
     if value == "geometry":
-        ledger.problem(_PATH, '"geometry" is of single grooves: give the shim angle and the contact angle instead')
+        ledger.problem(_PATH, '"geometry" applies to single grooves only: give the shim angle and the contact angle')
         return None
     radial = parse(value, "small_length") if value else None
     if radial is not None:
@@ -103,7 +103,7 @@ def _with_shims(given: Given, shim: float, free: float | None, radial: float | N
     bearing, distance, ledger = given.bearing, given.centres, given.ledger
     play = radial is not None or bearing.axial_clearance is not None
     if play and bearing.contact_angle is not None:
-        ledger.problem(_SHIM, "contact_angle and a clearance leave nothing for it: give two of the three")
+        ledger.problem(_SHIM, "follows from contact_angle and a clearance: give two of the three")
         return None
     if radial is not None:
         return _checked(math.cos(shim) - 0.5 * radial / distance, shim, radial, ledger)
@@ -138,7 +138,9 @@ def _without_shims(given: Given, free: float, radial: float | None) -> Resting |
         if not cosine < 1.0 or radial <= 0.0:
             largest = show(2.0 * distance * (1.0 - math.cos(free)), "small_length", 4)
             text = show(radial, "small_length", 4)
-            ledger.problem(_PATH, f"{text} is none of four-point contact at this angle: above 0, below {largest}")
+            ledger.problem(
+                _PATH, f"{text} is not possible for four-point contact at this angle: above 0, below {largest}"
+            )
             return None
         return _derived(free, math.acos(cosine), distance, ledger)
     axial = given.bearing.axial_clearance
@@ -153,7 +155,7 @@ def _without_shims(given: Given, free: float, radial: float | None) -> Resting |
     if not 0.0 < sine < math.sin(free):
         largest = show(2.0 * distance * math.sin(free), "small_length", 4)
         ledger.problem(
-            _AXIAL, f"{show(axial, 'small_length', 4)} is none of four-point contact: above 0, below {largest}"
+            _AXIAL, f"{show(axial, 'small_length', 4)} is not possible for four-point contact: above 0, below {largest}"
         )
         return None
     return _derived(free, math.asin(sine), distance, ledger)

@@ -62,14 +62,14 @@ def _resolve(given: Given) -> Angles | None:
             )
             return None
     if bearing.axial_clearance is not None:
-        ledger.problem(_AXIAL, "of a self-aligning bearing write the radial one, bearing.clearance")
+        ledger.problem(_AXIAL, "a self-aligning bearing has a radial clearance: write bearing.clearance")
         return None
     text = bearing.clearance
     bought: Limits | None
     if text is None or given.named_class is not None:
         bought = given.class_of(SELF_ALIGNING, _PATH)
     elif text == "geometry":
-        ledger.problem(_PATH, '"geometry" is of grooves: of a self-aligning bearing write a class or a value')
+        ledger.problem(_PATH, '"geometry" applies to grooves: for a self-aligning bearing write a class or a value')
         return None
     else:
         value = parse(text, "small_length")
