@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.domain.lists import listed
 from lambda_core.results.answer import answers
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ def compare(
     Raises
     ------
     UsageError
-        For an unknown method, or a result of another case.
+        For an unknown method, a contamination outside 0 to 1, or a result of another case.
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
@@ -71,7 +72,9 @@ def compare(
     from lambda_core.runs.compare_rollers import compare_rollers
     from lambda_core.runs.comparison import comparison_of
 
-    known = registry().methods
+    if contamination is not None and not 0.0 <= contamination <= 1.0:
+        raise UsageError(f"contamination {contamination:g}: e_C lies between 0 and 1")
+    known, methods = registry().methods, listed(methods, "methods")
     unknown = next((name for name in methods if name not in known), None)
     if unknown is not None:
         raise UsageError(unknown_name("comparison method", unknown, known))

@@ -20,6 +20,7 @@ CASE, CHANGE = "6319-cp10-1500", "loads.radial=5 kN"
         lambda folder: api.check(CASE, CHANGE),
         lambda folder: api.quasistatic(CASE, CHANGE),
         lambda folder: api.compare(CASE, CHANGE),
+        lambda folder: api.compare(CASE, methods="skf"),
         lambda folder: api.estimate(CASE, CHANGE),
         lambda folder: api.run(CASE, CHANGE, out=folder / "run.h5"),
         lambda folder: api.thermal(CASE, CHANGE),

@@ -129,3 +129,9 @@ def test_compare_follows_the_contamination_of_the_case() -> None:
     }
     assert api.compare({**rollers, "life": {"contamination": 0.2}}).contamination == 0.2
     assert not api.compare(rollers).contamination_given
+
+
+@pytest.mark.parametrize("contamination", [2.0, -0.1, float("nan")])
+def test_compare_refuses_a_contamination_that_is_none(contamination: float) -> None:
+    with pytest.raises(api.UsageError, match="e_C lies between 0 and 1"):
+        api.compare(CASE, contamination=contamination)
