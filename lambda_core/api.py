@@ -76,7 +76,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.model.machine_model import MachineModel, MountedBearing
     from lambda_core.model.roller_case import RollerModel, roller_model
     from lambda_core.results.bearing_summary import BearingSummary
-    from lambda_core.results.quantity import shown_numbers
+    from lambda_core.results.quantity import shown, shown_numbers
     from lambda_core.results.reader import Result
     from lambda_core.results.run_status import Status, process_identity, this_process
     from lambda_core.results.side_by_side import SideBySide

@@ -35,10 +35,12 @@ def summary_view(summary: Summary, colours: Mapping[str, str], units: UnitSystem
         if summary.converged
         else (f"not converged, {summary.state}", colours["warning"])
     )
-    torque = units.plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm, "N mm")
+    torque, scatter = _torque(summary, units)
     text.append(f"\nfriction torque {torque}", style="bold").append(f"   {verdict}\n", style=style)
     if summary.revolutions_averaged:
-        text.append(f"mean over {summary.revolutions_averaged} cage revolutions, 95 % confidence\n", style="dim")
+        text.append(
+            f"{scatter}mean over {summary.revolutions_averaged} cage revolutions, 95 % confidence\n", style="dim"
+        )
     for reason in summary.reasons:
         text.append(f"  {reason}\n", style=colours["warning"])
     for warning in summary.warnings:
@@ -61,10 +63,21 @@ def summary_view(summary: Summary, colours: Mapping[str, str], units: UnitSystem
     return text
 
 
+def _torque(summary: Summary, units: UnitSystem) -> tuple[str, str]:
+    """Return the torque and its scatter apart, with the digits that its model band leaves, where it has one."""
+    width = summary.friction_torque_ci_Nmm
+    if not summary.friction_torque_Nmm_band:
+        return units.plus_minus(summary.friction_torque_Nmm, width, "N mm"), ""
+    scatter = "" if width is None else f"scatter ± {units.value(width, 'N mm'):.2g} {units.unit('N mm')}, "
+    return api.shown(summary, "friction_torque_Nmm", units), scatter
+
+
 def _declared(summary: Summary, groups: Sequence[str], units: UnitSystem) -> list[tuple[str, str, str]]:
     """Return the numbers of groups as they are declared: name, number, unit."""
     return [
-        (one.column, one.number(value, units), units.unit(one.unit))
+        (one.column, api.shown(summary, one.name, units), "")
+        if getattr(summary, f"{one.name}_band", [])
+        else (one.column, one.number(value, units), units.unit(one.unit))
         for one, value in api.shown_numbers(summary, groups)
         if one.name != "friction_torque_Nmm"
     ]
