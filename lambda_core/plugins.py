@@ -9,6 +9,7 @@ from lambda_core.domain.channels import Channel
 from lambda_core.domain.roles import OK, ROLE_API
 from lambda_core.domain.units import Quantity
 from lambda_core.elements.roller.line_film import dowson_toyoda_film, inlet_heat_rolling, moes_line_film
+from lambda_core.elements.roller.roller_drag import bath_drag_terms
 from lambda_core.elements.roller.rolling import rolling_force
 from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY, gap_capacitance
 from lambda_core.formulas.hertz import hertz_shape
@@ -87,6 +88,7 @@ __all__ = [
     "asinh",
     "asinh_of",
     "asinh_quotient",
+    "bath_drag_terms",
     "built_in",
     "dowson_toyoda_film",
     "exp",

@@ -34,7 +34,8 @@ if TYPE_CHECKING:
 
 _ELEMENTS = ("ball_inner", "ball_outer")
 _SIDES = {1: "+x", -1: "-x"}
-_POCKET, _NO_DRAG = "roller-pocket", "none"
+# Laws that know the shape of the elements, and their defaults for rollers.
+_SHAPED = {"cage_contact": "roller-pocket", "fluid_drag": "none"}
 
 
 def rollers_of(
@@ -93,14 +94,13 @@ def _refuse_thrust(case: Case, rollers: RollerBearing, ledger: Ledger) -> None:
 
 def _refuse_parameters(case: Case, ledger: Ledger) -> None:
     """Refuse parameters and laws of single contacts that would have no effect."""
-    fixed = (*DEFAULT_LINE_MODELS, "cage_contact", "fluid_drag")
+    fixed = (*DEFAULT_LINE_MODELS, *_SHAPED)
     written = {f"parameters.{role}": role for role in case.parameters if role not in DEFAULT_LINE_MODELS}
     forces = {name: getattr(case.forces, name) for name in case.forces.model_fields_set}
     for name, force in forces.items():
         if force is not None:
             written |= {f"forces.{name}.parameters.{role}": role for role in force.parameters}
             written |= {f"forces.{name}.models.{role}": role for role in force.models.model_fields_set}
-    written |= {f"models.{role}": role for role in fixed[-2:] if getattr(case.models, role) is not None}
     for path, role in written.items():
         if role in fixed:
             ledger.problem(path, "rollers in motion take the law's own values here: leave it out")
@@ -126,7 +126,7 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
     pressed = rollers.kind == "tapered" or bool(case.loads.axial)
     silent = [dof for dof in (*(() if pressed else ("x",)), *TILTS) if dof not in inner.model_fields_set]
     inner = inner.model_copy(update={dof: type(getattr(inner, dof))(mode="locked") for dof in silent})
-    models = case.models.model_copy(update=dict.fromkeys(DEFAULT_LINE_MODELS))
+    models = case.models.model_copy(update=dict.fromkeys((*DEFAULT_LINE_MODELS, *_SHAPED)))
     bodies = case.bodies.model_copy(update={"inner_ring": inner})
     parameters = {role: values for role, values in case.parameters.items() if role not in DEFAULT_LINE_MODELS}
     return case.model_copy(update={"bearing": bearing, "bodies": bodies, "models": models, "parameters": parameters})
@@ -161,8 +161,8 @@ def with_rollers(
 
     def chosen(role: str, name: str) -> ChosenLaw:
         found = law(role, name)
-        if role in DEFAULT_LINE_MODELS and found.contact == "point":
-            problem = Problem(f"models.{role}", f'"{name}" is a law of points: the contacts of rollers are lines')
+        if role in (*DEFAULT_LINE_MODELS, *_SHAPED) and found.contact == "point":
+            problem = Problem(f"models.{role}", f'"{name}" is a law of balls: choose one of rollers')
             raise CaseError(case.name, [problem])
         written = case.parameters.get(role, {}) if role in DEFAULT_LINE_MODELS and name != "none" else {}
         ledger = Ledger()
@@ -176,15 +176,16 @@ def with_rollers(
     laws = dict(model.laws)
     for ring in sorted({_ELEMENTS.index(f"ball_{rib.ring}") for rib in rollers.ribs}):
         points = laws[_ELEMENTS[ring]]
-        supply = _with_constant(points["supply"], SKF_CONSTANTS[skf_kind(rollers)][1])
+        supply = _with_constants(points["supply"], rollers)
         laws[tuple(RIBS)[ring]] = {**points, "supply": supply} | {
             r: chosen(r, n) for r, n in DEFAULT_RIB_MODELS.items()
         }
     for element in _ELEMENTS:
-        supply = _with_constant(laws[element]["supply"], SKF_CONSTANTS[skf_kind(rollers)][1])
+        supply = _with_constants(laws[element]["supply"], rollers)
         laws[element] = {**laws[element], **lines, "supply": supply}
-    laws["ball_cage"] = {"cage_contact": chosen("cage_contact", _POCKET)}
-    laws["fluid_drag"] = {"fluid_drag": chosen("fluid_drag", _NO_DRAG)}
+    shaped = {role: chosen(role, getattr(case.models, role) or name) for role, name in _SHAPED.items()}
+    laws["ball_cage"] = {"cage_contact": shaped["cage_contact"]}
+    laws["fluid_drag"] = {"fluid_drag": _with_constants(shaped["fluid_drag"], rollers)}
     values, told = _of_laws(model, laws, case)
     ratings = tuple(
         ResolvedValue(f"bearing.{name}", getattr(rollers, name), "force", "of the rollers", "", "given")
@@ -240,9 +241,12 @@ def with_clearance(rollers: RollerBearing, clearance: float) -> RollerBearing:
     return replace(rollers, clearance=clearance * math.cos(rollers.contact_angle))
 
 
-def _with_constant(supply: ChosenLaw, k_z: float) -> ChosenLaw:
-    """Return a law of supply with SKF's geometry constant K_Z of these rollers, where it has one."""
-    if "k_z" not in type(supply.parameters).model_fields:
-        return supply
-    origins = {**supply.origins, "k_z": "SKF, Rolling bearings (2018), Friction: K_Z of these rollers"}
-    return replace(supply, parameters=supply.parameters.model_copy(update={"k_z": k_z}), origins=origins)
+def _with_constants(law: ChosenLaw, rollers: RollerBearing) -> ChosenLaw:
+    """Return a law with SKF's geometry constants K_L and K_Z of these rollers, where it has them."""
+    known = dict(zip(("k_l", "k_z"), SKF_CONSTANTS[skf_kind(rollers)], strict=True))
+    values = {name: value for name, value in known.items() if name in type(law.parameters).model_fields}
+    if not values:
+        return law
+    origin = "SKF, Rolling bearings (2018), Friction: constant of these rollers"
+    parameters = law.parameters.model_copy(update=values)
+    return replace(law, parameters=parameters, origins={**law.origins, **dict.fromkeys(values, origin)})

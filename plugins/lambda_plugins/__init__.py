@@ -106,6 +106,7 @@ _LAWS: dict[str, dict[str, str]] = {
     "fluid_drag": {
         "skf-catalogue": "fluid_drag:skf_catalogue",
         "schaeffler-catalogue": "fluid_drag:schaeffler_catalogue",
+        "skf-rollers": "roller_drag:skf_rollers",
         "sphere-drag": "sphere_drag:sphere_drag",
         "cavity-mixture": "cavity_drag:cavity_mixture",
         "none": "fluid_drag:none",

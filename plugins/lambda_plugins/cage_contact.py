@@ -301,7 +301,7 @@ def ball_ball(r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: flo
     return OK
 
 
-@law("cage_contact", "none", role_api=3, reference="-")
+@law("cage_contact", "none", role_api=3, reference="-", contact="any")
 def none(
     r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: NoParameters, out: FloatArray
 ) -> int:

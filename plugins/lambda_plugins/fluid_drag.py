@@ -270,7 +270,7 @@ def schaeffler_catalogue(
     return OK
 
 
-@law("fluid_drag", "none", role_api=3, reference="-")
+@law("fluid_drag", "none", role_api=3, reference="-", contact="any")
 def none(
     v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: NoParameters, out: FloatArray
 ) -> int:

@@ -131,9 +131,10 @@ def test_what_cannot_be(
         ("NCF 3008", "0 N", "", "full complement, run neither in time nor on a shaft yet"),
         ("NU 208", "0 N", "[depth]\ncage = false\n", "need their cage"),
         ("NU 208", "0 N", "[parameters.film_thickness]\nx = 1\n", "parameters.film_thickness"),
-        ("NU 208", "0 N", '[models]\nfluid_drag = "none"\n', "the law's own values here"),
+        ("NU 208", "0 N", '[models]\nfluid_drag = "skf-catalogue"\n', "is a law of balls"),
+        ("NU 208", "0 N", '[models]\ncage_contact = "spherical-pocket"\n', "is a law of balls"),
         ("NU 208", "0 N", "[forces.ball_inner.parameters.damping]\nx = 1\n", "forces.ball_inner.parameters.damping"),
-        ("NU 208", "0 N", '[models]\nfilm_thickness = "chittenden"\n', "is a law of points"),
+        ("NU 208", "0 N", '[models]\nfilm_thickness = "chittenden"\n', "is a law of balls"),
         ("NU 208", "0 N", '[elastic.outer_ring]\nhousing_stiffness = "300 N/um"\n', "of rollers are rigid"),
     ],
 )

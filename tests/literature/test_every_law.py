@@ -87,6 +87,7 @@ CHECKED: dict[str, tuple[str, str]] = {
     "cage_contact/none": NOTHING,
     "fluid_drag/skf-catalogue": (LOSSES, "test_skf_drag_of_the_6319"),
     "fluid_drag/schaeffler-catalogue": (LOSSES, "test_schaeffler_idle_torque_of_the_6319"),
+    "fluid_drag/skf-rollers": (LINES, "test_drag_of_rollers_is_that_of_the_catalogue"),
     "fluid_drag/sphere-drag": (LOSSES, "test_standard_drag_curve"),
     "fluid_drag/cavity-mixture": (LOSSES, "test_standard_drag_curve_in_a_mixture"),
     "fluid_drag/none": NOTHING,

@@ -50,7 +50,7 @@ NAMES = {
     "mixing": {"load-share", "contact-area"},
     "contact_state": {"none"},
     "cage_contact": {"spherical-pocket", "cylindrical-pocket", "land-guidance", "ball-ball", "roller-pocket", "none"},
-    "fluid_drag": {"skf-catalogue", "schaeffler-catalogue", "sphere-drag", "cavity-mixture", "none"},
+    "fluid_drag": {"skf-catalogue", "schaeffler-catalogue", "skf-rollers", "sphere-drag", "cavity-mixture", "none"},
     "force_element": {"bushing"},
     "time_function": {"chirp"},
     "permittivity": {"bode", "constant"},

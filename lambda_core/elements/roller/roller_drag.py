@@ -53,15 +53,38 @@ def bath_drag(
     rpm = abs(speed) * 30.0 / math.pi
     if oil_height <= 0.0 or rpm == 0.0:
         return 0.0
+    sizes = (1e3 * bearing.bore, 1e3 * bearing.outside, 1e3 * bearing.width)
+    square, viscous = bath_drag_terms(*sizes, 1e3 * oil_height, constants)
+    return float((square * rpm**2 + viscous * rpm**0.621 * (1e6 * viscosity) ** 1.379) * 1e-3)
+
+
+def bath_drag_terms(
+    bore: float, outside: float, width: float, oil_height: float, constants: tuple[float, float]
+) -> tuple[float, float]:
+    """Return drag of rollers in a bath over n^2 and n^0.621 nu^1.379.
+
+    In N mm, 1/min and mm2/s; the equation is that of :func:`bath_drag`.
+
+    Parameters
+    ----------
+    bore, outside, width : float
+        Boundary dimensions d, D and B [mm].
+    oil_height : float
+        H above the lowest point of the outer raceway, above zero [mm].
+    constants : tuple of float
+        K_L and K_Z.
+
+    Returns
+    -------
+    tuple of float
+        Factors of n^2 and of n^0.621 nu^1.379.
+    """
     k_l, k_z = constants
-    bore, outside, width = 1e3 * bearing.bore, 1e3 * bearing.outside, 1e3 * bearing.width
-    mean, height = 0.5 * (bore + outside), 1e3 * oil_height
-    slenderness = (outside + bore) / (outside - bore)
+    mean, slenderness = 0.5 * (bore + outside), (outside + bore) / (outside - bore)
     slim = 5.0 * k_l * width / mean
     factor = 2.789e-10 * slim**3 - 2.786e-4 * slim**2 + 0.0195 * slim + 0.6439
-    volume = 4.0 * drag_volume(height / mean) * k_l * k_z * slenderness * 1e-12 * factor * width * mean**4 * rpm**2
-    angle = 2.0 * math.acos(max((0.6 * mean - height) / (0.6 * mean), -1.0))
+    square = 4.0 * drag_volume(oil_height / mean) * k_l * k_z * slenderness * 1e-12 * factor * width * mean**4
+    angle = 2.0 * math.acos(max((0.6 * mean - oil_height) / (0.6 * mean), -1.0))
     wetted = 0.36 * mean**2 * (angle - math.sin(angle)) * 0.05 * k_z * slenderness
     across = math.sin(0.5 * angle) if angle < math.pi else 1.0
-    reynolds = rpm * mean**2 * across / (1e6 * viscosity)
-    return float((volume + 1.093e-7 * rpm**2 * mean**3 * reynolds**-1.379 * wetted) * 1e-3)
+    return square, 1.093e-7 * mean**3 * (mean**2 * across) ** -1.379 * wetted

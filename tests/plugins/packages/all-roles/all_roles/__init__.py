@@ -4,7 +4,8 @@ Each ball-raceway contact resists rolling with the same moment M and loses nothi
 contacts are points (no spin, no Heathcote slip), and a stiff, slip-proportional traction
 holds the balls at the epicyclic speed. A contact loses M u_m/R_x with
 u_m = Omega d_m (1 - gamma^2)/4, 1/R_x = 2/(D_w (1 - gamma)) inner, 2/(D_w (1 + gamma)) outer,
-so the torque is Z M d_m/D_w, whatever contact angle, load and speed.
+so the torque is Z M d_m/D_w, whatever contact angle, load and speed. Of cylindrical rollers that are all pressed it is
+the same.
 """
 
 import math
@@ -108,6 +109,47 @@ def boundary_friction(slip, p, u_mean, par, mu):
     return OK
 
 
+@law("normal_contact", "own-line", role_api=3, reference="own work", contact="line")
+def normal_line(delta, R_x, R_y, E_eff, par, out):
+    out[0] = 5e8 * delta
+    out[1] = 0.5 * R_y
+    out[2] = 1e-6
+    out[3] = out[0] / (2e-6 * R_y)
+    return OK
+
+
+@law("damping", "own-line", role_api=3, reference="own work", contact="line")
+def damping_line(delta, delta_dot, load, par, out):
+    force = 100.0 * delta_dot
+    out[0] = force if force > -load else -load
+    return OK
+
+
+@law("film_thickness", "own-line", role_api=3, reference="own work", contact="line")
+def film_line(u_mean, cos2, load, R_x, R_y, E_eff, eta0, alpha_p, par, out):
+    out[0] = 1e-6
+    out[1] = 5e-7
+    return OK
+
+
+@law("rolling_resistance", "own-line", role_api=3, reference="own work", contact="line")
+def rolling_line(u_mean, load, semi_a, semi_b, R_x, R_y, E_eff, eta0, alpha_p, beta, k_oil, par, out):
+    out[0] = 0.0
+    return OK
+
+
+@law("elastic_hysteresis", "own-line", Moment, role_api=3, reference="own work", contact="line")
+def hysteresis_line(load, semi_a, semi_b, R_x, R_y, R_ball, par, out):
+    out[0] = par.moment
+    return OK
+
+
+@law("capacitance", "own-line", role_api=3, reference="own work", contact="line")
+def capacitance_line(C_hertz, h, semi_a, semi_b, R_x, R_y, U, G, W, eps_r0, par, out):
+    out[0] = C_hertz
+    return OK
+
+
 AGE = State("age", "s", "how long the run goes on", scale=1.0)
 
 
@@ -117,14 +159,14 @@ def contact_state(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lamb
     return OK
 
 
-@law("cage_contact", "own", role_api=3, reference="own work")
+@law("cage_contact", "own", role_api=3, reference="own work", contact="any")
 def cage_contact(r, v_rel, omega_rel, eta0, par, out):
     for i in range(6):
         out[i] = 0.0
     return OK
 
 
-@law("fluid_drag", "own", role_api=3, reference="own work")
+@law("fluid_drag", "own", role_api=3, reference="own work", contact="any")
 def fluid_drag(v_orbit, omega_spin, azimuth, nu, rho, par, out):
     out[0] = 0.0
     out[1] = 0.0
