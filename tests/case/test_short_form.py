@@ -68,16 +68,25 @@ def _tables(tables: dict[str, Any], with_catalogue: Catalogue) -> tuple[Any, Any
 
 
 def test_the_equilibrium_is_that_of_the_bearing() -> None:
-    """Under a radial and an axial load without tilt, but for friction, which a machine neglects in its equilibrium."""
-    changes = ["loads.radial=2 kN", "loads.axial=500 N", "bodies.inner_ring.tilt_y=locked", "gravity.z=0 m/s2"]
-    changes += ["bodies.inner_ring.tilt_z=locked"]
+    """With the friction of the balls; the pose of the shaft is that without."""
+    changes = [*STRAIGHT, "gravity.z=0 m/s2"]
     single = api.quasistatic("6208-axial-1300", changes)
     long = api.long_form("6208-axial-1300", changes)
-    (bearing,) = api.quasistatic(long.tables).bearings
     assert long.differences == ()
-    assert bearing.force_N[0] == pytest.approx(-500.0, rel=1e-6)
-    assert bearing.max_load_N == pytest.approx(single.max_load_N, rel=5e-3)
-    assert bearing.friction_torque_Nmm == pytest.approx(single.friction_torque_Nmm, rel=1e-2)
+    (among,) = api.quasistatic(long.tables).bearings
+    assert among.max_load_N == single.max_load_N
+    assert among.friction_torque_Nmm == single.friction_torque_Nmm
+    assert among.max_pressure_GPa == single.max_pressure_GPa
+
+
+def test_rollers_move_as_in_the_bearing_bit_by_bit(tmp_path: Path) -> None:
+    source, changes = api.init_case("nu", bearing="SKF NU 208 ECP", path=tmp_path / "nu.toml"), ["solver.duration=2 ms"]
+    long = api.long_form(source, changes)
+    assert long.differences == ()
+    single = api.run(source, changes, out=tmp_path / "single.h5")
+    machine = api.run(long.tables, out=tmp_path / "machine.h5")
+    for channel in ("load", "ball_spin", "body_position", "pocket_force"):
+        assert np.array_equal(single[channel], machine.of_bearing()[channel], equal_nan=True), channel
 
 
 def test_what_a_machine_does_not_have_is_said() -> None:
@@ -96,14 +105,13 @@ THERMAL = [
 
 @pytest.mark.parametrize("changes", [[], THERMAL, ["thermal.conductances=iso-15312"], ["thermal.oil_flow=0.1 l/min"]])
 def test_temperatures_are_those_of_the_bearing(changes: list[str]) -> None:
-    """But for what friction does to the load of single balls, which the equilibrium of a machine neglects."""
     alone = api.thermal("6208-axial-1300", changes)
     long = api.long_form("6208-axial-1300", changes)
     assert long.differences == ()
     among = api.thermal(long.tables)
     for node, temperature in alone.temperatures_degC.items():
         name = node if node in ("housing", "ambient") else f"bearing.{node}"
-        assert among.temperatures_degC[name] == pytest.approx(temperature, abs=0.05), node
+        assert among.temperatures_degC[name] == pytest.approx(temperature, abs=1e-3), node
 
 
 def test_the_circuit_is_that_of_the_bearing() -> None:

@@ -54,7 +54,14 @@ class BearingReaction:
         A guess of the contact angle [rad] and of the mean contact load [N], where radii and films are frozen first.
     kernels : Kernels, optional
         Of the same laws, from another bearing.
+
+    Attributes
+    ----------
+    alone : BearingModel or None
+        The bearing with all that holds and loads it, where nothing else of its machine moves.
     """
+
+    alone: BearingModel | None = None
 
     def __init__(
         self, model: BearingModel, angle: float, load: float, kernels: Kernels | None = None, announce: Announce = None
@@ -116,5 +123,11 @@ class BearingReaction:
         return True
 
     def equilibrium(self) -> Equilibrium:
+        """Return the equilibrium with the friction of the balls, at the last pose or of the bearing alone."""
+        if self.alone is not None:
+            return solve(self.alone, self._kernels, self._announce, strict=False)
+        return self.at_pose()
+
+    def at_pose(self) -> Equilibrium:
         """Return the equilibrium at the last pose with the friction of the balls."""
         return solve(held(self.model, self._pose.tolist()), self._kernels, self._announce, strict=False)

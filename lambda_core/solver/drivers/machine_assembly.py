@@ -97,6 +97,7 @@ def with_free_bodies(model: BearingModel) -> BearingModel:
 def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Frozen]) -> Assembly:
     """Return the assembly of a machine, with the laws of each bearing as they are frozen."""
     numbers = member_numbers(machine, shaft)
+    members, ties = machine_members(machine, shaft)
     bearings = [
         AssembledBearing(
             mounted.name, with_free_bodies(mounted.model), kernels, angles, oils,
@@ -104,9 +105,15 @@ def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Fro
         )
         for i, (mounted, (kernels, angles, oils)) in enumerate(zip(machine.bearings, frozen, strict=True))
     ]  # fmt: skip
+    return Assembly(members, tuple(bearings), machine.gravity, _links(machine, shaft, numbers), ties=ties)
+
+
+def machine_members(machine: MachineModel, shaft: LumpedShaft) -> tuple[tuple[Member, ...], Ties]:
+    """Return everything of a machine that has a motion, and what ties it together."""
+    numbers = member_numbers(machine, shaft)
     members = _lumps(machine, shaft, numbers)
-    for i, bearing in enumerate(bearings):
-        model = bearing.model
+    for i, bearing in enumerate(machine.bearings):
+        model = with_free_bodies(bearing.model)
         members[numbers.outer_rings[i]] = Member(f"{bearing.name} outer ring", _outer_ring(machine, i, model))
         cage = _loaded(machine.bearings[i].model.cage_body, machine.load_on(BearingPart(bearing.name, "cage")))
         members[numbers.cages[i]] = Member(f"{bearing.name} cage", cage)
@@ -116,13 +123,7 @@ def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Fro
     for number in numbers.driven:  # the member without mass, where there is one
         members.setdefault(int(number), Member("coupling", Body(0.0, 0.0, 0.0, _turned(machine, _LOCKED))))
     ties = _as_supports(_ties(machine, shaft, numbers), members)
-    return Assembly(
-        tuple(members[number] for number in range(numbers.count)),
-        tuple(bearings),
-        machine.gravity,
-        _links(machine, shaft, numbers),
-        ties=ties,
-    )
+    return tuple(members[number] for number in range(numbers.count)), ties
 
 
 def _as_supports(ties: Ties, members: dict[int, Member]) -> Ties:

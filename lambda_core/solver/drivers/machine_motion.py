@@ -20,12 +20,11 @@ from lambda_core.solver.drivers.assembly import Assembly, BearingSpan
 from lambda_core.solver.drivers.compiled_laws import Announce, derive_oils
 from lambda_core.solver.drivers.dynamics import CAPACITY, MotionEngine, MotionStart, initial_state
 from lambda_core.solver.drivers.engine import usual_interval
-from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.lumps import LumpedShaft, lump, unbalance_of_lumps
 from lambda_core.solver.drivers.machine_assembly import machine_assembly, member_numbers, with_free_bodies
 from lambda_core.solver.drivers.machine_inputs import MachineInputs, machine_inputs
 from lambda_core.solver.drivers.readings import Channels, MachineReadings, MachineSamples, ReadBearing, Sums
-from lambda_core.solver.drivers.rigid_shaft import bearing_on_rigid_shaft
 from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble, context_of
 from lambda_core.solver.drivers.surface_steps import longest_step
@@ -88,15 +87,13 @@ def machine_start(
         When there is none.
     """
     state, shaft = solve_shaft(machine, announce), lump(machine)
-    equilibria = tuple(ring.equilibrium() for ring in state.rings)
+    # where cages are led, balls begin between rings at the poses of the equilibrium
+    equilibria = tuple(ring.at_pose() if leads_cages else ring.equilibrium() for ring in state.rings)
     alone = [_free(found.context) for found in equilibria]
     begun = _begun(machine, shaft, state, equilibria, alone, is_given=is_given, leads_cages=leads_cages)
-    single = None if leads_cages else bearing_on_rigid_shaft(machine, begun.motion.context.assembly)
-    if single is None:
+    if leads_cages or state.rings[0].alone is None:
         return begun
-    found = solve(single, announce=announce, strict=False)
-    begun = _begun(machine, shaft, state, (found,), [_free(found.context)], is_given=is_given)
-    return replace(begun, motion=replace(begun.motion, state=initial_state(found)))
+    return replace(begun, motion=replace(begun.motion, state=initial_state(equilibria[0])))
 
 
 def changed_start(start: MachineStart, machine: MachineModel) -> MachineStart:

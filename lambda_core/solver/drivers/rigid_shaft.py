@@ -7,20 +7,22 @@ from dataclasses import replace
 from lambda_core.domain.elements import BODIES, BodyName
 from lambda_core.model.bearing_model import BearingModel, Link
 from lambda_core.model.machine_model import GROUND, BearingPart, MachineModel, Place
-from lambda_core.solver.drivers.assembly import Assembly
+from lambda_core.solver.drivers.lumps import lump
+from lambda_core.solver.drivers.machine_assembly import machine_members
 
 
-def bearing_on_rigid_shaft(machine: MachineModel, assembly: Assembly) -> BearingModel | None:
+def bearing_on_rigid_shaft(machine: MachineModel) -> BearingModel | None:
     """Return the only bearing of a machine with all that surrounds it; None where more than that moves.
 
     Its rings and cage are the members that move: shaft and discs count to the inner ring. The tables of both are the
     same, so that the friction of the balls is in equilibrium with the loads, too.
     """
-    if not machine.body.is_rigid or len(assembly.members) > len(BODIES) or assembly.ties.stiffness.any():
+    if not machine.body.is_rigid:
         return None
-    if assembly.ties.damping.any():
+    members, ties = machine_members(machine, lump(machine))
+    if len(members) > len(BODIES) or ties.stiffness.any() or ties.damping.any():
         return None
-    (mounted,), (inner, outer, cage) = machine.bearings, assembly.members
+    (mounted,), (inner, outer, cage) = machine.bearings, (member.body for member in members)
     links = {}
     for link in machine.links:
         first, second = _body(link.first), _body(link.second)
@@ -29,8 +31,8 @@ def bearing_on_rigid_shaft(machine: MachineModel, assembly: Assembly) -> Bearing
             first, _from(mounted.position, link.first), second, _from(mounted.position, link.second)
         )
     return replace(
-        mounted.model, name=machine.name, gravity=machine.gravity, inner_ring=inner.body, outer_ring=outer.body,
-        cage_body=cage.body, links=links,
+        mounted.model, name=machine.name, gravity=machine.gravity, inner_ring=inner, outer_ring=outer, cage_body=cage,
+        links=links,
     )  # fmt: skip
 
 

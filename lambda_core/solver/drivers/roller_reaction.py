@@ -43,7 +43,14 @@ class RollerReaction:
         Of it.
     kernels : Kernels, optional
         Of the same laws, from another bearing.
+
+    Attributes
+    ----------
+    alone : BearingModel or None
+        The bearing with all that holds and loads it, where nothing else of its machine moves.
     """
+
+    alone: BearingModel | None = None
 
     def __init__(
         self, model: BearingModel, rollers: RollerBearing, kernels: Kernels | None = None, announce: Announce = None
@@ -108,6 +115,12 @@ class RollerReaction:
         return False
 
     def equilibrium(self) -> Equilibrium:
+        """Return the equilibrium with the friction of the rollers, at the last pose or of the bearing alone."""
+        if self.alone is not None:
+            return solve(self.alone, self._kernels, self._announce, strict=False)
+        return self.at_pose()
+
+    def at_pose(self) -> Equilibrium:
         """Return the equilibrium at the last pose with the friction of the rollers by the laws of the model.
 
         Friction skews the rollers of a tilted ring, and the way there starts from a straight one: straight into the

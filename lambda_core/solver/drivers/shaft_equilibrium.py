@@ -26,6 +26,7 @@ from lambda_core.solver.drivers.bearing_reaction import BearingReaction
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
 from lambda_core.solver.drivers.first_state import free_contact_angle
 from lambda_core.solver.drivers.link_forces import SolvedLink, link_forces
+from lambda_core.solver.drivers.rigid_shaft import bearing_on_rigid_shaft
 from lambda_core.solver.drivers.roller_reaction import Ring, RollerReaction
 from lambda_core.solver.drivers.structure import static_rows, structure
 from lambda_core.solver.drivers.unconstrained_motion import unconstrained_motion
@@ -264,6 +265,7 @@ def solve_shaft(model: MachineModel, announce: Announce = None, kernels: SharedK
             break
     unbalanced, reactions = system.residual(q)
     _check_sides(model, reactions)
+    rings[0].alone = bearing_on_rigid_shaft(model)
     torque = -float(unbalanced[model.drive])
     moved = system.moves @ q
     return ShaftState(
