@@ -29,14 +29,14 @@ def written_parameters(law: Law, role: str, written: Mapping[str, Any], ledger: 
     return found
 
 
-def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[str, float]:
+def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[str, Any]:
     """Return what a case says about the quasi-static friction of its rollers, by names of FrictionParameters.
 
     Of parameters that it does not have the assumptions tell.
     """
     from lambda_core.model.laws.law_packages import law_called
 
-    found: dict[str, float] = {}
+    found: dict[str, Any] = {}
     for role, written in case.parameters.items():
         name, fields = ROLLER_FRICTION.get(role, ("", {}))
         if (getattr(case.models, role, None) or name).rpartition(":")[2] != name:
@@ -51,7 +51,7 @@ def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[
     return found
 
 
-def friction_of_model(model: BearingModel) -> dict[str, float]:
+def friction_of_model(model: BearingModel) -> dict[str, Any]:
     """Return the same of a resolved model of rollers in motion: what stands in its case."""
     laws, found = model.laws["ball_inner"], {}
     for role, (name, fields) in ROLLER_FRICTION.items():

@@ -82,7 +82,5 @@ def _lift_off(model: MachineModel, state: ShaftState, index: int) -> float | Non
     at[opposite[0]] = first_contact(model.bearings[opposite[0]])
     thrust = 0.0
     for i, place in at.items():
-        pose = np.zeros(len(POSE))
-        pose[0] = place
-        thrust += float(state.rings[i].reaction(pose)[0])
+        thrust += float(state.rings[i].reaction([place, *([0.0] * (len(POSE) - 1))])[0])
     return abs(thrust)
