@@ -184,7 +184,7 @@ def test_play_is_the_clearance() -> None:
         ({"geometry": {"row_distance": "9 mm"}}, "follows from ball, pitch"),
         ({"geometry": {"arrangement": "O"}}, "is a bearing of the kind self-aligning"),
         ({"geometry": {"rows": 1}}, "has two rows"),
-        ({"clearance": "C5"}, "no class of radial clearance"),
+        ({"clearance": "C5"}, "is not a class of radial clearance"),
         ({"contact_angle": "20 deg"}, "apart, wider than the ring"),
     ],
 )

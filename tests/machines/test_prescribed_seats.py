@@ -136,7 +136,7 @@ def test_motions_that_cannot_be_prescribed() -> None:
         (
             tables({}, {}, bodies={"box": {**box, "support": {"tilt_y": {"motion": "9 deg"}}}}),
             "bodies.box.support.tilt_y.motion",
-            "at most",
+            "allowed up to",
         ),
         (
             merged(

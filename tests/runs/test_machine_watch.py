@@ -48,7 +48,7 @@ def test_every_bearing_is_observed_and_an_event_ends_the_run_at_its_sample(tmp_p
     }
     model = machine(output={"interval": "0.05 ms"}, solver={"duration": "2 ms"})
     bearings = tuple(replace(one, model=replace(one.model, **watched)) for one in model.bearings)
-    result = launch(replace(model, bearings=bearings), tmp_path / "run.h5", force=False)
+    result = launch(replace(model, bearings=bearings), tmp_path / "run.h5", overwrite=False)
     for bearing in result.bearings.values():
         time = bearing["time"]
         assert time[-1] == pytest.approx(0.35e-3)  # the first sample behind 0.31 ms, not the end of the record
