@@ -79,10 +79,9 @@ PACKAGES = {
     "bad-status": code(name="bad-status", status="4"),
     "bad-index": code(name="bad-index", result="p[i + 1]"),
     "bad-position": code(name="bad-position", ratio="par[0]"),
-    "bad-speed": code(name="bad-speed", result=SOUND).replace(
+    "bad-speed": code(name="bad-speed", result=f"{SOUND} + 0.0 * burnt").replace(
         "    for i in",
-        "    for k in range(500):\n        for j in range(tau.size):\n"
-        "            tau[j] = math.exp(-slip[j] * k)\n    for i in",
+        "    burnt = 0.0\n    for k in range(500):\n        burnt += math.exp(-slip[0] * k)\n    for i in",
     ),
     "harbour-traction": code(name="harbour"),
 }

@@ -25,6 +25,14 @@ _OIL_SHARE = 0.1  # of the volume between bore and outside diameter, where the c
 _COMMON = ("housing", "ambient")  # nodes that all bearings of a machine share
 
 
+def _surface(model: BearingModel) -> float:
+    """Return the surface of one ball, pi D^2, or of one roller with its ends, pi D L + pi D^2/2 [m2]."""
+    if model.rollers is None:
+        return math.pi * model.geometry.ball_diameter**2
+    diameter = model.rollers.diameter
+    return math.pi * diameter * (model.rollers.length + 0.5 * diameter)
+
+
 class BearingNodes:
     """Nodes of one bearing, alone or one of several on a shaft.
 
@@ -95,7 +103,7 @@ class BearingNodes:
         found = {
             ("inner_ring", "oil"): h * math.pi * g.race_diameter_inner * g.width,
             ("outer_ring", "oil"): h * math.pi * g.race_diameter_outer * g.width,
-            ("balls", "oil"): h * g.ball_count * math.pi * g.ball_diameter**2,
+            ("balls", "oil"): h * g.ball_count * _surface(self.model),
             ("cage", "oil"): h * 2.0 * math.pi * g.pitch_diameter * self.model.cage.width,
             ("inner_ring", "balls"): point["contact_inner"],
             ("outer_ring", "balls"): point["contact_outer"],
