@@ -6,12 +6,14 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from textual import events
 from textual.suggester import Suggester
 from textual.widgets import Input
 
 from lambda_core.api import FieldCard
 
 _MOST_NAMES = 5  # in one sentence
+_LONGEST_WAY = 1.0  # [s] of the keyboard to the next entry; then there is none
 _BARE = re.compile(r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(\s*)([A-Za-z]*)$")
 
 
@@ -92,13 +94,15 @@ class Completion(Suggester):
 class Entry(Input):
     """One line of text; a number takes its unit when the entry is left or Enter is pressed.
 
-    What stands there is selected when the keyboard comes: what is typed takes its place.
+    What stands there is selected when the keyboard comes: what is typed takes its place. What is typed after Enter
+    belongs to the entry that the keyboard moves to, however long that takes.
     """
 
     def __init__(self, card: FieldCard, names: Callable[[], Sequence[str]] | None = None) -> None:
         super().__init__(compact=True, suggester=Completion(card.units, names))
         self._card = card
         self._names = names
+        self._held: list[events.Key] | None = None  # keys since Enter, until the keyboard has moved on
 
     def take(self, card: FieldCard) -> None:
         """Take the units of another card."""
@@ -138,7 +142,29 @@ class Entry(Input):
             more = f" and {len(found) - _MOST_NAMES} more" if len(found) > _MOST_NAMES else ""
             self.notify(f"{self.value}: {', '.join(found[:_MOST_NAMES])}{more}", timeout=8)
 
+    async def _on_key(self, event: events.Key) -> None:
+        """Type a key, or keep it for the entry that the keyboard is moving to."""
+        if self._held is not None:
+            self._held.append(event)
+        elif event.key == "enter":
+            self._held = []
+            self.set_timer(_LONGEST_WAY, self._hand_over)
+            await self.action_submit()
+        else:
+            return  # to the handler of Input, which comes next
+        event.stop()
+        event.prevent_default()
+
+    def _hand_over(self) -> None:
+        """Give the keys that were kept to whatever has the keyboard now."""
+        held, self._held = self._held, None
+        focused = self.screen.focused if self.is_attached else None
+        for key in held or ():
+            if focused is not None:
+                focused._forward_event(events.Key(key.key, key.character))
+
     def on_blur(self) -> None:
         """Complete what was typed."""
         self.complete()
         self.select_on_focus = True
+        self._hand_over()
