@@ -203,6 +203,7 @@ def _shaft(
         key=lambda one: one.position,
     )
     _check_cells(bearings, ledger)
+    _check_tilts(case, bearings, ledger)
     if len(bearings) == len(case.bearings):
         refuse_far_beyond(case, gears, bearings, ledger)
     housing, housing_damping = None, None
@@ -356,6 +357,19 @@ def _check_cells(bearings: Sequence[MountedBearing], ledger: Ledger) -> None:
                     f'is {getattr(two, option)}, and {getattr(one, option)} of "{bearings[0].name}": '
                     "all bearings of a machine need the same",
                 )
+
+
+def _check_tilts(case: MachineCase, bearings: Sequence[MountedBearing], ledger: Ledger) -> None:
+    """Note tilts of a rigid shaft that nothing holds: a self-aligning bearing takes any without resistance."""
+    if not (case.shaft.is_rigid and any(one.model.geometry.kind.on_sphere for one in bearings)):
+        return
+    for dof in ("tilt_y", "tilt_z"):
+        held = [getattr(case.shaft.support, dof), *(getattr(one, dof) for one in case.connections.values())]
+        if not any(one.hold for one in held) and not any(one.is_by_law for one in case.connections.values()):
+            ledger.problem(
+                f"shaft.support.{dof}",
+                'is free, and a self-aligning bearing holds no tilt: write "locked", a stiffness or a motion',
+            )
 
 
 def _check_torque(case: MachineCase, ledger: Ledger) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 import numpy as np
@@ -43,7 +44,31 @@ def held(model: BearingModel, pose: Sequence[float]) -> BearingModel:
     )
 
 
-class BearingReaction:
+class Reaction(ABC):
+    """A bearing that answers a pose of its inner ring, and what surrounds it where it is alone.
+
+    Attributes
+    ----------
+    alone : BearingModel or None
+        The bearing with all that holds and loads it, where nothing else of its machine moves.
+    """
+
+    alone: BearingModel | None = None
+    _kernels: Kernels
+    _announce: Announce
+
+    def equilibrium(self) -> Equilibrium:
+        """Return the equilibrium with friction, at the last pose or of the bearing alone."""
+        if self.alone is None:
+            return self.at_pose()
+        return solve(self.alone, self._kernels, self._announce, strict=False)
+
+    @abstractmethod
+    def at_pose(self) -> Equilibrium:
+        """Return the equilibrium at the last pose with friction."""
+
+
+class BearingReaction(Reaction):
     """A bearing by the pose of its inner ring; the balls find their places between the rings, without friction.
 
     Parameters
@@ -54,14 +79,7 @@ class BearingReaction:
         A guess of the contact angle [rad] and of the mean contact load [N], where radii and films are frozen first.
     kernels : Kernels, optional
         Of the same laws, from another bearing.
-
-    Attributes
-    ----------
-    alone : BearingModel or None
-        The bearing with all that holds and loads it, where nothing else of its machine moves.
     """
-
-    alone: BearingModel | None = None
 
     def __init__(
         self, model: BearingModel, angle: float, load: float, kernels: Kernels | None = None, announce: Announce = None
@@ -121,12 +139,6 @@ class BearingReaction:
         self._frame, self._freed = new, None
         self._context = self._assembled()
         return True
-
-    def equilibrium(self) -> Equilibrium:
-        """Return the equilibrium with the friction of the balls, at the last pose or of the bearing alone."""
-        if self.alone is not None:
-            return solve(self.alone, self._kernels, self._announce, strict=False)
-        return self.at_pose()
 
     def at_pose(self) -> Equilibrium:
         """Return the equilibrium at the last pose with the friction of the balls."""

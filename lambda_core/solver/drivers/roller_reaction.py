@@ -21,7 +21,7 @@ from lambda_core.laws.context import Oil
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.time_functions import initial
-from lambda_core.solver.drivers.bearing_reaction import BearingReaction, held
+from lambda_core.solver.drivers.bearing_reaction import BearingReaction, Reaction, held
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.first_state import FIRST_AZIMUTH, first_frame
@@ -32,7 +32,7 @@ _TILTS = 3  # from this place of a pose on
 _MIRROR = np.array([-1.0, 1.0, 1.0, -1.0, -1.0])  # of a pose or a wrench, at the middle plane
 
 
-class RollerReaction:
+class RollerReaction(Reaction):
     """A roller bearing by the pose of its inner ring; the rollers find their places, without friction.
 
     Parameters
@@ -43,14 +43,7 @@ class RollerReaction:
         Of it.
     kernels : Kernels, optional
         Of the same laws, from another bearing.
-
-    Attributes
-    ----------
-    alone : BearingModel or None
-        The bearing with all that holds and loads it, where nothing else of its machine moves.
     """
-
-    alone: BearingModel | None = None
 
     def __init__(
         self, model: BearingModel, rollers: RollerBearing, kernels: Kernels | None = None, announce: Announce = None
@@ -113,12 +106,6 @@ class RollerReaction:
     def refresh(self) -> bool:
         """Return False: cones touch at the same angles everywhere."""
         return False
-
-    def equilibrium(self) -> Equilibrium:
-        """Return the equilibrium with the friction of the rollers, at the last pose or of the bearing alone."""
-        if self.alone is not None:
-            return solve(self.alone, self._kernels, self._announce, strict=False)
-        return self.at_pose()
 
     def at_pose(self) -> Equilibrium:
         """Return the equilibrium at the last pose with the friction of the rollers by the laws of the model.

@@ -1,0 +1,70 @@
+"""The rigid shaft of a single bearing: what it carries, and what it refuses."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from lambda_core import api
+
+
+def machine(**changes: Any) -> dict[str, Any]:
+    """Return a machine of one bearing without sections of the shaft."""
+    tables: dict[str, Any] = {
+        "name": "rigid",
+        "bearings": {"b": {"designation": "SKF 6208", "at": "9 mm"}},
+        "discs": {"rotor": {"at": "b", "mass": "2 kg"}},
+        "loads": {"belt": {"at": "b", "radial": "2 kN"}},
+        "shaft": {"support": {"tilt_y": "locked", "tilt_z": "locked"}},
+        "operation": {"speed": "1300 rpm"},
+        "lubricant": {"name": "FVA3", "temperature": "60 degC"},
+    }
+    return tables | changes
+
+
+def test_weight_and_load_reach_the_bearing() -> None:
+    found = api.quasistatic(machine())
+    (bearing,) = found.bearings
+    assert bearing.force_N[2] == pytest.approx(2000.0 + 2.0 * 9.80665, abs=0.01)
+    assert "the shaft is rigid" in found.text()
+    assert "bending moment" not in found.text()
+
+
+def test_a_disc_decides_the_natural_frequency() -> None:
+    """Four times the mass, half the frequency, as far as the inner ring's own mass lets it."""
+    light = machine(discs={"rotor": {"at": "b", "mass": "2 kg"}}, gravity={"z": "0 m/s2"})
+    heavy = machine(discs={"rotor": {"at": "b", "mass": "8 kg"}}, gravity={"z": "0 m/s2"})
+    one, other = (
+        min(mode.frequency_Hz for mode in api.modes(each).modes if mode.kind == "bending") for each in (light, heavy)
+    )
+    assert one / other == pytest.approx(2.0, rel=0.06)
+
+
+BEARINGS = {"b": {"designation": "SKF 6208", "at": "9 mm"}, "c": {"designation": "SKF 6208", "at": "90 mm"}}
+ALIGNING = {"b": {"designation": "SKF 1208 EKTN9", "at": "9 mm"}}
+
+
+@pytest.mark.parametrize(
+    ("changes", "where", "words"),
+    [
+        ({"loads": {"belt": {"at": "20 mm", "radial": "2 kN"}}}, "loads.belt.at", "20 mm is not where the bearing is"),
+        ({"bearings": BEARINGS}, "shaft.sections", "only the shaft of a single bearing can be rigid"),
+        (
+            {"shaft": {"support": {"spin": {"damping": "1 N m s/rad"}}}},
+            "shaft.support.spin.damping",
+            "operation.torque",
+        ),
+        ({"bearings": ALIGNING, "shaft": {}}, "shaft.support.tilt_y", "a self-aligning bearing holds no tilt"),
+    ],
+)
+def test_what_a_rigid_shaft_refuses(changes: dict[str, Any], where: str, words: str) -> None:
+    with pytest.raises(api.CaseError) as refused:
+        api.check(machine(**changes))
+    assert any(problem.where == where and words in problem.message for problem in refused.value.problems)
+
+
+def test_a_stiffness_holds_the_tilts_of_a_self_aligning_bearing() -> None:
+    support = {"tilt_y": "1000 N m/rad", "tilt_z": {"motion": "1 mrad"}}
+    (bearing,) = api.quasistatic(machine(bearings=ALIGNING, shaft={"support": support})).bearings
+    assert bearing.misalignment_mrad == pytest.approx([0.0, 1.0], abs=1e-3)
