@@ -45,7 +45,7 @@ def summary(node: Node, draft: Draft, around: CaseContext) -> str:
         shared = draft.get("models", node.role) if node.table else None
         return str(written or around.resolved(node.law_places[0]) or shared or DEFAULT_MODELS[node.role])
     if node.kind == "named":
-        return str(len(node.children) or "none")
+        return str(len(node.children)) if node.children else _absent(node, draft)
     if node.kind == "item":
         return _item(node, draft)
     if key == "case":
@@ -70,6 +70,14 @@ def summary(node: Node, draft: Draft, around: CaseContext) -> str:
         written = draft.get(*key.split("."))
         return f"{len(written)} set" if isinstance(written, Mapping) and written else "catalogue"[: 9 * ("geo" in key)]
     return _parts(*(draft.get(key, name) for name in _TELL.get(key, ())))
+
+
+def _absent(node: Node, draft: Draft) -> str:
+    """Return a word about named parts that are not there: without pieces the shaft of a single bearing is rigid."""
+    bearings = draft.get("bearings")
+    is_single = isinstance(bearings, Mapping) and len(bearings) == 1
+    is_rigid = node.table[:1] == ("shaft",) and is_single and draft.get("shaft", "reduced") is None
+    return "rigid" if is_rigid else "none"
 
 
 def _item(node: Node, draft: Draft) -> str:

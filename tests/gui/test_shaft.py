@@ -317,3 +317,15 @@ def test_a_new_name_goes_wherever_it_is_named(tmp_path: Path) -> None:
     assert draft.get("connections", "mount", "at") == "paw"
     assert "# A flexible-mounted housing" in draft.text()
     assert api.check(draft.tables).bodies[0].name == "case"
+
+
+async def test_a_single_bearing_without_a_shaft_stands_on_a_rigid_one(work_folder: Path) -> None:
+    Path("alone.toml").write_text(
+        'name = "alone"\n[bearings.b]\ndesignation = "SKF 6208"\nat = "0 mm"\n[loads.l]\nat = "b"\nradial = "2 kN"\n'
+        '[operation]\nspeed = "1300 rpm"\n[lubricant]\nname = "FVA3"\ntemperature = "60 degC"\n',
+        encoding="utf-8",
+    )
+    async with BuilderApp("alone.toml").run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        assert builder(pilot).check.problems == ()
+        assert any(line.split()[:2] == ["Shaft", "rigid"] for line in screen_text(pilot.app).splitlines())  # type: ignore[arg-type]
