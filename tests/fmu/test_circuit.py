@@ -13,6 +13,8 @@ from lambda_core import api
 from lambda_core.analysis.electric.circuit_bearing import of_model
 from lambda_core.analysis.electric.contacts import CHANNELS, contacts_of_samples, films
 from lambda_core.analysis.electric.simulation import network_of
+from lambda_core.export.fmu.circuit_image import circuit
+from lambda_core.solver.drivers.assembly import BearingSpan
 
 CASE = "6208-axial-1300"
 CHANGES = ("solver.duration=0.2 s", "electric.seed=3", "electric.grounding.insulation=2 nF")
@@ -105,3 +107,14 @@ def test_a_case_without_a_circuit_has_no_source(
 ) -> None:
     unit = host.Unit(exported(2, "force"), tmp_path)
     assert not [name for name in unit.references if name.startswith("electric.")]
+
+
+@pytest.mark.parametrize(("bearing", "what"), [("SKF NU 208 ECP", "rollers"), ("QJ208", "four-point contacts")])
+def test_circuits_that_are_not_exported(bearing: str, what: str, tmp_path: Path) -> None:
+    case = api.init_case("other", bearing=bearing, path=tmp_path / "other.toml")
+    model = api.check(case, ("electric.seed=3", "solver.duration=1 ms"))
+    assert isinstance(model, api.BearingModel)
+    raceways = 2 if what == "rollers" else 4
+    spans = [BearingSpan((0, 1, 2), 0, 0, 0, model.geometry.balls, 0, 0, 0, 0)]
+    with pytest.raises(api.UsageError, match=f"the circuit of {what} is not exported"):
+        circuit(model, spans, raceways * model.geometry.balls)

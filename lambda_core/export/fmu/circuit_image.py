@@ -53,15 +53,12 @@ class FilmPart(NamedTuple):
         Of its outer ring where it is insulated, otherwise 0.
     film : Film
         Options of the case.
-    of_lines : bool
-        Whether its contacts are lines of rollers.
     """
 
     first: int
     balls: int
     node: int
     film: Film
-    of_lines: bool
 
 
 @dataclass(frozen=True)
@@ -135,14 +132,17 @@ def circuit(
     Raises
     ------
     UsageError
-        When a ball touches a ring at more than one place.
+        When a bearing has rollers, or a ball touches a ring at more than one place.
     """
     if model.electric is None:
         return None
     balls = sum(span.balls for span in spans)
-    if contacts != 2 * balls:
-        raise UsageError("the circuit of four-point contacts is not exported: leave [electric] out of the case")
     bearings = [of_model(model)] if isinstance(model, BearingModel) else of_machine(model)
+    what = (
+        "rollers" if any(one.of_lines for one in bearings) else "four-point contacts" if contacts != 2 * balls else ""
+    )
+    if what:
+        raise UsageError(f"the circuit of {what} is not exported: leave [electric] out of the case")
     options = bearings[0].options
     network = network_of(bearings, [span.balls for span in spans], announce)
     nodes = network.held()["wiring"].ring
@@ -163,7 +163,7 @@ def circuit(
         words=np.array([1, options.seed, network.substeps], dtype=np.int64),
         rate=np.zeros((2, balls, 2)),
         films=tuple(
-            FilmPart(span.first_ball, span.balls, max(int(node), 0), one.options.film, one.of_lines)
+            FilmPart(span.first_ball, span.balls, max(int(node), 0), one.options.film)
             for one, span, node in zip(bearings, spans, nodes, strict=False)  # a last node is the shaft's
         ),
     )

@@ -272,8 +272,8 @@ def _film_table(frozen: Frozen) -> list[str]:
     for part in frozen.circuit.films if frozen.circuit else ():
         film = part.film
         numbers = (film.conductivity, film.metal_resistance, film.ball_permittivity or 0.0)
-        flags = (int(film.roughness != "smooth"), int(part.of_lines))
-        rows.append(f"{{{part.first},{part.balls},{part.node},{_reals(numbers)},{flags[0]},{flags[1]}}}")
+        is_rough = int(film.roughness != "smooth")
+        rows.append(f"{{{part.first},{part.balls},{part.node},{_reals(numbers)},{is_rough}}}")
     return [f"static const lb_film lb_films[] = {{{', '.join(rows)}}};"] if rows else []
 
 

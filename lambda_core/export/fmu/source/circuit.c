@@ -17,20 +17,15 @@
 
 static int loaded(lb_bearing *b, unsigned k) { return CONTACT(k, LOAD) > 0.0; }
 static int shorted(lb_bearing *b, unsigned k) { return !isfinite(CONTACT(k, CAPACITANCE)); }
-static double area(lb_bearing *b, const lb_film *f, unsigned k) {
-  if (f->of_lines) return CONTACT(k, LOAD) / fmax(0.25 * PI * CONTACT(k, MAX_PRESSURE), 1.0);
-  return PI * CONTACT(k, SEMI_AXIS_A) * CONTACT(k, SEMI_AXIS_B);
-}
+static double area(lb_bearing *b, unsigned k) { return PI * CONTACT(k, SEMI_AXIS_A) * CONTACT(k, SEMI_AXIS_B); }
 
 /* Permittivity of the oil in a film; its mean is that of contacts without one. */
-static double oil(lb_bearing *b, const lb_film *f, unsigned k) {
-  return CONTACT(k, CAPACITANCE_HERTZ) * CONTACT(k, FILM_CENTRAL) / area(b, f, k);
-}
+static double oil(lb_bearing *b, unsigned k) { return CONTACT(k, CAPACITANCE_HERTZ) * CONTACT(k, FILM_CENTRAL) / area(b, k); }
 
 static double mean_of_films(lb_bearing *b, const lb_film *f) {
   double total = 0.0, count = 0.0;
   for EACH(k, f)
-    if (loaded(b, k) && !shorted(b, k)) total += oil(b, f, k), count += 1.0;
+    if (loaded(b, k) && !shorted(b, k)) total += oil(b, k), count += 1.0;
   return count > 0.0 ? total / count : LB_VACUUM_PERMITTIVITY;
 }
 
@@ -57,7 +52,7 @@ static void part(lb_bearing *b, const lb_film *f, unsigned k, double between, do
   double squared = CONTACT(k, FILM_PARAMETER) * CONTACT(k, FILM_PARAMETER);
   double rough = f->rough && carried && squared > 1.0 ? CONTACT(k, CAPACITANCE_HERTZ) / (squared - 1.0) : 0.0;
   double capacitance = (metal ? CONTACT(k, CAPACITANCE_HERTZ) : CONTACT(k, CAPACITANCE)) + rough;
-  double conductance = metal ? 1.0 / f->metal : f->conductivity * capacitance / (carried ? oil(b, f, k) : between);
+  double conductance = metal ? 1.0 / f->metal : f->conductivity * capacitance / (carried ? oil(b, k) : between);
   double film = carried ? CONTACT(k, FILM_CENTRAL) : 0.0;
   if (f->ball_permittivity > 0.0) {
     double size = loaded(b, k) ? entrance(b, k) : through;
@@ -65,7 +60,7 @@ static void part(lb_bearing *b, const lb_film *f, unsigned k, double between, do
     capacitance = capacitance * ball / (capacitance + ball), conductance = film = 0.0;
   }
   TABLE(CAPACITANCE, 1, k) = capacitance, TABLE(CONDUCTANCE, 1, k) = conductance;
-  TABLE(FILM, 1, k) = film, TABLE(THINNEST, 1, k) = CONTACT(k, FILM_MINIMUM), TABLE(AREA, 1, k) = area(b, f, k);
+  TABLE(FILM, 1, k) = film, TABLE(THINNEST, 1, k) = CONTACT(k, FILM_MINIMUM), TABLE(AREA, 1, k) = area(b, k);
   PATCHES(1, k) = loaded(b, k) ? fabs(CONTACT(k, ENTRAINMENT)) / (2.0 * CONTACT(k, SEMI_AXIS_B)) : 0.0;
 }
 

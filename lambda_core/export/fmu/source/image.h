@@ -35,7 +35,7 @@ typedef struct {
 typedef struct {
   unsigned first_ball, balls, node; /* of the outer ring where it is insulated, otherwise 0 */
   double conductivity, metal, ball_permittivity;
-  int rough, of_lines;
+  int rough;
 } lb_film; /* of a bearing in the circuit */
 
 #include "case.h" /* written for each case: places in the image, variables, sentences */
