@@ -56,6 +56,12 @@ def init(
         str | None, typer.Option("--speed", metavar="SPEED", help="With --bearing: speed of the inner ring.")
     ] = None,
     oil: Annotated[str | None, typer.Option("--oil", metavar="NAME", help="With --bearing: lubricant.")] = None,
+    as_machine: Annotated[
+        bool,
+        typer.Option(
+            "--as-machine", help="Write one bearing as a machine: it can have gears, discs, connections and a shaft."
+        ),
+    ] = False,
     force: ForceOption = False,
 ) -> None:
     """Write a commented case file to start from."""
@@ -68,7 +74,9 @@ def init(
     if any(mark in name for mark in "/\\"):
         raise api.UsageError(f'"{name}" is a path: give a name alone, and the file with --out "{name}"')
     name = name.removesuffix(".toml")  # whoever names the file means the case in it
-    target = api.init_case(name, start, out, overwrite=force, bearing=bearing, template=template, changes=changes)
+    target = api.init_case(
+        name, start, out, overwrite=force, bearing=bearing, template=template, changes=changes, as_machine=as_machine
+    )
     remember(target)
     typer.echo(f"wrote {target}; next: lambda-bearing check {target}", err=True)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import ClassVar
 
 from lambda_core.case.elastic import Elastic
@@ -24,6 +25,10 @@ class Case(Written):
     once, with help and limits.
     """
 
+    INSTEAD: ClassVar[Mapping[str, str]] = dict.fromkeys(
+        ("bearings", "shaft", "discs", "gears", "connections", "housing"),
+        "only machines have it; lambda-bearing init NAME --from FILE --as-machine writes this case as a machine",
+    )
     STAND_INS: ClassVar[StandIns] = {**SHARED_STAND_INS, ("bearing",): {}}
 
     bearing: Bearing = option(description="the bearing")

@@ -175,8 +175,9 @@ def init_case(
     bearing: str | None = None,
     template: str | None = None,
     changes: Sequence[str] = (),
+    as_machine: bool = False,
 ) -> Path:
-    """Write a commented case called `name` that starts from another, or from a bearing of the catalogue.
+    """Write a new case from another one, a bearing or a template.
 
     Parameters
     ----------
@@ -195,6 +196,9 @@ def init_case(
         bearing with what is usual in such a machine, with `bearing` for another one.
     changes : sequence of str
         ``path=value``: what the new case has otherwise, with `bearing` or a `template` of one bearing.
+    as_machine : bool
+        Write the case of one bearing as a machine, see :func:`long_form`: it can have gears, discs, connections and a
+        shaft of its own. Comments of the case are lost.
 
     Returns
     -------
@@ -204,13 +208,14 @@ def init_case(
     Raises
     ------
     UsageError
-        When the file exists, cannot be written, there is no such case or template to start from, or both a case and
-        a bearing are given.
+        When the file exists, cannot be written, there is no such case or template to start from, it is a machine
+        already, or both a case and a bearing are given.
     CatalogueError
         When the bearing is unknown, or several makers have one of that name.
     CaseError
         When `name` cannot be a case's name.
     """
+    from lambda_core.case.case_io import read_case
     from lambda_core.case.case_writer import new_case, write_new
 
     target = Path(path) if path is not None else Path(f"{name}.toml")
@@ -218,10 +223,17 @@ def init_case(
     if changes and ((bearing is None and template is None) or template == GEARED_SHAFT):
         raise UsageError("load, speed and oil of a new case go with --bearing or a template of one bearing")
     if bearing is None and template is None:
-        return new_case(name, start or "6319-cp10-1500", target, overwrite)
+        begin = start or "6319-cp10-1500"
+        return (
+            _new_machine(read_case(begin), name, target, overwrite)
+            if as_machine
+            else new_case(name, begin, target, overwrite)
+        )
     if start is not None:
         other = "a bearing" if template is None else "a template"
         raise UsageError(f"a new case starts from a case or from {other}, not from both")
+    if as_machine and template == GEARED_SHAFT:
+        raise UsageError(_IS_MACHINE)
     text = _template_text(name, template, bearing, _given_radial(changes))
     if template == GEARED_SHAFT:
         import tomllib
@@ -237,7 +249,31 @@ def init_case(
     from lambda_core.case.case_io import apply_overrides, parse_case
 
     changed = apply_overrides(parse_case(text, f"case {name}"), changes)
-    return write_new(changed, text, target, overwrite)
+    return _new_machine(changed, name, target, overwrite) if as_machine else write_new(changed, text, target, overwrite)
+
+
+_IS_MACHINE = "the case to start from is a machine already: leave out the option to write it as one"
+
+
+def _new_machine(case: Case | MachineCase, name: str, target: Path, overwrite: bool) -> Path:
+    """Write the case of one bearing as a machine called `name`, with a comment about what to add."""
+    from lambda_core.case.case import Case
+    from lambda_core.case.case_writer import save_text, tables_toml
+    from lambda_core.domain.files import check_new
+    from lambda_core.model.long_form import long_form
+
+    if not isinstance(case, Case):
+        raise UsageError(_IS_MACHINE)
+    form = long_form(case.with_(name=name))
+    lines = [
+        "A bearing on a rigid shaft. Add [gears.NAME], [discs.NAME], [loads.NAME] or [connections.NAME] with "
+        'at = "bearing".',
+        "Sections in [shaft] make the shaft elastic; places then count from its left end.",
+        *(f"Not the same as in the case of one bearing: {difference}" for difference in form.differences),
+    ]
+    comments = "".join(f"# {line}\n" for line in lines)
+    save_text(f"{comments}\n{tables_toml(form.tables)}", check_new(target, overwrite))
+    return target
 
 
 def _given_radial(changes: Sequence[str]) -> float | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -87,6 +88,26 @@ def test_rollers_move_as_in_the_bearing_bit_by_bit(tmp_path: Path) -> None:
     machine = api.run(long.tables, out=tmp_path / "machine.h5")
     for channel in ("load", "ball_spin", "body_position", "pocket_force"):
         assert np.array_equal(single[channel], machine.of_bearing()[channel], equal_nan=True), channel
+
+
+def test_a_new_case_of_one_bearing_can_be_written_as_a_machine(tmp_path: Path) -> None:
+    given: dict[str, Any] = {"bearing": "SKF 6208", "changes": ["loads.radial=2 kN"]}
+    single = api.init_case("one", path=tmp_path / "one.toml", **given)
+    machine = api.init_case("one", path=tmp_path / "machine.toml", as_machine=True, **given)
+    assert tomllib.loads(machine.read_text(encoding="utf-8")) == api.long_form(single).tables
+    from_file = api.init_case("one", str(single), tmp_path / "again.toml", as_machine=True)
+    assert from_file.read_text(encoding="utf-8") == machine.read_text(encoding="utf-8")
+    for start in ({"start": str(machine)}, {"template": "geared-shaft"}):
+        with pytest.raises(api.UsageError, match="a machine already"):
+            api.init_case("two", path=tmp_path / "two.toml", as_machine=True, **start)
+
+
+def test_a_gear_in_the_case_of_one_bearing_names_the_way_to_a_machine() -> None:
+    tables = api.case("6208-axial-1300").written() | {"gears": {"wheel": {"at": "bearing"}}}
+    with pytest.raises(api.CaseError) as refused:
+        api.check(tables)
+    (problem,) = refused.value.problems
+    assert problem.where == "gears" and "--as-machine" in problem.message
 
 
 def test_what_a_machine_does_not_have_is_said() -> None:
