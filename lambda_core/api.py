@@ -23,9 +23,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.export.report.api import animate, draw, report, view, views
     from lambda_core.export.ross import ross_rotor
     from lambda_core.export.stiffness import write_stiffness
-    from lambda_core.fitting.fit_case import fit
-    from lambda_core.fitting.measured import compare_measured
-    from lambda_core.fitting.traction_curve import traction
+    from lambda_core.fitting.api import compare_measured, fit, traction
     from lambda_core.model.api import builtin_cases, case, catalogue, check, describe, init_case, save, schema
     from lambda_core.runs.api import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.runs.compare import compare
@@ -61,9 +59,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.elements.ball.geometry import Geometry
     from lambda_core.export.report.api import machine_pictures, view_all, view_stem
     from lambda_core.export.stiffness import stiffness_target
-    from lambda_core.fitting.fitted_case import fitted_case
-    from lambda_core.fitting.measured import add_measured, measured_series
-    from lambda_core.fitting.overlay import with_measured
+    from lambda_core.fitting.api import add_measured, fitted_case, measured_series, with_measured
     from lambda_core.fitting.report import FitReport
     from lambda_core.model.api import draft, problems, templates
     from lambda_core.model.bearing_model import BearingModel

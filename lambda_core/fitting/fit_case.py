@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.lists import listed
 from lambda_core.domain.units import show
@@ -41,8 +40,7 @@ if TYPE_CHECKING:
 Announce = Callable[[str], None]
 
 
-@one_blas_thread()
-def fit(
+def fit_report(
     source: str | Path | Mapping[str, Any] | Case,
     measured: str | Path | Measurements,
     vary: Sequence[str],
@@ -53,39 +51,7 @@ def fit(
     suggest: bool = True,
     announce: Announce | None = None,
 ) -> FitReport:
-    """Fit parameters of a case to measured operating points.
-
-    Parameters
-    ----------
-    source, overrides
-        The case, as for :func:`check`. Columns of the measurements replace its speed, loads and temperatures.
-    measured : path-like or Measurements
-        CSV file: one operating point per line, columns with units such as ``speed [1/min]``, ``radial load [kN]``,
-        ``oil temperature [degC]``, ``friction torque [N mm]`` and errors such as ``friction torque error [%]``. Of a
-        machine also ``left friction torque [N mm]`` of the bearing "left", and options such as
-        ``loads.belt.force_z [N]``.
-    vary : sequence of str
-        Parameters: the path or its end ("loss_factor"), with a range where none is published
-        ("tau_eyring=3 MPa..10 MPa").
-    bearing : str, optional
-        One of a machine's: columns and parameters without a name are those of this one.
-    predict : path-like or Measurements, optional
-        Measured points that the fit does not see, to be compared with its predictions.
-    suggest : bool
-        Look for the operating point to measure next.
-    announce : callable, optional
-        Called with sentences about the progress.
-
-    Returns
-    -------
-    FitReport
-        ``text()`` for people, ``pictures()`` for :func:`draw`. After Ctrl+C it has the best values so far.
-
-    Raises
-    ------
-    UsageError, CaseError, SolverError
-        With a sentence about the parameters, a line of the file, or a point without an equilibrium.
-    """
+    """Return what a fit of a case found, see :func:`lambda_core.fitting.api.fit`."""
     begin = time.perf_counter()
     if not listed(vary, "vary"):
         raise UsageError("nothing to fit: name a parameter, for example --vary loss_factor")

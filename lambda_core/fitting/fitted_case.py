@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     C = TypeVar("C", bound=Written)
 
 
-def fitted_case(
+def write_fitted(
     source: str | Path | Mapping[str, Any] | Case | MachineCase,
     report: FitReport,
     path: str | Path,
@@ -28,29 +28,7 @@ def fitted_case(
     *,
     overwrite: bool = False,
 ) -> Path:
-    """Write a case file with the fitted values, their errors and correlations, and the file they were fitted to.
-
-    Parameters
-    ----------
-    source, overrides
-        The case that was fitted; the comments of a file stay.
-    report : FitReport
-        From :func:`fit`.
-    path : path-like
-        The new file. The measured rows are not stored in it.
-    overwrite : bool
-        Replace a file that stands there.
-
-    Returns
-    -------
-    pathlib.Path
-        The file.
-
-    Raises
-    ------
-    UsageError
-        When the file exists or cannot be written.
-    """
+    """Write a case file with the fitted values, see :func:`lambda_core.fitting.api.fitted_case`."""
     from lambda_core.case.builtin import builtin_text, is_builtin
     from lambda_core.case.case_io import case_text, read_case
     from lambda_core.case.case_writer import save_case

@@ -17,7 +17,6 @@ from pydantic import ConfigDict, Field, ValidationError
 from lambda_core.analysis.band.model_band import band_of
 from lambda_core.analysis.band.quantities import MEASURED
 from lambda_core.analysis.thermal.temperatures import ready_model
-from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, unknown_name
 from lambda_core.domain.files import user_data_folder
 from lambda_core.domain.lists import listed
@@ -40,10 +39,10 @@ class MeasuredSeries(Record):
         default="", description="case that it is compared with, by name or as tables; empty where there is none"
     )
     bearing: str = Field(default="", description="what was measured, where there is no case")
-    source: str
-    licence: str
-    how_read: str
-    uncertainty: str
+    source: str = Field(description="who measured it and where it is published")
+    licence: str = Field(description="of the numbers")
+    how_read: str = Field(description="from a table, a picture, or a formula fitted by the source")
+    uncertainty: str = Field(description="of the measured values, in words")
 
 
 @dataclass(frozen=True)
@@ -79,7 +78,7 @@ class MeasuredComparison(Record):
     """Every series next to the predictions; nothing is fitted."""
 
     interface: int = INTERFACE
-    compared: list[ComparedSeries]
+    compared: list[ComparedSeries] = Field(description="in the order asked for")
 
     def text(self) -> str:
         """Return one line per series, and one per point of those computed."""
@@ -110,15 +109,8 @@ def _errors(one: ComparedSeries) -> str:
     return f"{text}; {one.inside} of {len(one.points)} inside the 90 % band, interval score {one.interval_score:.2f}"
 
 
-def measured_series() -> list[MeasuredSeries]:
-    """Return the measured series of the program.
-
-    Returns
-    -------
-    list of MeasuredSeries
-        Those of the program, of plugins, and those that were added, each with its source, licence, reading and
-        uncertainty. Of two with one name the first is taken.
-    """
+def all_series() -> list[MeasuredSeries]:
+    """Return the measured series of the program, of plugins and of the user."""
     found: dict[str, MeasuredSeries] = {}
     for folder in _folders():
         entries = folder.iterdir() if folder.is_dir() else ()
@@ -143,26 +135,8 @@ def _own_folder() -> Path:
     return user_data_folder() / "measured"
 
 
-def add_measured(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries:
-    """Add a measured series of one's own to the catalogue of series.
-
-    Parameters
-    ----------
-    path : path-like
-        TOML file with the entries `title`, `case`, `source`, `licence`, `how_read` and `uncertainty`; the points are in
-        the CSV file of the same name next to it. Both are copied into the user's data folder.
-    overwrite : bool
-        Replace a series of that name that was added before.
-
-    Returns
-    -------
-    MeasuredSeries
-
-    Raises
-    ------
-    UsageError, CaseError
-        When a file is missing or has mistakes, or the name is taken.
-    """
+def add_series(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries:
+    """Copy a measured series into the user's data folder."""
     source = Path(path)
     if source.suffix != ".toml" or not source.is_file():
         raise UsageError(
@@ -170,7 +144,7 @@ def add_measured(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries
         )
     series, name = _load(str(source)).series, source.stem
     target = _own_folder() / source.name
-    known = {one.name for one in measured_series()}
+    known = {one.name for one in all_series()}
     if name in known and not (overwrite and target.is_file()):
         why = "--force replaces it" if target.is_file() else "it comes with the program: rename your files"
         raise UsageError(f'there is a measured series "{name}" already; {why}')
@@ -180,33 +154,11 @@ def add_measured(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries
     return series
 
 
-@one_blas_thread()
-def compare_measured(
+def compare(
     names: Sequence[str] = (), *, band: bool = True, announce: Callable[[str], None] | None = None
 ) -> MeasuredComparison:
-    """Compare measured series with quasi-static solutions; nothing is fitted.
-
-    Parameters
-    ----------
-    names : sequence of str
-        Names of :func:`measured_series`, or files of one's own: a TOML file with the same entries next to a CSV file of
-        the same name. All of the program when empty.
-    band : bool
-        Compute the 90 % model band at every point; roller bearings have none.
-    announce : callable, optional
-        Called with a sentence for every series.
-
-    Returns
-    -------
-    MeasuredComparison
-        ``text()`` has a line per point. A series that cannot be computed has the reason.
-
-    Raises
-    ------
-    UsageError, CaseError
-        When there is no such series, or its files have mistakes.
-    """
-    loaded = [_load(name) for name in (listed(names, "names") or [series.name for series in measured_series()])]
+    """Compare measured series with quasi-static solutions."""
+    loaded = [_load(name) for name in (listed(names, "names") or [series.name for series in all_series()])]
     found = []
     for one in loaded:
         if announce is not None and one.series.case:
@@ -231,7 +183,7 @@ def _load(name: str) -> _Loaded:
     path = Path(name)
     if path.suffix == ".toml" and path.is_file():
         return _Loaded(_read(path.read_text(encoding="utf-8"), path.name), read_measurements(path.with_suffix(".csv")))
-    known = {series.name: series for series in measured_series()}
+    known = {series.name: series for series in all_series()}
     if name not in known:
         raise UsageError(unknown_name("measured series", name, known))
     folder = next(one for one in _folders() if one.joinpath(f"{name}.toml").is_file())

@@ -20,30 +20,8 @@ _PLAIN = ("ratio", "-")  # quantity and unit of an axis without one
 _BAND = "± one standard deviation"
 
 
-def with_measured(pictures: Sequence[ViewData], measured: str | Path) -> list[ViewData]:
-    """Add a measured series to every picture that has axes for it.
-
-    Parameters
-    ----------
-    pictures : sequence of ViewData
-        From :func:`view`, :func:`stribeck_picture`, :func:`thermal_pictures` and so on.
-    measured : path-like
-        CSV file: one column has the name of a horizontal axis, such as ``speed [1/min]`` or ``time [s]``; others have
-        those of vertical axes, such as ``friction torque [N mm]``, or of a line and its axis, such as
-        ``outer ring temperature [degC]``. Columns of errors are drawn as bars.
-
-    Returns
-    -------
-    list of ViewData
-        Pictures with the series; those without axes for it are left out.
-
-    Raises
-    ------
-    UsageError
-        When no picture has axes for it, or the file cannot be read.
-    CaseError
-        With every mistake of the file and its line.
-    """
+def overlaid(pictures: Sequence[ViewData], measured: str | Path) -> list[ViewData]:
+    """Add a measured series to every picture that has axes for it."""
     panels = [panel for picture in pictures for panel in picture.panels if isinstance(panel, Panel)]
     words = _vocabulary(panels)
     data = read_measurements(measured, words)

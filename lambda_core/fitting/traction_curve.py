@@ -58,7 +58,7 @@ class TractionCurve(Record):
     """Traction of an oil over slide-roll ratio, by law."""
 
     interface: int = INTERFACE
-    oil: str
+    oil: str = Field(description="name in the catalogue")
     pressure_GPa: float = Field(description="largest Hertzian pressure")
     temperature_degC: float = Field(description="of the oil at the inlet")
     speed_m_s: float = Field(description="mean of both surfaces")
@@ -67,7 +67,7 @@ class TractionCurve(Record):
     slide_roll_ratio: list[float] = Field(description="difference of both speeds over their mean")
     coefficient: dict[str, list[float]] = Field(description="tangential over normal force, by law")
     left_out: list[str] = Field(default=[], description="laws that could not be computed, and why")
-    measured: MeasuredTraction | None = Field(default=None)
+    measured: MeasuredTraction | None = Field(default=None, description="points of a file; null without one")
 
     def text(self) -> str:
         """Return a table for people."""
@@ -117,7 +117,7 @@ class TractionCurve(Record):
         return lines
 
 
-def traction(
+def traction_of(
     oil: str,
     pressure: str | float,
     temperature: str | float,
@@ -127,38 +127,7 @@ def traction(
     parameters: Mapping[str, Any] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> TractionCurve:
-    """Return the traction of an oil over slide-roll ratio by every traction law.
-
-    Film, heating and viscosity come from the same laws as in a bearing. The contact rolls and slides in one direction,
-    without spin; both bodies have the temperature of the oil at the inlet.
-
-    Parameters
-    ----------
-    oil : str
-        Name in the catalogue.
-    pressure, temperature, speed : str
-        Largest Hertzian pressure, oil at the inlet, mean speed of both surfaces, with units: "1.25 GPa", "60 degC",
-        "2 m/s".
-    measured : path-like, optional
-        CSV file with the columns ``slide-roll ratio [%]``, ``traction coefficient [-]`` and perhaps ``traction
-        coefficient error [%]``.
-    parameters : mapping, optional
-        Parameters of traction laws by name, for every law that has them: ``{"tau_eyring": "6 MPa"}``.
-    announce : callable, optional
-        Called with a sentence before something is compiled.
-
-    Returns
-    -------
-    TractionCurve
-        ``text()`` is a table, ``picture()`` a picture for :func:`draw`.
-
-    Raises
-    ------
-    UsageError, CaseError
-        For values without units, an unknown oil, or mistakes in the file, with their line.
-    SolverError
-        When no law can be computed at these conditions.
-    """
+    """Return the traction of an oil over slide-roll ratio by every law."""
     points = None if measured is None else _measured(read_measurements(measured, COLUMNS))
     contact_pressure, inlet = _read("pressure", pressure, "pressure"), _read("temperature", temperature, "temperature")
     mean_speed = _read("speed", speed, "velocity")

@@ -107,7 +107,8 @@ def test_a_gear_in_the_case_of_one_bearing_names_the_way_to_a_machine() -> None:
     with pytest.raises(api.CaseError) as refused:
         api.check(tables)
     (problem,) = refused.value.problems
-    assert problem.where == "gears" and "--as-machine" in problem.message
+    assert problem.where == "gears"
+    assert "--as-machine" in problem.message
 
 
 def test_what_a_machine_does_not_have_is_said() -> None:
