@@ -5,7 +5,6 @@ It is built at first use, named by the hash of seeds and schema, and put in plac
 
 from __future__ import annotations
 
-import hashlib
 import logging
 import os
 import sqlite3
@@ -14,15 +13,17 @@ from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
-from sqlalchemy import Connection, Engine, delete, insert, select
+from sqlalchemy import Connection, delete, insert, select
 from sqlalchemy.exc import IntegrityError
 
 from lambda_core.domain.errors import CatalogueError, Problem
-from lambda_db.engine import file_uri, sqlite_engine
+from lambda_db.built import BUILT_IN, built_name, digest_of
+from lambda_db.connecting import connect, file_uri
+from lambda_db.engine import engine_over, sqlite_engine
 from lambda_db.models import Base
 from lambda_db.paths import cache_folder
 from lambda_db.records import Row, describe, key_columns, parse_row, table_of
-from lambda_db.seed_files import BUILT_IN, Record, fingerprint, read_path
+from lambda_db.seed_files import Record, read_path
 from lambda_db.seed_tables import CHILDREN, SEED_TABLES
 
 log = logging.getLogger("lambda_db")
@@ -145,7 +146,7 @@ def build_file(folder: Path, name: str, plugin_folders: list[Path]) -> Path:
         with engine.begin() as connection:
             fill(connection, plugin_folders)
         engine.dispose()
-        target = folder / f"{name}-{_digest(temporary)}.sqlite"
+        target = folder / f"{name}-{digest_of(temporary)}.sqlite"
         try:
             os.replace(temporary, target)
         except PermissionError:  # Windows replaces no open file: another process reads the same content there
@@ -165,41 +166,22 @@ def _prune(folder: Path) -> None:
             path.unlink()
 
 
-def in_memory(plugin_folders: list[Path]) -> Engine:
+def in_memory(plugin_folders: list[Path]) -> sqlite3.Connection:
     """Build the database in memory, for a machine whose cache folder is not writable."""
-    engine = sqlite_engine("file::memory:")
-    with engine.begin() as connection:
+    made = connect("file::memory:")
+    with engine_over(lambda: made).begin() as connection:
         fill(connection, plugin_folders)
-    return engine
-
-
-def _digest(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()[:16]
-
-
-def is_sound(path: Path) -> bool:
-    """Tell whether a built file is, byte for byte, what was built: its name holds its digest."""
-    try:
-        return path.stem.endswith(f"-{_digest(path)}")
-    except OSError:
-        return False
+    return made
 
 
 def core_database(plugin_folders: list[Path]) -> Path | None:
-    """Return the core database, building it if it is missing or damaged.
+    """Build the core database, which is missing or damaged.
 
     Returns None if the cache folder cannot be written; the caller then builds in memory.
     """
-    folder, name = cache_folder(), f"catalogue-{fingerprint([BUILT_IN, *plugin_folders])}"
-    for path in sorted(folder.glob(f"{name}-*.sqlite")):
-        if is_sound(path):
-            return path
-        log.warning("the catalogue's cache file %s is damaged; building it again", path)
-        with suppress(OSError):
-            path.unlink()
+    folder = cache_folder()
     try:
-        return build_file(folder, name, plugin_folders)
+        return build_file(folder, built_name(plugin_folders), plugin_folders)
     except (OSError, sqlite3.OperationalError) as error:
         log.warning("the catalogue cannot be kept in %s (%s); building it in memory", folder, error)
         return None

@@ -1,17 +1,17 @@
 """Implement the catalogue of the core over SQLite.
 
-It combines built-in, plugin and user rows.
+It combines built-in, plugin and user rows. A row is read through Python's own sqlite3; SQLAlchemy, which takes as long
+to import as all the rest of a command, is loaded for searches, changes, and where there are user rows.
 """
 
 from __future__ import annotations
 
 import re
+import sqlite3
 from collections.abc import Sequence
+from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal
-
-from sqlalchemy import Connection, Engine, func, select, tuple_
-from sqlalchemy.orm import Session
+from typing import TYPE_CHECKING, Any, Literal
 
 from lambda_core.catalogue.designation import without_suffixes
 from lambda_core.catalogue.protocol import (
@@ -25,34 +25,23 @@ from lambda_core.catalogue.protocol import (
 )
 from lambda_core.catalogue.suffixes import Suffix
 from lambda_core.domain.errors import CatalogueError, Problem, nearest, unknown_name
-from lambda_db import build, rows
-from lambda_db.engine import file_uri, sqlite_engine
-from lambda_db.models import (
-    Alias,
-    Bearing,
-    Cage,
-    Candidate,
-    Clearance,
-    Lubricant,
-    LubricantParameter,
-    LubricantProperty,
-    Material,
-    Source,
-)
-from lambda_db.models import (
-    Suffix as SuffixRow,
-)
-from lambda_db.overlay import attach_user, detach_user
+from lambda_db import rows
+from lambda_db.built import find_built
+from lambda_db.connecting import connect, file_uri, select_rows
 from lambda_db.paths import user_database
-from lambda_db.roller_design import RollerDesign
-from lambda_db.search import bearing_query
-from lambda_db.shadows import shadows
+
+if TYPE_CHECKING:
+    from sqlalchemy import Connection
+
+    from lambda_db.models import Bearing, Candidate, Lubricant, LubricantParameter, LubricantProperty
 
 Kind = Literal["bearing", "lubricant", "material", "cage", "clearance_class"]
-_NAMED: dict[str, type[Lubricant] | type[Material] | type[Cage]] = {
-    "lubricant": Lubricant,
-    "material": Material,
-    "cage": Cage,
+_NAMES: dict[Kind, tuple[str, str]] = {  # table and column
+    "bearing": ("bearing", "designation"),
+    "lubricant": ("lubricant", "name"),
+    "material": ("material", "name"),
+    "cage": ("cage", "name"),
+    "clearance_class": ("clearance", "clearance_class"),
 }
 
 
@@ -73,46 +62,70 @@ def open_catalogue(seed_folders: Sequence[Any] = ()) -> SqlCatalogue:
     for folder in folders:
         if not folder.is_dir():
             raise _error(str(folder), "a plugin brings catalogue rows in it, but it is not a folder")
-    path = build.core_database(folders)
-    engine = build.in_memory(folders) if path is None else sqlite_engine(file_uri(path, "ro"))
-    return SqlCatalogue(engine, tuple(folders))
+    return SqlCatalogue(_connection_to(folders), tuple(folders))
+
+
+def _connection_to(folders: list[Path]) -> sqlite3.Connection:
+    """Return a connection to the core database, which is built where it is missing."""
+    path = find_built(folders)
+    if path is None:
+        from lambda_db import build
+
+        path = build.core_database(folders)
+        if path is None:
+            return build.in_memory(folders)
+    return connect(file_uri(path, "ro"))
 
 
 def _error(where: str, message: str) -> CatalogueError:
     return CatalogueError("catalogue", [Problem(where, message)])
 
 
+def _places(one: str, values: Sequence[object]) -> str:
+    """Return what stands for values in a statement."""
+    return ", ".join([one] * len(values))
+
+
 class SqlCatalogue:
     """Catalogue over one read-only connection; implements :class:`lambda_core.catalogue.protocol.Catalogue`."""
 
-    def __init__(self, engine: Engine, plugin_folders: tuple[Path, ...] = ()) -> None:
-        self._engine = engine
+    def __init__(self, connection: sqlite3.Connection, plugin_folders: tuple[Path, ...] = ()) -> None:
+        self._file = connection
         self._plugin_folders = plugin_folders
-        self._connection: Connection = engine.connect()
         self._overlaid = False
         self.refresh()
 
     def refresh(self) -> None:
         """Overlay the user's database if it has appeared, and read the sources again."""
-        from lambda_db.user import SCHEMA_VERSION, migrate
-
         path = user_database()
-        if self._overlaid:
-            detach_user(self._connection)
-            self._overlaid = False
-        if path.exists():
-            migrate(path)
-            self._overlaid = attach_user(self._connection, path, SCHEMA_VERSION)
-        with self._session() as session:
-            self._sources = {source.key: source.title for source in session.scalars(select(Source))}
+        if self._overlaid or path.exists():
+            from lambda_db.overlay import attach_user, detach_user
+            from lambda_db.user import SCHEMA_VERSION, migrate
 
-    def _session(self) -> Session:
-        return Session(self._connection, autoflush=False, expire_on_commit=False)
+            if self._overlaid:
+                detach_user(self.connection)
+                self._overlaid = False
+            if path.exists():
+                migrate(path)
+                self._overlaid = attach_user(self.connection, path, SCHEMA_VERSION)
+        self._sources = {source.key: source.title for source in self._rows("SELECT key, title FROM source")}
 
-    @property
+    def _rows(self, statement: str, *values: object) -> list[Any]:
+        return select_rows(self._file, statement, *values)
+
+    def _found(self, query: Any) -> list[Any]:
+        """Return what a query of SQLAlchemy finds."""
+        from sqlalchemy.orm import Session
+
+        with Session(self.connection, autoflush=False, expire_on_commit=False) as session:
+            return list(session.scalars(query))
+
+    @cached_property
     def connection(self) -> Connection:
-        """The reading connection, for the parts of this package that need whole tables."""
-        return self._connection
+        """The same connection for SQLAlchemy: for the parts of this package that need whole tables."""
+        from lambda_db.engine import engine_over
+
+        return engine_over(lambda: self._file).connect()
 
     @property
     def has_user_rows(self) -> bool:
@@ -128,133 +141,113 @@ class SqlCatalogue:
             Unknown designation (with the nearest), unknown maker, or several makers and none given.
         """
         wanted = " ".join(designation.split())
-        with self._session() as session:
-            query = select(Bearing).where(Bearing.designation.collate("NOCASE") == wanted).order_by(Bearing.maker)
-            found = list(session.scalars(query))
+        found = self._rows("SELECT * FROM bearing WHERE designation = ? COLLATE NOCASE ORDER BY maker", wanted)
+        if not found:
+            rollers = [row.designation for row in self._rows("SELECT designation FROM roller_design")]
+            names = self._names_of(maker) or [*self.names("bearing"), *rollers]
+            raise _error("designation", unknown_name("bearing", designation, names))
+        makers = ", ".join(row.maker for row in found)
+        if maker is not None:
+            found = [row for row in found if row.maker.casefold() == maker.strip().casefold()]
             if not found:
-                rollers = list(session.scalars(select(RollerDesign.designation)))
-                names = self._names_of(session, maker) or [*self.names("bearing"), *rollers]
-                raise _error("designation", unknown_name("bearing", designation, names))
-            makers = ", ".join(row.maker for row in found)
-            if maker is not None:
-                found = [row for row in found if row.maker.casefold() == maker.strip().casefold()]
-                if not found:
-                    close = nearest(wanted, self._names_of(session, maker))
-                    said = f'"{maker}" is not a maker of {wanted} in the catalogue; makers: {makers}'
-                    raise _error("maker", f"{said}; {maker} has {', '.join(close)}" if close else said)
-            if len(found) > 1:
-                several = f'"{wanted}" is in the catalogue from several makers; choose one: {makers}'
-                raise _error("maker", f'{several} (as in "{found[0].maker} {wanted}")')
-            return self._bearing_rows(session, found)[0]
+                close = nearest(wanted, self._names_of(maker))
+                said = f'"{maker}" is not a maker of {wanted} in the catalogue; makers: {makers}'
+                raise _error("maker", f"{said}; {maker} has {', '.join(close)}" if close else said)
+        if len(found) > 1:
+            several = f'"{wanted}" is in the catalogue from several makers; choose one: {makers}'
+            raise _error("maker", f'{several} (as in "{found[0].maker} {wanted}")')
+        return self._bearing_rows(found)[0]
 
-    def _names_of(self, session: Session, maker: str | None) -> list[str]:
+    def _names_of(self, maker: str | None) -> list[str]:
         """Return the designations of one maker (case ignored); none of a maker that the catalogue does not know."""
         if maker is None:
             return []
-        query = select(Bearing.designation).where(Bearing.maker.collate("NOCASE") == maker.strip())
-        return list(session.scalars(query))
+        query = "SELECT designation FROM bearing WHERE maker = ? COLLATE NOCASE"
+        return [row.designation for row in self._rows(query, maker.strip())]
 
-    def _bearing_rows(self, session: Session, found: Sequence[Bearing]) -> list[BearingRow]:
+    def _bearing_rows(self, found: Sequence[Bearing]) -> list[BearingRow]:
         keys = [(row.designation, row.maker) for row in found]
-        query = select(Candidate).where(tuple_(Candidate.designation, Candidate.maker).in_(keys))
+        of_these = f"WHERE (designation, maker) IN (VALUES {_places('(?, ?)', keys)})"
         candidates: dict[tuple[str, str], list[Candidate]] = {}
-        for candidate in session.scalars(query.order_by(Candidate.rank)) if keys else ():
+        values = [word for key in keys for word in key]
+        for candidate in self._rows(f"SELECT * FROM candidate {of_these} ORDER BY rank", *values) if keys else ():
             candidates.setdefault((candidate.designation, candidate.maker), []).append(candidate)
         return [rows.bearing_row(row, candidates.get((row.designation, row.maker), ()), self._sources) for row in found]
 
     def bearings(self, text: str = "", limit: int = 50) -> list[BearingRow]:
         """Return the bearings that match `text` (:mod:`lambda_db.search`), best first."""
+        from lambda_db.search import bearing_query
+
         plain = without_suffixes(text, self.names("bearing"), self.suffixes())
-        with self._session() as session:
-            return self._bearing_rows(session, list(session.scalars(bearing_query(plain, limit))))
+        return self._bearing_rows(self._found(bearing_query(plain, limit)))
 
     def rollers(self) -> list[RollerRow]:
         """Return every roller bearing, by designation and maker."""
-        query = select(RollerDesign).order_by(RollerDesign.designation, RollerDesign.maker)
-        with self._session() as session:
-            return [rows.roller_row(row, self._sources) for row in session.scalars(query)]
+        found = self._rows("SELECT * FROM roller_design ORDER BY designation, maker")
+        return [rows.roller_row(row, self._sources) for row in found]
 
-    def _named_row(self, session: Session, kind: str, name: str) -> Any:
+    def _named_row(self, kind: Literal["lubricant", "material", "cage"], name: str) -> Any:
         """Return a row by name or alias, case ignored."""
-        model = _NAMED[kind]
+        by_name = f"SELECT * FROM {kind} WHERE name = ? COLLATE NOCASE"
         wanted = " ".join(name.split())
-        row = session.scalar(select(model).where(model.name.collate("NOCASE") == wanted))
-        if row is None:
-            alias = select(Alias.name).where(Alias.kind == kind, Alias.alias.collate("NOCASE") == wanted)
-            target = session.scalar(alias)
-            row = session.scalar(select(model).where(model.name.collate("NOCASE") == target)) if target else None
-        if row is None:
-            aliases = session.scalars(select(Alias.alias).where(Alias.kind == kind))
-            raise _error(kind, unknown_name(kind, name, self._names_or_nearest_alias(name, self.names(kind), aliases)))  # type: ignore[arg-type]
-        return row
+        found = self._rows(by_name, wanted)
+        if not found:
+            by_alias = "SELECT name FROM alias WHERE kind = ? AND alias = ? COLLATE NOCASE"
+            found = [row for alias in self._rows(by_alias, kind, wanted)[:1] for row in self._rows(by_name, alias.name)]
+        if not found:
+            aliases = [row.alias for row in self._rows("SELECT alias FROM alias WHERE kind = ?", kind)]
+            raise _error(kind, unknown_name(kind, name, self._names_or_nearest_alias(name, self.names(kind), aliases)))
+        return found[0]
 
     @staticmethod
-    def _names_or_nearest_alias(name: str, names: list[str], aliases: Any) -> list[str]:
+    def _names_or_nearest_alias(name: str, names: list[str], aliases: list[str]) -> list[str]:
         """Offer aliases only if no proper name is near: they are many and long."""
-        spelled = list(aliases)
-        return names if nearest(name, names) or not nearest(name, spelled) else spelled
+        return names if nearest(name, names) or not nearest(name, aliases) else aliases
 
     def lubricant(self, name: str) -> LubricantRow:
         """Return one lubricant by its name or an alias (case ignored)."""
-        with self._session() as session:
-            return self._lubricant_rows(session, [self._named_row(session, "lubricant", name)])[0]
+        return self._lubricant_rows([self._named_row("lubricant", name)])[0]
 
-    def _lubricant_rows(self, session: Session, found: Sequence[Lubricant]) -> list[LubricantRow]:
+    def _lubricant_rows(self, found: Sequence[Lubricant]) -> list[LubricantRow]:
         names = [row.name for row in found]
-        properties = select(LubricantProperty).where(LubricantProperty.lubricant.collate("NOCASE").in_(names))
-        parameters = select(LubricantParameter).where(LubricantParameter.lubricant.collate("NOCASE").in_(names))
+        of_these = f"WHERE lubricant COLLATE NOCASE IN ({_places('?', names)})"
         by_name: dict[str, tuple[list[LubricantProperty], list[LubricantParameter]]] = {
             name.casefold(): ([], []) for name in names
         }
-        for prop in session.scalars(properties):
+        for prop in self._rows(f"SELECT * FROM lubricant_property {of_these}", *names):
             by_name[prop.lubricant.casefold()][0].append(prop)
-        for parameter in session.scalars(parameters):
+        for parameter in self._rows(f"SELECT * FROM lubricant_parameter {of_these}", *names):
             by_name[parameter.lubricant.casefold()][1].append(parameter)
         return [rows.lubricant_row(row, *by_name[row.name.casefold()], self._sources) for row in found]
 
     def lubricants(self, text: str = "", limit: int = 50) -> list[LubricantRow]:
         """Return the lubricants whose name, alias, base stock or note holds every word of `text`."""
-        with self._session() as session:
-            query = select(Lubricant).order_by(Lubricant.name)
-            for word in text.split():
-                aliases = select(Alias.name).where(
-                    Alias.kind == "lubricant", Alias.alias.contains(word, autoescape=True)
-                )
-                query = query.where(
-                    Lubricant.name.contains(word, autoescape=True)
-                    | Lubricant.base_type.contains(word, autoescape=True)
-                    | Lubricant.note.contains(word, autoescape=True)
-                    | Lubricant.name.in_(aliases)
-                )
-            return self._lubricant_rows(session, list(session.scalars(query.limit(limit))))
+        from lambda_db.search import lubricant_query
+
+        return self._lubricant_rows(self._found(lubricant_query(text, limit)))
 
     def material(self, name: str) -> MaterialRow:
         """Return one material by its name or an alias."""
-        with self._session() as session:
-            return rows.material_row(self._named_row(session, "material", name), self._sources)
+        return rows.material_row(self._named_row("material", name), self._sources)
 
     def cage(self, name: str) -> CageRow:
         """Return one cage type by its name, suffix alias or another alias."""
-        with self._session() as session:
-            return rows.cage_row(self._named_row(session, "cage", name), self._sources)
+        return rows.cage_row(self._named_row("cage", name), self._sources)
 
     def clearance(self, bore_diameter: float, clearance_class: str) -> ClearanceRow:
         """Return the limits for a bore [m] and a class; bores on a boundary belong to the smaller range."""
-        bore = round(bore_diameter * 1e3, 9)
-        with self._session() as session:
-            of_class = select(Clearance).where(Clearance.clearance_class.collate("NOCASE") == clearance_class.strip())
-            row = session.scalar(of_class.where(Clearance.bore_over_mm < bore, Clearance.bore_to_mm >= bore))
-            if row is not None:
-                return rows.clearance_row(row, self._sources)
-            span = session.execute(
-                select(func.min(Clearance.bore_over_mm), func.max(Clearance.bore_to_mm)).where(of_class.whereclause)  # type: ignore[arg-type]
-            ).one()
-        if span[0] is None:
+        bore, of_class = round(bore_diameter * 1e3, 9), "FROM clearance WHERE clearance_class = ? COLLATE NOCASE"
+        wanted = clearance_class.strip()
+        found = self._rows(f"SELECT * {of_class} AND bore_over_mm < ? AND bore_to_mm >= ?", wanted, bore, bore)
+        if found:
+            return rows.clearance_row(found[0], self._sources)
+        (span,) = self._rows(f"SELECT min(bore_over_mm) AS start, max(bore_to_mm) AS stop {of_class}", wanted)
+        if span.start is None:
             names = self.names("clearance_class")
             raise _error("clearance_class", unknown_name("clearance class", clearance_class, names))
         raise _error(
             "bore_diameter",
-            f"class {clearance_class} is tabulated over {span[0]:g} to {span[1]:g} mm, not for {bore:g} mm",
+            f"class {clearance_class} is tabulated over {span.start:g} to {span.stop:g} mm, not for {bore:g} mm",
         )
 
     def suffixes(self) -> tuple[Suffix, ...]:
@@ -265,8 +258,7 @@ class SqlCatalogue:
         CatalogueError
             When the pattern of a row is no regular expression.
         """
-        with self._session() as session:
-            found = tuple(rows.suffix(row) for row in session.scalars(select(SuffixRow).order_by(SuffixRow.written)))
+        found = tuple(rows.suffix(row) for row in self._rows("SELECT * FROM suffix ORDER BY written"))
         for suffix in found:
             try:
                 re.compile(suffix.pattern)
@@ -276,21 +268,21 @@ class SqlCatalogue:
 
     def names(self, kind: Kind) -> list[str]:
         """Return every valid name of one kind, sorted."""
-        column = {
-            "bearing": Bearing.designation,
-            "lubricant": Lubricant.name,
-            "material": Material.name,
-            "cage": Cage.name,
-            "clearance_class": Clearance.clearance_class,
-        }[kind]
-        with self._session() as session:
-            return list(session.scalars(select(column).distinct().order_by(column)))
+        table, column = _NAMES[kind]
+        query = f"SELECT DISTINCT {column} AS name FROM {table} ORDER BY {column}"
+        return [row.name for row in self._rows(query)]
 
     def shadows(self) -> tuple[Shadow, ...]:
         """Return the rows of plugins that stand in front of others."""
+        if not self._plugin_folders:
+            return ()
+        from lambda_db.shadows import shadows
+
         return shadows(self._plugin_folders)
 
     def close(self) -> None:
         """Release the files behind the catalogue."""
-        self._connection.close()
-        self._engine.dispose()
+        if "connection" in vars(self):
+            self.connection.close()
+            self.connection.engine.dispose()
+        self._file.close()

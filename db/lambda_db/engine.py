@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any, Literal
-from urllib.parse import quote
 
 from sqlalchemy import Connection, Engine, create_engine, event
 from sqlalchemy.dialects import registry
@@ -15,7 +13,8 @@ from sqlalchemy.dialects.sqlite.pysqlite import SQLiteDialect_pysqlite
 from sqlalchemy.pool import StaticPool
 from sqlalchemy.util import LRUCache
 
-BUSY_TIMEOUT_S = 15.0
+from lambda_db.connecting import connect
+
 # Statements as text, for all connections of this process: writing them takes as long as asking, and a catalogue is
 # opened for every check of a case.
 WRITTEN: LRUCache[Any, Any] = LRUCache(500)
@@ -36,12 +35,6 @@ class Dialect(SQLiteDialect_pysqlite):
 registry.register("sqlite.lambda", __name__, "Dialect")
 
 
-def file_uri(path: Path, mode: Literal["ro", "rw", "rwc", "immutable"]) -> str:
-    """SQLite URI of a file."""
-    query = "immutable=1" if mode == "immutable" else f"mode={mode}"
-    return f"file:{quote(str(path.resolve()))}?{query}"
-
-
 def sqlite_engine(
     uri: str, begin: Literal["", "BEGIN", "BEGIN IMMEDIATE"] = "", *, pragmas: tuple[str, ...] = ()
 ) -> Engine:
@@ -58,17 +51,7 @@ def sqlite_engine(
         Run when the connection is made.
     """
 
-    def connect() -> sqlite3.Connection:
-        connection = sqlite3.connect(
-            uri, uri=True, timeout=BUSY_TIMEOUT_S, isolation_level=None, check_same_thread=False, cached_statements=256
-        )
-        for pragma in pragmas:
-            connection.execute(f"PRAGMA {pragma}")
-        return connection
-
-    engine = create_engine(
-        "sqlite+lambda://", creator=connect, poolclass=StaticPool, execution_options={"compiled_cache": WRITTEN}
-    )
+    engine = engine_over(lambda: connect(uri, pragmas))
     if begin:
 
         @event.listens_for(engine, "begin")
@@ -76,6 +59,13 @@ def sqlite_engine(
             connection.exec_driver_sql(begin)
 
     return engine
+
+
+def engine_over(connect: Callable[[], sqlite3.Connection]) -> Engine:
+    """Return an engine over the one connection that `connect` returns."""
+    return create_engine(
+        "sqlite+lambda://", creator=connect, poolclass=StaticPool, execution_options={"compiled_cache": WRITTEN}
+    )
 
 
 @contextmanager

@@ -13,7 +13,8 @@ from pathlib import Path
 
 from sqlalchemy import Connection
 
-from lambda_db.engine import at_one_moment, file_uri
+from lambda_db.connecting import file_uri
+from lambda_db.engine import at_one_moment
 from lambda_db.models import Base
 from lambda_db.seal import ChangedError, check_seal
 from lambda_db.seed_tables import CHILDREN, VIEWED

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from functools import cache
-from typing import Any, Literal, cast
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 from lambda_core.catalogue.protocol import (
     BearingRow,
@@ -24,21 +24,23 @@ from lambda_core.catalogue.protocol import (
 )
 from lambda_core.catalogue.suffixes import Kind as SuffixKind
 from lambda_core.catalogue.suffixes import Suffix
-from lambda_db.models import (
-    Bearing,
-    Cage,
-    Candidate,
-    Clearance,
-    Lubricant,
-    LubricantParameter,
-    LubricantProperty,
-    Material,
-)
-from lambda_db.models import (
-    Suffix as SuffixRow,
-)
-from lambda_db.roller_design import RollerDesign
 from lambda_db.units import PROPERTIES, bare_name, column_si, to_si
+
+if TYPE_CHECKING:
+    from lambda_db.models import (
+        Bearing,
+        Cage,
+        Candidate,
+        Clearance,
+        Lubricant,
+        LubricantParameter,
+        LubricantProperty,
+        Material,
+    )
+    from lambda_db.models import (
+        Suffix as SuffixRow,
+    )
+    from lambda_db.roller_design import RollerDesign
 
 Sources = Mapping[str, str]
 Layer = Literal["core", "plugin", "user"]

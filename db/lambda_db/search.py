@@ -11,7 +11,7 @@ from typing import Any
 from sqlalchemy import ColumnElement, Select, and_, case, or_, select
 
 from lambda_core.domain.errors import CatalogueError, Problem, unknown_name
-from lambda_db.models import Bearing
+from lambda_db.models import Alias, Bearing, Lubricant
 
 # Words before a comparison; case tells bore (d) from outside diameter (D).
 KEYS: dict[str, Any] = {
@@ -96,3 +96,17 @@ def bearing_query(text: str, limit: int) -> Select[Any]:
         query = query.order_by(sum(order[1:], start=order[0]))
     deep_groove_first = Bearing.kind.is_not(None)
     return query.order_by(Bearing.bore_diameter_mm, deep_groove_first, Bearing.designation, Bearing.maker).limit(limit)
+
+
+def lubricant_query(text: str, limit: int) -> Select[Any]:
+    """Return the query for lubricants whose name, alias, base stock or note holds every word of `text`."""
+    query = select(Lubricant).order_by(Lubricant.name)
+    for word in text.split():
+        aliases = select(Alias.name).where(Alias.kind == "lubricant", Alias.alias.contains(word, autoescape=True))
+        query = query.where(
+            Lubricant.name.contains(word, autoescape=True)
+            | Lubricant.base_type.contains(word, autoescape=True)
+            | Lubricant.note.contains(word, autoescape=True)
+            | Lubricant.name.in_(aliases)
+        )
+    return query.limit(limit)

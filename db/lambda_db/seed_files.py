@@ -6,41 +6,18 @@ One CSV per table, or TOML files with arrays of tables of the same names and col
 from __future__ import annotations
 
 import csv
-import hashlib
 import tomllib
 from collections.abc import Iterator, Mapping
-from functools import lru_cache
 from pathlib import Path
 
 from lambda_core.domain.errors import CatalogueError, Problem, unknown_name
 from lambda_core.domain.printable import from_cell
+from lambda_db.built import seed_files
 from lambda_db.seed_tables import SEED_TABLES
 
-BUILT_IN = Path(__file__).parent / "seeds"
 Cells = Mapping[str, object]
 # (file, place in the file, table, cells)
 Record = tuple[Path, str, str, Cells]
-
-
-def seed_files(folder: Path) -> list[Path]:
-    """Return the seed files of a folder in a fixed order."""
-    return sorted(path for path in folder.iterdir() if path.suffix in (".csv", ".toml"))
-
-
-def fingerprint(folders: list[Path]) -> str:
-    """Hash everything a built database depends on: the seeds and the code that turns them into tables."""
-    digest = hashlib.sha256()
-    code = sorted(Path(__file__).parent.glob("*.py"))
-    for path in [*code, *(file for folder in folders for file in seed_files(folder))]:
-        now = path.stat()
-        digest.update(f"{path.name}\0".encode() + _content(path, now.st_mtime_ns, now.st_size, now.st_ino))
-    return digest.hexdigest()[:16]
-
-
-@lru_cache(maxsize=1024)
-def _content(path: Path, *_: int) -> bytes:
-    """Hash a file, again only when it is another one: a catalogue is opened for every check of a case."""
-    return hashlib.sha256(path.read_bytes()).digest()
 
 
 def read_csv(path: Path, table: str | None = None) -> Iterator[Record]:

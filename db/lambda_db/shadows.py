@@ -10,8 +10,9 @@ from functools import lru_cache
 from pathlib import Path
 
 from lambda_core.catalogue.protocol import Shadow
+from lambda_db.built import BUILT_IN
 from lambda_db.records import key_columns
-from lambda_db.seed_files import BUILT_IN, read_path
+from lambda_db.seed_files import read_path
 from lambda_db.seed_tables import CHILDREN
 
 _Key = tuple[str, tuple[str, ...]]  # table and key, case ignored

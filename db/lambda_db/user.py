@@ -15,7 +15,8 @@ from sqlalchemy import Connection, Engine
 from sqlalchemy.exc import DatabaseError
 
 from lambda_core.domain.errors import CatalogueError, Problem
-from lambda_db.engine import file_uri, sqlite_engine
+from lambda_db.connecting import file_uri
+from lambda_db.engine import sqlite_engine
 from lambda_db.models import Base
 from lambda_db.seal import ChangedError, check_seal, create_seal, differences, renew_seal
 from lambda_db.seed_tables import VIEWED

@@ -40,14 +40,14 @@ HEAVY = (
     "lambda_db.catalogue",
 )
 CASES = {"numpy", "pydantic", "tomlkit", "lambda_core.case.case"}
-PLUGINS = {"numpy", "pydantic", "lambda_core.discovery.manager", "sqlalchemy", "lambda_db.catalogue"}
+PLUGINS = {"numpy", "pydantic", "lambda_core.discovery.manager", "lambda_db.catalogue"}
 CHECKED = CASES | PLUGINS | {"lambda_core.model.resolve"}
 SOLVED = CHECKED | {"numba", "lambda_core.solver.entry"}
 NEEDED = {
     "init": CASES,
     "check": CHECKED,
     "show": {"numpy", "pydantic", "h5py"},
-    "db": PLUGINS | {"rich"},
+    "db": PLUGINS | {"rich", "sqlalchemy"},
     "quasistatic": SOLVED,
     "run": SOLVED | {"h5py"},
 }

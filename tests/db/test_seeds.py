@@ -5,12 +5,12 @@ from __future__ import annotations
 import csv
 
 import pytest
+from lambda_db.built import BUILT_IN
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.constraints import GRADES
 from lambda_db.derive import candidates, grade_of
 from lambda_db.estimate import printed_of
 from lambda_db.records import parse_row
-from lambda_db.seed_files import BUILT_IN
 from lambda_db.transfer import rows_of
 
 from lambda_core.catalogue.protocol import BearingRow, Value

@@ -58,7 +58,8 @@ def findings() -> list[tuple[str, str]]:
 
 def source_of_fva3a() -> str:
     """Return the key of a source that the built-in oil names."""
-    from lambda_db.seed_files import BUILT_IN, read_path
+    from lambda_db.built import BUILT_IN
+    from lambda_db.seed_files import read_path
 
     rows = [cells for _, _, table, cells in read_path(BUILT_IN) if table == "lubricant_parameter"]
     return next(str(row["source"]) for row in rows if row["lubricant"] == "FVA3A" and row["role"] == "permittivity")

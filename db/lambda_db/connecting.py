@@ -1,0 +1,44 @@
+"""Open SQLite files and read rows from them."""
+
+from __future__ import annotations
+
+import sqlite3
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, Literal
+from urllib.parse import quote
+
+BUSY_TIMEOUT_S = 15.0
+
+
+def file_uri(path: Path, mode: Literal["ro", "rw", "rwc", "immutable"]) -> str:
+    """SQLite URI of a file."""
+    query = "immutable=1" if mode == "immutable" else f"mode={mode}"
+    return f"file:{quote(str(path.resolve()))}?{query}"
+
+
+def connect(uri: str, pragmas: tuple[str, ...] = ()) -> sqlite3.Connection:
+    """Open a connection that starts no transaction by itself.
+
+    Parameters
+    ----------
+    pragmas : tuple of str
+        Run when the connection is made.
+    """
+    connection = sqlite3.connect(
+        uri, uri=True, timeout=BUSY_TIMEOUT_S, isolation_level=None, check_same_thread=False, cached_statements=256
+    )
+    for pragma in pragmas:
+        connection.execute(f"PRAGMA {pragma}")
+    return connection
+
+
+def select_rows(connection: sqlite3.Connection, statement: str, *values: object) -> list[Any]:
+    """Return the rows of a query; each has its columns as attributes, as the classes of the tables have them."""
+    cursor = connection.cursor()
+    cursor.row_factory = _row
+    return cursor.execute(statement, values).fetchall()
+
+
+def _row(cursor: sqlite3.Cursor, cells: tuple[Any, ...]) -> SimpleNamespace:
+    return SimpleNamespace(**{described[0]: cell for described, cell in zip(cursor.description, cells, strict=True)})
