@@ -111,6 +111,7 @@ CONTACT = record(
     ("solid_stress", f8),  # what acts of the asperities' [-]
     ("rolling_force", f8),  # hydrodynamic rolling resistance on each surface [N]
     ("hysteresis_moment", f8),  # [N m]
+    ("shear_around", f8),  # of the oil around the flat of a line contact, over the slip [N s/m]
     ("entrainment", f8),  # speed [m/s]
     ("film_temperature", f8),  # mean over the contact [K]
     ("shear_change", f8),  # relative change of the mean shear stress in the last sweep [-]

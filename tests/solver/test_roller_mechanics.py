@@ -136,6 +136,18 @@ def test_rolling_cones_do_not_slide(bearing: RollerBearing) -> None:
         assert abs(kin.entrainment_slope[0]) == pytest.approx(slope, rel=1e-2, abs=1e-9)
 
 
+@pytest.mark.parametrize("ring", ["inner", "outer"])
+def test_a_tilted_roller_keeps_its_rolling_radius(ring: str) -> None:
+    """The material of a cylinder that leans on one end passes everywhere with the speed of its own generatrix."""
+    moves, kin, tilt = rolling_motion(NU, 150.0), make(records.KINEMATICS), 1e-3
+    roller = roller_of(NU, 150.0)
+    roller.tilt[0, 0] = tilt
+    roller.spin[0] = moves.cage - moves.spin * math.sqrt(1.0 - tilt**2), -moves.spin * tilt, 0.0
+    line(roller, body(150.0 if ring == "inner" else 0.0), row_of(NU), raceway_of(NU, ring), kin)
+    assert abs(kin.line_tilt[0]) == pytest.approx(tilt, rel=1e-3)
+    assert kin.rotation_n[0] == pytest.approx(0.0, abs=1e-3 * moves.spin * tilt)
+
+
 def test_the_rib_slides_with_its_height() -> None:
     moves, kin, one = rolling_motion(TAPERED, 150.0), make(records.KINEMATICS), TAPERED.ribs[0]
     raceway, row = make(records.RACEWAY), row_of(TAPERED)

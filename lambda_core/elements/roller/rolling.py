@@ -2,9 +2,40 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+
+# Half angle at which the oil of a half-flooded rigid cylinder tears, tan(psi) = x/sqrt(2 R h) = 0.475 (Swift and
+# Stieber's condition; Dowson and Higginson 1966), and the integral of the shear over the film and the streamers behind.
+_TEARS = math.atan(0.475)
+FLOW_SHEAR = math.sqrt(2.0) * (
+    0.5 * math.pi + _TEARS + (0.25 * math.pi - 0.5 * _TEARS - 0.25 * math.sin(2.0 * _TEARS)) / math.cos(_TEARS) ** 2
+)
+
+
+def flow_shear(radius: FloatArray | float, viscosity: float, film: FloatArray | float) -> FloatArray:
+    """Return the shear force per length and slip of the oil around a line contact [Pa s].
+
+    3.49 eta sqrt(R/h): Couette flow between a cylinder and a plane of the gap h + x^2/(2 R), full up to where the oil
+    tears and in streamers of its flow behind (Dowson and Higginson, Elasto-hydrodynamic Lubrication, 1966, ch. 3, whose
+    number is 3.48). It goes with 4.58 eta u sqrt(R/h) of :func:`rolling_force` for rigid surfaces: a cylinder that
+    nothing else drives turns with a fifth of the other surface's speed. Under load the flat's shear is thousands of
+    times larger.
+
+    Parameters
+    ----------
+    radius : array or float
+        Reduced radius R [m].
+    viscosity : float
+        Of the inlet [Pa s].
+    film : array or float
+        Thickness h in the middle [m].
+    """
+    found: FloatArray = FLOW_SHEAR * viscosity * np.sqrt(np.asarray(radius) / film)
+    return found
 
 
 def rolling_force(

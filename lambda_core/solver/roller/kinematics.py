@@ -53,6 +53,12 @@ def _write(roller, ring, row, azimuth, axis, centre, lever, frame, slope, kin):
 
     `slope` is the direction along the contact in which entrainment changes, a unit vector. The contact follows the
     roller's centre round the ring's axis.
+
+    A roller that tilts in its contact keeps its rolling radius: what carries is its own surface, flattened, and its
+    material passes with the speed of the undeformed generatrix (Johnson, Contact Mechanics, 1985, section 8.1: rigid
+    velocities of undeformed surfaces, and strains, which two alike bodies share). So the slip along rolling changes
+    along the line with (spin x generatrix) t, not with the spin about the normal alone, of which rolling on a tilted
+    axis is a part.
     """
     c, s = azimuth
     t, s_, n = frame
@@ -63,10 +69,11 @@ def _write(roller, ring, row, azimuth, axis, centre, lever, frame, slope, kin):
     on_roller, on_ring = point_velocity(roller.velocity, spin, lever), point_velocity(v, omega, arm)
     slip = subtract(on_roller, on_ring)
     kin.slip_t, kin.slip_s = dot(slip, t), dot(slip, s_)
-    kin.rotation_t, kin.rotation_s, kin.rotation_n = components(subtract(spin, omega), t, s_, n)
     u = subtract(subtract(roller.velocity, v), cross(w, centre))
     _, rho, p = _outwards(centre, axis)
     turn = add(w, scale(dot(u, t) / rho, axis))  # of the contact about the ring's centre
+    kin.rotation_t, kin.rotation_s, drilling = components(subtract(spin, omega), t, s_, n)
+    kin.rotation_n = drilling - kin.line_tilt * dot(subtract(spin, turn), s_)
     point, both = point_velocity(roller.velocity, turn, lever), add(on_roller, on_ring)
     kin.entrainment_t = 0.5 * dot(both, t) - dot(point, t)
     kin.entrainment_s = 0.5 * dot(both, s_) - dot(point, s_)

@@ -14,6 +14,7 @@ import math
 
 import numpy as np
 
+from lambda_core.elements.roller.rolling import FLOW_SHEAR
 from lambda_core.solver.arrays.fault_roles import NORMAL_CONTACT
 from lambda_core.solver.cage.guides import GAUSS_NODES, GAUSS_WEIGHTS
 from lambda_core.solver.contact.dissipation import raceway_losses
@@ -100,13 +101,26 @@ def _carrying_length(contact, slices):
 
 
 @helper
-def _films(raceway, place, laws, par, slices, scratch):
+def _films(raceway, place, length, laws, par, scratch):
     """Run the scalar laws with the carrying length for R_y; 0 on a fault."""
     full = raceway.radius_y
-    raceway.radius_y = _carrying_length(scratch.contact[place], slices)
+    raceway.radius_y = length
     status = film_stage(raceway, place, 1, laws, par, scratch)
     raceway.radius_y = full
     return status
+
+
+@helper
+def _shear_around(raceway, length, contact):
+    """Return the force per slip of the oil before and behind the flat [N s/m], see rolling.flow_shear."""
+    return FLOW_SHEAR * raceway.oil.viscosity * length * math.sqrt(raceway.radius_x / contact.film_central)
+
+
+@helper
+def _resist(kin, per_slip, wrench):
+    """Add the shear of the oil around the flat, against the slip at the middle of the line."""
+    wrench.force[0] -= per_slip * kin.slip_t
+    wrench.force[1] -= per_slip * kin.slip_s
 
 
 @helper
@@ -115,14 +129,16 @@ def _lean_on(kin, moment, wrench):
 
     Pressure on a body of revolution does not turn it. On a skewed roller the moment acts along own axis x normal, and a
     force couple of the tangential force F rho = M skew, on roller and ring at the roller's centre, keeps the ring's
-    spin free of it: together they are the slope of the contacts' energy.
+    spin free of it: together they are the slope of the contacts' energy. The same couple makes the moment of shear
+    about the normal work on the slip that kinematics._write gives a tilted roller.
     """
     skew, reach = kin.line_skew, kin.reach
     rho = math.sqrt(kin.arm[1] * kin.arm[1] + kin.arm[2] * kin.arm[2]) - reach * kin.outward
-    force = kin.outward * moment * skew / rho
+    turning = moment * skew + kin.line_tilt * wrench.moment[2]
+    force = kin.outward * turning / rho
     wrench.force[0] += force
     wrench.moment[0] += moment
-    wrench.moment[1] -= moment * skew + reach * force
+    wrench.moment[1] -= turning + reach * force
 
 
 @helper
@@ -146,7 +162,8 @@ def line_wrench(raceway, place, bundle):
         _lean_on(kin, moment, wrench)
         return 1
     area = _scale_slices(contact, slices)
-    if _films(raceway, place, laws, par, slices, scratch) != 1:
+    length = _carrying_length(contact, slices)
+    if _films(raceway, place, length, laws, par, scratch) != 1:
         return 0
     grid, cells = grid_of(slices), cells_of(bundle.line_cells, 0, 1, slices.shape[1])
     slip_field(raceway, kin, system, grid, contact, cells)
@@ -154,6 +171,8 @@ def line_wrench(raceway, place, bundle):
         return 0
     contact.film_temperature *= math.pi / area
     sum_wrench(raceway, kin, system, grid, contact, cells, wrench)
+    contact.shear_around = _shear_around(raceway, length, contact)
+    _resist(kin, contact.shear_around, wrench)
     _lean_on(kin, moment, wrench)
     return 1
 
@@ -162,10 +181,13 @@ def line_wrench(raceway, place, bundle):
 def line_losses(raceway, bundle, losses):
     """Add the power that the contact in scratch dissipates to layout.Losses [W]; call after line_wrench."""
     scratch = bundle.scratch[0]
+    kin, contact = scratch.kinematics[0], scratch.contact[0]
     raceway_losses(
-        raceway, scratch.kinematics[0], bundle.system[0], grid_of(bundle.slices), scratch.contact[0],
+        raceway, kin, bundle.system[0], grid_of(bundle.slices), contact,
         cells_of(bundle.line_cells, 0, 1, bundle.slices.shape[1]), losses,
     )  # fmt: skip
+    if contact.wet == 1:
+        losses.sliding[raceway.number] += contact.shear_around * (kin.slip_t * kin.slip_t + kin.slip_s * kin.slip_s)
 
 
 @helper
