@@ -330,6 +330,8 @@ DEFAULT_LINE_MODELS: dict[str, str] = {
     "elastic_hysteresis": "johnson-line",
     "capacitance": "line-gap",
 }
+# Roles whose laws serve points and lines alike, but whose default of rollers, on raceways and on ribs, is another one.
+DEFAULT_ROLLER_MODELS: dict[str, str] = {"asperity_load": "zhou-hoeprich"}
 # Roles in which ends of rollers on ribs have other laws than points: they slide, and have no law of rolling.
 DEFAULT_RIB_MODELS: dict[str, str] = {"rolling_resistance": "none", "elastic_hysteresis": "none"}
 # Laws of the quasi-static friction of rollers: role -> name, and name in FrictionParameters of each parameter.
@@ -338,5 +340,6 @@ ROLLER_FRICTION: dict[str, tuple[str, dict[str, str]]] = {
     "rolling_resistance": ("biboulet-houpert-line", {"thermal_coefficient": "inlet_heat"}),
     "traction": ("ree-eyring", {"tau_eyring": "eyring_stress", "limit_ratio": "limit_ratio"}),
     "boundary_friction": ("micro-slip", {"mu": "boundary_friction"}),
+    "asperity_load": ("zhou-hoeprich", {"B": "asperity_scale", "C": "asperity_exponent"}),
     "supply": ("skf-replenishment", {"k_rs": "replenishment"}),
 }

@@ -18,6 +18,7 @@ from lambda_core.case.case import Case
 from lambda_core.case.case_writer import standalone_toml
 from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue
 from lambda_core.domain.elements import BODIES
+from lambda_core.domain.roles import DEFAULT_MODELS, DEFAULT_ROLLER_MODELS
 from lambda_core.domain.units import show
 from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.laws.context import Material
@@ -81,6 +82,7 @@ def resolve(
     *,
     is_static: bool = False,
     place: Callable[[str], str] = str,
+    defaults: Mapping[str, str] = DEFAULT_MODELS,
 ) -> BearingModel:
     """Freeze a case into the model that a run needs.
 
@@ -96,6 +98,8 @@ def resolve(
         Whether the model is for an equilibrium alone, which needs no end in time.
     place : callable
         Where in the file stands what stands at a path of the case: a machine has several bearings.
+    defaults : mapping
+        Law of each role where the case has none.
 
     Raises
     ------
@@ -104,7 +108,9 @@ def resolve(
     """
     found = rollers_of(case, catalogue, place)
     if found is not None:
-        model = resolve(as_balls(case, found[0]), registry, catalogue, is_static=is_static, place=place)
+        laws = DEFAULT_MODELS | DEFAULT_ROLLER_MODELS
+        balls = as_balls(case, found[0])
+        model = resolve(balls, registry, catalogue, is_static=is_static, place=place, defaults=laws)
         model = with_rollers(model, case, *found, lambda role, name: law_called(registry, role, name, given=False))
         return dataclasses.replace(model, case_toml=standalone_toml(with_packages(case, registry)))
     ledger, written = Ledger(assumptions=list(case.assumptions), place=place), case
@@ -125,7 +131,9 @@ def resolve(
     _settings(case, ledger)
     kind = bare[0].kind.name if bare else "deep groove"
     guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
-    laws = LawResolver(case, registry, lubricant, guidance, ledger, kind).resolve() if lubricant else {}
+    laws = {}
+    if lubricant:
+        laws = LawResolver(case, registry, lubricant, guidance, ledger, kind, defaults).resolve()
     markers = resolve_markers(case, ledger)
     between, more = resolve_links(case, registry, ledger)
     more |= courses

@@ -17,10 +17,10 @@ from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.catalogue.roller_designation import roller_designation
 from lambda_core.domain.elements import RIBS, TILTS
 from lambda_core.domain.errors import CaseError, Problem
-from lambda_core.domain.roles import DEFAULT_LINE_MODELS, DEFAULT_RIB_MODELS
+from lambda_core.domain.roles import DEFAULT_LINE_MODELS, DEFAULT_RIB_MODELS, DEFAULT_ROLLER_MODELS
 from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import thrust_problem
-from lambda_core.elements.roller.roller_friction import SKF_CONSTANTS, skf_kind
+from lambda_core.elements.roller.roller_friction import RIB_ASPERITIES, SKF_CONSTANTS, skf_kind
 from lambda_core.model.bearing_model import BearingModel, ChosenLaw, ResolvedValue
 from lambda_core.model.geometry.resolve_geometry import is_of_grooves
 from lambda_core.model.laws.law_defaults import law_sentences, record_law
@@ -176,10 +176,8 @@ def with_rollers(
     laws = dict(model.laws)
     for ring in sorted({_ELEMENTS.index(f"ball_{rib.ring}") for rib in rollers.ribs}):
         points = laws[_ELEMENTS[ring]]
-        supply = _with_constants(points["supply"], rollers)
-        laws[tuple(RIBS)[ring]] = {**points, "supply": supply} | {
-            r: chosen(r, n) for r, n in DEFAULT_RIB_MODELS.items()
-        }
+        own = {"supply": _with_constants(points["supply"], rollers), "asperity_load": _of_ribs(points["asperity_load"])}
+        laws[tuple(RIBS)[ring]] = {**points, **own, **{r: chosen(r, n) for r, n in DEFAULT_RIB_MODELS.items()}}
     for element in _ELEMENTS:
         supply = _with_constants(laws[element]["supply"], rollers)
         laws[element] = {**laws[element], **lines, "supply": supply}
@@ -239,6 +237,16 @@ def _ribs(rollers: RollerBearing) -> str:
 def with_clearance(rollers: RollerBearing, clearance: float) -> RollerBearing:
     """Return rollers with another radial clearance [m]; that of cones counts across the raceway."""
     return replace(rollers, clearance=clearance * math.cos(rollers.contact_angle))
+
+
+def _of_ribs(law: ChosenLaw) -> ChosenLaw:
+    """Return a law of asperities with the constants of ribs, where it has them and the case does not."""
+    names = [name for name in ("B", "C") if law.origins.get(name) == "default"]
+    if law.model.name != DEFAULT_ROLLER_MODELS["asperity_load"] or not names:
+        return law
+    values = {name: value for name, value in zip(("B", "C"), RIB_ASPERITIES, strict=True) if name in names}
+    origins = law.origins | dict.fromkeys(values, "Wingertszahn et al. 2023, Lubricants 11, 369: ribs")
+    return replace(law, parameters=law.parameters.model_copy(update=values), origins=origins)
 
 
 def _with_constants(law: ChosenLaw, rollers: RollerBearing) -> ChosenLaw:

@@ -110,13 +110,14 @@ def test_the_rib_slides_in_proportion_to_its_height() -> None:
     assert rib.sliding_speed(ANGLES, 200.0, 0.0) == 0.0
 
 
-@ENDS
-def test_a_flatter_end_raises_the_rib_film(face: str) -> None:
+@pytest.mark.parametrize(("face", "least", "most"), [("sphere", 1.3, 2.0), ("cone", 0.9, 1.0)])
+def test_a_flatter_end_raises_the_film_of_a_spherical_rib(face: str, least: float, most: float) -> None:
+    """On a conical rib it makes the contact longer, not wider: the oil leaves it at the sides."""
     films = []
     for share in (0.85, 0.95):
         contact = rib.rib_contact(ANGLES, LARGE, share * APEX, 3e-3, rib=face)
         films.append(rib.rib_film(100.0, contact, rib.rib_entrainment(ANGLES, 200.0, contact), 0.05, 2e-8, MODULUS))
-    assert films[1] > 1.3 * films[0]
+    assert least < films[1] / films[0] < most
 
 
 @ENDS
@@ -127,6 +128,16 @@ def test_the_rib_film_has_its_exponents(face: str) -> None:
     def film(load: float = 100.0, times: float = 1.0) -> float:
         return rib.rib_film(load, contact, times * speed, 0.05, 2e-8, MODULUS)
 
-    assert film(times=2.0) / film() == pytest.approx(2.0**0.67)
-    assert film(load=200.0) / film() == pytest.approx(2.0**-0.067)  # not the misprinted -0.069
+    assert film(times=2.0) / film() == pytest.approx(2.0**0.68)
+    assert film(load=200.0) / film() == pytest.approx(2.0**-0.073)
     assert speed > 0.5 * rib.sliding_speed(ANGLES, 200.0, 3e-3)
+
+
+@pytest.mark.parametrize(("speed", "film"), [(0.0508, 0.107e-6), (0.2, 0.223e-6)])
+def test_the_film_of_an_ellipse_long_in_sliding_is_that_of_a_numerical_solution(speed: float, film: float) -> None:
+    """Isothermal Reynolds equation with Barus' law, Love's deflections and cavitation, 80 by 40 cells (own).
+
+    Rib of a 32216, R_x 9 R_y. Fits for ellipses across rolling give twice the film.
+    """
+    contact = rib.RibContact(3e-3, 0.0, 0.05, 1.965, 0.2188, 0.2188)
+    assert rib.rib_film(170.0, contact, speed, 0.0354, 18e-9, MODULUS) == pytest.approx(film, rel=0.2)

@@ -17,6 +17,8 @@ from lambda_core.domain.elements import CAGE
 from lambda_core.elements.roller.roller_equilibrium import balance
 from lambda_core.elements.roller.roller_motion import rolling_motion
 from lambda_core.model.laws.time_functions import initial
+from lambda_core.model.roller_case import roller_model
+from lambda_core.results.roller_quasistatic import solve_rollers
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.fault_roles import ROLES
 from lambda_core.solver.drivers.dynamics import BearingEngine, initial_state
@@ -155,6 +157,17 @@ def test_loads_are_those_of_independent_laminae() -> None:
     assert np.abs(tilts).max() < 1e-9  # nothing tilts between rings that do not
 
 
+def test_unloaded_rollers_turn_as_the_others_and_slower() -> None:
+    """The oil around a light contact drives a roller that its rolling resistance alone would turn backwards."""
+    found = equilibrium()
+    rollers = L.elements_in(found.context.bundle, found.state)
+    own = rollers["spin"][:, 0] - rollers["velocity"][:, 2] / rollers["radius"]
+    free = found.contacts[:, 0, L.R.CONTACT_CHANNELS.index("load")] == 0.0
+    assert 0 < free.sum() < free.size
+    share = own[free] / own[~free].mean()
+    assert np.all((share > 0.1) & (share < 0.9))
+
+
 def test_a_refusal_speaks_of_rollers() -> None:
     context = equilibrium().context
     fault = context.bundle.scratch[0].fault
@@ -222,7 +235,7 @@ def test_ribs_take_thrust_in_motion(name: str) -> None:
     loads = np.array([force[0], force[1], force[2] - model.inner_ring.mass * 9.81, 0.0, 0.0])
     alone = balance(rollers, loads, first_angle=-0.5 * np.pi)
     ribs = found.arcs[:, 2:, L.R.CONTACT_CHANNELS.index("load")].sum(axis=0)
-    assert ribs == pytest.approx(alone.ribs.sum(axis=0), rel=0.2, abs=0.03 * abs(force[0]))
+    assert ribs == pytest.approx(alone.ribs.sum(axis=0), rel=0.08, abs=0.03 * abs(force[0]))
     assert found.displacement[0] == pytest.approx(alone.ring[0], rel=0.03)
     engine = BearingEngine(model, equilibrium=found)
     while engine.time < 0.02:
@@ -232,6 +245,18 @@ def test_ribs_take_thrust_in_motion(name: str) -> None:
     assert abs(sums["input"] - lost - sums["stored"]) < 5e-4 * sums["input_abs"]
     _, states = engine.buffered()
     assert np.abs(L.elements_in(bundle, states)["tilt"]).max() < 3e-3
+
+
+def test_slow_ribs_resist_alike_in_both_answers() -> None:
+    """Ribs make most of the torque of a slow tapered bearing: 10 kN axial, 20 1/min. Skewed rollers add 4 %."""
+    case = CASE | {"bearing": {"designation": "SKF 32216"}, "loads": {"axial": "10 kN"}}
+    case = case | {"operation": {"speed": "20 rpm"}}
+    found, rollers = solve(api.check(case)), roller_model(case)
+    assert rollers is not None
+    quick = solve_rollers(rollers).friction
+    assert quick is not None
+    assert quick.rib > 0.7 * quick.total
+    assert quick.total - quick.drag == pytest.approx(found.losses.sum() / found.relative_speed, rel=0.06)
 
 
 def slip_of_the_cage(load: str) -> float:

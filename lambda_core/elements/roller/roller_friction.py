@@ -20,13 +20,15 @@ from lambda_core.elements.roller.roller_bearing import Rib, Ring, RollerBearing
 from lambda_core.elements.roller.roller_drag import bath_drag
 from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium
 from lambda_core.elements.roller.roller_motion import RollerMotion
-from lambda_core.elements.roller.rolling import rolling_force
+from lambda_core.elements.roller.rolling import flow_shear, rolling_force
 from lambda_core.elements.roller.slices import slice_positions
 from lambda_core.formulas.hertz import HertzContact, hertz_contact
 
 # K_L and K_Z of SKF's friction model (SKF, Rolling bearings, 2018, "Friction"), remembered: K_Z of the replenishment
 # factor, both of the drag.
 SKF_CONSTANTS = {"cylindrical": (0.65, 5.1), "full complement": (0.7, 6.2), "tapered": (0.7, 6.0), "needle": (0.5, 5.5)}
+# B and C of the load share of asperities at ribs (Zhou and Hoeprich): Wingertszahn et al. 2023, Lubricants 11, 369.
+RIB_ASPERITIES = (1.90, 0.99)
 _CELLS = 24  # of a rib contact along each axis
 
 
@@ -52,8 +54,8 @@ class FrictionParameters:
 
     raceway_roughness: float = 0.16e-6  # composite rms [m]: Wingertszahn et al. 2023, Lubricants 11, 369
     rib_roughness: float = 0.24e-6  # composite rms [m]: the same
-    raceway_asperities: tuple[float, float] = (2.32, 0.97)  # B, C of the asperities' share: the same
-    rib_asperities: tuple[float, float] = (1.90, 0.99)  # the same
+    asperity_scale: float = RIB_ASPERITIES[0]  # B of the asperities' share at ribs
+    asperity_exponent: float = RIB_ASPERITIES[1]  # C
     boundary_friction: float = 0.12  # SKF, Rolling bearings, 2018, "Friction": mu_bl of a running bearing
     eyring_stress: float = 8e6  # [Pa], class value of mineral oils
     limit_ratio: float = 0.065  # limiting shear stress over pressure, class value of mineral oils
@@ -195,9 +197,9 @@ def _raceway(
 
     Losses in the solids: the couple (2/(3 pi)) alpha w b per length of a cylinder (Johnson, Contact Mechanics, 1985,
     eq. 9.2 for line contact) against the roller's speed relative to the raceway. The film carries the traction that
-    balances the rolling resistance, at most `limit_ratio` of the load. Its slip per length is T over eta_p 2 b/h + eta
-    pi sqrt(2 R/h): the flat of the contact with the viscosity at half of the peak pressure (Barus' law, at most 1 MPa
-    s), and Couette flow between the rigid surfaces around it, the integral of 1/(h + x^2/(2 R)).
+    balances the rolling resistance, at most `limit_ratio` of the load. Its slip per length is T over eta_p 2 b/h, the
+    flat of the contact with the viscosity at half of the peak pressure (Barus' law, at most 1 MPa s), and
+    :func:`flow_shear` around it.
     """
     count = loads.shape[1]
     width = bearing.effective_length / count
@@ -217,7 +219,7 @@ def _raceway(
     )
     couple = 2.0 / (3.0 * math.pi) * par.loss_factor * line_load * half
     thick = np.minimum(oil.viscosity * np.exp(np.minimum(oil.pressure_viscosity * 0.5 * peak, 60.0)), 1e6)
-    shear = thick * 2.0 * half / film + oil.viscosity * math.pi * np.sqrt(2.0 * radius / film)
+    shear = thick * 2.0 * half / film + flow_shear(radius, oil.viscosity, film)
     per_slip = np.sum(np.where(carried, shear * width, 0.0), axis=1)
     return _Raceway(
         rolling=float(2.0 * np.sum(force * speed) * width),
@@ -267,7 +269,7 @@ def _rib_contact(
             entrainment, slide, contact.p_max, par.e_eff, oil.viscosity, oil.temperature_slope, oil.conductivity
         )
     )
-    share = float(line_film.asperity_share(film / par.rib_roughness, *par.rib_asperities))
+    share = float(line_film.asperity_share(film / par.rib_roughness, par.asperity_scale, par.asperity_exponent))
     middles = 2.0 * (np.arange(_CELLS) + 0.5) / _CELLS - 1.0
     x, y = np.meshgrid(middles, middles)
     inside = x**2 + y**2 < 1.0

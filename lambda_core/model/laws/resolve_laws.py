@@ -56,6 +56,7 @@ class LawResolver:
     guidance: str
     ledger: Ledger
     kind: str = "deep groove"  # of the bearing
+    defaults: Mapping[str, str] = field(default_factory=DEFAULT_MODELS.copy)  # by role
     _used: dict[str, set[str]] = field(default_factory=dict)  # role -> parameters some model took
 
     def resolve(self) -> dict[str, dict[str, ChosenLaw]]:
@@ -204,7 +205,7 @@ class LawResolver:
         """Return the built-in default; for a law of the oil, the one that the oil has data for."""
         if role == "fluid_drag" and self.case.lubricant.lubrication in MIXTURES:
             return CAVITY_DRAG
-        name = DEFAULT_MODELS[role]
+        name = self.defaults[role]
         if name == "auto":
             return self._automatic(role)
         if role != "permittivity" or self.lubricant is None or role in self.case.parameters:
