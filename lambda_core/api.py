@@ -63,7 +63,6 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.fitting.report import FitReport
     from lambda_core.model.api import draft, problems, templates
     from lambda_core.model.bearing_model import BearingModel
-    from lambda_core.model.checking import resolve
     from lambda_core.model.checks.describe import ValueReport, value_reports
     from lambda_core.model.checks.oil_table import oil_table
     from lambda_core.model.checks.operating_limits import operating_warnings

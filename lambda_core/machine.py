@@ -205,7 +205,7 @@ class Machine:
 
     def check(self) -> Any:
         """Resolve the machine: geometry, materials, laws; raise CaseError with everything that is wrong."""
-        return self._ask("resolve")
+        return self._ask("check")
 
     def quasistatic(self) -> Any:
         """Solve the equilibrium without time: loads, lives, films, friction."""

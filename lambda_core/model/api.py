@@ -122,7 +122,7 @@ def describe(model: BearingModel) -> CaseReport:
     Parameters
     ----------
     model : BearingModel
-        From :func:`check` or :func:`resolve`.
+        From :func:`check`.
 
     Returns
     -------

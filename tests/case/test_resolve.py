@@ -31,6 +31,7 @@ from lambda_core.formulas.tolerances import Limits
 from lambda_core.laws.law import Law
 from lambda_core.model.bearing_model import BearingModel, ChosenLaw, TimeFunction
 from lambda_core.model.bodies.resolve_bodies import groove_volume, hollow_cylinder, ring_inertia
+from lambda_core.model.checking import check_bearing
 from lambda_core.model.laws.time_functions import added, highest_frequency, initial, peak, scaled, time_function
 from lambda_core.model.resolve import case_hash, resolve
 
@@ -43,7 +44,7 @@ def rows() -> Iterator[Catalogue]:
 
 
 def model_of(source: str, /, **changes: Any) -> BearingModel:
-    return api.resolve(api.case(source).with_(**changes))
+    return check_bearing(api.case(source).with_(**changes))
 
 
 def origin(model: BearingModel, path: str) -> tuple[float | str, str, str]:
@@ -54,7 +55,7 @@ def origin(model: BearingModel, path: str) -> tuple[float | str, str, str]:
 @pytest.mark.parametrize("name", sorted(builtin_cases()))
 def test_builtin_case_resolves_and_can_be_run_again_from_its_result(name: str) -> None:
     model = model_of(name)
-    again = api.resolve(parse_case(model.case_toml))
+    again = check_bearing(parse_case(model.case_toml))
     assert case_hash(again) == case_hash(model)
     assert model.assumptions == again.assumptions
     assert all(math.isfinite(x) for x in (model.inner_ring.mass, model.cage_body.mass, model.solver.max_step))

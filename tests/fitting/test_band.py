@@ -25,6 +25,7 @@ from lambda_core.domain.number_text import rounded
 from lambda_core.export.report.band_table import model_bands
 from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.scores import interval_score
+from lambda_core.model.checking import check_bearing
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.results.model_band import FIELDS, ModelBand
 from lambda_core.solver.drivers.equilibrium import solve
@@ -77,7 +78,7 @@ def test_the_band_holds_skf_on_twenty_bearings() -> None:
     for one in drawn_bearings():
         case = one.case()
         band = api.model_band(case, quantities=TORQUE).band("friction torque")
-        skf = rating_of(solve(api.resolve(case, is_static=True)), method).skf_torque_Nmm
+        skf = rating_of(solve(check_bearing(case, is_static=True)), method).skf_torque_Nmm
         assert skf is not None
         good.append(band.low <= skf <= band.high and band.half_width_pct <= 25.0)
     assert len(good) == 20
@@ -232,12 +233,12 @@ def test_a_machine_has_the_bands_of_its_bearings() -> None:
 @pytest.mark.parametrize("path", ["loss_factor", "tau_eyring", "roughness", "lubricant.temperature", "clearance"])
 def test_a_changed_model_is_the_resolved_changed_case(path: str) -> None:
     """The short way of the band, from the solution of the case, ends where the long way does."""
-    model = api.resolve(api.case("6319-cp10-1500"), is_static=True)
+    model = check_bearing(api.case("6319-cp10-1500"), is_static=True)
     graded = next(entry for entry in graded_parameters(model) if entry.path.endswith(path))
-    moved = with_value(model, graded, graded.high, partial(api.resolve, is_static=True))
+    moved = with_value(model, graded, graded.high, partial(check_bearing, is_static=True))
     near = solve(model, phase=0.125)
     short = solve_near(moved, near, is_of_laws=is_of_laws(graded))
-    long = solve(api.resolve(api.case("6319-cp10-1500", graded.changes(graded.high)), is_static=True), phase=0.125)
+    long = solve(check_bearing(api.case("6319-cp10-1500", graded.changes(graded.high)), is_static=True), phase=0.125)
     np.testing.assert_allclose(short.losses, long.losses, rtol=1e-6, atol=1e-9)
     np.testing.assert_allclose(short.displacement, long.displacement, rtol=1e-6, atol=1e-12)
 
@@ -245,7 +246,7 @@ def test_a_changed_model_is_the_resolved_changed_case(path: str) -> None:
 @pytest.mark.parametrize("load", ["loads.radial=300 N", "loads.axial=3 kN"])
 def test_a_search_that_changes_nothing_stays_where_it_is(load: str) -> None:
     """Which unloaded balls the cage drives was once decided anew, and they found another steady motion."""
-    model = api.resolve(api.case("6319-cp10-1500", ("operation.speed=5000 rpm", load)), is_static=True)
+    model = check_bearing(api.case("6319-cp10-1500", ("operation.speed=5000 rpm", load)), is_static=True)
     near = solve(model, phase=0.125)
     again = solve_near(model, near)
     assert again.iterations <= 1

@@ -61,8 +61,12 @@ def overhung() -> tuple[MachineModel, ShaftState]:
 
 
 def test_reactions_of_a_statically_determinate_shaft() -> None:
-    """Levers alone: F l/a on the far bearing, F (l + a)/a on the near one, weight by its pieces; 1e-6 of the load."""
+    """Levers alone: F l/a on the far bearing, F (l + a)/a on the near one, weight by its pieces; 1e-6 of the load.
+
+    Each bearing carries its own inner ring.
+    """
     model, state = overhung()
+    rings = np.array([GRAVITY * one.model.inner_ring.mass for one in model.bearings])
     pieces = [(7800.0 * math.pi / 4.0 * d**2 * b, x) for d, b, x in ((0.03, 0.12, 0.06), (0.028, 0.09, 0.165))]
     density = model.body.total_mass / sum(m / 7800.0 for m, _ in pieces)
     span, overhang = 0.12, 0.05
@@ -70,7 +74,8 @@ def test_reactions_of_a_statically_determinate_shaft() -> None:
         weights = [(-m / 7800.0 * density * GRAVITY, x) for m, x in pieces] if axis == 2 else []
         right = -sum(w * (x - 0.03) for w, x in weights) / span - force * (span + overhang) / span
         left = -force - right - sum(w for w, _ in weights)
-        assert state.reactions[:, axis] == pytest.approx([left, right], abs=1e-6 * 1200.0)
+        carried = np.array([left, right]) + (rings if axis == 2 else 0.0)
+        assert state.reactions[:, axis] == pytest.approx(carried, abs=1e-6 * 1200.0)
     assert state.reactions[:, 0] == pytest.approx([-150.0, 0.0], abs=1e-6 * 1200.0)
     assert np.abs(state.reactions[:, 3:]).max() < 1e-6 * 1200.0 * span
 
@@ -207,6 +212,8 @@ def test_the_limit_of_a_rigid_shaft() -> None:
         frame = np.eye(5)
         frame[1, 4], frame[2, 3] = place, -place
         loads += frame.T @ (model.loads + model.weight)[model.body.rows(place)][[0, 1, 2, 4, 5]]
+        rings = [b.model.inner_ring.mass for b in model.bearings if place == pytest.approx(b.position)]
+        loads += frame.T @ [0.0, 0.0, -GRAVITY * sum(rings), 0.0, 0.0]
         if any(place == pytest.approx(b.position) for b in model.bearings):
             frames.append(frame)
     pose = np.linalg.solve(frames[0], state.pose(model, 0))
@@ -237,8 +244,8 @@ def test_what_nothing_holds_is_said() -> None:
 
 
 def test_housing_in_series() -> None:
-    """An outer ring on springs moves by its reaction over their stiffness (exact)."""
-    _, state = solved(
+    """An outer ring on springs moves by its reaction and its weight over their stiffness (exact)."""
+    model, state = solved(
         {
             "shaft": {"sections": [{"length": "200 mm", "diameter": "30 mm"}]},
             "bearings": {
@@ -248,13 +255,14 @@ def test_housing_in_series() -> None:
             "loads": {"gear": {"at": "100 mm", "force_z": "-2 kN", "force_y": "500 N"}},
         }
     )
-    assert -state.outer[0, 1:3] * [20e6, 50e6] == pytest.approx(state.reactions[0, 1:3], rel=1e-6)
+    carried = state.reactions[0, 1:3] + [0.0, GRAVITY * model.bearings[0].model.outer_ring.mass]
+    assert -state.outer[0, 1:3] * [20e6, 50e6] == pytest.approx(carried, rel=1e-6)
 
 
 def test_an_elastic_housing_from_a_file(tmp_path: Path) -> None:
     """A beam that joins both seats, on two springs to the ground, as a reduced model: the seats move as the beam does.
 
-    Against the beam's own flexibility under the reactions found (1e-6); a housing that floats is refused.
+    Against the beam's own flexibility under reactions and the weight of rings (1e-6); a housing that floats is refused.
     """
     material = BodyMaterial(210e9, 0.3, 7850.0)
     beam = shaft_body([(0.2, RoundSection(0.05, 0.0, material))], places=[0.03, 0.15])
@@ -276,8 +284,9 @@ def test_an_elastic_housing_from_a_file(tmp_path: Path) -> None:
     model, state = solved(case)
     pushed = np.zeros(stiffness.shape[0])
     rows = [beam.rows(place).start + np.array([0, 1, 2, 4, 5]) for place in (0.03, 0.15)]
-    for place, force in zip(rows, state.reactions, strict=True):
+    for place, force, one in zip(rows, state.reactions, model.bearings, strict=True):
         pushed[place] -= force
+        pushed[place[2]] -= GRAVITY * one.model.outer_ring.mass
     moved = np.linalg.solve(stiffness, pushed)
     assert state.outer[0] == pytest.approx(moved[rows[0]], rel=1e-6, abs=1e-12)
     assert state.outer[1, 1:] == pytest.approx(moved[rows[1]][1:], rel=1e-6, abs=1e-12)

@@ -67,8 +67,8 @@ def test_a_law_moves_as_springs_do() -> None:
         engine = machine_engine(machine(connections={"seal": {"at": "110 mm", "to": "box", **connection}}, loads=push))
         assert engine.advance(3e-3).ok
         found.append(engine.samples().machine["shaft_position"])
-    swing = float(np.ptp(found[0][:, :, 1], axis=0).max())
-    assert found[1][-1] == pytest.approx(found[0][-1], abs=0.01 * swing)
+    swing, last = float(np.ptp(found[0][:, :, 1], axis=0).max()), min(map(len, found)) - 1
+    assert found[1][last] == pytest.approx(found[0][last], abs=0.01 * swing)
 
 
 def test_a_load_by_a_law_is_that_over_time() -> None:

@@ -67,11 +67,14 @@ def test_a_housing_on_mounts_in_equilibrium(model: MachineModel) -> None:
         force += wrench[:3]
         moment += wrench[3:] + np.cross(np.subtract(spring.place.point, box.centre), wrench[:3])
     acting = (model.loads + model.weight)[: model.body.mass.shape[0]].reshape(-1, 6)
-    total = acting[:, :3].sum(axis=0) + np.array([0.0, 0.0, -9.80665 * box.mass])
+    rings = [(one.position, one.model.inner_ring.mass + one.model.outer_ring.mass) for one in model.bearings]
+    total = acting[:, :3].sum(axis=0) - [0.0, 0.0, 9.80665 * (box.mass + sum(mass for _, mass in rings))]
     assert force + total == pytest.approx(np.zeros(3), abs=1e-6 * np.abs(total).max())
     arms = np.array([[x, 0.0, 0.0] for x in model.body.positions]) - box.centre
     turned = acting[:, 3:].sum(axis=0) + np.cross(arms, acting[:, :3]).sum(axis=0)
     turned[0] += state.drive_torque  # the coupling holds the shaft, not the housing
+    for place, mass in rings:
+        turned += np.cross([place, 0.0, 0.0] - np.array(box.centre), [0.0, 0.0, -9.80665 * mass])
     assert moment + turned == pytest.approx(np.zeros(3), abs=1e-5 * np.abs(turned).max())
     assert state.residual < 1e-9
 

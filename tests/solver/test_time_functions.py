@@ -11,6 +11,7 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
 
 from lambda_core import api
+from lambda_core.model.checking import check_bearing
 from lambda_core.solver.arrays import bundle as L
 
 from .support import CASE, FloatArray, Machine, machine, time_function
@@ -21,7 +22,7 @@ POINTS = [(0.0, 1.0), (4e-3, 3.0), (9e-3, -2.0), (15e-3, 0.5), (17e-3, 2.0), (20
 
 def table(section: str, **how: str) -> Machine:
     signal = {"kind": "table", "points": [[f"{t!r} s", f"{v!r} kN"] for t, v in POINTS], **how}
-    return Machine(api.resolve(api.case(CASE).with_(loads={section: signal})))
+    return Machine(check_bearing(api.case(CASE).with_(loads={section: signal})))
 
 
 def values(m: Machine, kind: str, body: int, component: int) -> FloatArray:
@@ -49,7 +50,7 @@ def test_sum_of_a_constant_and_a_harmonic() -> None:
             }
         }
     )
-    found, w, phase = values(Machine(api.resolve(case)), "force", 0, 0), 2.0 * math.pi * 120.0, math.radians(25.0)
+    found, w, phase = values(Machine(check_bearing(case)), "force", 0, 0), 2.0 * math.pi * 120.0, math.radians(25.0)
     assert found[:, 0] == pytest.approx(2000.0 + 300.0 * np.sin(w * TIMES + phase))
     assert found[:, 1] == pytest.approx(300.0 * w * np.cos(w * TIMES + phase))
     assert found[:, 2] == pytest.approx(-300.0 * w * w * np.sin(w * TIMES + phase))

@@ -12,6 +12,7 @@ import pytest
 from lambda_core import api
 from lambda_core.case.case_writer import standalone_toml, tables_toml
 from lambda_core.domain.errors import CaseError, Problem, UsageError
+from lambda_core.model.checking import check_bearing
 
 CASE = "6208-axial-1300"
 
@@ -36,7 +37,7 @@ def test_c3_a_long_table_is_checked_in_seconds(tmp_path: Path) -> None:
     """20 000 points in the case itself: time with the square of the number was minutes."""
     path = case_with({"kind": "table", "points": points(20_000)}, tmp_path)
     start = time.process_time()
-    model = api.resolve(api.case(path))
+    model = check_bearing(api.case(path))
     assert time.process_time() - start < MOST
     assert tomllib.loads(model.case_toml)["loads"]["inner_ring"]["force_x"]["points"][-1] == ["1.9999 s", "100 N"]
 

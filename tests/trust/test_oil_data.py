@@ -6,6 +6,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.domain.errors import CaseError
+from lambda_core.model.checking import check_bearing
 
 CASE = "6208-axial-1300"
 
@@ -28,7 +29,7 @@ def test_d12_an_oil_of_ones_own_needs_no_data_of_permittivity() -> None:
         "kinematic_viscosity_40": "46 mm2/s", "kinematic_viscosity_100": "6.8 mm2/s", "alpha_p": "18 1/GPa",
         "density_15": "870 kg/m3", "density_slope": -0.6,
     }  # fmt: skip
-    model = api.resolve(api.case(CASE).with_(lubricant=oil, parameters={"rheology": values}))
+    model = check_bearing(api.case(CASE).with_(lubricant=oil, parameters={"rheology": values}))
     assert "permittivity model constant: mine has no data for bode" in model.assumptions
 
 

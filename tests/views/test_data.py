@@ -15,6 +15,7 @@ from lambda_core import api
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.export.report.gallery import data_of
+from lambda_core.model.checking import check_bearing
 from lambda_core.views.chart import Panel, Series, ViewData
 from lambda_core.views.method import NotApplicable
 
@@ -304,7 +305,7 @@ def test_the_contact_field_carries_the_load_and_the_loss(radial_run: Result) -> 
     from lambda_core.solver.drivers.contact_field import contact_field, contact_state
     from lambda_core.solver.drivers.equilibrium import solve
 
-    context = solve(api.resolve(api.case("6319-cp10-1500"))).context
+    context = solve(check_bearing(api.case("6319-cp10-1500"))).context
     names = [channel.name for channel in radial_run.channels]
     sample = radial_run.sample(-1, names)
     ball = int(sample["load"][:, 0].argmax())

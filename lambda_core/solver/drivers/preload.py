@@ -51,7 +51,8 @@ def preloads(model: MachineModel, kernels: SharedKernels | None = None) -> dict[
     sided = [index for index, bearing in enumerate(model.bearings) if bearing.takes]
     if not sided:
         return {}
-    alone = replace(model, loads=np.zeros_like(model.loads), weight=np.zeros_like(model.weight), part_loads={})
+    nothing = {"loads": np.zeros_like(model.loads), "weight": np.zeros_like(model.weight), "gravity": (0.0, 0.0, 0.0)}
+    alone = replace(model, **nothing, part_loads={})
     try:
         state = solve_shaft(alone, None, kernels)
     except SolverError:

@@ -19,7 +19,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import SolverError
 from lambda_core.formulas.elastic.beam import NODE
-from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.bearing_model import BearingModel, Body
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.machine_model import GROUND, PLACES, BearingPart, MachineModel, MountedBearing
 from lambda_core.solver.drivers.bearing_reaction import BearingReaction
@@ -122,6 +122,7 @@ class _System:
         acting = model.loads + model.weight + model.growth
         given[: self.size], given[rows.bodies :] = acting[: self.size], acting[self.size :]
         for own, bearing in zip(self.outer, model.bearings, strict=True):
+            given[model.body.rows(bearing.position)][:3] += weight_of(model, bearing.model.inner_ring)
             self.start[own] = bearing.seating.shift
             given[own] += seat_load(model, bearing)
             is_held = np.isinf(bearing.seating.stiffness) & (model.housing is None or bearing.carrier != GROUND)
@@ -204,7 +205,13 @@ def seat_load(model: MachineModel, bearing: MountedBearing) -> FloatArray:
     load = model.load_on(BearingPart(bearing.name, "outer_ring"))
     found = np.array([initial(load[row]) for row in PLACES])
     found[0] += bearing.seating.force
+    found[:3] += weight_of(model, bearing.model.outer_ring)
     return found
+
+
+def weight_of(model: MachineModel, ring: Body) -> FloatArray:
+    """Return the weight of a ring, x, y, z [N]; that of the rolling elements counts in motion only."""
+    return ring.mass * np.array(model.gravity)
 
 
 def _carried(model: MachineModel, frame: NDArray[np.int64]) -> FloatArray:
