@@ -8,8 +8,11 @@ from __future__ import annotations
 
 import re
 from importlib import import_module
+from inspect import isfunction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.public_call import public
 
 if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.analysis.band.model_band import model_band
@@ -105,7 +108,10 @@ def __getattr__(name: str) -> Any:
     """Import what is asked for, once."""
     if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    found = globals()[name] = getattr(import_module(_HOME[name]), name)
+    found = getattr(import_module(_HOME[name]), name)
+    if isfunction(found):
+        found = public(found, __name__)
+    globals()[name] = found
     return found
 
 

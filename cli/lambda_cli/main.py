@@ -7,30 +7,26 @@ stdout carries data, stderr carries talk. Exit codes: 0 ok, 1 bug, 2 usage, 3 in
 from __future__ import annotations
 
 import atexit
-import errno
 import gc
 import inspect
 import os
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-import lambda_core
 from lambda_cli.commands import Entry, entries, guarded, invoked
 from lambda_cli.interrupt import second_signal_ends
 from lambda_cli.plugin_option import with_plugin_option
 from lambda_core.domain.errors import CaseError, LambdaError, UsageError
+from lambda_core.domain.files import system_refusal
 from lambda_core.domain.plugin_errors import PluginError, failures_so_far
 from lambda_core.domain.printable import printable
 
 PROGRAM = "lambda-bearing"
 INTERRUPTED = 130
-_LONGEST_NAME = 100
-_NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.EIO)
 DEBUG_VARIABLE = "LAMBDA_BEARING_DEBUG"
 # The core computes with one thread of a linear algebra library: here the others are not even started.
 for _threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -180,7 +176,7 @@ def _main(arguments: Sequence[str] | None) -> int:
         _say("what was given is nested too deeply")
         return CaseError.exit_code
     except OSError as error:
-        why = _not_ours(error)
+        why = system_refusal(error)
         if not why:
             return _bug(error)
         _say(why)
@@ -190,16 +186,6 @@ def _main(arguments: Sequence[str] | None) -> int:
             _say_usage(error)
             return code
         return _bug(error)
-
-
-def _not_ours(error: OSError) -> str:
-    """Say what the system refused: a file of somebody's, or room; "" for a mistake of the program."""
-    if error.errno in _NO_ROOM:
-        return f"the system refuses: {os.strerror(error.errno)}"
-    name = os.fsdecode(error.filename) if isinstance(error.filename, str | bytes) else ""
-    if not name or not error.strerror or Path(name).is_relative_to(Path(lambda_core.__file__).parent):
-        return ""
-    return f'cannot use "{name if len(name) < _LONGEST_NAME else name[:_LONGEST_NAME] + "..."}": {error.strerror}'
 
 
 def _say(text: str) -> None:

@@ -93,7 +93,7 @@ def returned() -> list[type]:
 def _sources(name: str) -> Iterator[str]:
     """Yield the source text of each module that the public functions of a module stand in."""
     module = importlib.import_module(name)
-    homes = {item.__module__ for _, item in public(module) if inspect.isfunction(item)}
+    homes = {inspect.unwrap(item).__module__ for _, item in public(module) if inspect.isfunction(item)}
     for home in sorted(homes):
         yield inspect.getsource(importlib.import_module(home))
 

@@ -110,6 +110,8 @@ def _message(item: Any, path: list[int | str], model: type[BaseModel], data: Any
         known = ", ".join(f'"{known}"' for known in SIGNAL_KINDS)
         what = f'"{given}" is not a kind of time function' if given else "a time function needs its kind"
         return f"{what}: write kind = one of {known}{hint}"
+    if kind == "invalid_key":
+        return f"{_quoted(value)} is no name of an option: names are texts"
     if kind == "too_short":
         return f"needs {context['min_length']} at least{_help(parent, name)}"
     if kind == "string_too_long":

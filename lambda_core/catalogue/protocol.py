@@ -8,7 +8,7 @@ The store behind it (SQLite, in ``lambda_db``) is plugged in through the hook
 
 from __future__ import annotations
 
-from typing import Literal, Protocol
+from typing import Literal, Protocol, runtime_checkable
 
 from pydantic import BaseModel, ConfigDict
 
@@ -180,6 +180,7 @@ class Shadow(Frozen):
     before: str = ""  # of a source: what it stood for
 
 
+@runtime_checkable
 class Catalogue(Protocol):
     """Look-ups that the core needs; an unknown name raises CatalogueError with the nearest ones."""
 

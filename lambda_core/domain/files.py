@@ -5,6 +5,7 @@ The limit is a size that fits into memory.
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 from pathlib import Path
@@ -13,6 +14,9 @@ from tempfile import NamedTemporaryFile
 from lambda_core.domain.errors import UsageError
 
 LARGEST_TEXT = 64 * 2**20  # [byte] of a case, a table, a document
+_NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.EIO)
+_OURS = Path(__file__).parents[1]
+_LONGEST_NAME = 100
 _NUL = "no name of a file holds a NUL character"
 _DEVICES = {"CON", "PRN", "AUX", "NUL", *(f"{port}{number}" for port in ("COM", "LPT") for number in range(1, 10))}
 _KINDS = (
@@ -22,6 +26,16 @@ _KINDS = (
     (stat.S_ISCHR, "a device"),
     (stat.S_ISBLK, "a device"),
 )
+
+
+def system_refusal(error: OSError) -> str:
+    """Say what the system refused: a file of somebody's, or room; "" for a mistake of the program."""
+    if error.errno in _NO_ROOM:
+        return f"the system refuses: {os.strerror(error.errno)}"
+    name = os.fsdecode(error.filename) if isinstance(error.filename, str | bytes) else ""
+    if not name or not error.strerror or Path(name).is_relative_to(_OURS):
+        return ""
+    return f'cannot use "{name if len(name) < _LONGEST_NAME else name[:_LONGEST_NAME] + "..."}": {error.strerror}'
 
 
 def kind_of(path: Path) -> str:

@@ -1,13 +1,23 @@
-"""Calls of the Python API with what is no case and no change: refused in a sentence, before anything runs."""
+"""Calls of the Python API with wrong arguments: refused in a sentence, before anything runs."""
 
 from __future__ import annotations
 
+import inspect
+import math
+import pickle
+from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain import public_call
+from lambda_core.domain.errors import LambdaError, UsageError
+
+API: Any = api  # for calls that a type checker refuses
+CASE = "6208-axial-1300"
+FUNCTIONS = {name: getattr(api, name) for name in api._HOME if inspect.isfunction(getattr(api, name))}
 
 
 @pytest.mark.parametrize("source", [True, 1, None, 2.5, b"bytes"])
@@ -20,3 +30,45 @@ def test_a_source_that_is_no_case_is_named(source: Any) -> None:
 def test_a_change_that_is_no_text_is_named(change: Any) -> None:
     with pytest.raises(UsageError, match="is not a change: write path=value"):
         api.check("6208-axial-1300", [change])
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: API.electric_map(CASE, points=0), r"electric_map: points = 0 is not allowed: give str\. Speeds times"),
+        (lambda: API.fit(CASE, None, ["loss_factor"]), "fit: measured = None is not allowed: give path-like or"),
+        (lambda: API.resume(None), "resume: path = None is not allowed: give path-like. Result file of a run that"),
+        (lambda: API.stribeck(CASE, speeds_rpm="100"), 'stribeck: speeds_rpm: a list is needed, and "100" is one text'),
+        (lambda: API.stribeck(CASE, speeds_rpm=[math.nan]), r"speeds_rpm = \[nan\] .*, a finite number"),
+        (lambda: API.iterate(CASE, couple="x"), 'couple = \'x\' is not allowed: give "force" or "motion"'),
+        (lambda: API.run(CASE, progress=3), "run: progress = 3 is not allowed: give callable"),
+        (lambda: API.describe("model"), "describe: model = 'model' is not allowed: give BearingModel"),
+        (lambda: API.check(CASE, catalogue=3), "check: catalogue = 3 is not allowed: give Catalogue"),
+        (lambda: API.run(CASE, ou="x.h5"), "unexpected keyword argument 'ou'; nearest: out; it takes source,"),
+        (lambda: API.fit(CASE), "fit: missing a required argument: 'measured'; it takes source, measured, vary"),
+        (lambda: API.result("a" * 300), 'result: cannot use "aaa.*File name too long'),
+        (lambda: API.check({"name": "x", 1: 2}), "1 is no name of an option: names are texts"),
+    ],
+)  # fmt: skip
+def test_an_argument_of_another_type_or_range_is_named(call: Callable[[], object], words: str) -> None:
+    with pytest.raises(LambdaError, match=words):
+        call()
+
+
+def test_numbers_of_numpy_and_arrays_are_numbers_and_lists() -> None:
+    assert len(API.stribeck(CASE, speeds_rpm=np.array([100, 200])).speeds_rpm) == 2
+    assert len(API.stribeck(CASE, points=np.int64(2)).speeds_rpm) == 2
+
+
+@pytest.mark.parametrize("name", sorted(FUNCTIONS))
+def test_every_public_function_checks_and_keeps_its_face(name: str) -> None:
+    """Signature and docstring stay, other processes find the function, and each argument has a check that works."""
+    function = FUNCTIONS[name]
+    plain = inspect.unwrap(function)
+    assert inspect.signature(function) == inspect.signature(plain)
+    assert function.__doc__ == plain.__doc__
+    assert pickle.loads(pickle.dumps(function)) is function
+    for parameter in inspect.signature(plain).parameters:
+        public_call._adapter(plain, parameter)
+    with pytest.raises(UsageError, match=f"^{name}: .*; it takes "):
+        function(nothing_of_the_kind=1)
