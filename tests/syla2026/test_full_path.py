@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -35,6 +37,12 @@ ANALYTICAL = (
 RESONANCE = ("stiffness_N_per_um", "mass_kg", "resonance_Hz", "ball_Hz", "cage_Hz")
 
 
+@cache
+def resolved(case: str, changes: Sequence[str]) -> BearingModel:
+    """Return a model; experiments of several tests ask for hundreds of the same."""
+    return resolve_point(case, changes)
+
+
 def invented(model: BearingModel) -> Numbers:
     """Numbers of any reading: torques smooth in speed and temperature, altered running above some excitation."""
     total = 900.0 * (max_speed(model) / 52.0) ** 0.3 * math.exp(-0.015 * (model.oil.temperature - 335.0))
@@ -63,7 +71,7 @@ def lost(monkeypatch: pytest.MonkeyPatch) -> set[str]:
         return invented(model)
 
     def run(job: Job, hash_: str, folder: str) -> JobResult:
-        model = resolve_point(job_runner.case_text(job.case), job.changes)
+        model = resolved(job_runner.case_text(job.case), job.changes)
         failed = bool({model.name, *job.changes} & without)
         (Path(folder) / "run").touch()
         numbers = {} if failed else invented(model)
@@ -72,6 +80,7 @@ def lost(monkeypatch: pytest.MonkeyPatch) -> set[str]:
     monkeypatch.setattr(job_runner, "Processes", lambda workers: pool(HERE, workers))
     monkeypatch.setattr(job_runner, "STATIC", dict.fromkeys(job_runner.STATIC, static))
     monkeypatch.setattr(job_runner, "_run", run)
+    monkeypatch.setattr(job_runner, "resolve_point", resolved)
     # Fewer of what there are many of.
     monkeypatch.setattr(calibration, "laws_of", lambda role: [P.entry(f"models.{role}").value])
     monkeypatch.setattr(anchored_table, "_GRID", np.array([55.0, 60.0, 65.0, 70.0]))

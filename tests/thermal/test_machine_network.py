@@ -14,22 +14,38 @@ from warm_machines import pair
 
 from lambda_core import api
 from lambda_core.analysis.thermal.conductances import rod
+from lambda_core.analysis.thermal.feedback import Runaway
 from lambda_core.analysis.thermal.machine_temperature_report import MachineTemperatures, MachineTemperaturesOverTime
+from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
 from lambda_core.analysis.thermal.network import Network
 from lambda_core.analysis.thermal.surroundings import long_fin
 from lambda_core.case.written import merged
 from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.formulas.elastic.sections import BodyMaterial
+from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.settings.machine_heat import stretch
 
 AIR = 293.15
 STEEL = 46.0  # [W/(m K)], 100Cr6
+COMPUTED = {"operation": {"temperatures": "computed"}}
 
 
 def temperatures(case: dict[str, Any]) -> MachineTemperatures:
     found = api.thermal(case)
     assert isinstance(found, MachineTemperatures)
     return found
+
+
+@pytest.fixture(scope="module")
+def warm() -> MachineTemperatures:
+    """Find the temperatures of the pair once."""
+    return temperatures(pair())
+
+
+@pytest.fixture(scope="module")
+def ready() -> MachineModel:
+    """Resolve the pair at its computed temperatures once."""
+    return ready_machine_of(pair(**COMPUTED))
 
 
 def test_a_rod_with_two_sources_and_convection_has_its_closed_form() -> None:
@@ -111,8 +127,8 @@ def test_losses_that_leave_by_the_ends_of_the_shaft_have_their_closed_form() -> 
     assert abs(found.energy_residual) < 1e-9
 
 
-def test_equal_bearings_have_equal_temperatures() -> None:
-    found = temperatures(pair())
+def test_equal_bearings_have_equal_temperatures(warm: MachineTemperatures) -> None:
+    found = warm
     at = found.temperatures_degC
     for part in ("inner_ring", "outer_ring", "balls", "oil", "shaft"):
         assert at[f"left.{part}"] == pytest.approx(at[f"right.{part}"], abs=0.01)
@@ -161,8 +177,9 @@ def test_a_machine_of_one_bearing_is_the_bearing_alone() -> None:
 def test_the_loss_of_a_gear_warms_the_shaft() -> None:
     gear = {"gears": {"wheel": {"at": "100 mm", "pitch_diameter": "90 mm", "torque": "20 N m", "role": "driven"}}}
     gear["gears"]["wheel"]["mesh"] = "90 deg"
-    cold = temperatures(merged(pair(), gear))
-    warm = temperatures(merged(pair(thermal={"nodes": {"wheel": {"heat": "60 W"}}}), gear))
+    cold, warm = (
+        temperatures(merged(pair(thermal={"nodes": {"wheel": {"heat": heat}}}), gear)) for heat in ("0 W", "60 W")
+    )
     assert warm.heat_W["wheel"] == pytest.approx(60.0)
     assert warm.temperatures_degC["wheel"] > cold.temperatures_degC["wheel"] + 5.0
     assert warm.bearings["left"].state.clearance_um < cold.bearings["left"].state.clearance_um
@@ -180,10 +197,9 @@ def test_oil_of_one_bearing_takes_its_heat_along() -> None:
     assert "right.oil_supply" not in at
 
 
-def test_computed_temperatures_reach_the_equilibrium() -> None:
-    found, said = temperatures(pair()), list[str]()
-    case = pair(operation={"temperatures": "computed"})
-    static = api.quasistatic(case, announce=said.append)
+def test_computed_temperatures_reach_the_equilibrium(warm: MachineTemperatures, ready: MachineModel) -> None:
+    found, said = warm, list[str]()
+    static = api.quasistatic(pair(**COMPUTED), announce=said.append)
     torques = [bearing.friction_torque_Nmm for bearing in static.bearings]
     expected = [one.state.friction_torque_Nmm for one in found.bearings.values()]
     assert torques == pytest.approx(expected, rel=1e-4)
@@ -191,13 +207,11 @@ def test_computed_temperatures_reach_the_equilibrium() -> None:
         [one.state.clearance_um for one in found.bearings.values()], abs=5e-3
     )
     assert any("temperatures found by the thermal network (harris): left inner ring" in line for line in said)
-    assert api.modes(case).bearings  # its stiffness, too, is that of the warm machine
+    found_ready = [bearing.friction_torque_Nmm for bearing in api.quasistatic(ready).bearings]
+    assert found_ready == pytest.approx(torques, rel=1e-6)
 
 
-def test_the_case_of_a_warm_machine_needs_no_second_search() -> None:
-    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
-
-    ready = ready_machine_of(pair(operation={"temperatures": "computed"}))
+def test_the_case_of_a_warm_machine_needs_no_second_search(ready: MachineModel) -> None:
     assert not ready.awaits_temperatures
     assert "computed" not in ready.case_toml
     again = api.check(tomllib.loads(ready.case_toml))
@@ -205,14 +219,15 @@ def test_the_case_of_a_warm_machine_needs_no_second_search() -> None:
     assert ready.growth.any()
 
 
-def test_the_losses_of_a_run_give_temperatures_near_its_own(tmp_path: Path) -> None:
-    case = pair(operation={"temperatures": "computed"})
-    run = api.run(case, ["solver.duration=0.3 ms"], out=tmp_path / "pair.h5")
+def test_the_losses_of_a_run_give_temperatures_near_its_own(
+    warm: MachineTemperatures, ready: MachineModel, tmp_path: Path
+) -> None:
+    run = api.run(tomllib.loads(ready.case_toml), ["solver.duration=0.3 ms"], out=tmp_path / "pair.h5")
     assert "computed" not in run.case_toml
     found = api.thermal(run.path)
     assert isinstance(found, MachineTemperatures)
     assert found.losses_from == f"averages of {run.path}"
-    expected = temperatures(pair())
+    expected = warm
     assert found.power_loss_W == pytest.approx(expected.power_loss_W, rel=0.1)
     assert found.temperatures_degC["housing"] == pytest.approx(expected.temperatures_degC["housing"], abs=4.0)
     with pytest.raises(UsageError, match="accept no overrides"):
@@ -220,10 +235,10 @@ def test_the_losses_of_a_run_give_temperatures_near_its_own(tmp_path: Path) -> N
 
 
 def test_a_warm_up_balances_its_heat_and_rises() -> None:
-    course = api.warm_up(pair(), 120.0)
+    course = api.warm_up(pair(), 30.0)
     assert isinstance(course, MachineTemperaturesOverTime)
     assert course.ended == "finished"
-    assert course.time_s[-1] == 120.0
+    assert course.time_s[-1] == 30.0
     assert abs(course.energy_residual) < 1e-6
     assert course.heat_in_J == pytest.approx(course.heat_out_J + course.heat_stored_J, rel=1e-6)
     rise = course.temperatures_degC["left.balls"]
@@ -235,18 +250,22 @@ def test_a_warm_up_balances_its_heat_and_rises() -> None:
 
 
 @pytest.mark.full
-def test_a_machine_warms_up_to_its_steady_state() -> None:
-    steady, course = temperatures(pair()), api.warm_up(pair(), 8 * 3600.0)
+def test_a_machine_warms_up_to_its_steady_state(warm: MachineTemperatures) -> None:
+    steady, course = warm, api.warm_up(pair(), 8 * 3600.0)
     for name, value in steady.temperatures_degC.items():
         assert course.temperatures_degC[name][-1] == pytest.approx(value, abs=0.3)
 
 
 def test_a_machine_that_gets_too_hot_is_refused_in_words() -> None:
-    from lambda_core.analysis.thermal.feedback import Runaway
-
     hot = pair(thermal={"limit": "50 degC", "nodes": {"left.inner_ring": {"heat": "400 W"}}})
     with pytest.raises(Runaway, match=r"pair: .*left\.inner ring at .* is beyond thermal.limit = 50 degC"):
         api.thermal(hot)
+
+
+@pytest.mark.full
+def test_the_warm_up_of_a_machine_ends_where_it_gets_too_hot() -> None:
+    """The same for one bearing in tests/thermal/test_loop.py."""
+    hot = pair(thermal={"limit": "50 degC", "nodes": {"left.inner_ring": {"heat": "400 W"}}})
     course = api.warm_up(hot, 600.0)
     assert course.ended == "limit"
     assert "passed thermal.limit = 50 degC" in course.reason
@@ -254,14 +273,9 @@ def test_a_machine_that_gets_too_hot_is_refused_in_words() -> None:
 
 def test_red_heat_is_beyond_the_limit() -> None:
     """Radiation at 1400 degC once swung the temperatures of the network until it did not settle."""
-    from lambda_core.analysis.thermal.feedback import Runaway
-
     glowing = pair(thermal={"limit": "80 degC", "nodes": {"left.inner_ring": {"heat": "2 kW"}}})
     with pytest.raises(Runaway, match=r"is beyond thermal\.limit"):
         api.thermal(glowing)
-
-
-COMPUTED = {"operation": {"temperatures": "computed"}}
 
 
 @pytest.mark.parametrize(
