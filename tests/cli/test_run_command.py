@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from warm import Started, Warm
 
 CASE = "6208-axial-700"
-SHORT = ["--duration", "5 ms"]
+SHORT = ["--band", "none", "--duration", "5 ms"]
 
 
 @pytest.fixture(autouse=True)
@@ -86,7 +86,7 @@ def test_show_says_what_run_said(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_progress_as_json_is_one_object_per_line(capsys: pytest.CaptureFixture[str]) -> None:
-    main(["run", CASE, "--duration", "30 ms", "--progress", "json"])
+    main(["run", CASE, "--duration", "30 ms", "--band", "none", "--progress", "json"])
     lines = capsys.readouterr().err.splitlines()
     events = [json.loads(line) for line in lines if line.startswith("{")]
     assert [line for line in lines if not line.startswith("{")] == [lines[-1]]  # the reason at the end
@@ -105,7 +105,7 @@ def test_a_terminal_shows_a_bar_with_the_time_left(colour: bool, warm: Warm) -> 
     pty = pytest.importorskip("pty")
     terminal, end = pty.openpty()
     environment = {**os.environ, "TERM": "xterm", "COLUMNS": "100"} | ({} if colour else {"NO_COLOR": "1"})
-    process = warm.start(PROGRAM, "run", CASE, "--duration", "30 ms", env=environment, stderr=end)
+    process = warm.start(PROGRAM, "run", CASE, "--duration", "30 ms", "--band", "none", env=environment, stderr=end)
     os.close(end)
     seen = b""
     while True:
@@ -186,7 +186,7 @@ def test_a_damaged_result_is_said(capsys: pytest.CaptureFixture[str], in_folder:
 
 @pytest.mark.full
 def test_a_longer_duration_goes_on_bit_for_bit(capsys: pytest.CaptureFixture[str]) -> None:
-    main(["run", CASE, "--duration", "12 ms", "--out", "whole.h5", "--quiet"])
+    main(["run", CASE, "--duration", "12 ms", "--band", "none", "--out", "whole.h5", "--quiet"])
     main(["run", CASE, *SHORT, "--out", "part.h5", "--quiet"])
     assert main(["resume", "part.h5", "--duration", "12 ms", "--quiet"]) == 5
     same(growing("part.h5"), growing("whole.h5"))
@@ -197,7 +197,7 @@ def test_a_longer_duration_goes_on_bit_for_bit(capsys: pytest.CaptureFixture[str
 @pytest.mark.full
 def test_a_limit_of_wall_time_holds_for_one_start(capsys: pytest.CaptureFixture[str]) -> None:
     """The run that it stopped goes on without it, to its end or to a limit of its own, and is the undisturbed run."""
-    main(["run", CASE, "--duration", "12 ms", "--out", "whole.h5", "--quiet"])
+    main(["run", CASE, "--duration", "12 ms", "--band", "none", "--out", "whole.h5", "--quiet"])
     options = ["--duration", "12 ms", "--max-wall", "1 us", "--out", "part.h5", "--quiet"]
     assert main(["run", CASE, *options]) == 5
     assert "the limit of wall time was reached at t = 0.00" in capsys.readouterr().err
@@ -241,7 +241,7 @@ def test_an_interrupted_run_is_readable_and_goes_on_bit_for_bit(number: int, war
         assert "continue with: lambda-bearing resume" in err
     end = f"{summary.simulated_s + 0.005:.4f} s"
     assert main(["resume", str(path), "--duration", end, "--quiet"]) == 5
-    assert main(["run", CASE, "--duration", end, "--out", "whole.h5", "--quiet"]) == 5
+    assert main(["run", CASE, "--duration", end, "--band", "none", "--out", "whole.h5", "--quiet"]) == 5
     same(growing(path), growing("whole.h5"))
 
 

@@ -66,7 +66,19 @@ Step = tuple[list[str], str] | Callable[[Path], None]
 
 def in_motion(name: str, *more: str) -> list[str]:
     """Return the command of a short run into a file of its own."""
-    return ["run", "box.toml", "--set", "solver.duration=1 ms", *more, "--out", f"{name}.h5", "--json", "-q"]
+    return [
+        "run",
+        "box.toml",
+        "--set",
+        "solver.duration=1 ms",
+        *more,
+        "--out",
+        f"{name}.h5",
+        "--band",
+        "none",
+        "--json",
+        "-q",
+    ]
 
 
 def watched(folder: Path) -> None:
@@ -217,7 +229,7 @@ ROWS: dict[str, list[Step]] = {
     ],
     "units": [
         (["show", "box.h5", "--units", "us"], "lbf in"),
-        (["quasistatic", "box.toml", "--units", "us", "-q"], "lbf in"),
+        (["quasistatic", "box.toml", "--units", "us", "--band", "none", "-q"], "lbf in"),
         (["modes", "box.toml", "--units", "us", "-q"], "lbf/in"),
     ],
     "notebook": [notebook],
@@ -229,6 +241,9 @@ ROWS: dict[str, list[Step]] = {
 }  # fmt: skip
 LONG = {"study of runs, samples, sensitivity, search", "export fmu, iterate", "view, animate, report, cite"}
 LONG |= {"run at its own temperatures"}
+# What these compute has files of its own: tests/thermal/test_machine_network.py, tests/studies/test_machine_study.py,
+# tests/runs/test_crosscheck.py, tests/electric/test_machine_electric.py.
+LONG |= {"study", "thermal", "cross-check", "electric"}
 ABOUT_ONE = ("stribeck", "compare", "electric-map")
 
 

@@ -176,7 +176,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with a case and a run of 6 ms of it that went on to 9 ms, as after a kill."""
     found = tmp_path_factory.mktemp("motion")
     (found / "box.toml").write_text(geared_shaft("box"))
-    arguments = ["--set", 'discs.wheel.unbalance="50 g mm"', "--quiet"]
+    arguments = ["--set", 'discs.wheel.unbalance="50 g mm"', "--quiet", "--band", "none"]
     part = str(found / "part.h5")
     assert main(["run", str(found / "box.toml"), *arguments, "--out", part, "--duration", "6 ms"]) == 5
     abandon(found / "part.h5")
@@ -228,7 +228,7 @@ def test_a_run_says_what_it_found(folder: Path, capsys: pytest.CaptureFixture[st
 def test_a_run_goes_on_bit_for_bit(folder: Path) -> None:
     """Interrupted at 6 ms or not: the same samples, of the machine and of every bearing."""
     other = folder / "whole.h5"
-    changes = ["--set", 'discs.wheel.unbalance="50 g mm"', "--quiet", "--duration", "9 ms"]
+    changes = ["--set", 'discs.wheel.unbalance="50 g mm"', "--quiet", "--band", "none", "--duration", "9 ms"]
     assert main(["run", str(folder / "box.toml"), "--out", str(other), *changes]) == 5
     results = [api.result(path) for path in (folder / "part.h5", other)]
     first, second = results
