@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class Machine:
-    """Describe a machine: a shaft in bearings, or one bearing alone.
+    """Describe a shaft in bearings, or one bearing.
 
     Values are written as in a case file: numbers with units as strings, ``"20 kN"``. Options that a method does not
     name are those of the case's section and are passed as keywords.
@@ -70,7 +70,7 @@ class Machine:
         name: str | None = None,
         **sections: Any,
     ) -> Machine:
-        """Describe one bearing under a load, without a shaft of its own.
+        """Describe one bearing under a load, without a shaft.
 
         Parameters
         ----------
@@ -94,7 +94,7 @@ class Machine:
 
     @classmethod
     def from_case(cls, source: str | Path | Mapping[str, Any] | Case | MachineCase) -> Machine:
-        """Take a case file, the name of a built-in case, plain tables or a case.
+        """Take a case file, a built-in name, tables or case.
 
         Raises
         ------
@@ -129,16 +129,16 @@ class Machine:
         return self
 
     def bearing(self, name: str, designation: str | None = None, at: str | None = None, **options: Any) -> Machine:
-        """Add a bearing on the shaft: its designation and place; options as in ``[bearings.NAME]``."""
+        """Add a bearing; options as in ``[bearings.NAME]``."""
         given = {} if designation is None else {"designation": designation}
         return self._add("bearings", name, at, given | options)
 
     def gear(self, name: str, at: str | None = None, **options: Any) -> Machine:
-        """Add a gear on the shaft: ``pitch_diameter``, ``power`` or ``torque``, ``role``, ``mesh``."""
+        """Add a gear; options as in ``[gears.NAME]``."""
         return self._add("gears", name, at, options)
 
     def disc(self, name: str, at: str | None = None, **options: Any) -> Machine:
-        """Add a wheel, rotor or coupling: ``mass``, or ``diameter`` and ``width``; ``unbalance``."""
+        """Add a disc: wheel, rotor or coupling, with its mass."""
         return self._add("discs", name, at, options)
 
     def load(self, name: str, at: str | None = None, **options: Any) -> Machine:
@@ -150,15 +150,15 @@ class Machine:
         return self._add("bodies", name, None, options)
 
     def marker(self, name: str, **options: Any) -> Machine:
-        """Add a named place: ``body``, ``x``, ``y``, ``z`` and the axes there."""
+        """Add a named place on a body."""
         return self._add("markers", name, None, options)
 
     def connection(self, name: str, at: str | None = None, **options: Any) -> Machine:
-        """Add a spring, damper, bushing or a plugin's force element between two places."""
+        """Add a spring, damper or force law between two places."""
         return self._add("connections", name, at, options)
 
     def with_(self, **changes: Any) -> Machine:
-        """Return a copy with changes merged in, section by section; None removes an option.
+        """Return a changed copy; None removes an option.
 
         Examples
         --------
@@ -175,11 +175,11 @@ class Machine:
 
     @property
     def folder(self) -> Path | None:
-        """Folder that file names in the tables are relative to; None is the working directory."""
+        """Folder of relative file names; None: the working directory."""
         return self._folder
 
     def written(self) -> dict[str, Any]:
-        """Return the plain tables as they stand in the case file; a copy."""
+        """Return a copy of the plain tables of the case."""
         return copy.deepcopy(self._tables)
 
     @property
@@ -204,7 +204,7 @@ class Machine:
         return target
 
     def check(self) -> Any:
-        """Resolve the machine: geometry, materials, laws; raise CaseError with everything that is wrong."""
+        """Resolve the machine; CaseError names every mistake."""
         return self._ask("check")
 
     def quasistatic(self) -> Any:
@@ -220,7 +220,7 @@ class Machine:
         return self._ask("thermal")
 
     def study(self, varies: Mapping[str, Sequence[Any]], asks: Iterable[str] = (), **options: Any) -> Any:
-        """Vary options and return a table of the points; as :func:`lambda_core.api.study`.
+        """Vary options as :func:`lambda_core.api.study` does.
 
         Examples
         --------
@@ -229,7 +229,7 @@ class Machine:
         return self._ask("study", varies=varies, asks=asks, **options)
 
     def run(self, out: str | Path | None = None, **options: Any) -> Any:
-        """Simulate the motion and return the result; options as for :func:`lambda_core.api.run`."""
+        """Simulate the motion as :func:`lambda_core.api.run` does."""
         return self._ask("run", out=out, **options)
 
     def _ask(self, question: str, **options: Any) -> Any:

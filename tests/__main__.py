@@ -1,4 +1,4 @@
-"""Run all checks with one command: ``python -m tests [arguments of pytest]``.
+"""Run all checks: ``python -m tests [arguments of pytest]``.
 
 Style, types and layers while the solver compiles, then the tests on three processes; with arguments, only the tests
 that they choose. Each part runs whatever became of the others.

@@ -1,4 +1,4 @@
-"""Shared by all tests: no test touches the user's own catalogue or cache."""
+"""Keep tests away from the user's own catalogue and cache."""
 
 from __future__ import annotations
 

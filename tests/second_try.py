@@ -1,4 +1,6 @@
-"""Run pytest, and what failed once more, alone: ``python tests/second_try.py [arguments of pytest]``.
+"""Run pytest, then what failed once more, alone.
+
+``python tests/second_try.py [arguments of pytest]``
 
 A test that passes alone is a race to be mended and no result that is wrong: it is named FLAKY above the last line, and
 the command does not fail for it. What fails again, cannot be collected or ends its process fails the command.

@@ -1,4 +1,6 @@
-"""The program from its wheel on every Python here: ``python tests/smoke.py [--whole] [--others | 3.12 ...]``.
+"""Try the wheel on every Python of this machine.
+
+``python tests/smoke.py [--whole] [--others | 3.12 ...]``
 
 Needs nothing but Python. For each version that is found: a new environment, the wheel with the tested versions of its
 dependencies, Numba's reading of the solver and the laws, the forces on all bodies, the same again by the code that the

@@ -1,4 +1,4 @@
-"""A loaded interpreter that forks: tests that start the program many times wait for its imports once.
+"""Fork a loaded interpreter for tests that start programs.
 
 Every process is one of its own all the same: with its own number, folder, environment, streams, signals and exit code.
 Tests of the start itself (what is imported, how long it takes, other caches) start Python afresh.

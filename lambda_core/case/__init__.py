@@ -1,1 +1,1 @@
-"""The case file: its options, reading, writing, drafts, every mistake as a sentence."""
+"""Declare, read, edit and write case files."""

@@ -1,4 +1,4 @@
-"""Built-in cases: those that installed packages bring, our own and anyone's.
+"""Find the built-in cases of this and other packages.
 
 A package names the package of its case files under the entry-point group ``lambda_bearing.cases``.
 """

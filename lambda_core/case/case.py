@@ -1,4 +1,4 @@
-"""The case: one bearing, how it is held, loaded, lubricated and modelled, in the engineer's language."""
+"""Declare the case of one bearing."""
 
 from __future__ import annotations
 

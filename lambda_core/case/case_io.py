@@ -1,4 +1,4 @@
-"""Reading, changing and writing cases: TOML in, TOML out, every mistake at once."""
+"""Read, change and write cases."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Writing a case as TOML that diffs well: comments and untouched spellings stay."""
+"""Write a case as TOML and keep its comments."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A case while it is being edited: plain tables as they stand in its file, right or wrong."""
+"""Edit a case whose tables may still be wrong."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Declare the section that says where fitted values of a case come from."""
+"""Declare where the fitted values of a case come from."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Declare how a degree of freedom is held: free, locked, elastic or moved; one notation for every body and seat."""
+"""Declare how degrees of freedom are held, elastic or moved."""
 
 from __future__ import annotations
 

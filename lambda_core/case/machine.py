@@ -1,4 +1,4 @@
-"""The case of a machine: a shaft in several bearings, what stands on it, how it is held and loaded."""
+"""Declare the case of a machine: a shaft in bearings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One declaration per option: default, help, limits and source, rendered in files, forms, help and docs."""
+"""Declare an option once: default, help, limits and source."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tables of two columns in a case: pairs of values there, or a CSV file; one reader, one syntax, one rule at the ends.
+"""Read tables of two columns from cases or CSV files.
 
 Loads, speeds, motions and voltages over time and temperatures along a shaft are such tables. The first column rises.
 Before the first pair and behind the last one a value stays what it is there.

@@ -1,4 +1,4 @@
-"""The bearing and what it is made of: the sections bearing, materials, lubricant, surface."""
+"""Declare the sections bearing, materials, lubricant and surface."""
 
 from __future__ import annotations
 

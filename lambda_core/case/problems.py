@@ -1,4 +1,4 @@
-"""Every mistake in a case as one clear sentence at its path: from pydantic's errors to ours."""
+"""Turn pydantic's errors into one clear sentence per mistake."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Declare what a bearing is required to reach, and what modified rating lives need."""
+"""Declare requirements on a bearing and data of modified lives."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Write the case of one bearing in the long form: as a machine with one bearing on a rigid shaft."""
+"""Write the case of one bearing as a machine."""
 
 from __future__ import annotations
 

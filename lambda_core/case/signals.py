@@ -1,4 +1,4 @@
-"""Time functions of a case: every load, moment, speed and motion is a value or one of these tables.
+"""Declare time functions of loads, moments, speeds and motions.
 
 A plain unit string is a constant; a table says more, for example
 ``{kind = "harmonic", amplitude = "10 um", frequency = "200 Hz"}``. All kinds of one signal

@@ -1,4 +1,4 @@
-"""The base of every case: plain tables checked all at once, a name, a folder, and how it changes."""
+"""Define the base of every case: checks, name, folder, changes."""
 
 from __future__ import annotations
 

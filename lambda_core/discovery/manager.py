@@ -72,7 +72,9 @@ def switch_off(names: Iterable[str]) -> None:
 
 
 def use_plugin(path: str | Path) -> None:
-    """Take a plugin of one file into use, for this process and those that it starts (``--plugin FILE.py``).
+    """Use a plugin of one file, as ``--plugin FILE.py``.
+
+    It holds for this process and those that it starts.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def plugins() -> Inventory:
-    """Return everything that is installed, and the plugins that are not in use.
+    """Return what is installed, and plugins not in use.
 
     Returns
     -------

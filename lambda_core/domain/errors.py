@@ -22,13 +22,16 @@ class Problem:
 
 
 class LambdaError(Exception):
-    """Base of every error with a message for people; anything else is a bug."""
+    """Base of every error with a message for people.
+
+    Any other exception is a bug.
+    """
 
     exit_code = 1
 
 
 class UsageError(LambdaError):
-    """The command line or the call asks for something that does not exist."""
+    """A command or call asks for what does not exist."""
 
     exit_code = 2
 
@@ -38,7 +41,10 @@ class BearingNeededError(UsageError):
 
 
 class CaseError(LambdaError):
-    """A case, catalogue row or plugin choice is invalid; carries every problem at once, and prints the first ones."""
+    """A case, catalogue row or plugin choice is invalid.
+
+    Carries every problem at once, and prints the first ones.
+    """
 
     exit_code = 3
 

@@ -27,7 +27,7 @@ _OURS = (1, 2, 0, 4, 5, 3)  # of six, in their order
 
 @one_blas_thread()
 def ross_rotor(model: MachineModel, state: ShaftState | None = None, announce: Announce = None) -> Any:
-    """Return the shaft, its discs and its bearings at the operating point as a ``ross.Rotor``.
+    """Return the machine at its operating point as ``ross.Rotor``.
 
     Parameters
     ----------

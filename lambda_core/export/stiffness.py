@@ -55,7 +55,7 @@ def stiffness_text(found: MachineModes, kind: str) -> str:
 
 
 def write_stiffness(found: MachineModes, path: str | Path) -> Path:
-    """Write the 6 x 6 stiffness and damping of every bearing at its operating point to a file.
+    """Write stiffness and damping of every bearing to a file.
 
     Parameters
     ----------

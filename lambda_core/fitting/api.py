@@ -79,7 +79,7 @@ def fitted_case(
     *,
     overwrite: bool = False,
 ) -> Path:
-    """Write a case file with the fitted values, their errors and correlations, and the file they were fitted to.
+    """Write a case file with fitted values and their origin.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def measured_series() -> list[MeasuredSeries]:
 
 
 def add_measured(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries:
-    """Add a measured series of one's own to the catalogue of series.
+    """Add a measured series to the catalogue of series.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ def traction(
     parameters: Mapping[str, Any] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> TractionCurve:
-    """Return the traction of an oil over slide-roll ratio by every traction law.
+    """Compute traction over slide-roll ratio by every law.
 
     Film, heating and viscosity come from the same laws as in a bearing. The contact rolls and slides in one direction,
     without spin; both bodies have the temperature of the oil at the inlet.
@@ -225,7 +225,7 @@ def traction(
 
 
 def with_measured(pictures: Sequence[ViewData], measured: str | Path) -> list[ViewData]:
-    """Add a measured series to every picture that has axes for it.
+    """Add a measured series to pictures with its axes.
 
     Parameters
     ----------

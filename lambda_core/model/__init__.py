@@ -1,1 +1,1 @@
-"""The resolved model of a machine: every value with its origin."""
+"""Resolve cases: every value of a machine with its origin."""

@@ -25,7 +25,7 @@ GEARED_SHAFT = "geared-shaft"  # template of a shaft in two bearings
 
 
 def case(source: str | Path | Mapping[str, Any], overrides: Iterable[str] = ()) -> Case | MachineCase:
-    """Read a case, of one bearing or of a machine, from a TOML file, plain tables or by the name of a built-in one.
+    """Read the case of a bearing or a machine.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def check(
     catalogue: Catalogue | None = None,
     is_static: bool = False,
 ) -> BearingModel | MachineModel:
-    """Read and resolve a case, of one bearing or of a machine, without running it.
+    """Read and resolve a case without running it.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def check(
 
 
 def problems(source: Source) -> tuple[Problem, ...]:
-    """Return every mistake of a case or of plain tables; for forms that check while one types.
+    """Return every mistake of a case or of tables.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def problems(source: Source) -> tuple[Problem, ...]:
 
 
 def describe(model: BearingModel) -> CaseReport:
-    """Say what a resolved model is: headline, bodies, models, assumptions, every value with its origin.
+    """Describe a resolved model with the origin of every value.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def describe(model: BearingModel) -> CaseReport:
 
 
 def builtin_cases() -> dict[str, str]:
-    """Return the names of the built-in cases and what each is.
+    """Return the built-in cases with a few words each.
 
     Returns
     -------
@@ -147,7 +147,7 @@ def builtin_cases() -> dict[str, str]:
 
 
 def save(case: Case | MachineCase, path: str | Path) -> None:
-    """Write a case as TOML; comments of the file that stands there are kept.
+    """Write a case as TOML and keep the file's comments.
 
     Parameters
     ----------
@@ -177,7 +177,7 @@ def init_case(
     changes: Sequence[str] = (),
     as_machine: bool = False,
 ) -> Path:
-    """Write a new case from another one, a bearing or a template.
+    """Write a new case from another, a bearing or template.
 
     Parameters
     ----------
@@ -314,7 +314,7 @@ def _template_text(name: str, template: str | None, bearing: str | None, radial:
 
 
 def templates() -> dict[str, str]:
-    """Return the machines that a new case can start from, each with a few words.
+    """Return the templates of cases with a few words each.
 
     Returns
     -------
@@ -328,7 +328,7 @@ def templates() -> dict[str, str]:
 
 
 def schema() -> dict[str, Any]:
-    """Return the JSON schema of case files: of one bearing, or of a machine of several.
+    """Return the JSON schema of case files.
 
     Returns
     -------
@@ -347,7 +347,7 @@ def schema() -> dict[str, Any]:
 
 
 def draft(source: str | Path | None = None, *, template: str | None = None, shaft: bool = False) -> Draft:
-    """Open a case for editing: a file, a copy of a built-in case, what is usual in a machine, or nothing yet.
+    """Open a case for editing, or begin a new one.
 
     Parameters
     ----------
@@ -396,7 +396,7 @@ def catalogue() -> Catalogue:
 
 
 def case_of(source: str | Path | Mapping[str, Any] | Case) -> Case:
-    """Return the case of one bearing of whatever a function of this package takes as one.
+    """Return the case of one bearing of any accepted source.
 
     Raises
     ------

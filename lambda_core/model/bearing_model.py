@@ -1,4 +1,4 @@
-"""The resolved model: frozen SI values, the chosen laws, and where every number came from.
+"""Define the resolved model of a bearing.
 
 Frames: x is the shaft axis, y horizontal, z up; gravity acts along -z; azimuth runs from
 +y towards +z. A body's six degrees of freedom are ``x, y, z`` (position of its centre),

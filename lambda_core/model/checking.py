@@ -1,4 +1,4 @@
-"""Resolve the case of one bearing to the model of a run."""
+"""Resolve the case of one bearing for a run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A commented case to start from, for any bearing of the catalogue."""
+"""Write a commented case for any ball bearing."""
 
 from __future__ import annotations
 

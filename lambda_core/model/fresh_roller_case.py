@@ -1,4 +1,4 @@
-"""A commented case to start from, for any roller bearing of the catalogue."""
+"""Write a commented case for any roller bearing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The ledger of a resolution: every value with its origin, every assumption, every problem."""
+"""Keep values with their origins, assumptions and problems."""
 
 from __future__ import annotations
 

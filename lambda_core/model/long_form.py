@@ -1,4 +1,4 @@
-"""The long form of the case of one bearing, with what the catalogue knows of its size."""
+"""Write one bearing of the catalogue as a machine."""
 
 from __future__ import annotations
 

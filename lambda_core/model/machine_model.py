@@ -1,4 +1,4 @@
-"""A shaft in bearings, resolved: everything that its equilibrium needs, SI, immutable."""
+"""Define the resolved model of a shaft in bearings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Machines that a new case can start from: what is usual there for oil, load, speed, clearance and seats.
+"""Define templates: usual oil, load, speed, clearance and seats.
 
 These are starting points to be changed, with their reasons as comments in the file. Seats and clearance follow the
 tables of SKF, Rolling bearings, PUB BU/P1 17000 EN (2018): seat tolerances for standard conditions, clearance.

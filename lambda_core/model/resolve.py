@@ -1,4 +1,4 @@
-"""From a case to a bearing model: every value looked up, frozen in SI, with its origin.
+"""Resolve the case of one bearing to its model.
 
 What the case leaves open is filled from the catalogue or by a stated assumption; what is
 missing, unknown, contradictory or impossible is collected and raised at once.

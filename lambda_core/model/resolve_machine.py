@@ -1,4 +1,4 @@
-"""From the case of a machine to its model: every bearing resolved as its own case, every mistake at once."""
+"""Resolve the case of a machine to its model."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a case to a roller bearing: geometry, loads, oil and surfaces of a quasi-static answer."""
+"""Resolve the case of a roller bearing without motion."""
 
 from __future__ import annotations
 

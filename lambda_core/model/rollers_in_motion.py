@@ -1,4 +1,4 @@
-"""Rollers in the place of balls: from a case of a roller bearing to the model of its motion.
+"""Resolve the case of a roller bearing in motion.
 
 Rings, cage, loads and settings are those of a bearing with as many elements of the same size; the rollers bring lines
 for contacts with raceways, points for those of their ends with ribs, their own laws and inertias.

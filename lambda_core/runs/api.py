@@ -40,9 +40,10 @@ def quasistatic(
     band: bool = False,
     announce: Callable[[str], None] | None = None,
 ) -> QuasiStatic | RollerQuasiStatic | MachineEquilibrium:
-    """Solve the quasi-static equilibrium of a case at t = 0: loads, angles, films, friction; no time, no cage.
+    """Solve the quasi-static equilibrium at t = 0.
 
-    Of a machine it is that of its elastic shaft in its bearings, with housing, preload and gear forces.
+    It contains loads, angles, films and friction, without time and cage. Of a machine it is that of its elastic shaft
+    in its bearings, with housing, preload and gear forces.
 
     Parameters
     ----------
@@ -111,7 +112,7 @@ def estimate(
     *,
     announce: Callable[[str], None] | None = None,
 ) -> Estimate | MachineEstimate:
-    """Estimate a case before it is run: equilibrium, rating life, processor time of a run.
+    """Estimate equilibrium, life and processor time of a run.
 
     Parameters
     ----------
@@ -152,7 +153,7 @@ def run(
     progress: Callable[[Progress], None] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Result:
-    """Simulate a case of one bearing or of a machine into a result file.
+    """Simulate a bearing or a machine into a result file.
 
     Parameters
     ----------
@@ -196,7 +197,7 @@ def iterate(
     couple: Literal["force", "motion"] = "force",
     announce: Callable[[str], None] | None = None,
 ) -> Stepping:
-    """Simulate a case step by step, without a result file: ``for step in iterate(case)``.
+    """Simulate step by step: ``for step in iterate(case)``.
 
     For programs that look at every step, or that give the loads on the inner ring or the motion of both rings:
     co-simulation. To a machine they give loads at its markers, loads and gears, and the speed of its shaft.
@@ -237,7 +238,7 @@ def resume(
     progress: Callable[[Progress], None] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Result:
-    """Go on with an interrupted run, bit for bit as if it had not been.
+    """Resume an interrupted run, bit for bit.
 
     A limit of wall time holds for one start: the run goes on without the one that it began with.
 
@@ -300,7 +301,7 @@ def cross_check(
     bearing: str | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> CrossCheck:
-    """Integrate a case with the program's integrator and with SUNDIALS CVODE, and compare.
+    """Integrate a case also with SUNDIALS CVODE and compare.
 
     Needs the extra ``sundials``.
 
@@ -343,7 +344,7 @@ def cross_check(
 
 
 def warmup(*, announce: Callable[[str], None] | None = None) -> Warmup:
-    """Compile the solver and every installed law ahead of the first run.
+    """Compile the solver and all laws before a run.
 
     Parameters
     ----------

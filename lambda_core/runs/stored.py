@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def result(path: str | PathLike[str], bearing: str | None = None) -> Result:
-    """Open a result file: finished, still growing, or left behind by a killed process.
+    """Open a result file: finished, growing, or left behind.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def result(path: str | PathLike[str], bearing: str | None = None) -> Result:
 
 
 def side_by_side(paths: Sequence[str | PathLike[str]]) -> SideBySide:
-    """Compare several results: the options in which their cases differ, and the numbers that follow.
+    """Compare several results: differing options and numbers.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def side_by_side(paths: Sequence[str | PathLike[str]]) -> SideBySide:
 
 
 def summary(path: str | PathLike[str]) -> Summary:
-    """Return the averages and the end state of a result (the machine interface).
+    """Return the averages and the end state of a result.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def summary(path: str | PathLike[str]) -> Summary:
 
 
 def cite(path: str | PathLike[str]) -> Citation:
-    """Return the references of exactly the laws and data that a result used, and of the program.
+    """Return the references of laws, data and program used.
 
     Parameters
     ----------

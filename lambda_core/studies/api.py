@@ -25,7 +25,7 @@ def study_check(
     workers: int | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> StudyEstimate:
-    """Check a study file without running it: its points, and about what they cost.
+    """Check a study: its points and their cost.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def study_resume(
 
 
 def study_status(folder: str | Path) -> StudyStatus:
-    """Return where a study stands, also while it is being worked on.
+    """Return the progress of a study, also while it runs.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ def study_status(folder: str | Path) -> StudyStatus:
 
 
 def study_table(folder: str | Path) -> StudyTable:
-    """Return the table of a study as far as it is known.
+    """Return the table of a study as far as known.
 
     Parameters
     ----------

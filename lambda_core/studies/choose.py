@@ -57,7 +57,7 @@ class Candidate(Record):
 
 
 class Choice(Record):
-    """Bearings for an operating point: those that fit by size, and why others do not."""
+    """Bearings for an operating point, and why others fail."""
 
     interface: int = INTERFACE
     question: str
@@ -110,7 +110,7 @@ def choose(
     limit: int = 10,
     announce: Callable[[str], None] | None = None,
 ) -> Choice:
-    """Choose ball bearings of the catalogue for an operating point, the smallest that meet everything first.
+    """Choose ball bearings for an operating point, smallest first.
 
     All bearings are looked at by ISO 281 and by their limits; the smallest of those that fit are then solved with
     the load of every ball (ISO/TS 16281), and judged as :func:`quasistatic` judges a case.

@@ -148,7 +148,7 @@ class _Step:
 def duty(
     source: str | Path | Mapping[str, Any], *, announce: Callable[[str], None] | None = None
 ) -> DutyCycle | MachineDutyCycle:
-    """Solve every phase of a duty cycle and add up life and losses.
+    """Solve a duty cycle and add up life and losses.
 
     Parameters
     ----------

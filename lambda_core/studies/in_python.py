@@ -32,7 +32,7 @@ def study(
     progress: Callable[[StudyProgress], None] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> StudyTable:
-    """Vary options of a case, every combination, and return the points as a table.
+    """Vary options of a case and return a table.
 
     Parameters
     ----------

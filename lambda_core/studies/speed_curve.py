@@ -85,7 +85,7 @@ def stribeck(
     points: int = 16,
     announce: Callable[[str], None] | None = None,
 ) -> SpeedCurve:
-    """Return the Stribeck curve of a case: its friction torque over the speed of the inner ring.
+    """Return the friction torque over speed, the Stribeck curve.
 
     Parameters
     ----------

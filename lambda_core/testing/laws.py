@@ -197,7 +197,7 @@ def assert_limit(
     output: int = 0,
     **given: Any,
 ) -> None:
-    """Assert that an output is `expected` at one end of its range.
+    """Assert that an output is `expected` at one end.
 
     Parameters
     ----------
@@ -235,7 +235,7 @@ def assert_symmetric(
     output: int = 0,
     **given: Any,
 ) -> None:
-    """Assert that an output is even, or odd, in one argument.
+    """Assert that an output is even or odd.
 
     Parameters
     ----------

@@ -17,7 +17,9 @@ from lambda_core.views.view import RunData
 
 
 def method_inputs(**changes: Any) -> MethodInputs:
-    """Return what a comparison method sees of a 6208 at 40 degC, 2750 1/min and 2 kN radial load.
+    """Return what a comparison method sees of a 6208.
+
+    At 40 degC, 2750 1/min and 2 kN radial load.
 
     Parameters
     ----------
@@ -98,7 +100,7 @@ class TrialRun:
 
 
 def run_data(**channels: ArrayLike) -> RunData:
-    """Return a run made of given channels, for the tests of views.
+    """Return a run of given channels, to test views.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""``python -m tests.attacks``: attack the program on purpose, count what happened, and write it down.
+"""Attack the program and count results: ``python -m tests.attacks``.
 
 Every trial is reported by its part, seed and number, and repeats. A campaign that was stopped goes on where it was.
 """

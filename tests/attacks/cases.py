@@ -1,4 +1,4 @@
-"""Random cases run, and how each end is judged: converged, named, at its own limit, refused with a reason that holds.
+"""Run random cases and judge how each one ends.
 
 A case is *accepted* unless it is refused for a reason that was tried and holds: taken away, the case is accepted.
 It is *physically sensible* when it is accepted and its shaft always turns at 10 rpm at least: below, catalogues size a

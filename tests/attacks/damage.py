@@ -1,4 +1,4 @@
-"""Results under attack: runs killed while they write, files damaged afterwards, two runs on one file.
+"""Kill runs, damage their files, run two on one file.
 
 What is compared is what a user would see: every number of a run that was killed and gone on with, every word of a
 command that reads a damaged file. A damaged file may be refused or called damaged; it may not look whole and differ.

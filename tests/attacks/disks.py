@@ -1,4 +1,4 @@
-"""Disks that are full, folders that nobody may write into: what was there stays, what is there can be gone on with.
+"""Fill disks and lock folders while the program writes.
 
 Full is a limit of the size of a file, or where this process may mount, a file system of so many bytes. Read-only is a
 file system that is mounted so, or a process without the right to write.

@@ -1,4 +1,4 @@
-"""Random cases: every bearing and oil of the catalogue, random laws and regimes, from one seed."""
+"""Draw random cases of all bearings, oils and laws."""
 
 from __future__ import annotations
 

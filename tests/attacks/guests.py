@@ -1,4 +1,4 @@
-"""Plugins by strangers that do what plugins should not: they are left out, or named where they fail.
+"""Install plugins that do what plugins should not do.
 
 A package is put together from a few faults, installed for one process, and met by the commands that would load it.
 Plugins are programs: they may do harm, but the program must name the faulty one.

@@ -1,4 +1,4 @@
-"""Hostile inputs: a case with one wrong value, a study, a command line.
+"""Draw hostile cases, studies and command lines.
 
 Most values are of the right kind and unit, so that they get behind validation: tiny, huge, or merely unusual. What an
 option also needs (the kind and the other values of a time function, the rest of a material) is filled in with

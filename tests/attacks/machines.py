@@ -1,4 +1,4 @@
-"""Hostile machines: one value of a machine, circuit, network, duty cycle, fit or series that is right otherwise.
+"""Draw hostile machines: one wrong value in a right file.
 
 And calls of the Python API with one argument that no caller should give.
 """

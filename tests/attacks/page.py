@@ -1,4 +1,4 @@
-"""Figures of a campaign, as text and as the block of docs/reliability.md that this command owns."""
+"""Write the figures of a campaign to text and page."""
 
 from __future__ import annotations
 

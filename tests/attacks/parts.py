@@ -1,4 +1,4 @@
-"""The parts of a campaign: each is a number of trials, told apart by their number, repeatable by seed."""
+"""List the parts of a campaign, repeatable by seed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs killed before or behind one of the calls that write them to their file, gone on with and compared."""
+"""Kill runs around each writing call, resume and compare."""
 
 from __future__ import annotations
 

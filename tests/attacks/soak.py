@@ -1,4 +1,4 @@
-"""A long run, watched: what it takes of memory per simulated second once it has settled."""
+"""Watch the memory of a long run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Studies under attack: killed and gone on with, or two processes on one folder; the table is that of a quiet one."""
+"""Kill and resume studies, or run two in one folder."""
 
 from __future__ import annotations
 

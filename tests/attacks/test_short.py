@@ -1,4 +1,7 @@
-"""A short part of the attacks, the same in every run; the long campaign: ``python -m tests.attacks``."""
+"""Run a short part of the attacks.
+
+The long campaign is ``python -m tests.attacks``.
+"""
 
 from __future__ import annotations
 

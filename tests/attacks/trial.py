@@ -1,4 +1,4 @@
-"""One attack: the command line in a process of its own, with limits, and what became of it.
+"""Run the command in its own process, with limits.
 
 The parent imports everything and loads the compiled solver once; each trial is a fork of it, so that a thousand
 commands do not start Python a thousand times. A child has its own folder, its own output files, a limit of memory and

@@ -1,4 +1,4 @@
-"""The builder that is served to a browser, visited by strangers: nothing opens, nothing grows, it goes on serving.
+"""Attack the builder that is served to a browser.
 
 One server is visited by all trials of a campaign. A trial sends a burst of requests: without the word of the address,
 in another's name, from another page, with a method, a path, a header or bytes that no browser sends; frames that are

@@ -1,4 +1,4 @@
-"""Make the benchmarks importable, which are no package of the program."""
+"""Make the benchmarks importable."""
 
 from __future__ import annotations
 

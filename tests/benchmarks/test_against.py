@@ -1,4 +1,7 @@
-"""Two versions in turn: the same one twice has the same counts; the program reports what it cannot compare."""
+"""Test two versions in turn.
+
+The same one twice has the same counts; the program reports what it cannot compare.
+"""
 
 from __future__ import annotations
 

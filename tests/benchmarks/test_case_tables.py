@@ -1,4 +1,4 @@
-"""The comparison of solver tables tells versions apart, and its cases stay valid."""
+"""Test the comparison of solver tables between versions."""
 
 from __future__ import annotations
 

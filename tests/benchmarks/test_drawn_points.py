@@ -1,4 +1,7 @@
-"""Benchmarks that draw operating points: the points are drawn alike every time, and verdicts follow their bars."""
+"""Test benchmarks that draw operating points.
+
+The points are drawn alike every time, and verdicts follow their bars.
+"""
 
 from __future__ import annotations
 

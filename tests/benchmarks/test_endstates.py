@@ -1,4 +1,4 @@
-"""The comparison of end states tells versions apart, and names nothing that b7aec9b did not have."""
+"""Test the comparison of end states between versions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The page of exchanged laws: no law left out, and the numbers are those of today's program."""
+"""Test the page of exchanged laws.
+
+No law left out, and the numbers are those of today's program.
+"""
 
 from __future__ import annotations
 

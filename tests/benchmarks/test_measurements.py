@@ -1,4 +1,4 @@
-"""Benchmarks measure what they say: the handle is the solver, integrators agree, the command runs."""
+"""Test that benchmarks measure what they claim."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Tables, targets, the page and the command: what a benchmark hands over arrives unharmed."""
+"""Test tables, targets, the page and the command.
+
+What a benchmark hands over arrives unharmed.
+"""
 
 from __future__ import annotations
 

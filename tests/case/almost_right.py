@@ -1,4 +1,4 @@
-"""A case without mistakes, to be changed into one with a mistake."""
+"""Provide a case without mistakes, to add one to it."""
 
 from __future__ import annotations
 

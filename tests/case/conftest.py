@@ -1,4 +1,4 @@
-"""Cases that are almost right, and one door to every mistake in them."""
+"""Provide cases that are almost right, and their mistakes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Options of each bearing of a machine: oil, paths of its mistakes, laws that fit its cage."""
+"""Test options of each bearing of a machine.
+
+Oil, paths of its mistakes, laws that fit its cage.
+"""
 
 from __future__ import annotations
 

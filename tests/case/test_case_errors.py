@@ -1,4 +1,4 @@
-"""Every mistake in a case gives one clear sentence at its path, all of them at once, and never a traceback."""
+"""Test that every mistake gives one sentence at its path."""
 
 from __future__ import annotations
 

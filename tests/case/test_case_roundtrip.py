@@ -1,4 +1,7 @@
-"""A case survives TOML exactly; saving keeps comments and everything that did not change."""
+"""Test that a case survives TOML exactly.
+
+Saving keeps comments and everything that did not change.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Designations with suffixes: what a case takes from each, what is only said, and what is refused."""
+"""Test designations with suffixes.
+
+What a case takes from each, what is only said, and what is refused.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A case while it is being edited: values that may be wrong, undo, files that diff well."""
+"""Test a case while it is being edited.
+
+Values that may be wrong, undo, files that diff well.
+"""
 
 from __future__ import annotations
 

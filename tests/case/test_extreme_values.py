@@ -1,4 +1,4 @@
-"""Values of cases at the ends of floats and of patience: refused with a sentence, at once."""
+"""Test that values at the ends of floats are refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A grease as lubricant: its base oil, SKF's supply of grease, no bath; its maker's temperatures are limits."""
+"""Test a grease as lubricant.
+
+Its base oil, SKF's supply of grease, no bath; its maker's temperatures are limits.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One notation for how a degree of freedom is held, of rings, seats, bodies and connections."""
+"""Test the one notation of held degrees of freedom."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One text where a list of texts is needed is refused, not read letter by letter."""
+"""Test that texts in place of lists are refused."""
 
 from __future__ import annotations
 

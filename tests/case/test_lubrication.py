@@ -1,4 +1,7 @@
-"""Lubrication of the balls: what a case may say, the law of drag that it chooses, and what that takes away."""
+"""Test lubrication of the balls.
+
+What a case may say, the law of drag that it chooses, and what that takes away.
+"""
 
 from __future__ import annotations
 

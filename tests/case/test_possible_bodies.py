@@ -1,4 +1,4 @@
-"""Bodies and motions that no bearing has are refused before anything is solved, with the place of the mistake."""
+"""Test that impossible bodies and motions are refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One loader for the case of one bearing and that of a machine."""
+"""Test the one reader of bearings and machines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a case to the frozen model: numbers, origins, assumptions, and a hash that means the run."""
+"""Test the model of a case: numbers, origins, assumptions, hash."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Sections of the rings: grooves where the balls touch, high and low shoulders, arcs that meet, a sphere."""
+"""Test sections of the rings.
+
+Grooves where the balls touch, high and low shoulders, arcs that meet, a sphere.
+"""
 
 from __future__ import annotations
 

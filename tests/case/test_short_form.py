@@ -1,4 +1,4 @@
-"""The case of one bearing in the long form, against itself."""
+"""Test the case of one bearing written as a machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Tables over time: the curve stays between its points, or is a spline whose extremes are known and told."""
+"""Test tables over time.
+
+The curve stays between its points, or is a spline whose extremes are known and told.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Loads and motions whose course over time a law gives: read, looked at, written again, refused with a sentence."""
+"""Test loads and motions whose course a law gives."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Units as people have them: what is read, and what is shown where somebody asks for customary units."""
+"""Test units in cases, and customary units in answers."""
 
 from __future__ import annotations
 

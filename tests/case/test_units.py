@@ -1,4 +1,7 @@
-"""Unit strings: what is read, what is refused and with which advice, and that writing is exact."""
+"""Test unit strings.
+
+What is read, what is refused and with which advice, and that writing is exact.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Lines fitted to a terminal: parts stay whole, sentences go on below where they began."""
+"""Test lines fitted to a terminal.
+
+Parts stay whole, sentences go on below where they began.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The program's door: help at once, exit codes, messages instead of tracebacks; init, check and schema."""
+"""Test help, exit codes, init, check and schema."""
 
 from __future__ import annotations
 

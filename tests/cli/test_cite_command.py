@@ -1,4 +1,4 @@
-"""`cite` names the sources of the laws that a run used, and of no other."""
+"""Test that `cite` names the sources of the laws used."""
 
 from __future__ import annotations
 

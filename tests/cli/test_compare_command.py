@@ -1,4 +1,7 @@
-"""lambda-bearing compare: methods and a result side by side, mistakes named."""
+"""Test lambda-bearing compare.
+
+Methods and a result side by side, mistakes named.
+"""
 
 from __future__ import annotations
 

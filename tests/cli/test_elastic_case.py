@@ -1,4 +1,4 @@
-"""A case whose ring and cage bend, from init to what a run shows; a ring that nothing backs."""
+"""Test an elastic ring and cage from init to results."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The motor bearing in the shell: from nothing to a report in at most five commands and three minutes."""
+"""Test the motor bearing in the shell.
+
+From nothing to a report in at most five commands and three minutes.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`view --show`: pictures in terminals that can show them, a sentence in those that cannot."""
+"""Test `view --show`.
+
+Pictures in terminals that can show them, a sentence in those that cannot.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command to go on with names the plugin files that it was given."""
+"""Test that resume commands name the plugin files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""run, resume, show and quasistatic as people and programs meet them: real cases, real processes."""
+"""Test run, resume, show and quasistatic in real processes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The command stribeck: torque over speed with its parts and SKF's model."""
+"""Test the command stribeck.
+
+Torque over speed with its parts and SKF's model.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The commands view, study and report: files on disk, data on stdout, exit codes that say how it ended."""
+"""Test the commands view, study and report.
+
+Files on disk, data on stdout, exit codes that say how it ended.
+"""
 
 from __future__ import annotations
 

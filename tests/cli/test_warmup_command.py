@@ -1,4 +1,4 @@
-"""`warmup` compiles what is missing, says so, and leaves nothing for the first run."""
+"""Test that `warmup` compiles what is missing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The core database: built once, found by the seeds' hash, built again when damaged, never required to be on disk."""
+"""Test the core database.
+
+Built once, found by the seeds' hash, built again when damaged, never required to be on disk.
+"""
 
 from __future__ import annotations
 

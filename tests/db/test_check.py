@@ -1,4 +1,7 @@
-"""`db check`: what constraints cannot see is found, and the built-in rows have no errors."""
+"""Test `db check`.
+
+What constraints cannot see is found, and the built-in rows have no errors.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Impossible rows are refused one by one, each with the sentence of what is wrong."""
+"""Test that impossible rows are refused, each with its reason."""
 
 from __future__ import annotations
 

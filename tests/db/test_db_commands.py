@@ -1,4 +1,7 @@
-"""The commands of `lambda-bearing db`: data on stdout, talk on stderr, exit codes, JSON for every number."""
+"""Test the commands of `lambda-bearing db`.
+
+Data on stdout, talk on stderr, exit codes, JSON for every number.
+"""
 
 from __future__ import annotations
 

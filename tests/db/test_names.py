@@ -1,4 +1,4 @@
-"""Names resolve by exact spelling in any case, by alias, or not at all with a message that helps."""
+"""Test that names resolve by spelling or alias."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Oils over temperature and pressure by their own laws: the printed checks of the constants come back."""
+"""Test oils over temperature and pressure by their own laws.
+
+The printed checks of the constants come back.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rows of one's own can be taken away again; built-in ones cannot."""
+"""Test removing rows of the user; built-in ones stay."""
 
 from __future__ import annotations
 

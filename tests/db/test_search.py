@@ -1,4 +1,4 @@
-"""Search as one types: what matches, in which order, and how fast."""
+"""Test searching: matches, their order and speed."""
 
 from __future__ import annotations
 

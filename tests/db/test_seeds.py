@@ -1,4 +1,7 @@
-"""The built-in rows: the paper's tables exactly, makers apart, a source and a grade for every value."""
+"""Test the built-in rows.
+
+The paper's tables exactly, makers apart, a source and a grade for every value.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Import and export: a round trip is exact, one bad row rolls back or is left out, as asked."""
+"""Test import and export.
+
+A round trip is exact, one bad row rolls back or is left out, as asked.
+"""
 
 from __future__ import annotations
 

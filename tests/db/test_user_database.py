@@ -1,4 +1,7 @@
-"""The user's own rows: in front of the built-in ones, safe with several writers, harmless when damaged."""
+"""Test the user's own rows.
+
+In front of the built-in ones, safe with several writers, harmless when damaged.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Each way to break the kernel convention gives one sentence with the model's name and distribution."""
+"""Test the messages about kernels that break the convention."""
 
 from __future__ import annotations
 

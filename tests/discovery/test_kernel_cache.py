@@ -1,4 +1,7 @@
-"""Compiled code on disk: what is edited is seen by the next process, what is not is not compiled again."""
+"""Test compiled code on disk.
+
+What is edited is seen by the next process, what is not is not compiled again.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Discovery: one broken plugin is named and left out, the rest works."""
+"""Test that one broken plugin is named and left out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Without Numba's and Python's internals: the same keys of laws, and the same numbers."""
+"""Test hashing and numbers without internals of Numba and Python."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Laws of one name: each is known by its package, no package takes a name from another, and a case gets a message."""
+"""Test laws of one name.
+
+Each is known by its package, no package takes a name from another, and a case gets a message.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The hash of everything that a function reaches, and what it refuses to follow."""
+"""Test the hash of everything that a function reaches."""
 
 from __future__ import annotations
 

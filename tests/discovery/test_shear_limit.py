@@ -1,4 +1,7 @@
-"""A traction law without a limiting stress: told when it is checked, and where no equilibrium is found."""
+"""Test a traction law without a limiting stress.
+
+Told when it is checked, and where no equilibrium is found.
+"""
 
 from __future__ import annotations
 

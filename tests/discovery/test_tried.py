@@ -1,4 +1,4 @@
-"""Laws that were found in order once are not tried again by other processes; those with a fault are."""
+"""Test that laws are tried out once."""
 
 from __future__ import annotations
 

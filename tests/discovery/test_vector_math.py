@@ -1,4 +1,4 @@
-"""The vectorisable exp, log1p and asinh against the C library, compiled and in plain Python."""
+"""Test vectorisable exp, log1p and asinh against the C library."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The version that a plugin was written for stands in its code as a number, which says something once ours moves."""
+"""Test the version of the interface that a plugin names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The door: what type checkers see in it, and what it hands out, are the same."""
+"""Test that type checkers and users see the same API."""
 
 from __future__ import annotations
 

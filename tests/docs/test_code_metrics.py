@@ -1,4 +1,4 @@
-"""Test that code metrics keep their limits and that their page is up to date."""
+"""Test the limits of code metrics and their page."""
 
 from __future__ import annotations
 

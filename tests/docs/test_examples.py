@@ -1,4 +1,4 @@
-"""Every command and every Python example of every page runs and says what the page prints."""
+"""Test every command and Python example of every page."""
 
 from __future__ import annotations
 

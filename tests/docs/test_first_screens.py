@@ -1,4 +1,4 @@
-"""Pages with a long record begin with one screen of what matters, in the record's own numbers."""
+"""Test the first screens of pages with a long record."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The gallery: one picture, the command that made it; small enough to be kept with the code."""
+"""Test the gallery.
+
+One picture, the command that made it; small enough to be kept with the code.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One word for one thing: what the glossary retires is used nowhere where people read."""
+"""Test that retired words are used nowhere."""
 
 from __future__ import annotations
 

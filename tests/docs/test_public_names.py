@@ -1,4 +1,4 @@
-"""Every public name has a numpydoc docstring: parameters, what is returned, what is raised, fields with meaning."""
+"""Test that every public name has a numpydoc docstring."""
 
 from __future__ import annotations
 
@@ -85,6 +85,13 @@ def test_functions_that_people_call_have_all_sections() -> None:
             without.append(f"{name}: Parameters")
     assert len(called) > 30
     assert without == []
+
+
+def test_what_people_call_is_summarised_in_ten_words() -> None:
+    """Functions and classes of the API and the test kit."""
+    called = {n: item for n, item in PUBLIC.items() if n.startswith(("lambda_core.api", "lambda_core.testing"))}
+    summaries = {name: docstrings.parsed(item).text.split("\n\n")[0].split() for name, item in called.items()}
+    assert {name: " ".join(words) for name, words in summaries.items() if len(words) > 10} == {}
 
 
 def _complete() -> list[str]:

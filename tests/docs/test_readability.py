@@ -1,4 +1,4 @@
-"""Keep the Start and How-to pages as readable as the pages of comparable projects."""
+"""Test the readability of the Start and How-to pages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The pages made from the code are those of today, and nothing that people can choose or meet is missing from them."""
+"""Test that generated pages are complete and up to date."""
 
 from __future__ import annotations
 

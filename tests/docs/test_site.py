@@ -1,4 +1,4 @@
-"""The site builds without a network, without a warning, and with every page in its navigation."""
+"""Test that the site builds without network and warnings."""
 
 from __future__ import annotations
 

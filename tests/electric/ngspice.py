@@ -1,4 +1,6 @@
-"""A network of nine balls as a deck for ngspice, and the run of it: ``python tests/electric/ngspice.py`` records anew.
+"""Write and run a network of nine balls in ngspice.
+
+``python tests/electric/ngspice.py`` records its results anew.
 
 Written for ngspice 39.3 (Debian 12). Capacitances change with time as charge expressions, so that charge is conserved.
 All admittances are multiplied by one number, which leaves voltages as they are and suits ngspice's tolerances.

@@ -1,4 +1,4 @@
-"""The statistics of breakdown of a rough film in closed form, by scipy: what the law of the program is held against."""
+"""Compute the breakdown statistics of rough films with scipy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Breakdown voltages: closed form, random numbers, and what an integration draws."""
+"""Test breakdown voltages.
+
+Closed form, random numbers, and what an integration draws.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The circuit of a case and of a run: numbers, files, command line."""
+"""Test the circuit of a case and of a run.
+
+Numbers, files, command line.
+"""
 
 from __future__ import annotations
 

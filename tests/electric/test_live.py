@@ -1,4 +1,4 @@
-"""Test the circuit of a run during its motion: written while it runs, the same bits however it is cut."""
+"""Test the circuit of a run during its motion."""
 
 from __future__ import annotations
 

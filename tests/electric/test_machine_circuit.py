@@ -1,4 +1,7 @@
-"""Several bearings of a shaft in one circuit: parallel combination, an independent solution, energy and charge."""
+"""Test several bearings of a shaft in one circuit.
+
+Parallel combination, an independent solution, energy and charge.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The command electric for a machine: all bearings in one circuit, their own options, what it prints and writes."""
+"""Test the command electric for a machine.
+
+All bearings in one circuit, their own options, what it prints and writes.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The map over speed and temperature: a study with workers, that goes on after a kill to the same bits."""
+"""Test the map over speed and temperature.
+
+A study with workers, that goes on after a kill to the same bits.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One film breaks down while metal shorts the ball's other contact: the rotor's charge flows, and it is counted so."""
+"""Test the discharge through a ball with one shorted contact."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The network against closed forms, and its balance of energy and charge."""
+"""Test the network against closed forms and its balances."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test the capacitance of roller bearings in motion, and their circuit."""
+"""Test the capacitance and circuit of rollers in motion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Common-mode voltages, and the mistakes that can be made with them."""
+"""Test common-mode voltages and mistakes in them."""
 
 from __future__ import annotations
 

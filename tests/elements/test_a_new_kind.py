@@ -1,4 +1,4 @@
-"""A kind of ball bearing is one module: nothing outside of it has to know its name."""
+"""Test that one module adds a kind of ball bearing."""
 
 from __future__ import annotations
 

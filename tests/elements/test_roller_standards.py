@@ -1,4 +1,7 @@
-"""Ratings, lives and axial limits of roller bearings: limits, joints and consistency."""
+"""Test ratings, lives and axial limits of roller bearings.
+
+Limits, joints and consistency.
+"""
 
 from __future__ import annotations
 

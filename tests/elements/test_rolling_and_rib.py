@@ -1,4 +1,4 @@
-"""Rolling resistance of line contacts, and the rib contact of tapered rollers."""
+"""Test rolling resistance of lines, and ribs of tapered rollers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Load over the slices of a roller: laminae and deflection matrix."""
+"""Test load over the slices of a roller.
+
+Laminae and deflection matrix.
+"""
 
 from __future__ import annotations
 

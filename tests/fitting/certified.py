@@ -1,4 +1,7 @@
-"""Nonlinear regression data of NIST with certified values (Statistical Reference Datasets, 1997; public domain)."""
+"""Provide regression data of NIST with certified values.
+
+Statistical Reference Datasets, 1997; public domain.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Twenty catalogue bearings and operating points on which no parameter was chosen: a seeded draw.
+"""Draw catalogue bearings on which no parameter was chosen.
 
 All SKF deep groove ball bearings of the catalogue take part, but the ten that the loss factor was chosen with. Each
 drawn one has a load of C/P 6.5 to 20 and a speed of n d_m 75 000 to 440 000 mm/min, both evenly by their logarithm, and

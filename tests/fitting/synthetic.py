@@ -1,4 +1,4 @@
-"""A friction law of closed form, and measurements made with it under several kinds of noise."""
+"""Make measurements from a closed friction law, with noise."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The model band: against the measured points of the paper, and after a fit."""
+"""Test the model band.
+
+Against the measured points of the paper, and after a fit.
+"""
 
 from __future__ import annotations
 

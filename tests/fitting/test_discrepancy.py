@@ -1,4 +1,4 @@
-"""Bands of predicted values at points that a fit has not seen, with errors of the laws."""
+"""Test bands of predictions at new points."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The fit of a case: parameters are found again from values that the case itself predicts."""
+"""Test the fit of a case.
+
+Parameters are found again from values that the case itself predicts.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Fits of a machine and of one of its bearings: columns, parameters, and values that are found again."""
+"""Test fits of machines and of one of their bearings."""
 
 from __future__ import annotations
 

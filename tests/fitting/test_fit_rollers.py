@@ -1,4 +1,7 @@
-"""Fits of roller bearings: alone by their quasi-static answer, and in a machine."""
+"""Test fits of roller bearings.
+
+Alone by their quasi-static answer, and in a machine.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The fit against certified values, and against synthetic measurements whose truth is known."""
+"""Test fits against certified values and synthetic measurements."""
 
 from __future__ import annotations
 

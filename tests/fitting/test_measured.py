@@ -1,4 +1,7 @@
-"""The measured series: their data, and the comparison without any fit."""
+"""Test the measured series.
+
+Their data, and the comparison without any fit.
+"""
 
 from __future__ import annotations
 

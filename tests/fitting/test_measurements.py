@@ -1,4 +1,7 @@
-"""Files of measurements: columns, units, and a message for every mistake."""
+"""Test files of measurements.
+
+Columns, units, and a message for every mistake.
+"""
 
 from __future__ import annotations
 

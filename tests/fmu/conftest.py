@@ -1,4 +1,4 @@
-"""One bearing as FMUs, built once per session with the code that the tests have compiled anyway."""
+"""Build one bearing as FMUs once per session."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A host for FMUs in a few lines of ctypes: nothing but Python's own library, no FMI library."""
+"""Host an FMU with Python's standard library alone."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The circuit in the library: voltages and discharges of the program, under a source that the host is."""
+"""Test the circuit in the library.
+
+Voltages and discharges of the program, under a source that the host is.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""FMUs: the bits of the program without the program, states, bad use, and the standard."""
+"""Test FMUs.
+
+The bits of the program without the program, states, bad use, and the standard.
+"""
 
 from __future__ import annotations
 

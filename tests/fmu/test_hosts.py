@@ -1,4 +1,4 @@
-"""The examples of hosts, each where its package is installed: FMPy, OMSimulator, Exudyn; and the text for Modelica."""
+"""Test the examples of hosts where their packages are installed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The FMU of a shaft in two bearings: the bits of its engine, what it takes, and what it refuses."""
+"""Test the FMU of a shaft in two bearings.
+
+The bits of its engine, what it takes, and what it refuses.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""More than one operating point in one FMU: starts with other inputs, options of the case that a host changes."""
+"""Test more than one operating point in one FMU.
+
+Starts with other inputs, options of the case that a host changes.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""One FMU for several systems: mathematics of its own, libraries built from here, bits that are equal."""
+"""Test one FMU for several systems.
+
+Mathematics of its own, libraries built from here, bits that are equal.
+"""
 
 from __future__ import annotations
 

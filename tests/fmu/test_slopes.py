@@ -1,4 +1,7 @@
-"""Directional derivatives: the solver's Jacobian against differences, this instant, the start, seeds of any size."""
+"""Test directional derivatives.
+
+The solver's Jacobian against differences, this instant, the start, seeds of any size.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A browser in front of the served builder: headless Chromium, or a client of the page's WebSocket."""
+"""Open the served builder in Chromium or a WebSocket client."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Finds what a person cannot read: text that is cut, in whatever way, on the screen that is shown."""
+"""Find text that a screen cuts off."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The catalogue in the builder: filter, details, take, rows of one's own."""
+"""Test the catalogue in the builder.
+
+Filter, details, take, rows of one's own.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The electric circuit in the builder by keyboard: the laws of the films, mistakes, and what a run says of it."""
+"""Test the electric circuit in the builder by keyboard.
+
+The laws of the films, mistakes, and what a run says of it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Results in the builder have the digits that their model bands leave."""
+"""Test that results show the digits of their bands."""
 
 from __future__ import annotations
 

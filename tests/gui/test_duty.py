@@ -1,4 +1,7 @@
-"""A duty cycle in the builder: a load spectrum is written, added up, saved for the shell, by keyboard."""
+"""Test a duty cycle in the builder.
+
+A load spectrum is written, added up, saved for the shell, by keyboard.
+"""
 
 from __future__ import annotations
 

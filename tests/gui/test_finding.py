@@ -1,4 +1,4 @@
-"""Finding the way: F8 from mistake to mistake, names by their middle, recent files, a picture of the screen."""
+"""Test how a user finds the way."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""On a slow machine keys come faster than checks, lists and answers: what is done is done with what was typed."""
+"""Test keys that arrive faster than checks and answers."""
 
 from __future__ import annotations
 

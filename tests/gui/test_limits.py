@@ -1,4 +1,4 @@
-"""The builder says what lies beyond a limit before anything is solved."""
+"""Test that the builder shows exceeded limits before solving."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test the results screen with the result of a machine: its summary, then a bearing at a time."""
+"""Test the results screen of a machine and its bearings."""
 
 from __future__ import annotations
 

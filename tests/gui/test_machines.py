@@ -1,4 +1,4 @@
-"""Every machine has the same screens: answers, studies and duty cycles of one bearing and of a shaft in two."""
+"""Test that every machine has the same screens."""
 
 from __future__ import annotations
 

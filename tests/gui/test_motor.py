@@ -1,4 +1,7 @@
-"""The motor bearing, 6308 C3 under 2.5 kN and 0.5 kN at 6000 rpm: from nothing to a report in at most 40 keys."""
+"""Test a motor bearing from nothing to a report.
+
+6308 C3 under 2.5 kN and 0.5 kN at 6000 rpm, in at most 40 keys.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every screen is read at 80 x 24 and at 120 x 40: nothing on it is cut."""
+"""Test that no screen cuts text, small or large."""
 
 from __future__ import annotations
 

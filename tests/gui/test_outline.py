@@ -1,4 +1,7 @@
-"""The model tree: complete, in order, and mistakes find their node."""
+"""Test the model tree.
+
+Complete, in order, and mistakes find their node.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Results in a terminal that shows pictures: the view as it is drawn for files, or as text."""
+"""Test results in a terminal that shows pictures.
+
+The view as it is drawn for files, or as text.
+"""
 
 from __future__ import annotations
 

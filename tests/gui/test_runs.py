@@ -1,4 +1,7 @@
-"""Runs from the builder: an empty model to a result by keyboard, the queue, cancel, and what can go wrong."""
+"""Test runs from the builder.
+
+An empty model to a result by keyboard, the queue, cancel, and what can go wrong.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The builder in a browser: a case is built from nothing and run; the program states who may reach it."""
+"""Test the builder in a browser.
+
+A case is built from nothing and run; the program states who may reach it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Shafts in the builder: from nothing by keys alone, files with comments, mistakes, what the shaft does."""
+"""Test shafts in the builder.
+
+From nothing by keys alone, files with comments, mistakes, what the shaft does.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The builder in customary units: what follows from a case, and results."""
+"""Test the builder in customary units.
+
+What follows from a case, and results.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Studies and comparisons in the builder: set up, run, looked at, saved, by keyboard."""
+"""Test studies and comparisons in the builder.
+
+Set up, run, looked at, saved, by keyboard.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Keys that are typed ahead of a slow program reach the entry that they are meant for."""
+"""Test that keys typed ahead reach their entry."""
 
 from __future__ import annotations
 

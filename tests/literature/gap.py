@@ -1,4 +1,4 @@
-"""The gap around a Hertzian contact and its capacitance, by direct quadrature: a reference for tests."""
+"""Compute the capacitance around a Hertzian contact by quadrature."""
 
 from __future__ import annotations
 

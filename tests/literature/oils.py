@@ -1,4 +1,4 @@
-"""Oils with published constants, as a case file would give them to the models."""
+"""Provide oils with published constants."""
 
 from __future__ import annotations
 

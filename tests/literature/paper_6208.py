@@ -1,4 +1,7 @@
-"""The 6208 of Syla et al. 2026, table 6, under pure axial load: reference equilibrium."""
+"""Provide the 6208 of the paper under axial load.
+
+Syla et al. 2026, table 6: reference equilibrium.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers of other programs, frozen here so that none of them is a dependency."""
+"""Provide frozen numbers of other programs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One published or exact value with its source, the tolerance of the comparison and the reason for it."""
+"""Define a published value with source, tolerance and its reason."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Reference mathematics for the literature tests: classical closed forms and independent derivations.
+"""Provide closed forms and independent derivations for tests.
 
 Nothing here is used by the product; it is written from the sources named below so that the product can be checked
 against it. SI units throughout.

@@ -1,4 +1,4 @@
-"""Roller bearings of measured friction, and the sets of parameters that they are compared with.
+"""Provide roller bearings of measured friction and parameter sets.
 
 The sets were written down before the first comparison with the measured torques, whose values were known.
 Where a paper prints constants they are the paper's; everything else has the default of :class:`FrictionParameters`.

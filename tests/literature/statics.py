@@ -1,4 +1,4 @@
-"""Static load distribution of a radially loaded ball bearing: an independent reference for sums over contacts."""
+"""Compute the static load distribution independently."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Beams of round section against Timoshenko's equations, solved here, and closed forms of deflection."""
+"""Compare beams with Timoshenko's equations and closed forms."""
 
 from __future__ import annotations
 

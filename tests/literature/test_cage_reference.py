@@ -1,4 +1,7 @@
-"""The speed that cage slip is measured against: zero slip where nothing slips, at any speed and contact angle."""
+"""Test the speed that cage slip is measured against.
+
+Zero slip where nothing slips, at any speed and contact angle.
+"""
 
 from __future__ import annotations
 

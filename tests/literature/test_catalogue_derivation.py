@@ -1,4 +1,4 @@
-"""Inner geometry estimated from printed ratings, against inner geometry that somebody printed."""
+"""Compare estimated with printed inner geometry."""
 
 from __future__ import annotations
 

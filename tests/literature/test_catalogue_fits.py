@@ -1,4 +1,4 @@
-"""ISO 286 and ISO 492 limits against printed standard values; fits against closed forms and a maker's formula."""
+"""Compare limits and fits with ISO 286 and ISO 492."""
 
 from __future__ import annotations
 

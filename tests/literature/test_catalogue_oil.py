@@ -1,4 +1,4 @@
-"""Oil service against ASTM D341, Gold and the constants of the paper's Table 5 oil and of FVA3."""
+"""Compare oil data with ASTM D341, Gold and the paper."""
 
 from __future__ import annotations
 

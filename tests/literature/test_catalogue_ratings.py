@@ -1,4 +1,4 @@
-"""ISO 281 and ISO 76 from inner geometry against the standards' tables and a maker's catalogue."""
+"""Compare ratings with ISO 281, ISO 76 and a catalogue."""
 
 from __future__ import annotations
 

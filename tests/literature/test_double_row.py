@@ -1,4 +1,7 @@
-"""Two rows of angular contact in one bearing: against one row, a closed form of the preload, levers, a run."""
+"""Test two rows of angular contact in one bearing.
+
+Against one row, a closed form of the preload, levers, a run.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SKF's double row angular contact ball bearings 32 A and 33 A: what it prints against standards and geometry."""
+"""Compare SKF's series 32 A and 33 A with standards."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A ring as Fourier modes: pinched by two forces, ratios of frequencies, Bryan's lag of a turning ring, bedding."""
+"""Test a ring as Fourier modes.
+
+Pinched by two forces, ratios of frequencies, Bryan's lag of a turning ring, bedding.
+"""
 
 from __future__ import annotations
 

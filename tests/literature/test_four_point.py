@@ -1,4 +1,6 @@
-"""Four-point contact: loads, angles and play of balls between two arcs on each ring; what SKF prints of the series QJ.
+"""Test four-point contact.
+
+Loads, angles and play of balls between two arcs on each ring; what SKF prints of the series QJ.
 
 The reference is derived here anew: in the plane of a ball the centres of its four arcs are points, a contact's
 penetration is their distance from the ball's centre less r - D/2, and forces on ball and ring balance.

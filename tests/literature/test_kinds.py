@@ -1,4 +1,4 @@
-"""Kinds of ball bearings in the catalogue and in the standards: what NSK, SKF and Harris print of angular contact."""
+"""Compare kinds of ball bearings with catalogues and standards."""
 
 from __future__ import annotations
 

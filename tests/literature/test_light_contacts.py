@@ -1,4 +1,7 @@
-"""Capacitance of contacts that carry little or nothing: continuous from no load to full load."""
+"""Test capacitance of contacts that carry little or nothing.
+
+Continuous from no load to full load.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Drag of the oil bath in the quasi-static equilibrium: the mean of one revolution on every ball."""
+"""Test drag of the oil bath in the quasi-static equilibrium.
+
+The mean of one revolution on every ball.
+"""
 
 from __future__ import annotations
 

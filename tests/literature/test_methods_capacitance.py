@@ -1,4 +1,7 @@
-"""The paper's analytical capacitance of the 6208 (Syla et al. 2026, section 4.3 and Fig. 7)."""
+"""Compare capacitances of the 6208 with the paper's.
+
+Syla et al. 2026, section 4.3 and Fig. 7.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The project's quasi-static equilibrium against the reference solutions of this folder."""
+"""Compare the quasi-static equilibrium with reference solutions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Catalogue friction models against the SKF row of Table 4 and against independent evaluations."""
+"""Compare catalogue friction models with printed values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Exact Hertz theory against closed forms, tables and an independent solution."""
+"""Compare Hertz theory with closed forms and tables."""
 
 from __future__ import annotations
 

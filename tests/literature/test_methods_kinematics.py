@@ -1,4 +1,4 @@
-"""Epicyclic kinematics against published fault orders and against rigid-body mechanics by vectors."""
+"""Compare kinematics with fault orders and rigid-body mechanics."""
 
 from __future__ import annotations
 

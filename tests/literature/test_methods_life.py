@@ -1,4 +1,4 @@
-"""Rating life against ISO 281 and ISO/TS 16281, catalogue examples and the theory of Lundberg and Palmgren."""
+"""Compare rating lives with standards, catalogues and theory."""
 
 from __future__ import annotations
 

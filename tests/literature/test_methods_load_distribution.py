@@ -1,4 +1,4 @@
-"""The reference mathematics of load distribution against its published tables and a commercial program.
+"""Compare load distribution with tables and a commercial program.
 
 These are the exact solutions that the project's own equilibrium has to meet; here the reference itself is checked.
 """

@@ -1,4 +1,4 @@
-"""Load ratings from geometry against the tables of ISO 281 and ISO 76 and against printed catalogue ratings."""
+"""Compare load ratings with standards and catalogues."""
 
 from __future__ import annotations
 

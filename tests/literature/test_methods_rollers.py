@@ -1,4 +1,4 @@
-"""Comparison methods of roller bearings against catalogues' numbers and formulas by hand."""
+"""Compare methods of rollers with catalogues and hand calculation."""
 
 from __future__ import annotations
 

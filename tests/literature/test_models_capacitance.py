@@ -1,4 +1,7 @@
-"""Capacitance of the 6208 contacts of Syla et al. 2026 (Fig. 7, Tables 5 and 6) and the laws of its surroundings."""
+"""Compare capacitance laws with Fig. 7 of the paper.
+
+Syla et al. 2026, tables 5 and 6; and the laws of the surroundings.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Laws whose constants nobody has published: numbers of the formulas in print, and what follows exactly."""
+"""Test laws whose constants nobody has published.
+
+Numbers of the formulas in print, and what follows exactly.
+"""
 
 from __future__ import annotations
 

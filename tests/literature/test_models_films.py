@@ -1,4 +1,4 @@
-"""Laws of films that break down, against closed forms and the printed field strength of mineral oil."""
+"""Compare laws of film breakdown with closed forms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Laws of line contacts against closed forms and the pure functions of rollers."""
+"""Compare laws of line contacts with closed forms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Friction of touching asperities from rest to gross sliding, and its share in the transition to a full film."""
+"""Compare mixed friction from rest to full film."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Fits of rolling resistance against what they were fitted to, and against each other."""
+"""Compare fits of rolling resistance with their sources."""
 
 from __future__ import annotations
 

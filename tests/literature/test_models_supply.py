@@ -1,4 +1,7 @@
-"""Supply of oil: exact limits of every law and the numbers of the published relations."""
+"""Test supply of oil.
+
+Exact limits of every law and the numbers of the published relations.
+"""
 
 from __future__ import annotations
 

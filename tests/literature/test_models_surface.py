@@ -1,4 +1,4 @@
-"""Wavy and pitted raceways against what Wardle and kinematics say: which orders move a ring, how far, how often."""
+"""Compare waves and pits of raceways with Wardle and kinematics."""
 
 from __future__ import annotations
 

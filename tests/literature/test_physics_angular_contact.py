@@ -1,4 +1,6 @@
-"""An angular-contact bearing under thrust: angles at rest and at speed, the axis a ball spins about, who controls it.
+"""Test an angular-contact bearing under thrust.
+
+Angles at rest and at speed, the axis a ball spins about, who controls it.
 
 The 218 of Harris, Rolling Bearing Analysis: 16 balls of 22.23 mm, pitch 125.26 mm, conformities 0.5232, free angle 40
 degrees. Its free angle is set by the clearance: P_d = 2 A (1 - cos(alpha_0)).

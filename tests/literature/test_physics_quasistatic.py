@@ -1,4 +1,7 @@
-"""The bearing at rest and running, without time: angles, loads, deflection and speeds against known values."""
+"""Test the bearing at rest and running, without time.
+
+Angles, loads, deflection and speeds against known values.
+"""
 
 from __future__ import annotations
 

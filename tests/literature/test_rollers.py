@@ -1,4 +1,4 @@
-"""Rollers against ISO 281, ISO 76, ISO 16281, catalogues and independent computations.
+"""Compare rollers with standards, catalogues and computations.
 
 Reliability of a value stands in its source: [R] read in the source, [R2] read in a text that retyped or digitised it,
 [M] computed by an independent script, [K] remembered.

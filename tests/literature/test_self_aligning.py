@@ -1,4 +1,6 @@
-"""Self-aligning ball bearings: loads by a second derivation, no resistance to tilt, ratings against SKF's catalogue.
+"""Test self-aligning ball bearings.
+
+Loads by a second derivation, no resistance to tilt, ratings against SKF's catalogue.
 
 The reference: a ball between a sphere about O and an inner groove whose centre P moves with the ring lies on the line
 through both. Its contacts are two springs in a row along it, pressed by |OP| - (R + r_i - D_w).

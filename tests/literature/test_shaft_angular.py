@@ -1,4 +1,4 @@
-"""Angular contact bearings, alone and in pairs, against equations derived here: loads, stiffness, temperature.
+"""Compare angular contact pairs with equations derived here.
 
 A ball between two grooves without friction and centrifugal force: the distance A of the groove centres is stretched by
 both contacts, Q = K s^(3/2) (Harris and Kotzalas 2006, ch. 7), for every ball at its azimuth, five degrees of freedom.

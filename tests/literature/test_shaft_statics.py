@@ -1,4 +1,4 @@
-"""Shafts in bearings against statics and beams on stiff supports; gear forces and life factors against textbooks."""
+"""Compare shafts with statics, gears and lives with textbooks."""
 
 from __future__ import annotations
 

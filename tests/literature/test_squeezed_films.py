@@ -1,4 +1,7 @@
-"""Films that are squeezed before bodies touch: Reynolds' equation solved on a grid, limits in print, blows."""
+"""Test films that are squeezed before bodies touch.
+
+Reynolds' equation solved on a grid, limits in print, blows.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""ISO 15312: the thermal speed rating by its own formula, and its reference conditions as a network."""
+"""Compare heat and speed ratings with ISO 15312."""
 
 from __future__ import annotations
 

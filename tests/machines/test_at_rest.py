@@ -1,4 +1,4 @@
-"""Give reasons, not dashes, for what stands still: it has no torque, no films and no life."""
+"""Test that answers give reasons for missing numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A bearing of a machine by itself: the same balls under the same load as in the machine."""
+"""Test a bearing of a machine by itself.
+
+The same balls under the same load as in the machine.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Bearings that rest while another one iterates: what stands, what is renewed in parts, what it changes of a result."""
+"""Test bearings that rest while another one iterates.
+
+What stands, what is renewed in parts, what it changes of a result.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Stiffness and damping matrices of the bearings of a shaft: vibrations of the whole Jacobian come out of them."""
+"""Test stiffness and damping of bearings against the Jacobian."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Angular contact bearings of the catalogue on a shaft: the row's contact angle counts, and the side that they take."""
+"""Test angular contact bearings of the catalogue on a shaft.
+
+The row's contact angle counts, and the side that they take.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Elastic rings and cages of the bearings of a shaft: one bearing in a whole against the same alone, run, balance."""
+"""Test elastic rings and cages of bearings on shafts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A shaft's result of a stranger: what its texts say to a terminal is shown, and does nothing."""
+"""Test a shaft's result of a stranger.
+
+What its texts say to a terminal is shown, and does nothing.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Mistakes of every stage at once: of the tables, of single bearings, of places, of the machine and of its files."""
+"""Test mistakes of every stage at once.
+
+Of the tables, of single bearings, of places, of the machine and of its files.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Everything that one bearing answers, asked of a machine of two bearings: one row per feature, with its commands.
+"""Test that machines answer every question of one bearing.
 
 Rows are the features that single bearings had and shafts lacked before both became one program. A step is a command and
 what its output contains, or a function of the folder for what only Python can ask.

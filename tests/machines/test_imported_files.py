@@ -1,4 +1,7 @@
-"""Files of reduced models that are at fault: one sentence with the file, the matrix and what is wrong, never a bug."""
+"""Test files of reduced models that are at fault.
+
+One sentence with the file, the matrix and what is wrong, never a bug.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test laws of forces between bodies of a machine, and of loads over time."""
+"""Test force laws between bodies and loads over time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A machine from its file to numbers, pictures and stiffness: init, check, quasistatic, modes; all mistakes at once."""
+"""Test a machine from its file to numbers and pictures."""
 
 from __future__ import annotations
 

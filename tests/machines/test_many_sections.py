@@ -1,4 +1,7 @@
-"""Shafts of very many sections: short pieces are merged, and what cannot be solved is refused before it is tried."""
+"""Test shafts of very many sections.
+
+Short pieces are merged, and what cannot be solved is refused before it is tried.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A shaft in motion: lumps against the beam, bearings of the whole against the same alone, balance, result, resume."""
+"""Test a shaft in motion.
+
+Lumps against the beam, bearings of the whole against the same alone, balance, result, resume.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Laws and steps of a bearing in a machine go by the speed that is planned for its shaft, as those of one alone do."""
+"""Test that laws and steps follow the planned speed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Preload of angular contact pairs on shafts: force, lift-off, and places that count from first contact."""
+"""Test preload of angular contact pairs on shafts.
+
+Force, lift-off, and places that count from first contact.
+"""
 
 from __future__ import annotations
 

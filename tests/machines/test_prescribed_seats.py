@@ -1,4 +1,4 @@
-"""Test prescribed motions of seats and bodies: equilibrium, motion and balance of energy."""
+"""Test prescribed motions of seats and bodies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Machines built in Python: they are the case that they write, and every question takes them."""
+"""Test machines built in Python.
+
+They are the case that they write, and every question takes them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A shaft from outside: the program's own beam as a file gives the same answers; files that cannot be a shaft."""
+"""Test a shaft from outside.
+
+The program's own beam as a file gives the same answers; files that cannot be a shaft.
+"""
 
 from __future__ import annotations
 

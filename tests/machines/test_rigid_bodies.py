@@ -1,4 +1,4 @@
-"""Test markers, rigid bodies and the springs between them: equilibrium, modes and motion against what must hold."""
+"""Test markers, rigid bodies and springs between them."""
 
 from __future__ import annotations
 

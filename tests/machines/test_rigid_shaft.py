@@ -1,4 +1,7 @@
-"""The rigid shaft of a single bearing: what it carries, and what it refuses."""
+"""Test the rigid shaft of a single bearing.
+
+What it carries, and what it refuses.
+"""
 
 from __future__ import annotations
 

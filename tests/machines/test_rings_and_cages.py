@@ -1,4 +1,4 @@
-"""Test loads, markers and connections on outer rings and cages of machines."""
+"""Test loads, markers and connections on rings and cages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Rollers on a shaft: against statics, a bearing that is alone, and the compiled contacts."""
+"""Test rollers on a shaft.
+
+Against statics, a bearing that is alone, and the compiled contacts.
+"""
 
 from __future__ import annotations
 

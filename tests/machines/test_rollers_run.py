@@ -1,4 +1,7 @@
-"""Rollers on a shaft in motion: energy, loads, skew, and the friction of the equilibrium that they start from."""
+"""Test rollers on a shaft in motion.
+
+Energy, loads, skew, and the friction of the equilibrium that they start from.
+"""
 
 from __future__ import annotations
 

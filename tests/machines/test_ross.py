@@ -1,4 +1,7 @@
-"""The rotor of ROSS against this program's own modal analysis; skipped where ROSS is not installed."""
+"""Compare the modes of a rotor with those of ROSS.
+
+Skipped where ROSS is not installed.
+"""
 
 from __future__ import annotations
 

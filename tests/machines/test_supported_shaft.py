@@ -1,4 +1,4 @@
-"""Test a shaft that the ground holds: locked, moved or elastic, at one place."""
+"""Test a shaft that the ground holds at one place."""
 
 from __future__ import annotations
 

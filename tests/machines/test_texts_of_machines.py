@@ -1,4 +1,7 @@
-"""Texts of machines: lives in one form, units, assumptions of the circuit, options that stand elsewhere."""
+"""Test texts of machines.
+
+Lives in one form, units, assumptions of the circuit, options that stand elsewhere.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Linear algebra of every call from Python: one thread meanwhile, the threads of whoever calls before and after it."""
+"""Test linear algebra of every call from Python.
+
+One thread meanwhile, the threads of whoever calls before and after it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Vibrations of a shaft in its bearings: followed where that is the answer, against runs a hundred times tighter."""
+"""Test vibrations of a shaft in its bearings.
+
+Followed where that is the answer, against runs a hundred times tighter.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test the friction of rollers that a bent shaft tilts, and the temperatures that follow from it."""
+"""Test friction and temperatures of rollers that shafts tilt."""
 
 from __future__ import annotations
 

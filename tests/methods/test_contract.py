@@ -1,4 +1,7 @@
-"""The contract of comparison methods: registration, tables, and answers that never take each other down."""
+"""Test the contract of comparison methods.
+
+Registration, tables, and answers that never take each other down.
+"""
 
 from __future__ import annotations
 

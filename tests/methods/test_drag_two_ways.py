@@ -1,4 +1,7 @@
-"""The catalogues' fluid losses, written twice: as a comparison method and as a law on each ball."""
+"""Test the catalogues' fluid losses, written twice.
+
+As a comparison method and as a law on each ball.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""One definition behind each word: the same case says the same in every command."""
+"""Test one definition behind each word.
+
+The same case says the same in every command.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Pockets and lands: clearance, direction, dissipation, the slip that friction opposes, invariance."""
+"""Test pockets and lands.
+
+Clearance, direction, dissipation, the slip that friction opposes, invariance.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Whole capacitance of a contact: bounds, limits, and the gap integral against two-dimensional quadrature."""
+"""Test whole capacitance of a contact.
+
+Bounds, limits, and the gap integral against two-dimensional quadrature.
+"""
 
 from __future__ import annotations
 

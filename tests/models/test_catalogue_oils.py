@@ -1,4 +1,4 @@
-"""Every oil of the catalogue brings complete, valid parameters for the laws that it names."""
+"""Test that every oil has the parameters of its laws."""
 
 from __future__ import annotations
 

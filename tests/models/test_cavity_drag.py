@@ -1,4 +1,7 @@
-"""Drag in a mixture of oil and air: share of oil, limits of pure oil and of air, catalogue's jet."""
+"""Test drag in a mixture of oil and air.
+
+Share of oil, limits of pure oil and of air, catalogue's jet.
+"""
 
 from __future__ import annotations
 

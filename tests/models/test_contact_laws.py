@@ -1,4 +1,7 @@
-"""Normal contact, damping, film and its thermal factor: limits, scaling, smoothness."""
+"""Test normal contact, damping, film and its thermal factor.
+
+Limits, scaling, smoothness.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every built-in law keeps its role's contract: compiled equals plain, finite, in bounds, elementwise, well named."""
+"""Test that every built-in law keeps its role's contract."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Drag on the balls: immersion, the catalogue's power recovered ball by ball, signs and limits."""
+"""Test drag on the balls.
+
+Immersion, the catalogue's power recovered ball by ball, signs and limits.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Traction, contact temperature, mixed friction, rolling resistance, hysteresis: limits, signs, scaling."""
+"""Test traction, contact temperature, mixed friction, rolling resistance, hysteresis.
+
+Limits, signs, scaling.
+"""
 
 from __future__ import annotations
 

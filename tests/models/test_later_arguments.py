@@ -1,4 +1,7 @@
-"""Arguments that a role got later: a kernel names them or not."""
+"""Test arguments that a role got later.
+
+A kernel names them or not.
+"""
 
 from __future__ import annotations
 

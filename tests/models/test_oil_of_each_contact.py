@@ -1,4 +1,4 @@
-"""Each raceway's contact has the oil constants that its own rheology gives: once the outer had those of the inner."""
+"""Test that each raceway's contact has its own oil constants."""
 
 from __future__ import annotations
 

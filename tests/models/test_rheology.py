@@ -1,4 +1,7 @@
-"""Laws of viscosity and density, permittivity: monotonic, capped, smooth, and units."""
+"""Test laws of viscosity and density, permittivity.
+
+Monotonic, capped, smooth, and units.
+"""
 
 from __future__ import annotations
 

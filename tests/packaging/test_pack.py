@@ -1,4 +1,7 @@
-"""Machine code in the wheel: used as it is, without the compiler, where sources and processor are those it is for."""
+"""Test machine code in the wheel.
+
+Used as it is, without the compiler, where sources and processor are those it is for.
+"""
 
 from __future__ import annotations
 

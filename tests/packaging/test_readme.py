@@ -1,4 +1,4 @@
-"""The README's commands are the commands of CI, and what it shows is what the program prints."""
+"""Test the README's commands and their output."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command of the tests tries once more, alone, what failed, and loses nothing."""
+"""Test that the test command repeats failed tests alone."""
 
 from __future__ import annotations
 

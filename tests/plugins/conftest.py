@@ -1,4 +1,4 @@
-"""Third-party packages, built, installed with pip into a folder of their own, and used from a new process."""
+"""Build and install third-party packages for tests."""
 
 from __future__ import annotations
 

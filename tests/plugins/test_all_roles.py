@@ -1,4 +1,7 @@
-"""Every role filled by a third party at once: the dynamics return a torque that is known in closed form."""
+"""Test every role filled by a third party at once.
+
+The dynamics return a torque that is known in closed form.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The example packages are real: built and installed, their own tests pass, and everything shows up by itself."""
+"""Test that the example packages install and work."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A good third-party package among bad ones: it works, each bad one is named, the program goes on."""
+"""Test a good third-party package among bad ones.
+
+It works, each bad one is named, the program goes on.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Types of kernels: those of the roles, and what a type checker sees of a law that names other arguments."""
+"""Test types of kernels.
+
+Those of the roles, and what a type checker sees of a law that names other arguments.
+"""
 
 from __future__ import annotations
 

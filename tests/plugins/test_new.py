@@ -1,4 +1,4 @@
-"""`plugins new` writes a package that installs, passes its own tests and is found everywhere at once."""
+"""Test that `plugins new` writes a working package."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Laws without a package: from one file, from a folder, from a program that hands them over."""
+"""Test laws without a package.
+
+From one file, from a folder, from a program that hands them over.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`plugins check` and `check` try observers, events, sections, views and methods on the first samples of a run."""
+"""Test that checks try observers, events, sections, views and methods."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The tutorial is followed to the letter: its files are written, its commands run, its tests pass."""
+"""Test that the tutorial works to the letter."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The functions that a compiler vectorises are there for every plugin, and the page's first law takes them."""
+"""Test the functions that a compiler vectorises."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Reports: one page that needs nothing else, says where every number comes from, and names exactly the laws used."""
+"""Test the pages of reports."""
 
 from __future__ import annotations
 

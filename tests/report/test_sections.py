@@ -1,4 +1,4 @@
-"""Sections that plugins add to the report of a run: shown, left out, or named with their mistake."""
+"""Test sections that plugins add to reports."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An engine with known answers: the run loop is tested against arithmetic, not against the dynamics.
+"""Imitate an engine with known answers.
 
 A ring at constant speed; a cage that turns at a known share of it with a known ripple; losses
 that are a constant plus a wave of whole periods per cage turn plus, on request, noise from a

@@ -1,4 +1,6 @@
-"""Run or resume the fake engine in a process of its own: ``fake_run.py run|resume FILE JSON``.
+"""Run or resume the fake engine in its own process.
+
+``fake_run.py run|resume FILE JSON``
 
 JSON: ``truth`` (fields of Truth), ``solver`` (changed settings), ``limit`` (RLIMIT_FSIZE in
 bytes), ``checkpoint_interval``. Ends like the program does: message on stderr, exit code.

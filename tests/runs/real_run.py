@@ -1,4 +1,4 @@
-"""A run or a continuation on the real engine, in a process that is there to be killed: VERB PATH, then "ready"."""
+"""Run or resume the real engine to be killed."""
 
 from __future__ import annotations
 

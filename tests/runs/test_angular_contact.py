@@ -1,4 +1,4 @@
-"""A bearing of the catalogue with a contact angle, from its designation to the result of a run."""
+"""Test an angular contact bearing from designation to result."""
 
 from __future__ import annotations
 

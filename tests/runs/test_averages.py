@@ -1,4 +1,4 @@
-"""Averages over cage revolutions and their confidence, against arithmetic and against many random series."""
+"""Test averages over cage revolutions and their confidence."""
 
 from __future__ import annotations
 

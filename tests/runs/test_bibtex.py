@@ -1,4 +1,7 @@
-"""References as BibTeX: every law's source becomes an entry, one per publication, that a parser takes."""
+"""Test references as BibTeX.
+
+Every law's source becomes an entry, one per publication, that a parser takes.
+"""
 
 from __future__ import annotations
 

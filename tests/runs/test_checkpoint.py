@@ -1,4 +1,7 @@
-"""Interrupted runs: whatever ended them and whenever, the continuation is the run that was never interrupted."""
+"""Test interrupted runs.
+
+Whatever ended them and whenever, the continuation is the run that was never interrupted.
+"""
 
 from __future__ import annotations
 

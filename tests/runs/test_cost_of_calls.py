@@ -1,4 +1,4 @@
-"""A call from Python costs no more processor time than the command, whatever the settings of BLAS threads."""
+"""Test that Python calls cost no more than commands."""
 
 from __future__ import annotations
 

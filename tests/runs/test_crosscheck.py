@@ -1,4 +1,4 @@
-"""Our integrator against CVODE, which none of us wrote, on the same right-hand side."""
+"""Test the integrator against CVODE."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A result field is declared once: texts, JSON, studies, reports and the builder take it from there."""
+"""Test that a result field is declared once."""
 
 from __future__ import annotations
 

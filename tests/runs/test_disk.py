@@ -1,4 +1,4 @@
-"""A disk that is full at any point of a run: a message, no crash, nothing lost that was there."""
+"""Test runs on a disk that is full."""
 
 from __future__ import annotations
 

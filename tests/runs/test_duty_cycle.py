@@ -1,4 +1,7 @@
-"""Duty cycles: damages of the phases add up to a life, their losses to a mean."""
+"""Test duty cycles.
+
+Damages of the phases add up to a life, their losses to a mean.
+"""
 
 from __future__ import annotations
 

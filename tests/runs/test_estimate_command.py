@@ -1,4 +1,4 @@
-"""The processor time of a run, before it is run: of one bearing and of a machine."""
+"""Test the estimated processor time of a run."""
 
 from __future__ import annotations
 

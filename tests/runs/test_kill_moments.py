@@ -1,4 +1,4 @@
-"""Kill runs at every write, and at their end: gone on with, they are the undisturbed ones, bit for bit.
+"""Test runs that are killed at every write.
 
 A killed process leaves what stands in its file at that moment: the file is copied at each of these moments.
 """

@@ -1,4 +1,7 @@
-"""kill -9 at random moments, on the real engine: every file is readable, every continuation the undisturbed run."""
+"""Test kill -9 at random moments, on the real engine.
+
+Every file is readable, every continuation the undisturbed run.
+"""
 
 from __future__ import annotations
 

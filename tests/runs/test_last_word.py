@@ -1,4 +1,4 @@
-"""A run that is killed between its last checkpoint and its last word: gone on with, it is the undisturbed one."""
+"""Test runs that are killed after their last checkpoint."""
 
 from __future__ import annotations
 

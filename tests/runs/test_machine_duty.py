@@ -1,4 +1,7 @@
-"""Duty cycles of a machine: every bearing's life by its damages, the life of all, spectra from CSV files."""
+"""Test duty cycles of a machine.
+
+Every bearing's life by its damages, the life of all, spectra from CSV files.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Observers, events and the interval of samples of a machine's run."""
+"""Test observers, events and sample intervals of machines."""
 
 from __future__ import annotations
 

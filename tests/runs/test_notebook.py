@@ -1,4 +1,7 @@
-"""Results in a notebook: they complete, show themselves, and go wherever a path goes."""
+"""Test results in a notebook.
+
+They complete, show themselves, and go wherever a path goes.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Observers and events of plugins: what they write, when they end a run, and what their own mistakes do."""
+"""Test observers and events of plugins.
+
+What they write, when they end a run, and what their own mistakes do.
+"""
 
 from __future__ import annotations
 

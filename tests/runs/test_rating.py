@@ -1,4 +1,7 @@
-"""The numbers that an engineer asks for first: the same as those of the comparison, in the result and its text."""
+"""Test the numbers that an engineer asks for first.
+
+The same as those of the comparison, in the result and its text.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Result files: what other programs see in them, and what a damaged one is answered with."""
+"""Test result files.
+
+What other programs see in them, and what a damaged one is answered with.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A run goes on only from the numbers that it wrote: a changed byte in them is found, whatever dataset it is in."""
+"""Test that changed bytes in a result are found."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The run loop on an engine with known answers: what it averages, when it ends, what it says."""
+"""Test the run loop on an engine with known answers.
+
+What it averages, when it ends, what it says.
+"""
 
 from __future__ import annotations
 

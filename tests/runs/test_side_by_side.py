@@ -1,4 +1,4 @@
-"""Test results side by side: what their cases say differently, and what follows."""
+"""Test results side by side."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Runs step by step: the same dynamics as a run, and loads from outside that act like those of the case."""
+"""Test runs step by step.
+
+The same dynamics as a run, and loads from outside that act like those of the case.
+"""
 
 from __future__ import annotations
 

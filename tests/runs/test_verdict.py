@@ -1,4 +1,7 @@
-"""The standard answer: modified life, verdict against required life and limits, margins."""
+"""Test the standard answer.
+
+Modified life, verdict against required life and limits, margins.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The first test of these may have to compile the core."""
+"""Compile the core before the first test."""
 
 from __future__ import annotations
 

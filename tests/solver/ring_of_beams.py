@@ -1,4 +1,4 @@
-"""A ring as a polygon of straight beams, to check waves of rings and cages against: it takes nothing from them."""
+"""Model a ring as a polygon of straight beams."""
 
 from __future__ import annotations
 

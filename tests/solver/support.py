@@ -1,4 +1,4 @@
-"""The one place where tests touch the layout of the compiled core: states, forces, powers, Jacobian."""
+"""Access the layout of the compiled core in one place."""
 
 from __future__ import annotations
 

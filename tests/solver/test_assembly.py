@@ -1,4 +1,7 @@
-"""Assemblies of several bearings: every entry of the tables at its final place."""
+"""Test assemblies of several bearings.
+
+Every entry of the tables at its final place.
+"""
 
 from __future__ import annotations
 

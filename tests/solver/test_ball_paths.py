@@ -1,4 +1,4 @@
-"""Balls that are carried across the grooves under combined load: the quasi-static solution against a run."""
+"""Test paths of balls across grooves against a run."""
 
 from __future__ import annotations
 

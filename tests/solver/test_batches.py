@@ -1,4 +1,4 @@
-"""Laws are called once for all contacts of a raceway: the same numbers as contact by contact."""
+"""Test laws that are called once for all contacts."""
 
 from __future__ import annotations
 

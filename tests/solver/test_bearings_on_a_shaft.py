@@ -1,4 +1,7 @@
-"""The tables beyond one bearing: two bearings and six on one shaft, made by hand (benchmarks.shaft)."""
+"""Test the tables beyond one bearing.
+
+Two bearings and six on one shaft, made by hand (benchmarks.shaft).
+"""
 
 from __future__ import annotations
 

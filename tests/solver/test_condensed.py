@@ -1,4 +1,4 @@
-"""The Schur complement of several bearings, solved by positions and speeds, against a dense solution."""
+"""Test the Schur complement of several bearings."""
 
 from __future__ import annotations
 

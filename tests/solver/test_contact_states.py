@@ -1,4 +1,7 @@
-"""States of contacts: closed forms, order of the integration, stiff rates, another integrator, samples and resuming."""
+"""Test states of contacts.
+
+Closed forms, order of the integration, stiff rates, another integrator, samples and resuming.
+"""
 
 from __future__ import annotations
 

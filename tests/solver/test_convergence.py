@@ -1,4 +1,7 @@
-"""Dissipated power settles with the grid and the tolerance; the whole table is docs/convergence.md."""
+"""Test that power settles with grid and tolerance.
+
+The whole table is docs/convergence.md.
+"""
 
 from __future__ import annotations
 

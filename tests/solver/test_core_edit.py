@@ -1,4 +1,4 @@
-"""An edit in the compiled core is seen by the next process: in what is looked up on disk, and in the result."""
+"""Test that the next process sees edits of the core."""
 
 from __future__ import annotations
 

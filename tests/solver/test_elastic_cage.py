@@ -1,4 +1,7 @@
-"""An elastic cage: natural frequencies, pinched by two pockets, turning, rigid limit, balance of a run, resuming."""
+"""Test an elastic cage.
+
+Natural frequencies, pinched by two pockets, turning, rigid limit, balance of a run, resuming.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Elastic rings and cage with four-point contact and with two rows in one bearing: rigid limit, balance of a run."""
+"""Test elastic parts of four-point and double row bearings."""
 
 from __future__ import annotations
 

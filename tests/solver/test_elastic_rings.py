@@ -1,4 +1,7 @@
-"""Elastic rings: rigid limit, a finite-element ring under the same loads, waves of a turning ring, resuming."""
+"""Test elastic rings.
+
+Rigid limit, a finite-element ring under the same loads, waves of a turning ring, resuming.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Forces and powers of force elements at samples: those that the compiled right-hand side computes with."""
+"""Test forces and powers of force elements at samples.
+
+Those that the compiled right-hand side computes with.
+"""
 
 from __future__ import annotations
 

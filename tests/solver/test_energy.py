@@ -1,4 +1,7 @@
-"""Energy over time: what the integrator loses, what a whole run cannot account for."""
+"""Test energy over time.
+
+What the integrator loses, what a whole run cannot account for.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The quasi-static equilibrium with friction is found wherever there is one.
+"""Test that the equilibrium with friction is found.
 
 A map of thousands of points is worth nothing with holes in it. The first list holds operating points that once had no
 solution here, each for a reason of its own; the second draws from the whole catalogue.

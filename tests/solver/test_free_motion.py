@@ -1,4 +1,7 @@
-"""Motion without contacts, where the answer is known: free flight, torque-free spinning tops."""
+"""Test motion without contacts, where the answer is known.
+
+Free flight, torque-free spinning tops.
+"""
 
 from __future__ import annotations
 

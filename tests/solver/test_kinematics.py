@@ -1,4 +1,7 @@
-"""Contact identification and velocities, derived a second time: vectors in space and moving points, no ball frame."""
+"""Test contact identification and velocities, derived a second time.
+
+Vectors in space and moving points, no ball frame.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Force elements between bodies: statics against a closed form, Newton's third law, and what a case may say of them."""
+"""Test force elements between bodies.
+
+Statics against a closed form, Newton's third law, and what a case may say of them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Friction at low speed and of starved contacts, through the whole solver."""
+"""Test friction at low speed and of starved contacts."""
 
 from __future__ import annotations
 

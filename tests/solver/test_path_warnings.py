@@ -1,4 +1,4 @@
-"""The iteration along the paths of balls says when it ends before paths and velocities agree."""
+"""Test the warning about paths that do not converge."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The core without a compiler: the same sources run as plain Python give the same numbers."""
+"""Test the core without a compiler.
+
+The same sources run as plain Python give the same numbers.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Powers at a state: every dissipator takes, and what goes in is dissipated or stored."""
+"""Test powers at a state.
+
+Every dissipator takes, and what goes in is dissipated or stored.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Tuples that compiled code takes by their address: the same values, the layout of Numba, nothing of another type."""
+"""Test tuples that compiled code takes by their address.
+
+The same values, the layout of Numba, nothing of another type.
+"""
 
 from __future__ import annotations
 

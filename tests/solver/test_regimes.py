@@ -1,4 +1,7 @@
-"""Hard regimes: the run goes through, what it is named after happens, and the energy balance closes."""
+"""Test hard regimes.
+
+The run goes through, what it is named after happens, and the energy balance closes.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compiled functions of rollers in motion against rigid bodies, the quasi-static springs and rolling cones."""
+"""Test compiled functions of rollers against rigid-body mechanics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Rollers in motion: equations of a symmetrical top, line contacts, and a bearing that runs."""
+"""Test rollers in motion.
+
+Equations of a symmetrical top, line contacts, and a bearing that runs.
+"""
 
 from __future__ import annotations
 

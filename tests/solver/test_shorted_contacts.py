@@ -1,4 +1,4 @@
-"""Contacts that touch metal are shorted in statics as in dynamics, whatever law friction uses."""
+"""Test that metal contacts are shorted in all answers."""
 
 from __future__ import annotations
 

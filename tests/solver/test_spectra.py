@@ -1,4 +1,7 @@
-"""Spectra of a bearing with a defect: they hang neither on the step nor on the samples."""
+"""Test spectra of a bearing with a defect.
+
+They hang neither on the step nor on the samples.
+"""
 
 from __future__ import annotations
 

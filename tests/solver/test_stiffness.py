@@ -1,4 +1,4 @@
-"""The stiffness matrix against differences of re-solved equilibria, against Hertz, and as a method's rows."""
+"""Test the stiffness matrix against differences and Hertz."""
 
 from __future__ import annotations
 

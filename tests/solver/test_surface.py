@@ -1,4 +1,7 @@
-"""The surface of a raceway in the host: where it is looked up, what enters the contact, and when it refuses."""
+"""Test the surface of a raceway in the host.
+
+Where it is looked up, what enters the contact, and when it refuses.
+"""
 
 from __future__ import annotations
 

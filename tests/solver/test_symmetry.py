@@ -1,4 +1,4 @@
-"""Turned and mirrored bearings behave the same: nothing in the equations prefers a direction or a ball."""
+"""Test that turned and mirrored bearings behave the same."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Newton's third law: what the parts of a bearing do to each other sums to nothing."""
+"""Test Newton's third law.
+
+What the parts of a bearing do to each other sums to nothing.
+"""
 
 from __future__ import annotations
 

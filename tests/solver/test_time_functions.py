@@ -1,4 +1,4 @@
-"""Loads and motions over time as compiled code sees them: values, derivatives, and the bodies that follow them."""
+"""Test loads and motions over time in compiled code."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Balls that touch each other, where there is no cage: their coupling in the Jacobian and in its factors."""
+"""Test balls that touch each other without a cage."""
 
 from __future__ import annotations
 

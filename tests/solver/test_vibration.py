@@ -1,4 +1,7 @@
-"""The formula for vibrations: order, what it takes of a swing, energy, samples, continuation."""
+"""Test the formula for vibrations.
+
+Order, what it takes of a swing, energy, samples, continuation.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Small study files, and an executor that works in this process."""
+"""Provide small study files and an executor without processes."""
 
 from __future__ import annotations
 

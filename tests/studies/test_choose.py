@@ -1,4 +1,4 @@
-"""Choosing bearings of the catalogue by load, speed and required life."""
+"""Test choosing bearings by load, speed and life."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Study files: points as written, and everything that is refused with a sentence."""
+"""Test study files.
+
+Points as written, and everything that is refused with a sentence.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The study files that come with the program: each is valid, and those that take little time do what they promise."""
+"""Test the study files that come with the program.
+
+Each is valid, and those that take little time do what they promise.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Studies of a machine: parameters anywhere in its case, responses of the machine and of each bearing."""
+"""Test studies of a machine.
+
+Parameters anywhere in its case, responses of the machine and of each bearing.
+"""
 
 from __future__ import annotations
 

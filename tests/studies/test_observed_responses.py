@@ -1,4 +1,4 @@
-"""Responses that observers, events and states of a plugin add to a study."""
+"""Test study responses of observers, events and states."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Result files of points that a study finds when it goes on: still in other hands, or on a disk that is full."""
+"""Test result files that a resumed study finds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Whole studies: tables against single runs, refusals before anything runs, failed points, searches."""
+"""Test whole studies.
+
+Tables against single runs, refusals before anything runs, failed points, searches.
+"""
 
 from __future__ import annotations
 

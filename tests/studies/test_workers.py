@@ -1,4 +1,7 @@
-"""Workers in processes of their own: equal numbers everywhere, killed workers and killed studies lose nothing."""
+"""Test workers in processes of their own.
+
+Equal numbers everywhere, killed workers and killed studies lose nothing.
+"""
 
 from __future__ import annotations
 

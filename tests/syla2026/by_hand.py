@@ -1,4 +1,6 @@
-"""Friction torque of the radially loaded 6319 derived a second time, with numpy and scipy alone.
+"""Derive the friction torque of the 6319 again.
+
+With numpy and scipy alone, under radial load.
 
 Nothing here calls the program: geometry, oil and constants are written out, every contact is integrated over a fine
 grid, the heating of each cell is solved exactly, and every ball rolls so that its own forces and moments balance. Left

@@ -1,4 +1,7 @@
-"""The anchored set on Table 4: recovered temperatures, what speaks for them, the range of its loss factor."""
+"""Test the anchored set on Table 4.
+
+Recovered temperatures, what speaks for them, the range of its loss factor.
+"""
 
 from __future__ import annotations
 

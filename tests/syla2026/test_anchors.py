@@ -1,4 +1,4 @@
-"""The friction torque against SKF's catalogue model on other bearings: what is compared, and how it is summed up."""
+"""Test the comparison with SKF's model on other bearings."""
 
 from __future__ import annotations
 

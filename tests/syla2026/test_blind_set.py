@@ -1,4 +1,7 @@
-"""The blind parameter set: that of the first version, every value sourced and inside its published range."""
+"""Test the blind parameter set.
+
+That of the first version, every value sourced and inside its published range.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bisection and criteria of the stability map, on answers that are known in closed form."""
+"""Test bisection and criteria of the stability map."""
 
 from __future__ import annotations
 

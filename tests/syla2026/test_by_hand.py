@@ -1,4 +1,7 @@
-"""Sliding, rolling and hysteresis of the 6319, derived twice: by the program, and with numpy alone (by_hand.py)."""
+"""Test sliding, rolling and hysteresis of the 6319, derived twice.
+
+By the program, and with numpy alone (by_hand.py).
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The 6220 runs through its transition: an axial excitation that grows makes the unloaded balls run differently."""
+"""Test that the 6220 runs through its transition."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Slopes and verdicts of the stability map, on boundaries of known shape."""
+"""Test slopes and verdicts of the stability map."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Capacitances of the 6208: the whole figure, with its run, from the command line."""
+"""Test capacitances of the 6208.
+
+The whole figure, with its run, from the command line.
+"""
 
 from __future__ import annotations
 

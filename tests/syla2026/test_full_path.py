@@ -1,4 +1,7 @@
-"""Every experiment from its jobs to the page: cases are resolved, nothing is solved or run."""
+"""Test every experiment from its jobs to the page.
+
+Cases are resolved, nothing is solved or run.
+"""
 
 from __future__ import annotations
 

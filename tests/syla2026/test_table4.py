@@ -1,4 +1,7 @@
-"""Friction torque of the 6319: quasi-static trends, the fit of tau_e, and what the command prints."""
+"""Test friction torque of the 6319.
+
+Quasi-static trends, the fit of tau_e, and what the command prints.
+"""
 
 from __future__ import annotations
 

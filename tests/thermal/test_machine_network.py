@@ -1,4 +1,7 @@
-"""The network of a shaft in several bearings: closed forms, balance, symmetry, one bearing as the case of one."""
+"""Test the network of a shaft in several bearings.
+
+Closed forms, balance, symmetry, one bearing as the case of one.
+"""
 
 from __future__ import annotations
 

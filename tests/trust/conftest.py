@@ -1,4 +1,4 @@
-"""A plugin package with laws that misbehave, seen by the processes that the tests start."""
+"""Install laws that misbehave for the tests' processes."""
 
 from __future__ import annotations
 

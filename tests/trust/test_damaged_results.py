@@ -1,4 +1,7 @@
-"""Damaged result files: refused in a sentence, never a hang, a dead process or a traceback."""
+"""Test damaged result files.
+
+Refused in a sentence, never a hang, a dead process or a traceback.
+"""
 
 from __future__ import annotations
 

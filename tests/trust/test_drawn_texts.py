@@ -1,4 +1,4 @@
-"""Texts of users are drawn as they stand: no formula, no other program, no escape."""
+"""Test that texts of users are drawn as written."""
 
 from __future__ import annotations
 

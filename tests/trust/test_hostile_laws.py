@@ -1,4 +1,4 @@
-"""Laws that do what they must not on a path that draws rarely meet: found before a run, named, and the rest goes on."""
+"""Test that laws at fault are found before a run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Long tables and sums of time functions: quick, or refused with a limit that is stated."""
+"""Test long tables and sums of time functions.
+
+Quick, or refused with a limit that is stated.
+"""
 
 from __future__ import annotations
 

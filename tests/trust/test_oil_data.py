@@ -1,4 +1,7 @@
-"""Laws whose data the oil lacks: an assumption that is recorded, or one sentence before anything runs."""
+"""Test laws whose data the oil lacks.
+
+An assumption that is recorded, or one sentence before anything runs.
+"""
 
 from __future__ import annotations
 

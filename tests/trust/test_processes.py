@@ -1,4 +1,7 @@
-"""Processes, locks and file names on Linux, Windows and macOS; the tests named `windows` force what cannot run here."""
+"""Test processes, locks and file names on three systems.
+
+Tests named `windows` force what cannot run here.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Calls of the Python API with wrong arguments: refused in a sentence, before anything runs."""
+"""Test that wrong arguments of Python calls are refused."""
 
 from __future__ import annotations
 

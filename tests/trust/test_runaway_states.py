@@ -1,4 +1,4 @@
-"""States of contacts that run away, have no unit, or that no law keeps: told by the check, and by a run."""
+"""Test that states of contacts that run away are named."""
 
 from __future__ import annotations
 

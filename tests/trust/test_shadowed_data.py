@@ -1,4 +1,4 @@
-"""A data package that puts its rows in front of the built-in ones is reported in every run that uses them."""
+"""Test that data packages that replace rows are named."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Signals and limits of time are obeyed in every state; what leads to endless work is refused beforehand."""
+"""Test that signals and time limits are obeyed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Studies that were killed, and studies whose numbers have no end."""
+"""Test killed studies, and studies with endless numbers."""
 
 from __future__ import annotations
 

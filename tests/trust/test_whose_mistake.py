@@ -1,4 +1,7 @@
-"""Errors of the system: what names somebody's file or lacks room is no bug, anything else is one."""
+"""Test errors of the system.
+
+What names somebody's file or lacks room is no bug, anything else is one.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Cases that validation lets through and no bearing is: refused in a sentence that names the option."""
+"""Test cases that validation lets through and no bearing is.
+
+Refused in a sentence that names the option.
+"""
 
 from __future__ import annotations
 

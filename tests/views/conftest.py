@@ -1,4 +1,4 @@
-"""Tests of views share helpers that are modules of their own."""
+"""Make the helpers of views importable."""
 
 from __future__ import annotations
 

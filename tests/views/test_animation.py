@@ -1,4 +1,7 @@
-"""Animations: the scene against the run, its motion against mechanics, files that players can open."""
+"""Test animations.
+
+The scene against the run, its motion against mechanics, files that players can open.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Figures of views: every one is drawn from a real run, the same each time, and readable without colour."""
+"""Test figures of views.
+
+Every one is drawn from a real run, the same each time, and readable without colour.
+"""
 
 from __future__ import annotations
 

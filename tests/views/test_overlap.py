@@ -1,4 +1,4 @@
-"""Nothing that people read lies on something else that they read: titles, legends, labels of axes and of marks."""
+"""Test that no texts of a picture overlap."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Measured points in pictures: columns find their axes by name, in the unit of the axis."""
+"""Test measured points in pictures.
+
+Columns find their axes by name, in the unit of the axis.
+"""
 
 from __future__ import annotations
 

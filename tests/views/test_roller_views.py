@@ -1,4 +1,7 @@
-"""Views of rollers: loads along their contacts, angles of their axes, and ribs, against mechanics."""
+"""Test views of rollers.
+
+Loads along their contacts, angles of their axes, and ribs, against mechanics.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Views of studies: what each plots of a table whose numbers are known."""
+"""Test views of studies.
+
+What each plots of a table whose numbers are known.
+"""
 
 from __future__ import annotations
 

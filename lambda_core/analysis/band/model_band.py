@@ -76,7 +76,7 @@ def model_band(
     bearing: str | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> ModelBand | MachineBand:
-    """Return the 90 % band of quasi-static results of a case.
+    """Return the 90 % band of quasi-static results.
 
     Each parameter is taken as uniformly distributed over its range, each law of a role as equally likely, all
     independent of each other; their effects on the logarithm of a result are added (first order). The values of a

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def check_discharges_file(path: str | Path, *, overwrite: bool = False) -> None:
-    """Say before the work what would stop :func:`write_discharges` at its end.
+    """Check early that discharges can be written to a file.
 
     Parameters
     ----------

@@ -33,7 +33,7 @@ def electric(
     window: tuple[float, float] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Simulation | CircuitSimulation:
-    """Compute bearing voltages, discharges and impedance of a run or a case.
+    """Compute bearing voltages, discharges and impedance.
 
     A case is computed on the films of its quasi-static equilibria. All bearings of a machine stand in one circuit.
 
@@ -90,7 +90,7 @@ def film_from_capacitance(
     uncertainty: float = 0.02,
     announce: Callable[[str], None] | None = None,
 ) -> FilmOutcome:
-    """Find film thickness and starvation that belong to a measured capacitance or impedance of the bearing.
+    """Find the film that fits a measured capacitance or impedance.
 
     Parameters
     ----------

@@ -51,7 +51,7 @@ def modes(
     *,
     announce: Callable[[str], None] | None = None,
 ) -> MachineModes:
-    """Compute critical speeds, natural frequencies and bearing matrices of a machine at its operating point.
+    """Compute critical speeds, natural frequencies and bearing matrices.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def modes(
 
 
 def machine_of(source: Source | MachineModel, overrides: Iterable[str] = ()) -> MachineModel:
-    """Return the resolved machine of whatever a function of this package takes as one."""
+    """Return the resolved machine of any accepted source."""
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.model.resolve_machine import resolve_machine
 
@@ -101,7 +101,7 @@ def machine_of(source: Source | MachineModel, overrides: Iterable[str] = ()) -> 
 
 
 def describe_machine(model: MachineModel, *, everything: bool = False) -> str:
-    """Return what a resolved machine is, in lines for people: bearings, loads, mass, assumptions.
+    """Describe a resolved machine in lines for people.
 
     Parameters
     ----------

@@ -32,7 +32,7 @@ def thermal(
     *,
     announce: Callable[[str], None] | None = None,
 ) -> SteadyTemperatures | MachineTemperatures:
-    """Find the steady temperatures of a bearing or a machine under its own losses.
+    """Compute the steady temperatures of a bearing or machine.
 
     Parameters
     ----------
@@ -85,7 +85,9 @@ def warm_up(
     *,
     announce: Callable[[str], None] | None = None,
 ) -> TemperaturesOverTime | MachineTemperaturesOverTime:
-    """Follow the temperatures of a bearing or a machine from the start of its case, at the operation of t = 0.
+    """Compute temperatures over time from the start.
+
+    The machine operates throughout as the case says for t = 0.
 
     Parameters
     ----------
@@ -126,7 +128,7 @@ def warm_up(
 def thermal_pictures(
     found: SteadyTemperatures | TemperaturesOverTime | MachineTemperatures | MachineTemperaturesOverTime,
 ) -> list[ViewData]:
-    """Return what there is to see of temperatures: over time, or where the heat goes.
+    """Draw temperatures over time, or where the heat goes.
 
     Parameters
     ----------

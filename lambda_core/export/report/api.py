@@ -120,7 +120,7 @@ def view_all(
 def machine_pictures(
     model: MachineModel, equilibrium: MachineEquilibrium | None = None, modes: MachineModes | None = None
 ) -> list[ViewData]:
-    """Return what there is to see of a machine: deflection and bending moment, natural frequencies over speed.
+    """Draw a machine: deflection, bending moment, natural frequencies over speed.
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ def draw(data: ViewData, folder: str | Path, stem: str, formats: Sequence[str] =
 
 
 def view_stem(source: Sequence[str | PathLike[str]], bearing: str | None = None) -> str:
-    """Return the beginning of file names for pictures of these results.
+    """Return the stem of file names for these pictures.
 
     Parameters
     ----------
@@ -207,7 +207,7 @@ def animate(
     overwrite: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> Path:
-    """Show a run in motion: balls, cage and load vectors as GIF, MP4 or binary glTF.
+    """Animate a run as GIF, MP4 or binary glTF.
 
     Parameters
     ----------
@@ -265,7 +265,7 @@ def report(
     units: str = "si",
     bearing: str | None = None,
 ) -> Path:
-    """Write one self-contained document about runs, cases and studies, as HTML or PDF.
+    """Write one document about results as HTML or PDF.
 
     Four pages about one bearing: verdict with margins, sketch and key numbers; loads, lives and losses; inputs;
     limits. A machine has its shaft first, then a page for each bearing.
@@ -408,7 +408,7 @@ def _refuse_existing(path: Path, overwrite: bool) -> None:
 def subject_of(
     source: str | PathLike[str] | Sequence[str | PathLike[str]], bearing: str | None = None
 ) -> tuple[Any, Subject]:
-    """Return what a view looks at, and what kind of thing it is."""
+    """Return the subject of a view and its kind."""
     from lambda_core.studies.folders import is_study, table
 
     if not isinstance(source, str | PathLike):

@@ -1,4 +1,4 @@
-"""An elastic housing from a file, reduced to the outer rings that it holds."""
+"""Read an elastic housing, reduced to its outer rings."""
 
 from __future__ import annotations
 

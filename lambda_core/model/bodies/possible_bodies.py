@@ -1,4 +1,7 @@
-"""Refuse bodies and prescribed motions that no bearing has: a unit is wrong, and no solver would find a motion."""
+"""Refuse bodies and prescribed motions that no bearing has.
+
+A unit is wrong then, and no solver would find a motion.
+"""
 
 from __future__ import annotations
 

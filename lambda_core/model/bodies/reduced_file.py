@@ -1,4 +1,4 @@
-"""Read a reduced model and name option, file and matrix in every error."""
+"""Read reduced models with errors that name file and matrix."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A shaft from outside: a reduced model read from a file, and whether it can be a shaft that turns freely."""
+"""Read a reduced shaft and check that it turns freely."""
 
 from __future__ import annotations
 

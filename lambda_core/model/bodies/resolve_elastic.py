@@ -1,4 +1,4 @@
-"""Elastic rings and cage of a case: their sections and what they lie in."""
+"""Resolve elastic rings and cages."""
 
 from __future__ import annotations
 

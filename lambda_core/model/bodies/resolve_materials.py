@@ -1,4 +1,4 @@
-"""Materials of the parts and the oil, from the catalogue or written in the case."""
+"""Resolve materials and oil from the catalogue or the case."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Order assumptions by what they affect, and by how much they leave open."""
+"""Order assumptions by what they affect and leave open."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Viscosity, density and pressure coefficients of an oil over temperature and pressure, by the law it has data for."""
+"""Tabulate properties of an oil over temperature and pressure."""
 
 from __future__ import annotations
 

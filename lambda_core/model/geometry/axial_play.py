@@ -1,4 +1,4 @@
-"""Compute how far rings move along the axis until the elements touch."""
+"""Compute the axial play of the rings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Tilts of bearings that hold none: where a case does not speak of them, they are locked."""
+"""Lock tilts that a bearing cannot hold.
+
+Where a case says nothing of them.
+"""
 
 from __future__ import annotations
 

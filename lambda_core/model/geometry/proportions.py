@@ -1,4 +1,4 @@
-"""Compare the proportions of a geometry with those in the catalogue.
+"""Compare a bearing's proportions with those in the catalogue.
 
 A geometry may be possible and still a slip of the pen: three balls, an outside diameter of 99 m. The ranges are those
 of all ball bearings with known balls in the built-in catalogue; a test computes them anew. Angular contact bearings are

@@ -1,4 +1,4 @@
-"""Clearance of the bearing: as bought (class, value or raceways), then as mounted and warm."""
+"""Resolve the clearance: as bought, mounted and warm."""
 
 from __future__ import annotations
 

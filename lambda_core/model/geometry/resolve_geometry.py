@@ -1,4 +1,4 @@
-"""From a designation or inline numbers to the inner geometry at operating clearance."""
+"""Resolve a designation or inline numbers to the inner geometry."""
 
 from __future__ import annotations
 

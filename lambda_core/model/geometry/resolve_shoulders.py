@@ -1,4 +1,4 @@
-"""Diameters of shoulders: the case's, the catalogue's, or by the mean height of the kind."""
+"""Resolve the shoulder diameters of the raceways."""
 
 from __future__ import annotations
 

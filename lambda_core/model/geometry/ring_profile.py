@@ -1,4 +1,4 @@
-"""The section of the rings: how far from the axis their surface lies under the balls, with high and low shoulders."""
+"""Compute the profile of the rings under the balls."""
 
 from __future__ import annotations
 

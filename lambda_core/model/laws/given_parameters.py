@@ -1,4 +1,4 @@
-"""Parameters that a case gives to a law, an observer or an event in a table of their own."""
+"""Read parameters of laws, observers and events from a case."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whose laws a case uses: names with their package, and a line for people."""
+"""Name the packages of the laws that a case uses."""
 
 from __future__ import annotations
 

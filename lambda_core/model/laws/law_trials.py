@@ -1,4 +1,4 @@
-"""Trying out the laws that a case chose from others before anything is solved, as a run does before it starts."""
+"""Try out laws of others before anything is solved."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a resolved model and its quasi-static equilibrium to the plain numbers that comparison methods get."""
+"""Convert model and equilibrium to inputs of comparison methods."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Force elements of a case between bodies: their ends, their laws, their parameters."""
+"""Resolve force elements between bodies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""States of contacts: every law finds those that it reads, and no two things of a result have one name."""
+"""Check the states of contacts that laws read and keep."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""List the channels of a model that not every run has.
+"""List the channels that not every run has.
 
 These are states of contacts, arcs and waves of elastic rings.
 """

@@ -1,4 +1,4 @@
-"""Convert time functions of a case into sums of SI terms.
+"""Convert time functions of a case into sums of terms.
 
 The module also gives their bounds beforehand.
 """

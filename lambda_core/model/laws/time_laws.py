@@ -1,4 +1,4 @@
-"""Loads and motions over time whose course a law gives: found, their parameters read, looked at before the run."""
+"""Resolve loads and motions whose course a law gives."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Contamination of the oil as a case gives it: the factor e_C of ISO 281."""
+"""Resolve the contamination factor e_C of ISO 281."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Resolve the thermal network of a machine: its nodes, what joins them, and what each bearing has of its own."""
+"""Resolve the thermal network of a machine."""
 
 from __future__ import annotations
 

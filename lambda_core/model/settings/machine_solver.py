@@ -1,4 +1,4 @@
-"""Settings of the integrator of a machine: one integration of all bearings, for averages or for vibrations."""
+"""Resolve the integrator settings of a machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The electric circuit of a bearing with the laws of its films: which fills each role, and what is wrong with it."""
+"""Resolve the electric circuit and the laws of its films."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Settings of the integrator: how long, how long a step at most, and whether averages or vibrations are the answer."""
+"""Resolve the integrator settings of a bearing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The section thermal checked against what a network can be: names, links, ways for the heat to leave."""
+"""Check the thermal section: names, links and ways of heat."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Observers and events of a case: found by name, their parameters checked, their channels without a clash."""
+"""Resolve the observers and events of a case."""
 
 from __future__ import annotations
 

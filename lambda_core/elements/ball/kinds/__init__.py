@@ -23,12 +23,12 @@ def kinds() -> Mapping[str, BallKind]:
 
 
 def kind_of(geometry: Mapping[str, Any]) -> BallKind:
-    """Return the kind of a bearing, from the fields of its Geometry; results of old have fewer of them."""
+    """Return the kind of a bearing from its geometry."""
     return next(kind for kind in kinds().values() if kind.belongs(geometry))
 
 
 def written_kind(inline: Any, row: Any) -> BallKind | None:
-    """Return the kind that a row of the catalogue or a case's inline geometry names; None where angles decide it."""
+    """Return the kind that a catalogue row or case names."""
     named = kinds().get(row.kind) if row is not None else None
     if named is not None and named.written is not None:
         return named

@@ -1,4 +1,4 @@
-"""A law for every role, made so that the friction torque of a bearing has a closed form.
+"""Provide a law for every role with a known torque.
 
 Each ball-raceway contact resists rolling with the same moment M and loses nothing else:
 contacts are points (no spin, no Heathcote slip), and a stiff, slip-proportional traction
