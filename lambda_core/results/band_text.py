@@ -6,26 +6,40 @@ from collections.abc import Mapping, Sequence
 
 from lambda_core.domain.number_text import NONE, rounded
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.results.model_band import ModelBand
+from lambda_core.results.model_band import LEAST_SHARE, NARROW, ModelBand
 
 
 def banded(value: float | None, ends: Sequence[float], unit: str, plain: str, units: UnitSystem = SI) -> str:
     """Return a number with its model band, rounded to what the band leaves a meaning; `plain` without a band."""
     if value is None or not ends:
         return plain
+    if is_narrow(ends):
+        return f"{plain} (model {NARROW})"
     low, high = (units.value(number, unit) for number in ends)
     half, name = 0.5 * abs(high - low), units.unit(unit)
     texts = [rounded(number, half) for number in (units.value(value, unit), low, high)]
     return f"{texts[0]} {name} (model {texts[1]} .. {texts[2]})"
 
 
-def ends(found: Sequence[float], unit: str, units: UnitSystem = SI) -> str:
-    """Return the ends of a model band without unit, rounded to what it leaves a meaning; a dash for none."""
+def is_narrow(found: Sequence[float]) -> bool:
+    """Tell whether a band is too narrow for its ends and causes to matter."""
+    low, high = found
+    return 100.0 * abs(high - low) < LEAST_SHARE * abs(low + high)
+
+
+def ends(found: Sequence[float], unit: str, units: UnitSystem = SI, *, named: bool = False) -> str:
+    """Return the ends of a model band, rounded to what it leaves a meaning; a dash for none.
+
+    The unit follows where it is to be `named` and the ends are numbers.
+    """
     if not found:
         return NONE
+    if is_narrow(found):
+        return NARROW
     low, high = (units.value(number, unit) for number in found)
     half = 0.5 * abs(high - low)
-    return f"{rounded(low, half)} .. {rounded(high, half)}"
+    text = f"{rounded(low, half)} .. {rounded(high, half)}"
+    return f"{text} {units.unit(unit)}" if named else text
 
 
 def named_sources(bands: Mapping[str, ModelBand | None]) -> list[str]:
@@ -44,7 +58,7 @@ def source_lines(band: ModelBand | None) -> list[str]:
     if not band.bands:
         return list(band.left_out)
     reasons: dict[str, list[str]] = {}
-    for one in band.bands:
+    for one in (wide for wide in band.bands if not is_narrow((wide.low, wide.high))):
         reasons.setdefault(one.mostly(), []).append(one.quantity)
     share = f"{100.0 * band.coverage:.0f} %"
     lines = [f"{' and '.join(names)}: {why}" for why, names in reasons.items() if why]

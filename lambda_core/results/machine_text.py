@@ -72,7 +72,7 @@ def _band_lines(found: Summary, units: UnitSystem) -> list[str]:
     if not found.friction_torque_Nmm_band:
         return []
     sources = named_sources({name: one.model_band for name, one in found.bearings.items()})
-    both = f"{ends(found.friction_torque_Nmm_band, 'N mm', units)} {units.unit('N mm')} of all bearings (90 %)"
+    both = f"{ends(found.friction_torque_Nmm_band, 'N mm', units, named=True)} of all bearings (90 %)"
     return [line("" if i else "model band", text) for i, text in enumerate([both, *sources])]
 
 

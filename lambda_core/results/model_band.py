@@ -24,7 +24,8 @@ FIELDS = {
 QUANTITIES = tuple(FIELDS)
 _ENDS = "ends of the 90 % model band; empty without one"
 _NAMED = 3  # largest contributors
-_LEAST_SHARE = 0.5  # [%] below it a band is not worth its causes
+LEAST_SHARE = 0.5  # [%] below it a band is not worth its causes
+NARROW = f"within {LEAST_SHARE:g} %"
 
 
 class Contributor(Record):
@@ -105,8 +106,8 @@ class ModelBand(Record):
         found = []
         for band in self.bands:
             low, high = (100.0 * (end / band.value - 1.0) for end in (band.low, band.high))
-            if max(abs(low), abs(high)) < _LEAST_SHARE:
-                found.append(f"{band.quantity} within {_LEAST_SHARE:g} %")
+            if max(abs(low), abs(high)) < LEAST_SHARE:
+                found.append(f"{band.quantity} {NARROW}")
                 continue
             why = f"   mostly {band.mostly()}" if band.contributors else ""
             found.append(f"{band.quantity} {low:+.0f} .. {high:+.0f} %{why}")

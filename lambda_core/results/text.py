@@ -194,7 +194,7 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Seque
     return [
         *([line("catalogues", f"{'   '.join(says)} {units.unit('N mm')}")] if says else []),
         *(line("" if i else "rating life", text) for i, text in enumerate(rated)),
-        *([line("", f"L_10rh by the model band {ends(life_band, 'h', units)} h")] if life_band else []),
+        *([line("", f"L_10rh by the model band {ends(life_band, 'h', units, named=True)}")] if life_band else []),
         *([line("", life_factor_text(*modified))] if rating.modified_life_h is not None else []),
         line("safety", *(f"{words} {facts[name].number(getattr(rating, name))}" for name, words in safeties)),
     ]

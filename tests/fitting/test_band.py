@@ -30,7 +30,8 @@ from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.scores import interval_score
 from lambda_core.model.checking import check_bearing
 from lambda_core.model.machine_templates import geared_shaft
-from lambda_core.results.model_band import FIELDS, ModelBand
+from lambda_core.results.band_text import banded, ends, source_lines
+from lambda_core.results.model_band import FIELDS, Band, Contributor, ModelBand
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.solver.drivers.near_equilibrium import solve_near
 
@@ -281,3 +282,18 @@ def test_a_narrow_band_prints_four_digits() -> None:
     assert rounded(1.6176779, 1.2e-7) == "1.618"
     assert rounded(18_359.46, 0.1) == "18 360"
     assert rounded(1250.3, 195.0) == "1 250"
+
+
+def test_a_band_without_width_prints_no_ends_and_no_causes() -> None:
+    """Under pure thrust no range moves the pressure: its ends are those of rounding."""
+    narrow, wide = (
+        Band(quantity=name, unit="GPa", value=1.618, low=low, high=1.6181, contributors=[])
+        for name, low in (("maximum pressure", 1.6179), ("friction torque", 1.5))
+    )
+    assert banded(1.618, narrow.around(1.618), "GPa", "1.618 GPa") == "1.618 GPa (model within 0.5 %)"
+    assert ends(narrow.around(1.618), "GPa", named=True) == "within 0.5 %"
+    assert ends(wide.around(1.618), "GPa", named=True).endswith(" GPa")
+    cause = Contributor(name="traction.tau_eyring", share=1.0, low=1.0, high=2.0, source="")
+    bands = [one.model_copy(update={"contributors": [cause]}) for one in (narrow, wide)]
+    lines = source_lines(ModelBand(case="c", coverage=0.9, bands=bands, left_out=[]))
+    assert lines[1:] == ["friction torque: traction.tau_eyring 100 %"]

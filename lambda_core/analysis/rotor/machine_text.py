@@ -150,7 +150,7 @@ def _band_lines(report: MachineEquilibrium) -> list[str]:
     if not report.friction_torque_Nmm_band:
         return []
     sources = named_sources({one.name: one.model_band for one in report.bearings})
-    sum_ = f"{ends(report.friction_torque_Nmm_band, 'N mm')} N mm of all bearings (90 %)"
+    sum_ = f"{ends(report.friction_torque_Nmm_band, 'N mm', named=True)} of all bearings (90 %)"
     return [f"{'' if i else 'model band':<{HEAD}}{text}" for i, text in enumerate([sum_, *sources])]
 
 
