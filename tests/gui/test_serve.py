@@ -164,6 +164,7 @@ def saw_to_it(folder: Path) -> None:
 
 
 @pytest.mark.skipif(CHROMIUM is not None, reason="Chromium does the same")
+@pytest.mark.full  # by keyboard without a server: tests/gui/test_runs.py
 async def test_a_case_is_built_and_run_through_the_web_socket(served: str, work_folder: Path) -> None:
     async with client(served) as browser:
         await build_and_run(browser)
@@ -171,6 +172,7 @@ async def test_a_case_is_built_and_run_through_the_web_socket(served: str, work_
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="needs chromium on PATH")
+@pytest.mark.full
 async def test_a_case_is_built_and_run_in_chromium(served: str, work_folder: Path, tmp_path: Path) -> None:
     async with chromium(served, tmp_path / "profile") as browser:
         await build_and_run(browser)

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from warm import PROGRAM, Warm
 
 from lambda_core import api
 from lambda_core.discovery import local_files, manager
@@ -220,30 +221,21 @@ def test_a_result_names_the_file_that_its_law_came_from(file: Path, tmp_path: Pa
 
 
 @pytest.mark.timeout(900)
-def test_from_saved_file_to_result(file: Path, tmp_path: Path) -> None:
+def test_from_saved_file_to_result(file: Path, tmp_path: Path, warm: Warm) -> None:
     """The commands take the file, --json stays one object, and the result says where its law came from."""
-    env = os.environ | {ON_VARIABLE: ""}
 
-    def program(*arguments: str) -> subprocess.CompletedProcess[str]:
-        command = [sys.executable, "-m", "lambda_cli", *arguments]
-        return subprocess.run(command, env=env, cwd=tmp_path, capture_output=True, text=True, check=False)
+    def program(*arguments: str) -> tuple[int | None, str, str]:
+        process = warm.start(PROGRAM, *arguments, cwd=tmp_path, env={ON_VARIABLE: ""})
+        out, said = process.communicate()
+        return process.returncode, out, said
 
-    checked = program("plugins", "check", "short.py", "--json")
-    assert [card["ok"] for card in json.loads(checked.stdout)["models"]] == [True], checked.stderr
-    begun = os.times()
-    found = program("quasistatic", "6208-axial-1300", "--set", CHOICE[0], "--plugin", "short.py", "--json")
-    ended = os.times()
-    spent = ended.children_user + ended.children_system - begun.children_user - begun.children_system
-    assert spent < 10.0  # [s] of a processor, from the saved file to its result: the solver was compiled before
-    answer = json.loads(found.stdout)
-    assert "laws of others: traction short (short.py " in answer["headline"]
-    refused = program("check", "6208-axial-1300", "--set", CHOICE[0])
-    assert (refused.returncode, refused.stdout) == (3, "")
-    missing = program("check", "6208-axial-1300", "--plugin", "none.py")
-    assert (missing.returncode, missing.stderr.strip()) == (
-        2,
-        '"none.py" is not a file: give the path of a plugin, FILE.py',
-    )
+    _, checked, said = program("plugins", "check", "short.py", "--json")
+    assert [card["ok"] for card in json.loads(checked)["models"]] == [True], said
+    _, found, said = program("quasistatic", "6208-axial-1300", "--set", CHOICE[0], "--plugin", "short.py", "--json")
+    assert "laws of others: traction short (short.py " in json.loads(found)["headline"], said
+    assert program("check", "6208-axial-1300", "--set", CHOICE[0])[:2] == (3, "")
+    code, _, missing = program("check", "6208-axial-1300", "--plugin", "none.py")
+    assert (code, missing.strip()) == (2, '"none.py" is not a file: give the path of a plugin, FILE.py')
 
 
 def test_a_file_that_cannot_be_used_is_an_answer_in_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -13,6 +13,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lambda_core.domain.arrays import FloatArray
+
+from .support import Machine
 from .test_power import MODELS, machine, random_state
 
 # Runs in a process without Numba's compiler. Everything that only data decides comes from the file; the functions are
@@ -27,7 +30,7 @@ from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.contact import raceway
 
-given = np.load(sys.argv[1])
+given, found = np.load(sys.argv.pop(1)), sys.argv.pop(1)
 model = api.check(str(given["case"]), [str(text) for text in given["overrides"]])
 
 def law(element, role):
@@ -66,21 +69,43 @@ for y in given["trials"]:
     assert forces.evaluate(float(given["time"]), y, bundle, dydt, rates, 1) == 1
     rows.append(dydt)
     powers.append(rates)
-np.savez(sys.argv[2], dydt=rows, rates=powers)
+np.savez(found, dydt=rows, rates=powers)
 """
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        "every body free", "no cage", "ring-guided cage", "elastic ring-guided cage", "other laws", "cells",
-        "wavy raceways", "force elements",
-    ],
+TIME = 2e-3  # [s]
+NAMES = (
+    "every body free", "no cage", "ring-guided cage", "elastic ring-guided cage", "other laws", "cells",
+    "wavy raceways", "force elements",
 )  # fmt: skip
-def test_right_hand_side(name: str, tmp_path: Path) -> None:
-    """Rounding only: sums over cells are taken in another order when they are compiled."""
-    m, time = machine(*MODELS[name]), 2e-3
-    states = np.array([random_state(m, seed, mode) for seed, mode in enumerate(("rolling", "sliding"))])
+
+
+def states_of(m: Machine) -> FloatArray:
+    """Return two states of a model."""
+    return np.array([random_state(m, seed, mode) for seed, mode in enumerate(("rolling", "sliding"))])
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Evaluate every model in one process without a compiler; return the folder of what it found."""
+    folder = tmp_path_factory.mktemp("plain")
+    for name in NAMES:
+        give(name, folder / f"{name} given.npz")
+    files = [word for name in NAMES for word in (f"{name} given.npz", f"{name}.npz")]
+    loop = f"import sys\nwhile len(sys.argv) > 1:\n    exec({PLAIN!r})\n"
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", loop, *files],
+        cwd=folder,
+        env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+def give(name: str, file: Path) -> None:
+    """Write what data decide about a model."""
+    m = machine(*MODELS[name])
     bundle = m.context.bundle
     arrays = {
         name: values if values.dtype.names is None else np.frombuffer(values.tobytes(), np.uint8)
@@ -88,26 +113,22 @@ def test_right_hand_side(name: str, tmp_path: Path) -> None:
         if name not in ("laws", "wrench", "tangent")
     }
     np.savez(
-        tmp_path / "given.npz",
+        file,
         case="6319-cp10-1500",
         overrides=np.array(MODELS[name]),
-        time=time,
-        trials=states,
+        time=TIME,
+        trials=states_of(m),
         arrays=np.array([name for name, values in arrays.items() if values.dtype != np.uint8]),
         **arrays,
     )
-    done = subprocess.run(
-        [sys.executable, "-W", "ignore", "-c", PLAIN, "given.npz", "plain.npz"],
-        cwd=tmp_path,
-        env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    plain = np.load(tmp_path / "plain.npz")
-    for y, dydt, rates in zip(states, plain["dydt"], plain["rates"], strict=True):
-        ours = m.evaluate(y, time)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_right_hand_side(name: str, plain: Path) -> None:
+    """Rounding only: sums over cells are taken in another order when they are compiled."""
+    m, found = machine(*MODELS[name]), np.load(plain / f"{name}.npz")
+    for y, dydt, rates in zip(states_of(m), found["dydt"], found["rates"], strict=True):
+        ours = m.evaluate(y, TIME)
         # per kind of state: accelerations of balls and of bodies differ by orders of magnitude
         scale = np.abs(ours.dydt) + 1e-6 * m.context.scale * np.abs(ours.dydt / m.context.scale).max()
         assert np.all(np.abs(dydt - ours.dydt) <= 1e-9 * scale)
