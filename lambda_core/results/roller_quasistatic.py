@@ -368,7 +368,7 @@ def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str
             line("friction torque", units.text(found.friction_torque_Nmm, "N mm"), "(without cage)", shares),
             *(_ring_line(ring, parts, units) for ring in ("inner", "outer")),
             f"          rib {units.number(parts['rib'], 'N mm')}  drag {units.number(parts['drag'], 'N mm')}",
-            line("factors", f"heat {number(found.heat_factor, 3)}", f"supply {number(found.supply_factor, 3)}"),
+            line("rolling factors", f"heat {number(found.heat_factor, 3)}", f"supply {number(found.supply_factor, 3)}"),
             line("cage speed", f"{number(found.cage_speed_ratio, 4)} of inner ring"),
             line("film", units.interval(found.film_um, "um", 2), f"Lambda {number(found.film_parameter, 1)}"),
         ]

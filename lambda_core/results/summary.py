@@ -409,12 +409,12 @@ def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64]
     loaded = touching & carries(load[:, 0])[:, None]
     counts = [
         f"{np.count_nonzero(shorted & group)} of {np.count_nonzero(group)} {what}"
-        for group, what in ((loaded, "contacts under load"), (touching & ~loaded, "of the others"))
+        for group, what in ((loaded, "contacts under load"), (touching & ~loaded, "others"))
         if group.any()
     ]
     both = bool(shorted.all(axis=1).any())
-    return f"{' and '.join(counts)} shorted: film parameter below {SHORTED:g}, metal touches" + (
-        ", for some balls at both rings: the bearing has no capacitance" if both else ""
+    return f"asperities short {' and '.join(counts)} (film parameter below {SHORTED:g})" + (
+        ", some at both rings of a ball: the bearing has no capacitance" if both else ""
     )
 
 

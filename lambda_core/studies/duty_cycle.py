@@ -280,6 +280,9 @@ def _at(step: _Step, case: str, solve: Callable[[], Solved]) -> Solved:
 def _tables(path: Path) -> dict[str, Any]:
     if not path.is_file():
         raise UsageError(f'"{path}" is not a file: give a TOML file with a case and its phases')
+    if path.suffix.lower() == ".csv":
+        text = f'name = "day", case = "motor.toml", spectrum = "{path.name}"'
+        raise UsageError(f'"{path}" is a load spectrum, not a duty cycle: name it in a TOML file: {text}')
     try:
         text = read_text(path)
         return tomllib.loads(text)

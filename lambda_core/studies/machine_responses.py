@@ -167,7 +167,16 @@ def _of_bearing(name: str) -> list[Response]:
         Response(f"{name}.{key}", unit, f"{name}: {meaning(key)}", _current(name, key), _current(name, key))
         for key, unit in UNITS.items()
     ]
-    return own + currents + [
+    stiffness = [
+        Response(
+            f"{name}.stiffness_N_per_um.{axis}",
+            "N/um",
+            f"{name}: stiffness {axis} of the inner ring against the outer ring",
+            _stiffness(name, index),
+        )
+        for index, axis in enumerate("xyz")
+    ]
+    return own + stiffness + currents + [
         Response(
             f"{name}.{one.name}", one.unit, f"{name}: {one.meaning}",
             None if one.static is None else _static(name, one.static),
@@ -189,6 +198,10 @@ def _field(name: str, path: str) -> Callable[[Any], Number]:
         return None if value is None else float(value)
 
     return read
+
+
+def _stiffness(name: str, index: int) -> Callable[[Any], Number]:
+    return lambda point: 1e-6 * float(point.summary.bearing(name).stiffness[index][index])
 
 
 def _current(name: str, key: str) -> Callable[[Any], Number]:

@@ -86,7 +86,7 @@ def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) 
     rows = list(csv.reader(api.write_stiffness(whirl, folder / "k.csv").read_text().splitlines()))
     assert len(rows) == 1 + 2 * 36
     assert float(rows[1][4]) == left["stiffness"][0][0]
-    assert "elliptic 1/min   7 more beyond 10 times the speed" in whirl.text(80)
+    assert "1/min elliptic   7 more beyond 10 times the speed" in whirl.text(80)
     assert f"{len(whirl.critical_speeds) - 1} more beyond 10 times the speed" in " ".join(whirl.text().split())
     assert "Q_max N" in report.text(80)
     with pytest.raises(api.UsageError, match=r"\.json or \.csv"):

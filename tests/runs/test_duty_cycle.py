@@ -90,6 +90,9 @@ def test_mistakes_are_told_at_their_place(tmp_path: Path) -> None:
     assert "nearest: radial" in caught.value.problems[0].message
     with pytest.raises(UsageError, match="is not a file: give a TOML file"):
         api.duty(tmp_path / "none.toml")
+    (tmp_path / "loads.csv").write_text("time [h],loads.radial [kN]\n1,3\n")
+    with pytest.raises(UsageError, match=r'is a load spectrum, not a duty cycle: .* spectrum = "loads.csv"'):
+        api.duty(tmp_path / "loads.csv")
     (tmp_path / "case.toml").write_text('name = "case"\n[bearing]\ndesignation = "6208"\n')
     with pytest.raises(CaseError, match="is a case, not a duty cycle"):
         api.duty(tmp_path / "case.toml")

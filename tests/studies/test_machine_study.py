@@ -22,7 +22,7 @@ def test_a_study_of_a_machine_says_what_its_points_say(box: Path, tmp_path: Path
     names = [
         "system_life_h", "max_deflection_um", "first_critical_speed_rpm", "power_loss_W", "left.radial_load_N",
         "right.reference_life_h", "right.friction_torque_Nmm", "left.min_film_parameter",
-        "left.friction_breakdown_Nmm", "left.skf/friction/total",
+        "left.friction_breakdown_Nmm", "left.skf/friction/total", "left.stiffness_N_per_um.x",
     ]  # fmt: skip
     study = {
         "name": "power", "case": str(box), "responses": names,
@@ -37,6 +37,7 @@ def test_a_study_of_a_machine_says_what_its_points_say(box: Path, tmp_path: Path
     assert first["right.reference_life_h"] == pytest.approx(at.bearing("right").reference_life_h)
     assert first["right.friction_torque_Nmm"] == pytest.approx(at.bearing("right").friction_torque_Nmm, rel=1e-9)
     assert first["power_loss_W"] == pytest.approx(sum(one.power_loss_W for one in at.bearings), rel=1e-9)
+    assert first["left.stiffness_N_per_um.x"] == pytest.approx(1e-6 * at.bearing("left").stiffness[0][0], rel=1e-9)
     parts = [value for name, value in first.items() if name.startswith("left.friction_breakdown_Nmm.")]
     assert sum(parts) == pytest.approx(at.bearing("left").friction_torque_Nmm, rel=1e-9)
     modes = api.modes(box, ["gears.wheel.power=5 kW"])

@@ -91,6 +91,16 @@ def test_looks_differ_without_colour() -> None:
         assert abs(luminance(one.colour) - luminance(other.colour)) > 0.1
 
 
+def test_a_series_without_a_role_does_not_look_like_a_ring() -> None:
+    """The oil of a warm-up had the blue line of the inner ring."""
+    from lambda_plugins.views.panels import _looks
+
+    at = np.zeros(2)
+    names = (("inner", "inner"), ("outer", "outer"), ("balls", "ball"), ("oil", ""), ("shaft", ""), ("housing", ""))
+    looks = _looks(tuple(Series(name, at, at, "line", role) for name, role in names))
+    assert len({(look.colour, str(look.dash)) for look in looks}) == len(looks)
+
+
 def test_files_are_written_where_one_asks(radial_run: Result, tmp_path: Path) -> None:
     data = api.view(radial_run.path, "pressure")
     files = api.draw(data, tmp_path / "new", "case", ("svg", "png"))

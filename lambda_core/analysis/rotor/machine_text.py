@@ -126,12 +126,12 @@ def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem 
     far = _FAR * abs(found.speed_rpm) or math.inf
     near = [one for one in found.critical_speeds if one.speed_rpm <= far] or found.critical_speeds[:1]
     speeds = [
-        f"{_grouped(one.speed_rpm)} {_way(one.direction)}{_mostly(one.kind)}{_with_bodies(one.bodies_share)}"
+        f"{_grouped(one.speed_rpm)} 1/min {_way(one.direction)}{_mostly(one.kind)}{_with_bodies(one.bodies_share)}"
         for one in near
     ]
     beyond = len(found.critical_speeds) - len(near)
     more = f"   {beyond} more beyond {_FAR} times the speed: --json" if beyond else ""
-    lines = [f"{'critical speeds':<{HEAD}}{', '.join(speeds) or NONE} 1/min{more}", ""]
+    lines = [f"{'critical speeds':<{HEAD}}{', '.join(speeds) or NONE}{more}", ""]
     table = [f"{'frequency Hz':<{_HEAD}}{'damping %':>{_COLUMN}}   motion"]
     table += [
         f"{f'{mode.frequency_Hz:.5g}':<{_HEAD}}{f'{1e2 * mode.damping_ratio:.2g}':>{_COLUMN}}   "

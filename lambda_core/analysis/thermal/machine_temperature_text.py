@@ -92,7 +92,7 @@ def course_text(found: MachineTemperaturesOverTime, units: UnitSystem) -> str:
         _headline(found, [one.title for one in found.bearings.values()]),
         line("temperatures", units.unit("degC"), f"conductances {found.conductances}"),
         *table,
-        line("63 % of the rise", *rises),
+        line("63 % of rise", "until the end:", *rises),
         line("least clearance", *least),
         line(
             "heat",

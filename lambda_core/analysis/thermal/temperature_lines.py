@@ -65,7 +65,7 @@ def course_text(found: TemperaturesOverTime) -> str:
         found.headline,
         line("temperatures", f"degC, conductances {found.conductances}"),
         *table,
-        line("63 % of the rise", *rises),
+        line("63 % of rise", "until the end:", *rises),
         line("clearance", f"smallest {number(found.smallest_clearance_um)} um"),
         line(
             "heat",
@@ -96,4 +96,4 @@ def gain_text(gain: LoopGain) -> str:
     """Return the gain of the torque-temperature loop with its two parts."""
     # what rounds to nothing has no sign; a format of numbers would say -0.00
     clearance, viscosity, loop = (round(part, 2) + 0.0 for part in (gain.clearance, gain.viscosity, gain.loop))
-    return f"{loop:.2f}   (clearance {clearance:+.2f}, viscosity {viscosity:+.2f}; from 1 on: runaway)"
+    return f"{loop:.2f}   (clearance alone {clearance:+.2f}, viscosity alone {viscosity:+.2f}; from 1 on: runaway)"

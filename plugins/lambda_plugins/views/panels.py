@@ -58,8 +58,11 @@ def _name(series: Series) -> str | None:
 
 
 def _looks(series: tuple[Series, ...]) -> list[Look]:
-    """Return the look of every series: that of its role, of its group, or the next of the cycle."""
-    found, position = [], 0
+    """Return the look of every series: that of its role, of its group, or the next of the cycle.
+
+    Inner and outer ring look like the first two of the cycle: where they are drawn, the cycle starts behind them.
+    """
+    found, position = [], 2 if {"inner", "outer"} & {item.role for item in series} else 0
     for item in series:
         if item.group is not None:
             found.append(look_of("", item.group))
