@@ -291,3 +291,8 @@ class BearingModel:
     contamination: float | None = None  # e_C of ISO 281; None: not given
     requirements: Requirements = field(default_factory=Requirements)
     rollers: RollerBearing | None = None
+
+    @property
+    def elements(self) -> str:
+        """What its rolling elements are called."""
+        return "balls" if self.rollers is None else "rollers"

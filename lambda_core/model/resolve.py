@@ -108,9 +108,8 @@ def resolve(
     """
     found = rollers_of(case, catalogue, place)
     if found is not None:
-        laws = DEFAULT_MODELS | DEFAULT_ROLLER_MODELS
-        balls = as_balls(case, found[0])
-        model = resolve(balls, registry, catalogue, is_static=is_static, place=place, defaults=laws)
+        balls, usual = as_balls(case, found[0]), DEFAULT_MODELS | DEFAULT_ROLLER_MODELS
+        model = resolve(balls, registry, catalogue, is_static=is_static, place=place, defaults=usual)
         model = with_rollers(model, case, *found, lambda role, name: law_called(registry, role, name, given=False))
         return dataclasses.replace(model, case_toml=standalone_toml(with_packages(case, registry)))
     ledger, written = Ledger(assumptions=list(case.assumptions), place=place), case
@@ -131,7 +130,7 @@ def resolve(
     _settings(case, ledger)
     kind = bare[0].kind.name if bare else "deep groove"
     guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
-    laws = {}
+    laws: dict[str, dict[str, ChosenLaw]] = {}
     if lubricant:
         laws = LawResolver(case, registry, lubricant, guidance, ledger, kind, defaults).resolve()
     markers = resolve_markers(case, ledger)

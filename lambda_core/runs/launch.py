@@ -200,7 +200,7 @@ def _one(model: BearingModel, announce: Announce | None) -> tuple[RunEngine, Pro
     with naming_laws(model):
         start = solve(model, announce=announce)
     if announce is not None:
-        announce(_start_line(quasistatic_of(start), "balls" if model.rollers is None else "rollers"))
+        announce(_start_line(quasistatic_of(start), model.elements))
     engine = BlamingBearingEngine(model, announce, start)
     rating = rating_of(start, registry().methods)
     return OneBearing(engine), Provenance.alone(model, engine.kernel_keys, rating), live

@@ -127,7 +127,6 @@ def stribeck(
     kernels = Kernels(model)
     found = [_point(model_at(speed), kernels) for speed in given]
     names = dict.fromkeys(_PARTS.values())
-    elements = "balls" if model.rollers is None else "rollers"
     return SpeedCurve(
         case=model.name,
         title=model.title,
@@ -136,7 +135,7 @@ def stribeck(
         parts_Nmm={name: [parts[name] for parts, _, _ in found] for name in names},
         skf_Nmm=[skf for _, skf, _ in found],
         film_parameter=[film for _, _, film in found],
-        note=f"quasi-static, mean over the positions of the {elements}, without cage"
+        note=f"quasi-static, mean over the positions of the {model.elements}, without cage"
         + (", load of the machine at t = 0" if is_machine(source) else ""),
     )
 

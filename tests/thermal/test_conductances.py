@@ -16,7 +16,9 @@ from lambda_core.analysis.thermal.conductances import (
     in_series,
     oil_film_coefficient,
     resting_contact,
+    resting_line,
     rolling_contact,
+    rolling_line,
     wall,
 )
 from lambda_core.analysis.thermal.heat import strain_shares, surface_shares
@@ -114,3 +116,18 @@ def test_shares_of_two_bodies() -> None:
     soft = strain_shares("ring", STEEL, "balls", CERAMIC)
     assert soft["ring"] > 0.5
     assert sum(soft.values()) == pytest.approx(1.0)
+
+
+def test_a_line_of_square_shape_has_the_constriction_of_a_square() -> None:
+    """0.4732 by the mean temperature under even flux (Yovanovich); long lines: ln(L/b) + 1/2."""
+    side = 1e-3
+    assert resting_line(side, 0.5 * side, 46.0) == pytest.approx(46.0 * side / (2.0 * 0.4732), rel=1e-4)
+    length, half = 10e-3, 0.1e-3
+    strip = math.pi * 46.0 * length / (2.0 * (math.log(length / half) + 0.5))
+    assert resting_line(length, half, 46.0) == pytest.approx(strip, rel=0.002)
+
+
+def test_a_line_passes_more_than_the_ellipse_with_its_axes() -> None:
+    """Every strip of a line takes the time of the ellipse's middle: fast films pass 4/pi as much, by the area."""
+    line, ellipse = (f(x, 1e-4, 5.0, 1e3, E, E) for f, x in ((rolling_line, 10e-3), (rolling_contact, 5e-3)))
+    assert line / ellipse == pytest.approx(4.0 / math.pi, rel=1e-2)

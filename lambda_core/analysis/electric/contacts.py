@@ -205,13 +205,12 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
     from lambda_core.solver.records import CONTACT_CHANNELS
 
     model = found[0].context.model
-    elements = "balls" if model.rollers is None else "rollers"
     z, phases = model.geometry.balls, len(found)
     orbit = float(np.mean([e.orbit for e in found]))
     inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
     relative = orbit - outer
     if inner == outer or relative == 0.0:  # rollers of rings at rest may creep by rounding
-        raise UsageError(f"at rest no {elements[:-1]} passes a point: give the bearing a speed")
+        raise UsageError(f"at rest no {model.elements[:-1]} passes a point: give the bearing a speed")
     pitch = 2.0 * math.pi / (z * abs(relative))
     length = default_duration(found) if duration is None else duration
     count = max(math.ceil(length / pitch * phases), 1)
@@ -234,7 +233,7 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
         inner_angle=inner * time,
         outer_angle=outer * time,
         roughness=model.roughness,
-        origin=f"quasi-static equilibria at {phases} positions of the {elements}",
+        origin=f"quasi-static equilibria at {phases} positions of the {model.elements}",
         of_lines=model.rollers is not None,
         **parts,
     )

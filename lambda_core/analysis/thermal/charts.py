@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
+from lambda_core.analysis.thermal.temperature_lines import node_words
 from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
 
 _ROLES = {"inner_ring": "inner", "outer_ring": "outer", "balls": "ball", "cage": "cage", "ambient": "reference"}
@@ -20,7 +21,7 @@ def over_time(found: TemperaturesOverTime) -> ViewData:
     minutes = np.array(found.time_s) / 60.0
     time = Axis("time", "min")
     temperatures = tuple(
-        Series(name.replace("_", " "), minutes, np.array(values), "line", _ROLES.get(name, ""))
+        Series(node_words(name, found.elements), minutes, np.array(values), "line", _ROLES.get(name, ""))
         for name, values in found.temperatures_degC.items()
     )
     clearance = Series("clearance", minutes, np.array(found.clearance_um), "line", "inner")
@@ -49,7 +50,7 @@ def heat_flows(found: SteadyTemperatures) -> ViewData:
     """Return where the heat comes from, where it goes, and the temperatures that drive it."""
     mechanisms = {name: value for name, value in found.losses_W.items() if value}
     flows = [flow for flow in found.flows if flow.heat_W >= 0.005 * found.state.power_loss_W]
-    names = [f"{flow.source.replace('_', ' ')} - {flow.target.replace('_', ' ')}" for flow in flows]
+    names = [f"{node_words(flow.source, found.elements)} - {node_words(flow.target, found.elements)}" for flow in flows]
     nodes = list(found.temperatures_degC)
     panels = (
         _bars("where it comes from", list(mechanisms), [float(v) for v in mechanisms.values()], "power loss", "W"),

@@ -85,6 +85,37 @@ def resting_contact(a: float, b: float, conductivity: float) -> float:
     return 2.0 * conductivity * math.sqrt(a * b)
 
 
+def rolling_line(length: float, b: float, speed: float, film: float, one: float, other: float) -> float:
+    """Return the conductance between two bodies that roll over each other in a line contact [W/K].
+
+    As :func:`rolling_contact`, with one time of contact 2 b/u for all strips of the line.
+
+    Parameters
+    ----------
+    length, b : float
+        Length of the line, and half width along rolling [m].
+    speed, film, one, other : float
+        As of an ellipse.
+    """
+    if speed <= 0.0 or b <= 0.0:
+        return 0.0
+    return float(speed * length * exchanged(np.array(2.0 * b / speed), film, one, other))
+
+
+def resting_line(length: float, b: float, conductivity: float) -> float:
+    """Return the conductance of a line contact at rest [W/K].
+
+    Constriction of a rectangle of sides L and 2 b with even flux into two half-spaces in series, by the mean
+    temperature of the rectangle: R k sqrt(A) = sqrt(e)/pi {asinh(1/e) + asinh(e)/e + (e/3) [1 + 1/e^3 - (1 +
+    1/e^2)^(3/2)]} of each, e = L/(2 b) (Carslaw and Jaeger 1959, section 10.5; Yovanovich and Marotta, in Bejan and
+    Kraus, Heat Transfer Handbook, 2003, ch. 4). 0.473 for a square.
+    """
+    e = length / (2.0 * b)
+    edges = e / 3.0 * (1.0 + e**-3.0 - (1.0 + e**-2.0) ** 1.5)
+    resistance = math.sqrt(e) / math.pi * (math.asinh(1.0 / e) + math.asinh(e) / e + edges)
+    return conductivity * math.sqrt(2.0 * b * length) / (2.0 * resistance)
+
+
 def oil_film_coefficient(speed: float, length: float, viscosity: float, conductivity: float, prandtl: float) -> float:
     """Return the coefficient of heat transfer between oil and a surface that it flows along [W/(m2 K)].
 

@@ -13,7 +13,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lambda_core.analysis.thermal.conductances import effusivity, resting_contact, rolling_contact
+from lambda_core.analysis.thermal.conductances import (
+    effusivity,
+    resting_contact,
+    resting_line,
+    rolling_contact,
+    rolling_line,
+)
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import SolverError
@@ -144,7 +150,7 @@ def point_of(found: Equilibrium) -> Point:
 
 
 def contact_conductances(found: Equilibrium) -> tuple[float, float]:
-    """Return the conductance between the balls and each ring through all contacts, inner and outer [W/K]."""
+    """Return the conductance between the rolling elements and each ring through all contacts [W/K]: inner, outer."""
     model = found.context.model
     ball, oil = model.ball_material, found.context.oil
     total = [0.0, 0.0]
@@ -155,10 +161,11 @@ def contact_conductances(found: Equilibrium) -> tuple[float, float]:
             if value["load"] <= 0.0:
                 continue
             a, b, film = value["semi_axis_a"], value["semi_axis_b"], max(value["film_central"], 1e-9)
-            passing = rolling_contact(
-                a, b, abs(value["entrainment"]), oil.thermal_conductivity / film, effusivity(ball), effusivity(ring)
-            )
-            total[i] += max(passing, resting_contact(a, b, mean))
+            rest = abs(value["entrainment"]), oil.thermal_conductivity / film, effusivity(ball), effusivity(ring)
+            if model.rollers is None:
+                total[i] += max(rolling_contact(a, b, *rest), resting_contact(a, b, mean))
+            else:
+                total[i] += max(rolling_line(2.0 * a, b, *rest), resting_line(2.0 * a, b, mean))
     return total[0], total[1]
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from lambda_core.analysis.thermal.machine_temperature_report import MachineTemperatures, MachineTemperaturesOverTime
-from lambda_core.analysis.thermal.machine_temperature_text import ways
+from lambda_core.analysis.thermal.machine_temperature_text import elements_in, ways
+from lambda_core.analysis.thermal.temperature_lines import node_words
 from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
 
 _ROLES = {"inner_ring": "inner", "outer_ring": "outer", "balls": "ball", "oil": "cage"}  # no cage is drawn
@@ -59,7 +60,7 @@ def _along(found: MachineTemperatures) -> tuple[Series, ...]:
         known = [name for name in found.bearings if f"{name}.{part}" in at]
         x = np.array([found.bearings[name].position_mm for name in known])
         y = np.array([at[f"{name}.{part}"] for name in known])
-        parts.append(Series(part.replace("_", " "), x, y, "points", _ROLES[part]))
+        parts.append(Series(node_words(part, elements_in(found)), x, y, "points", _ROLES[part]))
     return (shaft, *(series for series in parts if series.x.size)) if found.shaft else tuple(parts)
 
 
@@ -68,7 +69,7 @@ def _nodes(found: MachineTemperatures) -> tuple[Series, ...]:
     places = np.arange(len(names), dtype=float)
     return tuple(
         Series(
-            part.replace("_", " "),
+            node_words(part, elements_in(found)),
             places,
             np.array([at.get(f"{name}.{part}", np.nan) for name in names]),
             "bars",

@@ -34,6 +34,7 @@ class BearingState(Record):
     """What belongs to the temperatures of one bearing."""
 
     title: str
+    elements: str = Field(default="balls", description="word for the node balls: balls, or rollers")
     position_mm: float
     growth_um: float = Field(description="of the shaft beyond the housing, at the bearing")
     state: State
@@ -130,6 +131,7 @@ def steady_of(loop: MachineLoop, found: Steady, losses_from: str = "quasi-static
         bearings={
             bearing.name: BearingState(
                 title=bearing.model.title,
+                elements=bearing.model.elements,
                 position_mm=1e3 * bearing.position,
                 growth_um=1e6 * growth,
                 state=state_of(point),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from lambda_core.analysis.thermal.temperature_lines import gain_text
+from lambda_core.analysis.thermal.temperature_lines import gain_text, node_words
 from lambda_core.domain.number_text import number
 from lambda_core.domain.unit_systems import UnitSystem
 from lambda_core.model.settings.machine_heat import BEARING_NODES, is_numbered
@@ -53,11 +53,11 @@ def steady_text(found: MachineTemperatures, units: UnitSystem) -> str:
 def _bearing_table(found: MachineTemperatures, units: UnitSystem) -> list[str]:
     """Return a table with a column for every bearing."""
     names = list(found.bearings)
-    lines = [_row("", names)]
+    lines, elements = [_row("", names)], elements_in(found)
     for node in BEARING_NODES:
         values = [found.temperatures_degC.get(f"{name}.{node}") for name in names]
         if any(value is not None for value in values):
-            lines.append(_row(node.replace("_", " "), [units.number(value, "degC") for value in values]))
+            lines.append(_row(node_words(node, elements), [units.number(value, "degC") for value in values]))
     rows: list[tuple[str, str, Callable[[str], float | None], int]] = [
         ("power loss", "W", lambda name: found.bearings[name].state.power_loss_W, 2),
         ("friction torque", "N mm", lambda name: found.bearings[name].state.friction_torque_Nmm, 1),
@@ -72,6 +72,12 @@ def _bearing_table(found: MachineTemperatures, units: UnitSystem) -> list[str]:
         shown = [units.number(of(name), unit, digits) for name in names]
         lines.append(_row(f"{label} {units.unit(unit)}".rstrip(), shown))
     return lines
+
+
+def elements_in(found: MachineTemperatures) -> str:
+    """Return the word for the rolling elements of all bearings."""
+    words = {one.elements for one in found.bearings.values()}
+    return words.pop() if len(words) == 1 else "rolling elements"
 
 
 def course_text(found: MachineTemperaturesOverTime, units: UnitSystem) -> str:

@@ -106,7 +106,9 @@ class MachineLoop(Loop):
             found = [ring.equilibrium() for ring in state.rings]
             for bearing, one in zip(self.machine.bearings, found, strict=True):
                 if not one.converged:
-                    raise SolverError(f"the balls of {bearing.name} have no steady motion: change load or speed")
+                    raise SolverError(
+                        f"the {bearing.model.elements} of {bearing.name} have no steady motion: change load or speed"
+                    )
         except SolverError as error:
             raise SolverError(f"{self._place(seen)}: {error}") from error
         return tuple(map(point_of, found))

@@ -73,6 +73,7 @@ class SteadyTemperatures(Answer):
     kind: Literal["steady"] = "steady"
     case: str
     title: str
+    elements: str = Field(default="balls", description="word for the node balls: balls, or rollers")
     headline: str
     losses_from: str = Field(description="quasi-static point, or the averages of a run")
     conductances: str = Field(description="ready set")
@@ -107,6 +108,7 @@ class TemperaturesOverTime(Answer):
     kind: Literal["transient"] = "transient"
     case: str
     title: str
+    elements: str = Field(default="balls", description="word for the node balls: balls, or rollers")
     headline: str
     conductances: str = Field(description="ready set")
     ended: Literal["finished", "limit"] = Field(description="limit: a node passed thermal.limit")
@@ -160,6 +162,7 @@ def steady_of(loop: BearingLoop, found: Steady, losses_from: str = "quasi-static
     return SteadyTemperatures(
         case=model.name,
         title=model.title,
+        elements=model.elements,
         headline=_headline(loop, found.points[0]),
         losses_from=losses_from,
         conductances=loop.thermal.conductances,
@@ -219,6 +222,7 @@ def course_of(loop: BearingLoop, course: Course) -> TemperaturesOverTime:
     return TemperaturesOverTime(
         case=model.name,
         title=model.title,
+        elements=model.elements,
         headline=_headline(loop, points[-1]),
         conductances=loop.thermal.conductances,
         ended="limit" if course.beyond_limit else "finished",

@@ -13,15 +13,21 @@ if TYPE_CHECKING:
 _ROWS = 12  # of the table over time
 
 
+def node_words(node: str, elements: str) -> str:
+    """Return what a node is called for people."""
+    return elements if node == "balls" else node.replace("_", " ")
+
+
 def steady_text(found: SteadyTemperatures) -> str:
     """Return what steady temperatures say: nodes, flows, what the contacts make of them."""
     state = found.state
     nodes = [
-        f"  {name.replace('_', ' '):<14}{number(value):>9} degC{number(found.heat_W[name], 2):>11} W"
+        f"  {node_words(name, found.elements):<14}{number(value):>9} degC{number(found.heat_W[name], 2):>11} W"
         for name, value in found.temperatures_degC.items()
     ]
     flows = [
-        f"  {flow.source.replace('_', ' '):>14} -> {flow.target.replace('_', ' '):<14}{number(flow.heat_W, 2):>9} W"
+        f"  {node_words(flow.source, found.elements):>14} -> {node_words(flow.target, found.elements):<14}"
+        f"{number(flow.heat_W, 2):>9} W"
         f"{number(flow.conductance_W_per_K, 2):>11} W/K"
         for flow in found.flows
     ]
@@ -55,12 +61,14 @@ def course_text(found: TemperaturesOverTime) -> str:
     names = list(found.temperatures_degC)
     last = len(found.time_s) - 1
     rows = sorted({round(k * last / (_ROWS - 1)) for k in range(_ROWS)})
-    head = "".join(f"{name.replace('_', ' '):>12}" for name in names)
+    head = "".join(f"{node_words(name, found.elements):>12}" for name in names)
     table = [f"{'time s':>9}{head}{'loss W':>10}{'clear. um':>11}"]
     for k in rows:
         values = "".join(f"{found.temperatures_degC[name][k]:>12.1f}" for name in names)
         table.append(f"{found.time_s[k]:>9.0f}{values}{found.power_loss_W[k]:>10.1f}{found.clearance_um[k]:>11.1f}")
-    rises = [f"{name.replace('_', ' ')} {number(value, 0)} s" for name, value in found.rise_63_s.items() if value]
+    rises = [
+        f"{node_words(name, found.elements)} {number(value, 0)} s" for name, value in found.rise_63_s.items() if value
+    ]
     lines = [
         found.headline,
         line("temperatures", f"degC, conductances {found.conductances}"),
