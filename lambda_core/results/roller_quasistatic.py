@@ -17,10 +17,11 @@ from lambda_core.domain.units import show
 from lambda_core.domain.wrapping import wrapped
 from lambda_core.elements.roller.axial_limit import AxialLimit, axial_limit
 from lambda_core.elements.roller.roller_bearing import RollerBearing
-from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, balance
+from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium
 from lambda_core.elements.roller.roller_friction import RollerFriction, friction
 from lambda_core.elements.roller.roller_life import lamina_life, modified_lamina_life, roller_basic_life
 from lambda_core.elements.roller.roller_motion import RollerMotion, rolling_motion
+from lambda_core.elements.roller.roller_positions import mean_friction, over_a_pitch
 from lambda_core.elements.roller.roller_ratings import lamina_ratings, roller_equivalent_load, roller_static_load
 from lambda_core.formulas.life import (
     LEAST_KAPPA,
@@ -43,7 +44,8 @@ if TYPE_CHECKING:
 _RPM = 30.0 / math.pi
 _ASSUMED = (
     "rollers roll without sliding; the cage is left out",
-    "one position of the rollers, one at azimuth 0: at others the torque of few loaded rollers differs by a tenth",
+    "torque is the mean over four places of the rollers in one pitch; loads, pressures and films are the extremes of "
+    "these; lives and loads of single rollers belong to the place with a roller where the load presses",
 )
 
 
@@ -117,15 +119,30 @@ class RollerQuasiStatic(Answer):
 
 @dataclass(frozen=True)
 class SolvedRollers:
-    """A roller bearing in equilibrium; `friction` is None where nothing turns."""
+    """A roller bearing in equilibrium.
 
-    state: RollerEquilibrium
+    Attributes
+    ----------
+    states : tuple of RollerEquilibrium
+        Over one pitch, see :func:`over_a_pitch`.
+    motion : RollerMotion
+        Kinematics.
+    friction : RollerFriction or None
+        Mean over the states, see :func:`mean_friction`; None where nothing turns.
+    """
+
+    states: tuple[RollerEquilibrium, ...]
     motion: RollerMotion
     friction: RollerFriction | None
 
+    @property
+    def state(self) -> RollerEquilibrium:
+        """The first: a roller stands where the load presses."""
+        return self.states[0]
+
 
 def solve_rollers(model: RollerModel) -> SolvedRollers:
-    """Find equilibrium and friction of a roller bearing.
+    """Find equilibria over one pitch and friction of a roller bearing.
 
     Raises
     ------
@@ -137,15 +154,29 @@ def solve_rollers(model: RollerModel) -> SolvedRollers:
     bearing = model.bearing
     motion = rolling_motion(bearing, *model.speeds)
     try:
-        state = balance(bearing, model.loads, held=model.held, inertial=motion.inertial(bearing), slices=model.slices)
+        return solved_over_a_pitch(model, motion, model.loads, held=model.held)
     except ValueError as error:
         raise CaseError(model.name, [Problem("loads", str(error))]) from None
     except ArithmeticError as error:
         raise SolverError(f"{model.name}: {error}") from error
-    turning = motion.relative != 0.0
-    return SolvedRollers(
-        state, motion, friction(bearing, state, motion, model.oil, model.friction) if turning else None
-    )
+
+
+def solved_over_a_pitch(
+    model: RollerModel,
+    motion: RollerMotion,
+    loads: FloatArray,
+    *,
+    held: tuple[bool, bool, bool, bool, bool],
+    displacement: FloatArray | None = None,
+) -> SolvedRollers:
+    """Solve a bearing under loads and held displacements; errors are those of :func:`balance`."""
+    bearing = model.bearing
+    inertial = motion.inertial(bearing)
+    states = over_a_pitch(bearing, loads, held=held, displacement=displacement, inertial=inertial, slices=model.slices)
+    if motion.relative == 0.0:
+        return SolvedRollers(states, motion, None)
+    parts = [friction(bearing, state, motion, model.oil, model.friction) for state in states]
+    return SolvedRollers(states, motion, mean_friction(parts))
 
 
 def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
@@ -172,8 +203,8 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
         headline=headline_of(model, radial, axial),
         kind=bearing.kind,
         loaded_rollers=int(np.sum(state.inner.sum(axis=1) > CARRYING * carried.max())),
-        max_load_N=float(carried.max()),
-        max_pressure_GPa=1e-9 * _pressure(bearing, state, model),
+        max_load_N=max(_largest(one) for one in solved.states),
+        max_pressure_GPa=1e-9 * max(_pressure(bearing, one, model) for one in solved.states),
         friction_torque_Nmm=1e3 * total if turning else None,
         friction_breakdown_Nmm=_parts(found) if turning else {},
         raceway_share=found.raceways / total if turning and total > 0.0 else None,
@@ -183,7 +214,7 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
         cage_speed_ratio=motion.cage / motion.inner if motion.inner != 0.0 else None,
         film_um=[1e6 * float(carrying.min()), 1e6 * float(carrying.max())] if carrying.size else [],
         film_parameter=finite(min(found.film_parameter.values(), default=math.nan)),
-        rib_load_N=float(state.ribs.max(initial=0.0)),
+        rib_load_N=max(float(one.ribs.max(initial=0.0)) for one in solved.states),
         rib_pressure_GPa=1e-9 * found.rib_pressure,
         rib_film_um=finite(1e6 * found.rib_film),
         rib_friction=finite(found.rib_friction),
@@ -217,6 +248,11 @@ def _parts(found: RollerFriction) -> dict[str, float]:
     by_ring = (("rolling", found.rolling), ("hysteresis", found.hysteresis), ("sliding", found.sliding))
     parts = {f"{name}_{ring}": 1e3 * value for name, values in by_ring for ring, value in values.items()}
     return {**parts, "rib": 1e3 * found.rib, "drag": 1e3 * found.drag}
+
+
+def _largest(state: RollerEquilibrium) -> float:
+    """Return the largest load of a roller on a raceway [N]."""
+    return float(max(state.inner.sum(axis=1).max(), state.outer.sum(axis=1).max()))
 
 
 def _pressure(bearing: RollerBearing, state: RollerEquilibrium, model: RollerModel) -> float:

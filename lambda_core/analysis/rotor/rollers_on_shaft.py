@@ -9,15 +9,16 @@ from typing import get_args
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import SolverError
 from lambda_core.elements.roller.roller_bearing import RollerBearing
-from lambda_core.elements.roller.roller_friction import OilState, RollerFriction, friction
+from lambda_core.elements.roller.roller_friction import OilState, RollerFriction
 from lambda_core.formulas.loading import Ring
 from lambda_core.laws.context import Oil
 from lambda_core.model.laws.roller_laws import friction_of_model
 from lambda_core.model.roller_case import RollerModel, friction_parameters
 from lambda_core.results.bearing_summary import Contact
 from lambda_core.results.rating import Rating
-from lambda_core.results.roller_quasistatic import RollerQuasiStatic, SolvedRollers, roller_answer
+from lambda_core.results.roller_quasistatic import RollerQuasiStatic, SolvedRollers, roller_answer, solved_over_a_pitch
 from lambda_core.results.verdict import limits_of
 from lambda_core.solver.drivers.roller_reaction import RollerReaction
 
@@ -92,14 +93,20 @@ def _film(found: RollerFriction | None, ring: str, roller: int, loads: FloatArra
 
 
 def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
-    """Return what a roller bearing answers at the last pose of its rings."""
+    """Return what a roller bearing answers under the load that it carries at the last pose of its rings.
+
+    The rollers stand over one pitch as of a bearing that is alone, under this load at the tilt of the pose; where
+    cylinders stand along the shaft, too, is that of the pose.
+
+    Raises
+    ------
+    SolverError
+        When the rollers find no equilibrium at another place.
+    """
     model, bearing, motion, state = ring.model, ring.rollers, ring.motion, ring.state
     oil = _oil_state(ring.oil)
     given = replace(
         friction_parameters(bearing, model.roughness, model.lubrication, model.oil_level), **friction_of_model(model)
-    )
-    solved = SolvedRollers(
-        state, motion, friction(bearing, state, motion, oil, given) if motion.relative != 0.0 else None
     )
     alone = RollerModel(
         name=model.name, title=model.title, bearing=bearing, loads=np.zeros(5), held=(True,) * 5,
@@ -107,6 +114,11 @@ def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
         base_type=ring.oil.base_type, lubrication=model.lubrication, temperature=ring.oil.temperature,
         slices=state.inner.shape[1], contamination=model.contamination, assumptions=model.assumptions,
     )  # fmt: skip
+    held = (bearing.contact_angle == 0.0, False, False, True, True)
+    try:
+        solved = solved_over_a_pitch(alone, motion, state.loads, held=held, displacement=state.ring)
+    except (ArithmeticError, ValueError) as error:
+        raise SolverError(f"{model.name}: {error}") from error
     answer = roller_answer(alone, solved)
     rating = Rating(
         basic_life_h=answer.basic_life_h,

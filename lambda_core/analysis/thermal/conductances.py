@@ -111,7 +111,7 @@ def resting_line(length: float, b: float, conductivity: float) -> float:
     Kraus, Heat Transfer Handbook, 2003, ch. 4). 0.473 for a square.
     """
     e = length / (2.0 * b)
-    edges = e / 3.0 * (1.0 + e**-3.0 - (1.0 + e**-2.0) ** 1.5)
+    edges = e / 3.0 * (1.0 + 1.0 / e**3 - math.pow(1.0 + 1.0 / e**2, 1.5))
     resistance = math.sqrt(e) / math.pi * (math.asinh(1.0 / e) + math.asinh(e) / e + edges)
     return conductivity * math.sqrt(2.0 * b * length) / (2.0 * resistance)
 

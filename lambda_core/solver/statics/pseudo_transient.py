@@ -16,8 +16,11 @@ def _source(state, size, held, friction_on):
     """Return which rate drives a state of an element of `size` states, and its factor: -1 where the state is fixed.
 
     A roller's tilt and skew follow their angular accelerations, as positions do; the two spins across its axis follow
-    the rates of tilt and skew, which are to vanish.
+    the rates of tilt and skew, which are to vanish. One that carries nothing is held in its pocket: next to nothing
+    resists its place along the shaft and its skew, which are those without friction.
     """
+    if friction_on == 1 and held and size > RTILT and state in (BX, RSKEW):
+        return -1, 0.0
     if state in (BX, BR):
         return BVX + state, _MOBILITY
     if state == RTILT:
