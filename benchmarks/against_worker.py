@@ -3,7 +3,7 @@
 Reads its tasks line by line and prints processor times.
 
 A question is one line of JSON on stdin (case, overrides, duration), the answer one on stdout. Uses nothing but
-``lambda_core.api`` and the engine, wherever the version keeps it, so that versions with other rooms can be asked too.
+``lambda_core.api`` and the engine, wherever the version keeps it, so that versions with other packages work.
 """
 
 from __future__ import annotations

@@ -33,7 +33,7 @@ class Law:
     """One law of a role: what makes a case use it."""
 
     name: str
-    overrides: tuple[str, ...] = ()  # beside the choice of the model
+    overrides: tuple[str, ...] = ()  # in addition to the choice of the model
     chosen_by: str = ""  # the option that chooses it, where it is not models.ROLE
     note: str = ""
 

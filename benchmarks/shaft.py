@@ -17,7 +17,7 @@ from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.solver_context import SolverContext
 
 SHAFT = 0
-_OWN = 2  # bodies of a bearing beside the shaft
+_OWN = 2  # bodies of a bearing without the shaft
 _SIGNALS = 12  # of a body
 
 

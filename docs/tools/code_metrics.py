@@ -30,9 +30,9 @@ class Tree:
         listed = subprocess.run(["git", "ls-files"], cwd=root, capture_output=True, text=True, check=True).stdout
         self.names = listed.splitlines()
 
-    def files(self, *rooms: str, suffix: str = ".py") -> dict[str, str]:
+    def files(self, *folders: str, suffix: str = ".py") -> dict[str, str]:
         """Return the text of every file below some folders, by name."""
-        heads = tuple(f"{room}/" for room in rooms)
+        heads = tuple(f"{folder}/" for folder in folders)
         wanted = [name for name in self.names if name.endswith(suffix) and name.startswith(heads)]
         return {name: (self.root / name).read_text(encoding="utf-8") for name in wanted if (self.root / name).exists()}
 
@@ -55,8 +55,8 @@ def _index_reads(tree: Tree) -> int:
 
 
 def _parameters(tree: Tree) -> int:
-    rooms = ("plugins", "examples", "docs", "lambda_core")
-    pages = {name: text for suffix in (".py", ".md") for name, text in tree.files(*rooms, suffix=suffix).items()}
+    folders = ("plugins", "examples", "docs", "lambda_core")
+    pages = {name: text for suffix in (".py", ".md") for name, text in tree.files(*folders, suffix=suffix).items()}
     return _lines({name: text for name, text in pages.items() if name != "docs/code-metrics.md"}, r"par\[[0-9]+\]")
 
 

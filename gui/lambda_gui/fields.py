@@ -18,7 +18,7 @@ from lambda_gui.entry import Entry, text_of, value_of
 from lambda_gui.places import Place
 from lambda_gui.rows import Left, Row, Stepped, Surroundings
 
-_NARROW = 20  # columns of the narrowest entry: the help beside the form says in full what holds when it is empty
+_NARROW = 20  # columns of the narrowest entry: the help next to the form gives the default in full
 
 
 class TextRow(Row):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-# What makes a folder a study; a test holds it to the batch room's own.
+# What makes a folder a study; a test compares it with that of package studies.
 MANIFEST = "manifest.sqlite"
 
 

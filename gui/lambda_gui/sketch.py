@@ -23,7 +23,7 @@ _LINE = 0.6  # half the width of a contact line in pixels
 _POINTS = 4  # along each side of a pixel, for smooth edges
 _WITH_AXES = ("motion", "operation", "loads", "boundary", "gravity", "markers")
 _NOTHING = "the shaft is drawn here as soon as it has a piece, a bearing, a speed and an oil"
-_MARKS = 17  # room for the diameters beside a section
+_MARKS = 17  # columns for the diameters next to a section
 
 
 class Sketch(Static):

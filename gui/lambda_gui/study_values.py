@@ -25,7 +25,7 @@ _OF_A_BEARING = (
 )
 _OF_A_MACHINE = ("friction_torque_Nmm", "power_loss_W", "system_life_h", "max_deflection_um")
 _OF_EACH = ("radial_load_N", "friction_torque_Nmm", "skf/friction/total", "min_film_parameter", "max_pressure_GPa")
-POINTS = 11  # of a range where none are said
+POINTS = 11  # of a range without a number of its own
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)")
 Values = dict[Keys, Any]
 

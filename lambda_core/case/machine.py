@@ -71,7 +71,7 @@ _AROUND = (  # options of [thermal] that each bearing has as it stands there
 # of a bearing that carry loads, markers and connections: "left.cage"
 PARTS: tuple[Literal["outer_ring"], Literal["cage"]] = ("outer_ring", "cage")
 NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "connections")  # tables of named parts
-# Names that are there already; a bearing's result stands beside that of the whole, shaft.h5
+# Names that are taken already
 TAKEN = {"bearings": ("shaft",), "markers": ("shaft", "ground"), "bodies": ("shaft", "ground")}
 
 STAND_IN = "stand-in"  # a bearing where no other is left

@@ -173,7 +173,7 @@ class Shadow(Frozen):
     """A row of a plugin, or the key of a source, that stands in front of another one."""
 
     table: str  # "lubricant_parameter"
-    key: tuple[str, ...]  # of the row, or of the group of rows that is replaced as a whole
+    key: tuple[str, ...]  # of the row, or of the group of rows that is replaced at once
     folder: str  # where the row in front lies
     over: str  # where the one behind lies, "" for the built-in rows
     title: str = ""  # of a source: what it stands for now

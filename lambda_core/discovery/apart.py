@@ -19,7 +19,7 @@ from lambda_core.discovery.registry import Registry
 from lambda_core.discovery.survey import CheckCard, check_installed, chosen
 
 LIMIT = 120.0  # [s] for one law; a kernel of 400 branches takes 50 s to compile
-PATIENCE = 15.0  # [s] before something is said
+PATIENCE = 15.0  # [s] before a message appears
 
 
 def check_apart(
@@ -118,7 +118,7 @@ class _Trials:
     def begun(self) -> None:
         """Wait until everything is imported: that is no law's time."""
         line = self._lines.get()
-        if not line:  # ended: whoever asks for the next model is told
+        if not line:  # ended: the next question gets the message
             self._lines.put(line)
 
     def next(self, limit: float) -> CheckCard | str | None:

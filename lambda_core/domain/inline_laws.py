@@ -1,6 +1,6 @@
 """Accept laws as Python objects where a case has names.
 
-The rooms below discovery know a law by its marks only; the registry of this process takes what is gathered here.
+The packages below discovery know a law by its marks only; the registry of this process takes what is gathered here.
 """
 
 from __future__ import annotations

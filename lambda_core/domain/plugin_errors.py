@@ -13,7 +13,7 @@ from pathlib import Path
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.printable import printable
 
-_HOST = Path(__file__).parents[1]  # this core: a plugin's mistake is told with the plugin's own line
+_HOST = Path(__file__).parents[1]  # this core: the message about a plugin's mistake names the plugin's own line
 _LIBRARIES = {"pydantic", "numpy", "numba", "scipy", "importlib"}
 
 

@@ -1,4 +1,4 @@
-"""Unit strings at the door, SI floats inside.
+"""Read and write unit strings; inside are SI floats.
 
 Each physical quantity has a closed list of units. A dimensional field is written as a
 string ("16 kN"); a bare number, a decimal comma or a unit of another quantity is an

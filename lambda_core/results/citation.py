@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 PROGRAM = "lambda-bearing"
 TITLE = "lambda-bearing: open simulator of rolling-bearing dynamics"
-# The model as a whole; the laws bring their own references.
+# The complete model; the laws bring their own references.
 METHOD = (
     "Syla et al. 2026, A Detailed Multibody Simulation Model for Ball Bearings to Predict Friction and Electrical "
     "Capacitance, Lubricants 14(4), 154, https://doi.org/10.3390/lubricants14040154"

@@ -18,7 +18,7 @@ from lambda_core.domain.inline_laws import named
 
 Mode = Literal["quasi-static", "dynamic"]
 Kind = Literal["crossed", "zipped", "latin-hypercube", "sobol", "saltelli", "optimise"]
-MAX_POINTS, MOST_POINTS = 100_000, 1_000_000  # unless told otherwise; whatever one is told
+MAX_POINTS, MOST_POINTS = 100_000, 1_000_000  # by default; at all
 SAMPLED = ("latin-hypercube", "sobol", "saltelli", "optimise")
 
 

@@ -52,7 +52,7 @@ class Task:
     mode: Literal["quasi-static", "dynamic"]
     responses: tuple[str, ...]
     folder: str  # of the study, on a file system that all workers see (dynamic)
-    guests: bytes = b""  # plugin files and laws that the director has beside its packages
+    guests: bytes = b""  # plugin files and laws of the director that no package installs
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ State = Literal["waiting", "running", "done", "stopped", "failed"]
 _MOST_KEPT = 4000  # points of the progress; older ones are thinned out
 _CONVERGED, _PARTIAL, _INTERRUPTED = 0, 5, 130
 _FORGOTTEN_AFTER = 86400.0  # [s] age at which the files of a run that nobody took in are cleared away
-# What the program is told to do: at first, and to go on.
+# Arguments of the program: to start, and to resume.
 _WORK: dict[RunKind, tuple[list[str], list[str]]] = {
     "run": (["run", "case.toml", "--out"], ["resume"]),
     "study": (["study", "run", "study.toml", "--out"], ["study", "resume"]),
@@ -52,7 +52,7 @@ class QueuedRun:
     history: list[Progress] = field(default_factory=list)
     points: StudyProgress | None = None  # of a study: where it stands
     program: Program | None = None
-    _is_news: bool = False  # its end is still to be told
+    _is_news: bool = False  # its end is still to be reported
     _read: int = 0
     _rest: bytes = b""
 

@@ -24,7 +24,7 @@ from lambda_core.laws.parameter import NoParameters, default_fault
 
 OBSERVER_API = 1
 EVENT_API = 1
-ACTION = "action"  # what a case may say of an event beside its parameters
+ACTION = "action"  # what a case may say of an event in addition to its parameters
 Action = Literal["stop", "record"]
 
 Samples = Mapping[str, FloatArray]  # channel -> array, first axis time, SI; read only

@@ -16,7 +16,7 @@ from lambda_syla2026.table4 import Table4
 from lambda_syla2026.trends import BoundaryPoint
 
 _TOP = 2600.0  # of both panels of the torque [N mm]
-_BESIDE = 55.0  # by which the points of each further method stand beside their speed [1/min]
+_BESIDE = 55.0  # shift of the points of each further method along the speed [1/min]
 _SEEN = 0.3  # change of the torque that a bar shows [%]
 _ROWS = {"C/P = 10": slice(0, 3), "C/P = 6.5": slice(3, 6)}
 _CRITERIA = {"S": "speed of unloaded balls (S)", "T": "contacts outside the zone (T)"}

@@ -34,7 +34,7 @@ _SHORT = {
     "asperity load: B": "asperity load B",
     "asperity load: C": "asperity load C",
 }
-# Conductivity of the oil is a class value of the catalogue, +-15 %; the case can only replace the oil as a whole.
+# Conductivity of the oil is a class value of the catalogue, +-15 %; the case can only replace the complete oil.
 _CONDUCTIVITY = P.Entry(
     "lubricant.properties.thermal_conductivity",
     "0.137 W/(m K)",

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 CASE = "6208-axial-700"
-# Libraries, rooms of SciPy (Numba imports its first page alone), and our own rooms that take long to import.
+# Libraries, packages of SciPy (Numba imports only its top level), and our own packages that take long to import.
 HEAVY = (
     "numpy",
     "pydantic",

@@ -54,13 +54,13 @@ def test_links_between_the_files_of_the_root_hold() -> None:
             assert (ROOT / target).exists(), f"{name}: {target}"
 
 
-def test_the_house_plan_names_every_package_and_room() -> None:
+def test_the_architecture_page_names_every_package() -> None:
     text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
     for name in ("lambda_core", "lambda_plugins", "lambda_syla2026", "lambda_db", "lambda_gui", "lambda_cli"):
         assert name in text
-    rooms = {path.name for path in (ROOT / "lambda_core").iterdir() if (path / "__init__.py").exists()}
-    for room in rooms:
-        assert f"`{room}" in text, room
+    packages = {path.name for path in (ROOT / "lambda_core").iterdir() if (path / "__init__.py").exists()}
+    for package in packages:
+        assert f"`{package}" in text, package
 
 
 def test_the_first_pages_name_every_kind_of_bearing() -> None:

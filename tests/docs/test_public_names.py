@@ -15,7 +15,7 @@ PUBLIC = {
     for module in docstrings.MODULES
     for name, item in docstrings.public(importlib.import_module(module))
 }
-# What the functions of the API return; their rooms are documented with them.
+# What the functions of the API return; their modules are documented with them.
 RETURNED = {f"returned.{item.__name__}": item for item in docstrings.returned()}
 CLASSES = {name: item for name, item in (PUBLIC | RETURNED).items() if isinstance(item, type)}
 FUNCTIONS: dict[str, Any] = {name: item for name, item in PUBLIC.items() if not isinstance(item, type)} | {
@@ -24,7 +24,7 @@ FUNCTIONS: dict[str, Any] = {name: item for name, item in PUBLIC.items() if not 
     for key, item in docstrings.methods(cls)
     if not isinstance(vars(cls).get(key), property)
 }
-# Rooms whose records are still without words for some of their fields.
+# Packages whose records are still without words for some of their fields.
 GAPS = (
     "lambda_core.results",
     "lambda_core.runs",

@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 import re
 import subprocess
+import tokenize
 from functools import cache
+from io import StringIO
 from pathlib import Path
 
 import pytest
@@ -60,9 +62,10 @@ def _in_text(text: str) -> list[str]:
 
 
 def _in_code(name: str, text: str) -> int:
-    """Count the words to avoid in the strings of a module, its name and the names it defines."""
+    """Count the words to avoid in the strings and comments of a module, its name and the names it defines."""
     words = _WORD.findall(Path(name).stem)
-    count = 0
+    tokens = tokenize.generate_tokens(StringIO(text).readline)
+    count = sum(len(_in_text(token.string)) for token in tokens if token.type == tokenize.COMMENT)
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
             count += len(_in_text(node.value))

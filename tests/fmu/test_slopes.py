@@ -24,7 +24,7 @@ STEP = 2e-5  # [s]
 Export = Callable[[int, str], Path]
 RINGS = ("inner_ring", "outer_ring")
 POSES = [f"{ring}.{dof}" for ring in RINGS for dof in ("x", "y", "z", "tilt_y", "tilt_z")]
-# Along and about the same axes; about the shaft no ring is led.
+# Along and about the same axes; nothing prescribes rings about the shaft.
 REACTIONS = [
     f"{ring}.reaction_{kind}" for ring in RINGS for kind in ("force_x", "force_y", "force_z", "moment_y", "moment_z")
 ]

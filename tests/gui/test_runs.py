@@ -28,7 +28,7 @@ from textual.widgets import DataTable
 
 from lambda_core import api
 
-# Says what a run says, and ends when it is told to or after the number of steps in "steps".
+# Prints what a run prints, and ends on request or after the number of steps in "steps".
 FAKE = """
 import json, signal, sys, time, pathlib
 stopped = []

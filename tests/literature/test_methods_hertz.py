@@ -177,7 +177,7 @@ def test_radii_from_the_curvature_of_the_torus(angle: float, inner: bool) -> Non
     normal = np.array([sign * math.sin(alpha), 0.0, sign * math.cos(alpha)])
     contact = centre + 0.5 * ball * normal
     groove_centre = contact - groove * normal
-    # the torus is about the shaft axis; its tube centre may lie beside the pitch circle's plane
+    # the torus is about the shaft axis; its tube centre may lie off the pitch circle's plane
     shifted = contact - np.array([groove_centre[0], 0.0, 0.0])
     curvatures = principal_curvatures(shifted, float(groove_centre[2]), groove, 4e-6)
     tube = curvatures[int(np.argmin(np.abs(np.abs(curvatures) - 1.0 / groove)))]

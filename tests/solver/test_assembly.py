@@ -83,7 +83,7 @@ def test_other_cells_in_another_bearing_are_refused(alone: list[Assembly]) -> No
         build(changed)
 
 
-FAULTS = {  # role, ball and place as compiled code leaves them -> what is said
+FAULTS = {  # role, ball and place as compiled code leaves them -> the message
     "inner land": ("cage_contact", 3, 2, r"^number 1: cage_contact/.* \(cage - inner, t = "),
     "outer land": ("cage_contact", 3, 1, r"^number 0: cage_contact/.* \(cage - outer, t = "),
     "pocket": ("cage_contact", 10, -1, r"^number 1: cage_contact/.* \(ball 2, ball - cage, t = "),

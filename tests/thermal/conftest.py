@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-# Helpers of these tests are modules beside this file.
+# Helpers of these tests are modules next to this file.
 sys.path.insert(0, str(Path(__file__).parent))
 
 

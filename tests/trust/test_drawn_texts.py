@@ -46,7 +46,7 @@ def test_c4_formulas_in_texts_are_not_read() -> None:
     assert laid_out(figure) == {HOSTILE, *(f"{mark} {HOSTILE}" for mark in "123456abcde")}
 
 
-# Reports draw through the same door.
+# Reports draw with the same function.
 def test_c4_a_title_like_a_formula_breaks_no_picture(tmp_path: Path) -> None:
     case = api.init_case("hostile", CASE, tmp_path / "case.toml")
     text = case.read_text(encoding="utf-8")

@@ -23,7 +23,7 @@ from lambda_core.results.opening import ResultError
 from lambda_core.results.reader import Result
 
 CASE = "6208-axial-1300"
-LONG = ["solver.duration=1 s"]  # long enough for progress to be told before the end
+LONG = ["solver.duration=1 s"]  # long enough to show progress before the end
 SHORT = ["solver.duration=1 ms"]
 SECRET = "the words of another file"
 

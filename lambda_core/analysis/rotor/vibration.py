@@ -25,7 +25,7 @@ _ABOUT_X = 3  # row of a node that turns about the shaft
 _COUNT = 16  # modes that are looked at
 _LATERAL = 0.5  # of the motion squared, from which on a mode counts as bending
 _SHAKEN = 0.1  # of the motion squared across the axis: from here on unbalance shakes a mode of another kind too
-_FELT = 0.01  # of the kinetic energy in the shaft: below it a mode of the bodies beside it is theirs alone
+_FELT = 0.01  # of the kinetic energy in the shaft: a mode with less belongs to the other bodies alone
 
 
 @dataclass(frozen=True)
@@ -34,9 +34,9 @@ class Mode:
 
     frequency: float
     direction: float
-    kind: str  # bending, axial, torsion; body: of the bodies beside the shaft alone
+    kind: str  # bending, axial, torsion; body: of the other bodies alone
     damping: float = 0.0  # share of critical
-    bodies_share: float = 0.0  # share of the kinetic energy in the bodies beside the shaft
+    bodies_share: float = 0.0  # share of the kinetic energy in the other bodies
     lateral: float = 0.0  # share of the shaft's motion squared that is across its axis
 
 

@@ -50,9 +50,9 @@ _CPUID = {
     "avx512vl": (7, 1, 31),
 }
 _WIDE = {"avx512": 0xE6, "avx": 0x6}  # registers that the system must keep for features that begin so
-_LOST_STEP = 1e-30  # [s] beside t = 0 shorter ones are numbers still, whose inverse squares are none
+_LOST_STEP = 1e-30  # [s] shorter steps at t = 0 are numbers still, but their inverse squares are not
 _LONGEST_STEP = 1e3  # [s] an hour or so of computing
-_CALM = 0.1  # [s] after which a limit that is passed again is told again
+_CALM = 0.1  # [s] after which a limit that is passed again is reported again
 # What it looks at in a contact, to tell limits.
 _LOOKED_AT = (
     "load", "contact_angle", "max_pressure", "semi_axis_a", "film_parameter", "asperity_share", "semi_axis_b",

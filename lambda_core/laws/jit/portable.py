@@ -1,8 +1,8 @@
 """Write compiled code as an object file without Python.
 
 What Numba made of each function, optimised, is linked as it is: optimised again it would round otherwise, and the
-library would not have the bits of a run. Behind every function stand the doors by which Python would call it; they are
-taken off. What they ask of Python is asked by nobody then; a function that needs Python or Numba at work is refused.
+library would not have the bits of a run. Numba adds to every function a wrapper by which Python calls it; the wrappers
+are removed, with all that they need of Python. A function that needs Python or Numba when it runs is refused.
 """
 
 # Numba's compiler carries only part of its types.
@@ -30,7 +30,7 @@ from lambda_core.laws.jit.machine_code import Pointer, environment_key
 from lambda_core.laws.jit.plain import is_plain
 from lambda_core.laws.jit.references import Reference
 
-# Functions of Python and Numba that stand behind doors and on ways that compiled kernels never go: they raise errors.
+# Functions of Python and Numba in wrappers and on paths that compiled kernels never take: they raise errors.
 _PYTHON = re.compile(
     r"Py(Err|Exc|Bytes|Unicode|Import|Long|Object|_DecRef)\w*|_Py_\w+|numba_(gil|do_raise|unpickle|runtime_build)\w*"
 )
@@ -131,11 +131,11 @@ def object_codes(
         for found, code in zip(made, _kept(pointer, name, cache, targets, alike=alike), strict=True):
             found[f"{name}.o"] = code
     codegen = cpu_target.target_context.codegen()
-    doors = llvm.parse_assembly(str(_doors(codegen, names, entries, table)))
+    module = llvm.parse_assembly(str(_module_of_entries(codegen, names, entries, table)))
     for name in ("lb_functions", *(entry.name for entry in entries), *names.values()):
-        _within(doors, name)
+        _within(module, name)
     for found, target in zip(made, targets, strict=True):
-        found["doors.o"] = machine_code(doors, target)
+        found["entries.o"] = machine_code(module, target)
     return made
 
 
@@ -234,13 +234,15 @@ def _part(pointer: Pointer, name: str) -> Any:
             # Numba's names have up to 100 kB each.
             kind = _TEXT if each.name.startswith(".const.pick") else "k"
             each.linkage, each.name = "internal", f"{kind}{number}"
-    _run(part, "add_global_dead_code_eliminate_pass")  # the doors for Python
+    _run(part, "add_global_dead_code_eliminate_pass")  # the wrappers for Python
     return part
 
 
-def _doors(codegen: Any, names: Mapping[str, str], entries: Sequence[Entry], table: Sequence[Pointer]) -> ir.Module:
+def _module_of_entries(
+    codegen: Any, names: Mapping[str, str], entries: Sequence[Entry], table: Sequence[Pointer]
+) -> ir.Module:
     """Return a module with the entries and the table of functions."""
-    module = ir.Module("doors")
+    module = ir.Module("entries")
     module.triple, module.data_layout = codegen._llvm_module.triple, codegen._data_layout
     known: dict[str, ir.Function] = {}
 

@@ -62,7 +62,7 @@ def _resolve_ring(
         ),
         ledger,
     )
-    # The seat stays where it is, however high the section is said to be.
+    # The height that the case gives to the section does not move the seat.
     radius = seat + 0.5 * height if body == "inner_ring" else seat - 0.5 * height
     if radius <= 0.5 * height:
         ledger.problem(f"{path}.section_height", f"{show(height, 'length', 4)} leaves no hole in the ring")

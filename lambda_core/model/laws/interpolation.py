@@ -18,7 +18,7 @@ from lambda_core.model.ledger import Ledger
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
 
-# A spline leaves the points by so much of their range before something is said: through a sine of 32 points per
+# A spline leaves the points by so much of their range before a warning appears: through a sine of 32 points per
 # period, none of them on a crest, it does so by 0.0024, and is right.
 _SILENT = 3e-3
 

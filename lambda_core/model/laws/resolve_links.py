@@ -73,7 +73,7 @@ def _end(case: Case, name: str, where: str, ledger: Ledger) -> End | None:
     if body is None and name in case.markers:
         marker = case.markers[name]
         if marker.body not in _BODIES:
-            return None  # which is said of the marker
+            return None  # the marker's own problem says so
         body, place = _BODIES[marker.body], (marker.x, marker.y, marker.z)
     if body is None:
         ledger.problem(where, unknown_name("body or marker", name, [GROUND, *BODIES, *case.markers]))

@@ -32,7 +32,7 @@ FINE_STEPS_PER_PERIOD = 6.0
 # adds at most 5 %.
 SAMPLES_PER_PERIOD = 5.12
 _ROUNDED = 1e-9  # what is excited with every turn is not excited faster
-LEAST_PER_PERIOD = 2.56  # with samples further apart something is said
+LEAST_PER_PERIOD = 2.56  # samples further apart cause a warning
 OVER_EXCITATION = 2.0  # frequency that is followed over the highest that is excited
 
 

@@ -51,7 +51,7 @@ class Blocks(NamedTuple):
     c: Any  # (Z, filled, size)
     d: Any  # (n_active, n_active)
     cross: Any  # (Z, 2, size, size), without balls that may touch (0, ...): with the balls before and after, see chain
-    beyond: Any  # (6, size) d(ball force)/d(ball beside it)
+    beyond: Any  # (6, size) d(ball force)/d(next ball)
     d_own: Any  # (rows, widest, widest): of D what contacts of each row have, where bearings are several
     changed: Any  # int64 (rows,): whether blocks of the row are newer than its factors
     newer: Any  # int64 (Z,): whether blocks of the ball are newer than its factors

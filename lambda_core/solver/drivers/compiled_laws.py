@@ -32,7 +32,7 @@ class Kernels:
     def __init__(self, model: BearingModel, announce: Announce = None) -> None:
         self._laws, self._contacts = model.laws, contacts_of(model)
         self._guides, self._links, self._times = guides(model), links(model), times(model)
-        begin(announce)  # the solver is compiled beside the laws
+        begin(announce)  # the solver is compiled at the same time
         # one model in several force elements is compiled once
         known: dict[tuple[str, str], Any] = {}
         self.compiled: dict[tuple[str, str], Any] = {}

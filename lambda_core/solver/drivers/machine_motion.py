@@ -87,7 +87,7 @@ def machine_start(
         When there is none.
     """
     state, shaft = solve_shaft(machine, announce), lump(machine)
-    # where cages are led, balls begin between rings at the poses of the equilibrium
+    # where cages follow given paths, balls begin between rings at the poses of the equilibrium
     equilibria = tuple(ring.at_pose() if leads_cages else ring.equilibrium() for ring in state.rings)
     alone = [_free(found.context) for found in equilibria]
     begun = _begun(machine, shaft, state, equilibria, alone, is_given=is_given, leads_cages=leads_cages)

@@ -13,7 +13,7 @@ from lambda_core.solver.arrays.jacobian_blocks import AFTER, BEFORE, Blocks
 _RING = 0.5  # share of a mode's kinetic energy in the rings, from which on it is one of theirs
 _SLOWEST = 20.0  # [Hz]
 _DAMPED = 0.3  # of critical; what is damped by more rings in no spectrum
-_MOST = 8  # modes that are told
+_MOST = 8  # modes that are reported
 
 
 def dense(blocks: Blocks) -> FloatArray:

@@ -26,7 +26,7 @@ from lambda_core.solver.roller.rows import roller_drag, roller_wrench, rollers_o
 from lambda_core.solver.vec import clear, clear_each, store
 
 _TILT = 1e-7  # [rad]
-_RELATIVE = 1e-5  # relative step of what laws depend on, beside a smallest one
+_RELATIVE = 1e-5  # relative step of what laws depend on, but at least the smallest one
 _LEAST = (1e-11, 1e-6, 1e-7, 1e-7, 1e-5, 1e-5, 1e-5, 1e-7, 1e-7, 1e-9, 1e-5, 1e-5)  # as records.LINE_DRIVERS
 _LEAST_STEPS = np.array(_LEAST)
 

@@ -16,7 +16,7 @@ from lambda_core.views.method import (
 
 _MOST = "contact angle of the ball that the inner ring loads most"
 _AXES = ("x", "y", "z", "tilt_y", "tilt_z")
-# sums that stand beside M_rr, M_sl and M_drag of the catalogue
+# sums to compare with M_rr, M_sl and M_drag of the catalogue
 _SUMS = {
     "rolling": ("rolling", "hysteresis"),
     "sliding": ("sliding", "spin", "boundary"),

@@ -209,7 +209,7 @@ def _unit(angle: Any) -> FloatArray:
     return np.array([np.cos(angle), np.sin(angle)])
 
 
-# -- beside it --
+# -- at the side --
 
 
 def _loads(axes: Any, scene: Scene) -> Any:

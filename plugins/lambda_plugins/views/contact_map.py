@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _STRIPS, _ROWS = 61, 41
 _ARROWS = (9, 5)  # across and along rolling
 _REACH = 1.8  # semi-axes along rolling that the map of the film shows beyond the edge
-# What a contact depends on beside its laws and the recorded state.
+# What a contact depends on besides its laws and the recorded state.
 _INPUTS = ("geometry.", "ball_material.", "inner_material.", "outer_material.", "oil.", "roughness", "starvation")
 _CHANNELS = (
     "time", "ball_axial", "ball_radius", "ball_azimuth", "ball_velocity", "ball_spin", "body_position",

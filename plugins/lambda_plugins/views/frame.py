@@ -20,7 +20,7 @@ _RESTLESS = 3.0  # way up and down over the range of values, from which a line f
 _HEADROOM = 1.06  # above the data, on axes that begin at a given value
 _LEGEND_BELOW = 0.58  # [inch] below the axes: under the numbers and the label
 _DECADES = 100.0  # end over beginning of a logarithmic axis with plain numbers
-_OUTSIDE = 4  # a longer legend stands beside the axes
+_OUTSIDE = 4  # a longer legend goes next to the axes
 
 
 class Numbers(ScalarFormatter):

@@ -23,7 +23,7 @@ from lambda_plugins.views.study_table import (
 
 _CURVES = 9  # curves in a panel
 _ROUNDING = 1e-3  # smallest range of an axis, over the largest value
-# What a row of a comparison method answers beside the solver's own response.
+# The response of a comparison method to each response of the solver.
 _SAME: dict[str, str] = {"friction/total": "friction_torque_Nmm"}
 
 
