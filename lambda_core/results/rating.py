@@ -55,6 +55,11 @@ class Rating(Record):
         "friction torque after Schaeffler's catalogue", "N mm", label="friction torque, Schaeffler's catalogue",
         column="  Schaeffler", decimals=0, digits=4, group="catalogue",
     )  # fmt: skip
+    skf_torque_without_step_Nmm: float | None = Field(
+        description="friction torque after SKF's catalogue without its step where an axial load begins; null without "
+        "an axial load",
+        default=None,
+    )
     limits: Limits | None = Field(description="what the bearing has to keep to", default=None)
     notes: list[str] = Field(description="why a method does not answer, one sentence each")
 

@@ -193,11 +193,22 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Seque
     ]
     return [
         *([line("catalogues", f"{'   '.join(says)} {units.unit('N mm')}")] if says else []),
+        *_step(rating, units),
         *(line("" if i else "rating life", text) for i, text in enumerate(rated)),
         *([line("", f"L_10rh by the model band {ends(life_band, 'h', units, named=True)}")] if life_band else []),
         *([line("", life_factor_text(*modified))] if rating.modified_life_h is not None else []),
         line("safety", *(f"{words} {facts[name].number(getattr(rating, name))}" for name, words in safeties)),
     ]
+
+
+def _step(rating: Rating, units: UnitSystem) -> list[str]:
+    """Say why SKF's torque may lie far above others: its sliding torque steps where an axial load begins."""
+    without = rating.skf_torque_without_step_Nmm
+    if without is None or rating.skf_torque_Nmm is None:
+        return []
+    number = quantities(type(rating))["skf_torque_Nmm"].number(without, units)
+    unit = units.unit("N mm")
+    return [line("", f"SKF {number} {unit} without its step where an axial load begins (d_m^-0.26 to d_m^-0.145)")]
 
 
 def _lives(found: Iterable[tuple[str, float | None]]) -> str:

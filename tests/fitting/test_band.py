@@ -146,6 +146,18 @@ def test_the_errors_of_a_fit_replace_the_ranges(tmp_path: Path) -> None:
     assert after.half_width_pct < 0.9 * before.half_width_pct
 
 
+def test_an_unknown_fitted_parameter_names_the_nearest_one() -> None:
+    row = {"path": "parameters.elastic_hysteresis.loss_facto", "value": 0.03, "standard_error": 0.001}
+    fit = {"file": "rig.csv", "sha256": "0", "date": "2026-01-01", "count": 9, "parameters": [row]}
+    case = api.case("6319-cp10-500").with_(fit={**fit, "correlation": [[1.0]]})
+    with pytest.raises(CaseError) as caught:
+        api.model_band(case, quantities=TORQUE)
+    (problem,) = caught.value.problems
+    assert problem.where == "fit.parameters.0.path"
+    assert "nearest: parameters.elastic_hysteresis.loss_factor" in problem.message
+    assert "--vary" not in problem.message
+
+
 def test_a_fitted_machine_hands_its_bearings_their_part_of_the_fit() -> None:
     """Of three fitted values the left bearing has two, the right one has one: it has its own value of the other."""
     row = {"value": 0.03, "standard_error": 0.001}

@@ -72,8 +72,20 @@ def test_a_run_says_it_first(combined_run: api.Result) -> None:
     assert summary.power_loss_W == pytest.approx(1e-3 * summary.friction_torque_Nmm * rpm, rel=1e-3)
     text = summary_text(summary)
     lines = text.splitlines()
-    first = "\n".join(lines[:13])
+    first = "\n".join(lines[:14])
     for head in ("power loss", "catalogues", "rating life", "safety", "film"):
         assert f"\n{head}" in first
     assert sum("assum" in text for text in lines) <= 2
     assert max(map(len, summary.text(80).splitlines())) <= 80
+
+
+def test_the_answer_says_why_skf_lies_above_others_under_combined_load(ratings: tuple[Rating, Rating]) -> None:
+    """The step of its sliding torque where an axial load begins; nothing is said where there is none."""
+    locked, _ = ratings
+    without = locked.skf_torque_without_step_Nmm
+    assert locked.skf_torque_Nmm is not None
+    assert without is not None
+    assert without < 0.95 * locked.skf_torque_Nmm
+    assert "without its step where an axial load begins" in "\n".join(rating_lines(locked))
+    pure = locked.model_copy(update={"skf_torque_without_step_Nmm": None})
+    assert "step" not in "\n".join(rating_lines(pure))

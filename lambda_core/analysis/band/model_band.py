@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lambda_core.analysis.band.changed import as_loaded, is_of_laws, resolved_anew, with_laws, with_value
-from lambda_core.analysis.band.graded import Exchange, Resolver, exchanges, graded_parameters, varied
+from lambda_core.analysis.band.graded import Exchange, Graded, Resolver, exchanges, graded_parameters, varied
 from lambda_core.analysis.band.readings import POSITIONS, READ, UNITS_OF, read_values
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread
-from lambda_core.domain.errors import CaseError, LambdaError, SolverError
+from lambda_core.domain.errors import CaseError, LambdaError, Problem, SolverError, UsageError
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results.model_band import COVERAGE, QUANTITIES, Band, Contributor, MachineBand, ModelBand
 from lambda_core.solver.drivers.compiled_laws import Kernels
@@ -25,7 +25,7 @@ from lambda_core.solver.drivers.near_equilibrium import solve_near
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
-    from lambda_core.case.fitted import FitOrigin
+    from lambda_core.case.fitted import FitOrigin, FittedValue
     from lambda_core.case.machine import MachineCase
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
@@ -294,7 +294,7 @@ class Effects:
         values.
         """
         rows = fit.parameters
-        graded = [varied(self._model, f"{row.path}={_ends(row)}") for row in rows]
+        graded = self._fitted_parameters(rows)
         deviation = np.array([row.standard_error for row in rows])
         matrix = np.array(fit.correlation) * np.outer(deviation, deviation)
         values = np.array([row.value for row in rows])
@@ -334,6 +334,18 @@ class Effects:
         total = np.sqrt(np.sum(np.square(parts), axis=0))
         yield Effect("fitted values", f"fitted to {fit.file}", np.array([total, -total]), is_range=False)
 
+    def _fitted_parameters(self, rows: Sequence[FittedValue]) -> list[Graded]:
+        """Return the parameters of a fit; CaseError with the nearest valid path for each that the case does not have."""
+        found, problems = [], []
+        for number, row in enumerate(rows):
+            try:
+                found.append(varied(self._model, f"{row.path}={_ends(row)}"))
+            except UsageError as error:
+                problems.append(Problem(f"fit.parameters.{number}.path", str(error).removeprefix("--vary: ")))
+        if problems:
+            raise CaseError(self._model.name, problems)
+        return found
+
     def _has(self, name: str) -> bool:
         """Tell whether a result exists: at rest there is no torque, and without load no film."""
         try:
@@ -357,7 +369,7 @@ class Effects:
         return np.where(np.isfinite(ratio), ratio, 0.0)
 
 
-def _ends(row: Any) -> str:
+def _ends(row: FittedValue) -> str:
     ends = (row.value - row.standard_error, row.value + row.standard_error)
     return "..".join(f"{end!r} {row.unit}".rstrip() for end in ends)
 

@@ -34,6 +34,7 @@ _ROWS: dict[str, tuple[str, str, str]] = {
     "static_safety": ("iso-281", "rating", "static safety"),
     "viscosity_ratio": ("iso-281", "life", "viscosity ratio"),
     "skf_torque_Nmm": ("skf", "friction", "total"),
+    "skf_torque_without_step_Nmm": ("skf", "friction", "total, continuous"),
     "schaeffler_torque_Nmm": ("schaeffler", "friction", "total"),
 }
 
