@@ -7,7 +7,17 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import BearingOption, CaseArgument, JsonOption, OverlayOption, SetOption, Units, UnitsOption
+from lambda_cli.options import (
+    BandOption,
+    Bands,
+    BearingOption,
+    CaseArgument,
+    JsonOption,
+    OverlayOption,
+    SetOption,
+    Units,
+    UnitsOption,
+)
 from lambda_cli.pictures import check_overlay
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.files import check_folder
@@ -29,6 +39,7 @@ def stribeck(
         typer.Option("--draw", metavar="DIR", help="Also write the picture (svg and png) into this folder."),
     ] = None,
     measured: OverlayOption = None,
+    band: BandOption = Bands.MODEL,
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
@@ -46,7 +57,13 @@ def stribeck(
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
         found = api.stribeck(
-            case, changes or (), bearing=bearing, speeds_rpm=chosen, points=points, announce=speaker.say
+            case,
+            changes or (),
+            bearing=bearing,
+            speeds_rpm=chosen,
+            points=points,
+            band=band is Bands.MODEL,
+            announce=speaker.say,
         )
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))
     if draw is not None:

@@ -187,13 +187,19 @@ def _finish(status: StudyStatus, as_json: bool) -> None:
 
 
 def _csv(table: StudyTable) -> None:
+    from lambda_core.views.table import BAND
+
     units = table.units()
     rows = table.rows()
     writer = csv.writer(sys.stdout, lineterminator="\n")
     names = ["point", *units, "state", "reason", "file"]
-    writer.writerow([printable(f"{name} [{units[name]}]" if units.get(name) else name) for name in names])
-    for row in rows:
-        writer.writerow([_written(row[name]) for name in names])
+    banded = [column for column in table.responses if column.band]
+    heads = [printable(f"{name} [{units[name]}]" if units.get(name) else name) for name in names]
+    ends = [f"{column.name}{BAND}_{end} [{column.unit}]" for column in banded for end in ("low", "high")]
+    writer.writerow([*heads, *map(printable, ends)])
+    for index, row in enumerate(rows):
+        pairs = (column.band[index] or ("", "") for column in banded)
+        writer.writerow([*(_written(row[name]) for name in names), *(end for pair in pairs for end in pair)])
 
 
 def _written(value: object) -> object:
@@ -216,9 +222,14 @@ def _print(table: StudyTable, units: UnitSystem) -> None:
     for column in columns:
         text = printable(column.label) + (f"\n[{units.unit(column.unit)}]" if column.unit else "")
         shown.add_column(text.replace("[", "\\["), justify="right", max_width=14)
+        if column.band:
+            shown.add_column("90 % model\nband", justify="right")
     shown.add_column("state")
     for index, row in enumerate(table.rows()):
-        cells = [_cell(row[column.name], column.unit, units) for column in columns]
+        cells = []
+        for column in columns:
+            cells.append(_cell(row[column.name], column.unit, units))
+            cells += [column.band_text(index, units)] if column.band else []
         shown.add_row(str(index + 1), *cells, row["state"], style="dim" if row["state"] == "failed" else None)
     Console(width=None if sys.stdout.isatty() else 240, highlight=False).print(shown)
 

@@ -76,7 +76,8 @@ def study_run(
     workers : int, optional
         Default: the processors that this process may use; a study of a few seconds is done by this process alone.
     band : bool
-        Also compute the 90 % model band of the case that is varied, see :func:`model_band`.
+        Also compute the 90 % model band of the case that is varied, see :func:`model_band`, and of every point: in full
+        at up to 8 points that lie far apart, at the others as a mean of these, weighted by distance.
     progress, announce : callable, optional
         Called with where the study stands; with a sentence before something is compiled and with the estimate.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
@@ -14,15 +15,15 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.laws.pack import NATIVE, code, other_code
-from lambda_core.results.model_band import MachineBand, ModelBand
+from lambda_core.results.model_band import FIELDS, MachineBand, ModelBand
 from lambda_core.studies.definition import Study, read_study, validate_study
 from lambda_core.studies.design import Plan
-from lambda_core.studies.job import RUNS, Outcome, Task, lost, point_hash, point_model, work
+from lambda_core.studies.job import RUNS, Outcome, Task, lost, point_hash, point_model, with_temperatures, work
 from lambda_core.studies.optimise import Best, best_row, search
 from lambda_core.studies.pool import HERE, pool, usable_cores
 from lambda_core.studies.responses import asks_currents
 from lambda_core.studies.scheduler import Director, Report
-from lambda_core.studies.store import Manifest, readable
+from lambda_core.studies.store import BANDS, Manifest, readable
 from lambda_core.studies.study_check import Announce, Ready, check, duration
 from lambda_core.views.table import StudyTable
 
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
 Where = str | Executor
 _BAND = "model_band"  # name in the manifest
+_BANDED = "banded"  # entry of a study whose points get model bands
 _ALONE = 6.0  # estimated work that other processes do not make shorter [s]
 
 
@@ -139,8 +141,10 @@ def start(
     with closing(manifest):
         manifest.write_meta("code", code())
         manifest.write_meta("fingerprint", _fingerprint(ready.plan, ready.case_toml, ready.names))
-        if band and (found := _band_of(ready.case_toml)) is not None:
-            manifest.write_meta(_BAND, found.model_dump_json())
+        if band:
+            manifest.write_meta(_BANDED, "yes")
+            if (found := _band_of(ready.case_toml)) is not None:
+                manifest.write_meta(_BAND, found.model_dump_json())
         manifest.add(list(ready.plan.points()))
         return _work(manifest, ready.plan, ready.names, where, workers, report, retry=False)
 
@@ -262,11 +266,41 @@ def _work(
                 stop = not done
             finally:
                 workers_pool.close(stop=stop)
+                if not stop and manifest.meta(_BANDED):
+                    _write_bands(manifest)
                 wall = time.monotonic() - begun
                 manifest.write_meta("wall", repr(float(manifest.meta("wall") or 0.0) + wall))
                 spent = manifest.seconds() - before
                 manifest.write_meta("efficiency", repr(spent / (wall * workers_pool.workers)) if wall > 0.0 else "")
     return _status(manifest).model_copy(update={"interrupted": stop})
+
+
+def _write_bands(manifest: Manifest) -> None:
+    """Compute the model bands of the points that have results."""
+    from lambda_core.analysis.band.neighbours import places_of
+    from lambda_core.analysis.band.over_points import bands_over
+
+    points, names = manifest.done(), {h.name for h in manifest.headings() if h.kind == "response"}
+    if not points or not names.intersection(_banded(manifest.case_toml)):
+        return
+    places = places_of(list(zip(*(coordinates for _, _, coordinates in points), strict=True)))
+    shares = bands_over(lambda row: with_temperatures(point_model(manifest.case_toml, points[row][1])), places)
+    rows = {number: row for row, (number, _, _) in enumerate(points)}
+    none = [1.0, 1.0]  # of a point without a result
+    found = {
+        name: [share[rows[n]].tolist() if n in rows else none for n in range(manifest.counts().total)]
+        for name, share in shares.items()
+        if name in names
+    }
+    manifest.write_meta(BANDS, json.dumps(found))
+
+
+def _banded(case_toml: str) -> set[str]:
+    """Return the names of the results that have model bands."""
+    from lambda_core.case.case_io import toml_tables
+
+    bearings = toml_tables(case_toml, "the case of the study").get("bearings", {})
+    return {*FIELDS.values(), *(f"{name}.{field}" for name in bearings for field in FIELDS.values())}
 
 
 def _tasks(manifest: Manifest, todo: list[tuple[int, tuple[str, ...]]], names: tuple[str, ...]) -> Iterator[Task]:

@@ -29,6 +29,7 @@ def study(
     folder: str | Path | None = None,
     executor: str | Executor = "processes",
     workers: int | None = None,
+    band: bool = False,
     progress: Callable[[StudyProgress], None] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> StudyTable:
@@ -46,7 +47,7 @@ def study(
         Equilibria, or full runs.
     folder : path-like, optional
         Keep the study there, so that :func:`study_resume` goes on with it; default: it is gone afterwards.
-    executor, workers, progress, announce
+    executor, workers, band, progress, announce
         As for :func:`study_run`.
 
     Returns
@@ -84,5 +85,5 @@ def study(
     ready = prepare(definition, workers, announce, case)
     with ExitStack() as stack:
         place = folder or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="lambda-bearing-"))) / "study"
-        start(ready, Path(place), where=executor, workers=workers, report=progress)
+        start(ready, Path(place), where=executor, workers=workers, report=progress, band=band)
         return table(Path(place))

@@ -21,6 +21,7 @@ from lambda_core.domain.lists import listed
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.results.answer import Answer, answers
+from lambda_core.results.band_text import ends
 from lambda_core.results.record import INTERFACE
 from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
 
@@ -56,6 +57,9 @@ class SpeedCurve(Answer):
     speeds_rpm: list[float]
     torque_Nmm: list[float]
     parts_Nmm: dict[str, list[float]] = Field(description="what the torque is made of")
+    torque_Nmm_band: list[list[float]] = Field(
+        description="ends of the 90 % model band at each speed; empty without one", default=[]
+    )
     skf_Nmm: list[float | None] = Field(description="SKF's catalogue model with drag; null where it does not apply")
     film_parameter: list[float] = Field(description="smallest Lambda under load")
     note: str
@@ -63,9 +67,12 @@ class SpeedCurve(Answer):
     def text(self, units: UnitSystem = SI) -> str:
         """Return a table for people."""
         unit, names = "N mm", list(self.parts_Nmm)
-        head = ("1/min", "torque", *names, "SKF", "Lambda")
+        bands: list[tuple[str, ...]] = [(ends(one, unit, units),) for one in self.torque_Nmm_band]
+        bands = bands or [()] * len(self.speeds_rpm)
+        head = ("1/min", "torque", *(("90 % model band",) if self.torque_Nmm_band else ()), *names, "SKF", "Lambda")
         rows = [
-            (f"{n:.4g}", *(units.number(v, unit) for v in (self.torque_Nmm[i], *(self.parts_Nmm[k][i] for k in names))),
+            (f"{n:.4g}", units.number(self.torque_Nmm[i], unit), *bands[i],
+             *(units.number(self.parts_Nmm[k][i], unit) for k in names),
              units.number(self.skf_Nmm[i], unit), f"{self.film_parameter[i]:.2f}")
             for i, n in enumerate(self.speeds_rpm)
         ]  # fmt: skip
@@ -83,6 +90,7 @@ def stribeck(
     bearing: str | None = None,
     speeds_rpm: Sequence[float] = (),
     points: int = 16,
+    band: bool = False,
     announce: Callable[[str], None] | None = None,
 ) -> SpeedCurve:
     """Return the friction torque over speed, the Stribeck curve.
@@ -97,6 +105,8 @@ def stribeck(
         Speeds [1/min]; from 1 1/min to n d_m = 500 000 mm/min, evenly by their logarithm, when empty.
     points : int
         Number of these speeds.
+    band : bool
+        Also compute the 90 % model band of the torque: in full at up to 8 speeds, interpolated between them.
     announce : callable, optional
         Called with a sentence before something is compiled.
 
@@ -126,12 +136,14 @@ def stribeck(
         given = np.geomspace(SLOWEST, FASTEST_FACTOR / mean_diameter, points).tolist()
     kernels = Kernels(model)
     found = [_point(model_at(speed), kernels) for speed in given]
+    torques = [sum(parts.values()) for parts, _, _ in found]
     names = dict.fromkeys(_PARTS.values())
     return SpeedCurve(
         case=model.name,
         title=model.title,
         speeds_rpm=given,
-        torque_Nmm=[sum(parts.values()) for parts, _, _ in found],
+        torque_Nmm=torques,
+        torque_Nmm_band=_bands(model_at, given, torques) if band else [],
         parts_Nmm={name: [parts[name] for parts, _, _ in found] for name in names},
         skf_Nmm=[skf for _, skf, _ in found],
         film_parameter=[film for _, _, film in found],
@@ -152,6 +164,17 @@ def _models(
         return lambda speed: at_speed(alone, speed * _RPM)
     refuse_bearing(bearing)
     return lambda speed: ready_model(source, (*changes, f"operation.speed={speed!r} rpm"), announce)
+
+
+def _bands(
+    model_at: Callable[[float], BearingModel], speeds: Sequence[float], torques: Sequence[float]
+) -> list[list[float]]:
+    """Return the ends of the model band of the torque at each speed; nothing where the bearing has none."""
+    from lambda_core.analysis.band.neighbours import places_of
+    from lambda_core.analysis.band.over_points import bands_over
+
+    shares = bands_over(lambda row: model_at(speeds[row]), places_of([speeds])).get("friction_torque_Nmm")
+    return [] if shares is None else (shares * np.array(torques)[:, None]).tolist()
 
 
 def _point(model: Any, kernels: Any) -> tuple[dict[str, float], float | None, float]:
@@ -206,7 +229,9 @@ def stribeck_picture(found: SpeedCurve) -> ViewData:
         Series(name, speed, np.array(values), "line", group=_LOOKS[name]) for name, values in found.parts_Nmm.items()
     )
     skf = np.array([np.nan if value is None else value for value in found.skf_Nmm])
-    total = Series("total", speed, np.array(found.torque_Nmm), "line", "total")
+    low, high = np.array(found.torque_Nmm_band).T if found.torque_Nmm_band else (None, None)
+    words = "90 % model band" if found.torque_Nmm_band else ""
+    total = Series("total", speed, np.array(found.torque_Nmm), "line", "total", low, high, words)
     catalogue = (Series("SKF", speed, skf, "points", "reference"),) if np.isfinite(skf).any() else ()
     axis = Axis("speed", "1/min", log=True)
     film = Series("smallest under load", speed, np.array(found.film_parameter), "line", "inner")

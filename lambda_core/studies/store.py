@@ -23,6 +23,7 @@ from lambda_core.views.table import Column, PointState, StudyTable
 
 FILE = "manifest.sqlite"
 VERSION = 1
+BANDS = "bands"  # entry of the ends of model bands over the values, JSON: by response, for each point
 _SCHEMA = """
 CREATE TABLE meta (name TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT;
 CREATE TABLE columns (
@@ -179,6 +180,13 @@ class Manifest:
         rows = self._database.execute(f"SELECT number, changes FROM points WHERE state IN {states} ORDER BY number")
         return [(int(number), tuple(json.loads(changes))) for number, changes in rows]
 
+    def done(self) -> list[tuple[int, tuple[str, ...], tuple[float | str, ...]]]:
+        """Return numbers, changes and coordinates of the points with results."""
+        rows = self._database.execute(
+            "SELECT number, changes, coordinates FROM points WHERE state IN ('done', 'partial') ORDER BY number"
+        )
+        return [(int(number), tuple(json.loads(c)), tuple(json.loads(places))) for number, c, places in rows]
+
     def table(self) -> StudyTable:
         """Return everything as one table."""
         study, headings = self.study, self.headings()
@@ -191,8 +199,9 @@ class Manifest:
         parameters = tuple(
             Column(h.name, h.unit, h.meaning, tuple(entry[place] for entry in entries)) for place, h in enumerate(names)
         )
+        bands = json.loads(self.meta(BANDS) or "{}")
         responses = tuple(
-            Column(h.name, h.unit, h.meaning, tuple(answer.get(h.name) for answer in answers))
+            _response(h, [answer.get(h.name) for answer in answers], bands.get(h.name, []))
             for h in headings
             if h.kind == "response"
         )
@@ -264,6 +273,15 @@ class Manifest:
     def close(self) -> None:
         """Close the file."""
         self._database.close()
+
+
+def _response(heading: Heading, values: Sequence[float | None], shares: Sequence[Sequence[float]]) -> Column:
+    """Return a column of results; `shares` are the ends of its model bands over the values."""
+    band = tuple(
+        None if value is None or index >= len(shares) else (value * shares[index][0], value * shares[index][1])
+        for index, value in enumerate(values)
+    )
+    return Column(heading.name, heading.unit, heading.meaning, tuple(values), band if shares else ())
 
 
 def parameter_headings(coordinates: Sequence[Coordinate]) -> list[Heading]:

@@ -11,8 +11,11 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.domain.number_text import NONE, rounded
+from lambda_core.domain.unit_systems import SI, UnitSystem
 
 Cell = float | str | None
+BAND = "_band"  # ends the name of a column of bands
 PointState = Literal["pending", "done", "partial", "failed"]
 
 
@@ -30,12 +33,15 @@ class Column:
         One line for people.
     values : tuple
         One per row: a number, a name (of a law, say), or None where there is none.
+    band : tuple of tuple
+        Both ends of the 90 % model band of each row, None where there is none; empty without bands.
     """
 
     name: str
     unit: str
     meaning: str
     values: tuple[Cell, ...]
+    band: tuple[tuple[float, float] | None, ...] = ()
 
     @property
     def numeric(self) -> bool:
@@ -55,6 +61,18 @@ class Column:
     def numbers(self) -> FloatArray:
         """Return the values, shape (rows,); NaN where there is none."""
         return np.array([np.nan if v is None or isinstance(v, str) else float(v) for v in self.values])
+
+    def ends(self) -> FloatArray:
+        """Return the ends of the band, shape (rows, 2); NaN where there is none."""
+        return np.array([(np.nan, np.nan) if ends is None else ends for ends in self.band])
+
+    def band_text(self, row: int, units: UnitSystem = SI) -> str:
+        """Return the ends of the band of a row, rounded to what it leaves a meaning; a dash where there is none."""
+        ends = self.band[row]
+        if ends is None:
+            return NONE
+        low, high = (units.value(end, self.unit) for end in ends)
+        return " .. ".join(rounded(end, 0.5 * abs(high - low)) for end in (low, high))
 
 
 @dataclass(frozen=True)
@@ -103,6 +121,7 @@ class StudyTable:
             {
                 "point": index + 1,
                 **{column.name: column.values[index] for column in (*self.parameters, *self.responses)},
+                **{f"{column.name}{BAND}": list(column.band[index] or ()) for column in self.responses if column.band},
                 "state": self.states[index],
                 "reason": self.reasons[index],
                 "file": self.files[index],
@@ -119,6 +138,11 @@ class StudyTable:
         import pandas
 
         frame = pandas.DataFrame(self.rows()).set_index("point")
+        for column in self.responses:
+            if column.band:
+                low, high = column.ends().T
+                name = f"{column.name}{BAND}"
+                frame = frame.drop(columns=name).assign(**{f"{name}_low": low, f"{name}_high": high})
         frame.attrs["units"] = self.units()
         return frame
 

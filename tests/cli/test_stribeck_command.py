@@ -57,9 +57,12 @@ def test_the_command_prints_and_draws(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main(words) == 0
     printed = json.loads(capsys.readouterr().out)
     assert printed["speeds_rpm"] == pytest.approx([10.0, 1000.0])
+    pairs = zip(printed["torque_Nmm_band"], printed["torque_Nmm"], strict=True)
+    assert all(low < torque < high for (low, high), torque in pairs)
     assert {path.suffix for path in tmp_path.iterdir()} == {".svg", ".png"}
-    assert main(["stribeck", CASE, "--points", "2", "--quiet"]) == 0
-    assert "Lambda" in capsys.readouterr().out
+    assert main(["stribeck", CASE, "--points", "2", "--band", "none", "--quiet"]) == 0
+    assert "Lambda" in (text := capsys.readouterr().out)
+    assert "model band" not in text
     assert main(["stribeck", CASE, "--speed", "10 rpm", "--speed", "1000 rpm", "--quiet", "--units", "us"]) == 0
     customary = capsys.readouterr().out
     assert "friction torque over speed [lbf in]" in customary

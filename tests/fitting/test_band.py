@@ -19,8 +19,11 @@ from lambda_cli.main import main
 from lambda_core import api
 from lambda_core.analysis.band.changed import is_of_laws, with_value
 from lambda_core.analysis.band.graded import graded_parameters
+from lambda_core.analysis.band.neighbours import interpolated, places_of, spread_out
+from lambda_core.analysis.band.over_points import bands_over
 from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.case.case_io import validate_case
+from lambda_core.case.case_writer import standalone_toml
 from lambda_core.case.machine import bearing_tables
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import CaseError
@@ -28,12 +31,14 @@ from lambda_core.domain.number_text import rounded
 from lambda_core.export.report.band_table import model_bands
 from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.scores import interval_score
+from lambda_core.model.api import case_of
 from lambda_core.model.checking import check_bearing
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.results.band_text import banded, ends, source_lines
 from lambda_core.results.model_band import FIELDS, Band, Contributor, ModelBand
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.solver.drivers.near_equilibrium import solve_near
+from lambda_core.studies.job import resolve_point
 
 from .drawn_bearings import drawn_bearings
 
@@ -269,17 +274,63 @@ def test_a_search_that_changes_nothing_stays_where_it_is(load: str) -> None:
     np.testing.assert_allclose(again.state, near.state, rtol=1e-9, atol=1e-12)
 
 
-def test_a_study_tells_the_band_of_its_case(tmp_path: Path) -> None:
+def test_a_study_tells_the_band_of_its_case_and_of_each_point(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     plan = {
         "name": "speeds",
         "case": "6319-cp10-500",
         "parameters": [{"path": "operation.speed", "values": ["500 rpm", "600 rpm"]}],
-        "responses": ["friction_torque_Nmm"],
+        "responses": ["friction_torque_Nmm", "max_load_N"],
     }
     status = api.study_run(plan, tmp_path / "speeds", executor="here", band=True)
     assert isinstance(status.model_band, ModelBand)
     assert re.search(r"model band friction torque -\d+ \.\. \+\d+ %   mostly elastic_hysteresis", status.text())
     assert api.study_status(tmp_path / "speeds").model_band == status.model_band
+    table = api.study_table(tmp_path / "speeds")
+    torque, load = table.responses
+    band = api.model_band("6319-cp10-500", ["operation.speed=600 rpm"], quantities=TORQUE).band("friction torque")
+    assert torque.values[1] is not None
+    assert torque.band[1] == pytest.approx(band.around(float(torque.values[1])), rel=1e-6)
+    assert not load.band
+    assert table.rows()[1]["friction_torque_Nmm_band"] == list(torque.band[1] or ())
+    frame = table.to_pandas()
+    assert frame["friction_torque_Nmm_band_low"].iloc[1] < frame["friction_torque_Nmm"].iloc[1]
+    assert main(["study", "show", str(tmp_path / "speeds")]) == 0
+    assert torque.band_text(1) in capsys.readouterr().out
+    assert main(["study", "show", "--csv", str(tmp_path / "speeds")]) == 0
+    assert "friction_torque_Nmm_band_low [N mm]" in capsys.readouterr().out
+    curve = api.view(tmp_path / "speeds", "study-curves").panels[0].series[0]
+    assert curve.low is not None
+    np.testing.assert_allclose(curve.low, torque.ends()[:, 0])
+
+
+def test_points_between_get_their_bands_from_their_neighbours() -> None:
+    """Over one condition a band that changes evenly is exact, and names count as equally far apart."""
+    places = places_of([(100.0, 1000.0, 10_000.0, 100.0), ("thin", "thin", "thin", "thick")])
+    np.testing.assert_allclose(np.linalg.norm(places[0] - places, axis=1), [0.0, 0.5, 1.0, 1.0])
+    line = places_of([(1.0, 1.5, 2.0)])
+    assert sorted(spread_out(line, 3)) == [0, 1, 2]
+    np.testing.assert_allclose(interpolated(line, [0, 2], np.array([[1.0], [3.0]])), [[1.0], [2.0], [3.0]])
+    assert spread_out(np.zeros((5, 2)), 3) == [0]
+
+
+@pytest.mark.full
+def test_bands_from_neighbours_are_those_of_the_full_computation() -> None:
+    """20 points over factors of 40 in speed and 12 in load, 8 in full: within 15 % of the half-width on average."""
+    text = standalone_toml(case_of("6319-cp10-1500"))
+    points = [(speed, load) for speed in (100.0, 300.0, 1e3, 2e3, 4e3) for load in (2.0, 6.0, 16.0, 24.6)]
+    places = places_of(list(zip(*points, strict=True)))
+
+    def model_at(row: int) -> api.BearingModel:
+        speed, load = points[row]
+        return resolve_point(text, (f"operation.speed={speed} rpm", f"loads.radial={load} kN"))
+
+    full, few = (bands_over(model_at, places, most) for most in (20, 8))
+    for name, ends in full.items():
+        missed = np.abs(np.log(few[name] / ends)).max(axis=1) / (0.5 * np.log(ends[:, 1] / ends[:, 0]))
+        assert missed.mean() < 0.15, name
+        assert missed.max() < 0.5, name
 
 
 def test_a_report_sets_band_and_scatter_apart(tmp_path: Path) -> None:

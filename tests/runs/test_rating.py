@@ -80,7 +80,7 @@ def test_a_run_says_it_first(combined_run: api.Result) -> None:
 
 
 def test_the_answer_says_why_skf_lies_above_others_under_combined_load(ratings: tuple[Rating, Rating]) -> None:
-    """The step of its sliding torque where an axial load begins; nothing is said where there is none."""
+    """The step of its sliding torque where an axial load begins, which a pure radial load does not have."""
     locked, _ = ratings
     without = locked.skf_torque_without_step_Nmm
     assert locked.skf_torque_Nmm is not None

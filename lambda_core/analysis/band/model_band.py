@@ -335,7 +335,7 @@ class Effects:
         yield Effect("fitted values", f"fitted to {fit.file}", np.array([total, -total]), is_range=False)
 
     def _fitted_parameters(self, rows: Sequence[FittedValue]) -> list[Graded]:
-        """Return the parameters of a fit; CaseError with the nearest valid path for each that the case does not have."""
+        """Return the parameters of a fit; CaseError with the nearest valid path for an unknown one."""
         found, problems = [], []
         for number, row in enumerate(rows):
             try:

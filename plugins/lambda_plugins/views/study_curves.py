@@ -92,4 +92,6 @@ def _curve(x: Column, response: Column, rows: list[int], label: str) -> Series:
     places, values = positions(x)[rows], response.numbers()[rows]
     order = np.argsort(places)
     style: Literal["line", "points"] = "line" if x.numeric else "points"
-    return Series(label or response.label, places[order], values[order], style, unlisted=not label)
+    low, high = response.ends()[rows][order].T if response.band else (None, None)
+    band = "90 % model band" if response.band else ""
+    return Series(label or response.label, places[order], values[order], style, "", low, high, band, unlisted=not label)
