@@ -199,6 +199,20 @@ class BuilderApp(CaseApp):
         width = self.size.width
         self.push_screen(DutyScreen(builder.draft, model.name, model.case_toml, builder.around, width))
 
+    def action_fit_case(self) -> None:
+        """Set up a fit of the case to measured points."""
+        self.builder.when_checked(self._set_up_fit)
+
+    def _set_up_fit(self) -> None:
+        from lambda_gui.fit_screen import FitScreen
+
+        builder = self.builder
+        model = builder.check.model
+        if model is None:
+            self.notify(builder.what_is_wrong(), severity="warning", timeout=4)
+            return
+        self.push_screen(FitScreen(builder.draft, model))
+
     def run_study(self, study: dict[str, Any], case_toml: str) -> None:
         """Run a study of a case."""
         import tomlkit
@@ -309,6 +323,7 @@ class BuilderApp(CaseApp):
         yield SystemCommand("Runs", "the queue and live traces", self.action_runs)
         yield SystemCommand("Study", "let one or two options of the case vary", self.action_study)
         yield SystemCommand("Duty cycle", "life and losses over phases of the case", self.action_duty)
+        yield SystemCommand("Fit", "parameters of the case from measured points", self.action_fit_case)
         yield SystemCommand("Answers", "equilibrium, temperatures, currents, friction of the case without a run",
                             lambda: self.builder.action_answers())  # fmt: skip
         yield SystemCommand("Results", "summary, views, comparison, export", self.action_results)

@@ -43,6 +43,7 @@ class BuilderScreen(LiveDraft):
         Binding("f2", "catalogue", "Catalogue", priority=True),
         Binding("f3", "app.study", "Study", priority=True),
         Binding("f4", "app.duty", "Duty cycle", show=False, priority=True),
+        Binding("ctrl+f", "app.fit_case", "Fit", show=False, priority=True),
         Binding("f5,ctrl+r", "app.run_case", "Run", priority=True),
         Binding("f6", "app.results", "Results", priority=True),
         Binding("f10,ctrl+g", "answers", "Answers", priority=True, key_display="f10"),

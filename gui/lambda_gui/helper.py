@@ -6,6 +6,7 @@ import asyncio
 import json
 import os
 import pickle
+import signal
 import sys
 from asyncio.subprocess import DEVNULL, PIPE, Process, SubprocessStreamProtocol
 from collections.abc import Callable
@@ -108,6 +109,11 @@ class Helper:
             raise LambdaError(f"the helper process cannot be started: {error.strerror}") from None
         self._process = Process(self._transport, protocol, loop)
         return self._process
+
+    def interrupt(self) -> None:
+        """Ask for an early end of what is being done, as Ctrl+C in a shell does."""
+        if self._process is not None and self._process.returncode is None:
+            self._process.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM)
 
     async def close(self) -> None:
         """End the process for good; who still waits for an answer is cancelled."""

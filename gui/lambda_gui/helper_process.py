@@ -167,6 +167,19 @@ def duty(say: Say, cycle: dict[str, Any], case_toml: str) -> Any:
         return api.duty(cycle | {"case": str(case)}, announce=say)
 
 
+def fit(say: Say, case: dict[str, Any], data: str, vary: list[str], bearing: str | None, units: str) -> Any:
+    """Return a fit of a case to a file of measurements, in words, with pictures."""
+    from lambda_core import api
+    from lambda_core.domain.unit_systems import unit_system
+
+    found = api.fit(
+        case, data, vary, bearing=bearing,
+        progress=lambda points, error: say(f"{points} operating points solved, error {error:.3g} %"),
+        announce=say,
+    )  # fmt: skip
+    return found, found.text(None, unit_system(units)), found.pictures()
+
+
 def study_summary(say: Say, path: str) -> Any:
     """Return where a study stands, and its table."""
     from lambda_core import api
@@ -183,7 +196,7 @@ def differences(say: Say, sources: list[str]) -> Any:
 
 
 _DOES = (
-    estimate, answer, summary, bearings, case_text, views, view, draw, report, study_cost, duty, study_summary,
+    estimate, answer, summary, bearings, case_text, views, view, draw, report, study_cost, duty, fit, study_summary,
     differences,
 )  # fmt: skip
 _WORK: dict[str, Callable[..., Any]] = {work.__name__: work for work in _DOES}
@@ -213,6 +226,8 @@ def _answer(work: str, arguments: dict[str, Any], reply: Callable[[str, Any], No
         found = _WORK[work](lambda text: reply("say", text), **arguments)
     except LambdaError as error:
         reply("error", str(error))
+    except KeyboardInterrupt:  # what can keep a part of its answer has done so
+        reply("error", "stopped")
     except Exception as error:  # a plugin's view may fail in any way
         from lambda_core.domain.plugin_errors import describe
 

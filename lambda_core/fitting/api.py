@@ -29,6 +29,7 @@ def fit(
     bearing: str | None = None,
     predict: str | Path | Measurements | None = None,
     suggest: bool = True,
+    progress: Callable[[int, float], None] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> FitReport:
     """Fit parameters of a case to measured operating points.
@@ -51,6 +52,8 @@ def fit(
         Measured points that the fit does not see, to be compared with its predictions.
     suggest : bool
         Look for the operating point to measure next.
+    progress : callable, optional
+        Called with the number of operating points solved and the error of the best values so far [%].
     announce : callable, optional
         Called with sentences about the progress.
 
@@ -67,8 +70,9 @@ def fit(
     from lambda_core.fitting.fit_case import fit_report
 
     return fit_report(
-        source, measured, vary, overrides, bearing=bearing, predict=predict, suggest=suggest, announce=announce
-    )
+        source, measured, vary, overrides, bearing=bearing, predict=predict, suggest=suggest, progress=progress,
+        announce=announce,
+    )  # fmt: skip
 
 
 def fitted_case(

@@ -18,6 +18,7 @@ from lambda_core.domain.units import show
 from lambda_core.fitting.least_squares import Fit
 from lambda_core.fitting.least_squares import fit as fit_values
 from lambda_core.fitting.measurements import Measurements, read_measurements
+from lambda_core.fitting.model_calls import Model
 from lambda_core.fitting.next_point import next_point
 from lambda_core.fitting.predictions import discrepancy_sizes, predicted
 from lambda_core.fitting.problem import CaseProblem, Entry
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from lambda_core.case.case import Case
 
 Announce = Callable[[str], None]
+Progress = Callable[[int, float], None]
 
 
 def fit_report(
@@ -49,6 +51,7 @@ def fit_report(
     bearing: str | None = None,
     predict: str | Path | Measurements | None = None,
     suggest: bool = True,
+    progress: Progress | None = None,
     announce: Announce | None = None,
 ) -> FitReport:
     """Return what a fit of a case found, see :func:`lambda_core.fitting.api.fit`."""
@@ -62,7 +65,7 @@ def fit_report(
         announce(f"fitting to {len(problem.entries)} measured values; parameters: {len(problem.parameters)}")
     try:
         found = fit_values(
-            problem.predict,
+            problem.predict if progress is None else _reporting(problem, progress),
             problem.parameters,
             problem.data,
             jacobian=problem.jacobian,
@@ -76,6 +79,20 @@ def fit_report(
     report = _report(subject, data, problem, found, suggestion, sizes)
     unseen = [] if predict is None or found.is_interrupted else _unseen(subject, problem, found, sizes, predict)
     return report.model_copy(update={"predictions": unseen, "seconds": time.perf_counter() - begin})
+
+
+def _reporting(problem: CaseProblem, progress: Progress) -> Model:
+    """Return what predicts the measured values and reports points solved and the error of the best values [%]."""
+    measured, best = problem.data.values, math.inf
+
+    def predict(values: FloatArray) -> FloatArray:
+        nonlocal best
+        found = problem.predict(values)
+        best = min(best, 100.0 * _rms(found / measured - 1.0))
+        progress(problem.solved, best)
+        return found
+
+    return predict
 
 
 def _unseen(

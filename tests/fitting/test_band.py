@@ -327,8 +327,8 @@ def test_bands_from_neighbours_are_those_of_the_full_computation() -> None:
         return resolve_point(text, (f"operation.speed={speed} rpm", f"loads.radial={load} kN"))
 
     full, few = (bands_over(model_at, places, most) for most in (20, 8))
-    for name, ends in full.items():
-        missed = np.abs(np.log(few[name] / ends)).max(axis=1) / (0.5 * np.log(ends[:, 1] / ends[:, 0]))
+    for name, exact in full.items():
+        missed = np.abs(np.log(few[name] / exact)).max(axis=1) / (0.5 * np.log(exact[:, 1] / exact[:, 0]))
         assert missed.mean() < 0.15, name
         assert missed.max() < 0.5, name
 
