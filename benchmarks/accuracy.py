@@ -38,7 +38,7 @@ class Totals:
     @staticmethod
     def of(time: float, integrals: Mapping[str, float]) -> Totals:
         """Return the totals of an engine."""
-        losses = [integrals[f"loss.{name}"] for name in LOSSES]
+        losses = [*(integrals[f"loss.{name}"] for name in LOSSES), integrals["support"]]
         names = ("cage_angle", "inner_angle", "input", "input_abs", "stored")
         return Totals(time, sum(losses[:_RACEWAYS]), sum(losses), *(integrals[name] for name in names))
 
@@ -114,7 +114,7 @@ def trajectory_totals(handle: Handle, times: FloatArray, states: FloatArray, at:
         Totals(
             float(times[k]),
             float(running[k, :_RACEWAYS].sum()),
-            float(running[k, : -L.BESIDE_LOSSES].sum()),
+            float(running[k, : -L.BESIDE_DISSIPATED].sum()),
             *angles[i],
             float(powers["input"][k]),
             float(powers["input_abs"][k]),

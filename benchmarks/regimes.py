@@ -45,7 +45,7 @@ def run(regime: Regime, *options: str) -> Outcome:
     done = engine.advance(regime.duration)
     wall = time.perf_counter() - began
     found = engine.integrals()
-    lost = {name: found[f"loss.{name}"] for name in LOSSES}
+    lost = {name: found[f"loss.{name}"] for name in LOSSES} | {"dampers to the ground": found["support"]}
     missing = found["input"] - sum(lost.values()) - found["stored"]
     flow = max(found["input_abs"], sum(lost.values()))
     steps = int(engine.statistics()["steps"])

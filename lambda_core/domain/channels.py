@@ -31,7 +31,7 @@ LOSSES = (
     "pocket",  # ball - cage, friction and damping
     "land",  # cage - ring (ball - ball when the cage is off)
     "drag",  # fluid drag and churning
-    "support",  # dampers to ground
+    "bending",  # material damping of elastic rings and cage
 )
 # dimension -> labels of its entries, in order
 DIMENSIONS: dict[str, tuple[str, ...]] = {
@@ -109,6 +109,7 @@ CHANNELS: tuple[Channel, ...] = (
     Channel("bearing_capacitance", (), "F", "balls in parallel, inner and outer contact in series"),
     Channel("input_torque", (), "N m", "torque of the drive about the inner ring's axis"),
     Channel("loss", ("mechanism",), "W", "dissipated power by mechanism"),
+    Channel("support_power", (), "W", "power that dampers to the ground take from rings and cage"),
     Channel("input_power", (), "W", "power of drives, loads, gravity and prescribed motions"),
     Channel("stored_energy", (), "J", "kinetic plus elastic energy"),
 )

@@ -22,6 +22,7 @@ INTEGRALS: tuple[Channel, ...] = (
     Channel("loss", ("mechanism",), "J", "dissipated energy by mechanism"),
     Channel("input", (), "J", "work of drives, loads, gravity and prescribed motions"),
     Channel("input_abs", (), "J", "integral of the absolute value of that power"),
+    Channel("support", (), "J", "energy that dampers to the ground have taken"),
     Channel("drive", (), "J", "work of the spin drives"),
     Channel("stored", (), "J", "kinetic and elastic energy, now minus at the start"),
     Channel("relative_angle", (), "rad", "integral of the absolute value of the rings' relative speed"),
@@ -118,7 +119,8 @@ class Interval:
 
     def energy_residual(self) -> float:
         """Return (input - dissipated - stored) / integral of |input power|; 0 when nothing flowed."""
-        missing = self.change("input") - float((self.last - self.first)[_LOSS].sum()) - self.change("stored")
+        dissipated = float((self.last - self.first)[_LOSS].sum()) + self.change("support")
+        missing = self.change("input") - dissipated - self.change("stored")
         flow = self.change("input_abs")
         if flow > 0.0:
             return missing / flow

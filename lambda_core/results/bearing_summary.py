@@ -89,6 +89,11 @@ class BearingSummary(Banded):
         "work of the drives over the relative angle", "N mm", label="input torque", digits=4,
         group="friction",
     )  # fmt: skip
+    support_power_W: float | None = quantity(
+        "mean power of dampers to the ground (of a machine, of all), no part of power_loss_W; null for none",
+        "W", label="power of dampers to the ground", column="dampers", decimals=FLOATING, digits=3, group="friction",
+        default=None,
+    )  # fmt: skip
     friction_breakdown_Nmm: dict[str, float | None] = Field(description="parts of friction_torque_Nmm; they add up")
     cage_speed_ratio: float | None = quantity(
         "mean cage speed over inner ring speed", label="cage speed over inner ring speed",

@@ -246,6 +246,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         friction_torque_ci_Nmm=finite(1e3 * chosen.torque.half_width),
         power_loss_W=finite(chosen.interval.torque() * chosen.interval.ratio("relative_angle", "time")),
         input_torque_Nmm=finite(1e3 * chosen.interval.ratio("drive", "relative_angle")),
+        support_power_W=finite(chosen.interval.ratio("support", "time")) or None,
         friction_breakdown_Nmm=merged_cage(chosen.interval.breakdown()),
         cage_speed_ratio=finite(ratio),
         cage_speed_over_epicyclic=finite(ratio / epicyclic),

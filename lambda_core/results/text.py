@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from lambda_core.results.verdict import Verdict
 
 _PER_RING = ("sliding", "spin", "rolling", "hysteresis", "boundary", "damping")
-_REST = ("cage", "drag", "support")
+_REST = ("cage", "drag", "bending")
 # Numbers that texts and reports place by hand; every other declared number with a column follows them.
 PLACED = frozenset({
     "bearing_capacitance_nF", "cage_speed_over_epicyclic", "cage_speed_ratio", "contact_capacitance_pF",
@@ -319,7 +319,8 @@ def breakdown_lines(parts: Mapping[str, float | None], units: UnitSystem = SI) -
         f"  {ring:<6}" + "".join(f"  {name} {shown[f'{name}_{ring}']:>{width}}" for name in _PER_RING)
         for ring in ("inner", "outer")
     ]
-    return [*rings, f"  {'':<6}" + "".join(f"  {name} {shown[name]}" for name in _REST)]
+    rest = [name for name in _REST if name != "bending" or parts[name]]  # of elastic parts only
+    return [*rings, f"  {'':<6}" + "".join(f"  {name} {shown[name]}" for name in rest)]
 
 
 def warning_lines(warnings: Sequence[str], width: int | None = None) -> list[str]:

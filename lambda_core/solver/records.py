@@ -185,6 +185,7 @@ BODY = record(
     ("unbalance", f8),  # [kg m]
     ("moves", i8),  # 0: the body is left out
     ("is_cage", i8),  # 1: it stands still in the quasi-static equilibrium
+    ("is_wave", i8),  # 1: of an elastic part, whose material damps it
     ("bearing", i8),  # whose contacts it has; -1: none
     ("mode", i8, (6,)),  # FREE, LOCKED, PRESCRIBED of x, y, z, tilt_y, tilt_z, spin
     ("stiffness", f8, (6,)),  # of the support to ground [N/m, N m/rad]
@@ -326,7 +327,8 @@ RUNNING = record(
     ("pocket", f8),  # losses [W]
     ("land", f8),
     ("drag", f8),
-    ("support", f8),
+    ("bending", f8),
+    ("support", f8),  # dissipated by dampers to the ground, no friction of the bearing [W]
     ("input", f8),  # power of everything external [W]
     ("input_abs", f8),
     ("drive", f8),  # power of what prescribes spins [W]

@@ -93,7 +93,7 @@ def vibration(ring: str, *choice: str, duration: float = 0.3, tilts: str = "lock
     done = engine.advance(duration)
     assert done.ok, done.message
     integrals, samples = engine.integrals(), engine.samples()
-    lost = sum(value for name, value in integrals.items() if name.startswith("loss."))
+    lost = sum(value for name, value in integrals.items() if name.startswith(("loss.", "support")))
     keep = samples["time"] > STEADY
     t = samples["time"][keep]
 

@@ -115,7 +115,7 @@ def test_energy_is_balanced_as_well_as_without_it(engine: MachineEngine) -> None
     left, ends = [], []
     for found in (engine, awake):
         one = found.integrals()[0]
-        losses = sum(value for name, value in one.items() if name.startswith("loss."))
+        losses = sum(value for name, value in one.items() if name.startswith(("loss.", "support")))
         left.append(abs(one["input"] - losses - one["stored"]) / one["input_abs"])
         ends.append(found.statistics()["iteration_work"] / one["input_abs"])
     assert max(left) < 1e-4

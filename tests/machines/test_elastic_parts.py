@@ -180,7 +180,7 @@ def test_balance_of_a_run() -> None:
     (row,) = engine.integrals()
     losses = {name: value for name, value in row.items() if name.startswith("loss")}
     assert abs(row["input"] - sum(losses.values()) - row["stored"]) < 1e-3 * row["input_abs"]
-    assert losses["loss.support"] > 0.0
+    assert losses["loss.bending"] > 0.0
     assert math.isfinite(row["stored"])
 
 

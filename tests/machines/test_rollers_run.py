@@ -37,7 +37,7 @@ def test_a_shaft_with_rollers_runs(name: str) -> None:
         engine.advance(0.02)
     _, states = engine.buffered()  # the integrals take the samples
     for row in engine.integrals():
-        lost = sum(value for name, value in row.items() if name.startswith("loss."))
+        lost = sum(value for name, value in row.items() if name.startswith(("loss.", "support")))
         assert lost > 0.0
         assert abs(row["input"] - lost - row["stored"]) < 3e-4 * row["input_abs"]
     start, now = engine.start, engine.now()

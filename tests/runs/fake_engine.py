@@ -125,6 +125,7 @@ class FakeEngine:
         found |= {
             "input": self._input,
             "input_abs": self._input,
+            "support": 0.0,
             "drive": self._input,
             "stored": 0.0,
             "relative_angle": angle,

@@ -65,6 +65,15 @@ def test_interval_knows_torque_residual_and_rest() -> None:
     assert Interval(first, rows_at(1.0, stored=1.0)).energy_residual() == -math.inf
 
 
+def test_dampers_to_the_ground_are_no_friction_of_the_bearing() -> None:
+    """A brake of the shaft counts in the energy balance, and not in the friction torque."""
+    lost = {f"loss.{name}": 2.0 for name in LOSSES}
+    braked = Interval(rows_at(0.0), rows_at(2.0, relative_angle=10.0, input=40.0, input_abs=40.0, support=8.0, **lost))
+    assert braked.torque() == pytest.approx(2.0 * len(LOSSES) / 10.0)
+    assert sum(braked.breakdown().values()) == pytest.approx(braked.torque())
+    assert braked.energy_residual() == pytest.approx(0.0)
+
+
 @pytest.mark.parametrize(("count", "correlation", "least"), [(4, 0.0, 0.94), (12, 0.0, 0.94), (40, 0.5, 0.90)])
 def test_confidence_interval_covers_the_true_mean(count: int, correlation: float, least: float) -> None:
     """95 % of intervals should hold the mean; measured over 4000 series (standard error 0.35 %).

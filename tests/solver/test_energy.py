@@ -53,7 +53,7 @@ def residual(duration: float, *overrides: str, case: str = "6319-cp10-3000") -> 
     done = engine.advance(duration)
     assert done.ok, done.message
     integrals = engine.integrals()
-    lost = sum(value for name, value in integrals.items() if name.startswith("loss."))
+    lost = sum(value for name, value in integrals.items() if name.startswith(("loss.", "support")))
     assert integrals["input_abs"] > 0.0
     return (integrals["input"] - lost - integrals["stored"]) / integrals["input_abs"]
 

@@ -38,7 +38,7 @@ def strain_shares(one: str, first: Material, other: str, second: Material) -> di
 def destinations(model: BearingModel) -> dict[str, Shares]:
     """Return for each mechanism of LOSSES which node gets what share of its power.
 
-    Drag heats the oil; dampers to the ground are outside the bearing.
+    Drag heats the oil, bending the elastic parts, in equal shares.
     """
     ball, cage = model.ball_material, model.cage_material
     rings = {"inner": model.inner_material, "outer": model.outer_material}
@@ -59,7 +59,7 @@ def destinations(model: BearingModel) -> dict[str, Shares]:
     else:
         found["land"] = surface_shares("cage", cage, f"{guide}_ring", land)
     found["drag"] = {"oil": 1.0}
-    found["support"] = {"ambient": 1.0}
+    found["bending"] = {body: 1.0 / len(model.elastic) for body in model.elastic} or {"ambient": 1.0}
     return found
 
 

@@ -31,8 +31,7 @@ Channels = dict[str, FloatArray]
 Sums = dict[str, float]
 Sampled = TypeVar("Sampled")
 Summed_co = TypeVar("Summed_co", covariant=True)
-_SHARED = ("pocket", "land", "drag")  # losses that only samples part by bearing
-_WAVES = "support"  # what damps the waves of elastic parts of one of several bearings, known by samples alone
+_SHARED = ("pocket", "land", "drag", "bending")  # losses that only samples part by bearing
 
 
 @dataclass(frozen=True)
@@ -128,16 +127,18 @@ class BearingReadings:
     def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> Sums:
         """Return the running integrals since the start.
 
-        ``loss.<name>`` for each of LOSSES [J], ``input`` (all external work) [J], ``input_abs`` (its absolute value)
-        [J], ``drive`` (work of the spin drives) [J], ``stored`` (kinetic and elastic energy now minus at the start)
-        [J], ``relative_angle`` (integral of |Omega_i - Omega_o|) [rad], ``cage_angle`` (cage angle relative to the
-        outer ring; mean of the balls when the cage is off) [rad], ``inner_angle`` (inner ring spin angle relative to
-        the outer) [rad], ``x``, ``y``, ``z`` (integral of the inner ring's position) [m s].
+        ``loss.<name>`` for each of LOSSES [J], ``support`` (taken by dampers to the ground) [J], ``input`` (all
+        external work) [J], ``input_abs`` (its absolute value) [J], ``drive`` (work of the spin drives) [J], ``stored``
+        (kinetic and elastic energy now minus at the start) [J], ``relative_angle`` (integral of |Omega_i - Omega_o|)
+        [rad], ``cage_angle`` (cage angle relative to the outer ring; mean of the balls when the cage is off) [rad],
+        ``inner_angle`` (inner ring spin angle relative to the outer) [rad], ``x``, ``y``, ``z`` (integral of the inner
+        ring's position) [m s].
         """
         so_far, turned = running(values), self._angles(y) - self._start
         losses = losses_by_ring(self._context.model.geometry, values[: -L.BESIDE_LOSSES])
         return {
             **{f"loss.{name}": float(losses[i]) for i, name in enumerate(LOSSES)},
+            "support": float(so_far["support"]),
             "input": float(so_far["input"]),
             "input_abs": float(so_far["input_abs"]),
             "drive": float(so_far["drive"]),
@@ -192,7 +193,7 @@ class MachineReadings:
         self.bearings = bearings
         self._context, self._members, self._standing = context, members, standing
         self._start = np.zeros(2 * len(bearings))
-        self._sampled = np.zeros((len(bearings), len(_SHARED) + 5))  # integrals of what only samples say
+        self._sampled = np.zeros((len(bearings), len(_SHARED) + 4))  # integrals of what only samples say
         self._last: list[FloatArray] = []  # their rates at the last sample
         self._last_time = 0.0
 
@@ -288,7 +289,7 @@ class MachineReadings:
 
     def _add_up(self, i: int, channels: Channels) -> None:
         """Go on with the integrals of what only samples say, by the trapezium rule."""
-        columns = [channels["loss"][:, LOSSES.index(name)] for name in (*_SHARED, _WAVES)]
+        columns = [channels["loss"][:, LOSSES.index(name)] for name in _SHARED]
         speed = channels["body_spin"][:, INNER] - channels["body_spin"][:, OUTER]
         rates = np.column_stack([*columns, channels["input_torque"] * speed, channels["body_position"][:, INNER]])
         if len(self._last) <= i:
@@ -302,9 +303,9 @@ class MachineReadings:
     def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> list[Sums]:
         """Return the running integrals of every bearing since the start, as a run of it alone has them.
 
-        What its raceways dissipate is exact; pocket, land and drag are known exactly for all bearings together and are
-        parted by their samples. Energy is balanced for the machine: input is that of the machine less what the other
-        bearings and the dampers of the shaft dissipate, stored that of the machine, so that the residual is the
+        What its raceways dissipate is exact; pocket, land, drag and bending are known exactly for all bearings together
+        and are parted by their samples. Energy is balanced for the machine: input is that of the machine less what the
+        other bearings dissipate, stored and dampers to the ground are those of the machine, so that the residual is the
         machine's.
         """
         count, so_far = len(self.bearings), running(values)
@@ -316,21 +317,20 @@ class MachineReadings:
             own = losses_of_raceways(one.context.model.geometry, values, one.span.first_raceway)
             own |= {name: float(so_far[name]) * float(shares[i, k]) for k, name in enumerate(_SHARED)}
             losses.append(own)
-        every = sum(sum(own.values()) for own in losses) + float(so_far["support"])  # dampers of the shaft, too
-        for i, own in enumerate(losses):
-            own[_WAVES] = float(self._sampled[i, len(_SHARED)])
+        every = sum(sum(own.values()) for own in losses)
         turned = (self._angles(y) - self._start).tolist()
         return [
             {
                 **{f"loss.{name}": value for name, value in own.items()},
+                "support": float(so_far["support"]),
                 "input": float(so_far["input"]) - (every - sum(own.values())),
                 "input_abs": float(so_far["input_abs"]),
-                "drive": float(self._sampled[i, len(_SHARED) + 1]),
+                "drive": float(self._sampled[i, len(_SHARED)]),
                 "stored": stored,
                 "relative_angle": float(so_far["relative_speed"]),
                 "cage_angle": turned[i],
                 "inner_angle": turned[count + i],
-                **dict(zip("xyz", self._sampled[i, len(_SHARED) + 2 :].tolist(), strict=True)),
+                **dict(zip("xyz", self._sampled[i, len(_SHARED) + 1 :].tolist(), strict=True)),
             }
             for i, own in enumerate(losses)
         ]

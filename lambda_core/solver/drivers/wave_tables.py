@@ -48,7 +48,7 @@ def wave_bodies(model: BearingModel) -> Any:
     found = waves_of(model)
     rows = np.zeros(len(found), R.BODY)
     for row, (ring, order, waves) in zip(rows, found, strict=True):
-        row["is_cage"] = ring == _CAGE
+        row["is_cage"], row["is_wave"] = ring == _CAGE, 1
         row["mass"], row["transverse_inertia"], row["polar_inertia"] = waves.ring.mass(order), 1.0, 1.0
         row["mode"], row["moves"] = R.LOCKED, 1
         for axis in AMPLITUDES:

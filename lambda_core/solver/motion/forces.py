@@ -57,7 +57,10 @@ def _move_bodies(bundle, running, want, dydt):
         if want == 1:
             running.input += external
             running.drive += drive
-            running.support += support
+            if bundle.bodies[b].is_wave == 1:
+                running.bending += support
+            else:
+                running.support += support
     for k in range(active.size):
         dydt[base + k] = bundle.shared_rates[active[k]]
     base += active.size

@@ -14,7 +14,7 @@ _PARTS = (
     ("rolling", ("rolling", "hysteresis")),
     ("sliding", ("sliding", "spin", "boundary")),
     ("drag", ("drag",)),
-    ("cage and the rest", ("cage", "damping", "support")),
+    ("cage and the rest", ("cage", "damping", "bending")),
 )
 
 

@@ -18,8 +18,8 @@ def energy_balance(run: RunData, options: Options) -> ViewData:
     rows = run.integrals()
     if rows.shape[0] < 2:
         raise NotApplicable("no energies are recorded yet")
-    column = {name: rows[:, COLUMNS.index(name)] for name in ("time", "input", "input_abs", "stored")}
-    time, dissipated = 1e3 * column["time"], rows[:, _LOSS].sum(axis=1)
+    column = {name: rows[:, COLUMNS.index(name)] for name in ("time", "input", "input_abs", "stored", "support")}
+    time, dissipated = 1e3 * column["time"], rows[:, _LOSS].sum(axis=1) + column["support"]
     missing = column["input"] - dissipated - column["stored"]
     with np.errstate(divide="ignore", invalid="ignore"):
         residual = missing / column["input_abs"]

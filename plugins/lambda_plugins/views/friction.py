@@ -12,7 +12,7 @@ from lambda_core.results.averages import COLUMNS, torque_by_revolution
 from lambda_plugins.views.common import averaging, source
 
 PER_RING = ("sliding", "spin", "rolling", "hysteresis", "boundary", "damping")
-REST = ("cage", "drag", "support")
+REST = ("cage", "drag", "bending")
 _LOSS = [COLUMNS.index(f"loss.{name}") for name in LOSSES]
 _ANGLE, _TIME = COLUMNS.index("relative_angle"), COLUMNS.index("time")
 
