@@ -35,6 +35,9 @@ def fit(
         Path | None,
         typer.Option("--predict", metavar="OTHER.csv", help="Predict measured points that the fit does not use."),
     ] = None,
+    sample: Annotated[
+        int, typer.Option("--sample", metavar="N", help="Also draw so many samples of the posterior (emcee).")
+    ] = 0,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="Write a case file with the fitted values.")
     ] = None,
@@ -63,7 +66,16 @@ def fit(
     if draw is not None:
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
-        found = api.fit(case, measured, vary, changes or (), bearing=bearing, predict=predict, announce=speaker.say)
+        found = api.fit(
+            case,
+            measured,
+            vary,
+            changes or (),
+            bearing=bearing,
+            predict=predict,
+            sample=sample,
+            announce=speaker.say,
+        )
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
     if out is not None:
         typer.echo(str(api.fitted_case(case, found, out, changes or (), overwrite=force)), err=True)

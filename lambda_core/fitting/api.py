@@ -29,6 +29,7 @@ def fit(
     bearing: str | None = None,
     predict: str | Path | Measurements | None = None,
     suggest: bool = True,
+    sample: int = 0,
     progress: Callable[[int, float], None] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> FitReport:
@@ -52,6 +53,8 @@ def fit(
         Measured points that the fit does not see, to be compared with its predictions.
     suggest : bool
         Look for the operating point to measure next.
+    sample : int
+        Number of samples of the posterior to draw, with the extra ``lambda-bearing[sampling]``.
     progress : callable, optional
         Called with the number of operating points solved and the error of the best values so far [%].
     announce : callable, optional
@@ -70,8 +73,8 @@ def fit(
     from lambda_core.fitting.fit_case import fit_report
 
     return fit_report(
-        source, measured, vary, overrides, bearing=bearing, predict=predict, suggest=suggest, progress=progress,
-        announce=announce,
+        source, measured, vary, overrides, bearing=bearing, predict=predict, suggest=suggest, sample=sample,
+        progress=progress, announce=announce,
     )  # fmt: skip
 
 

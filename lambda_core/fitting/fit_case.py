@@ -29,9 +29,13 @@ from lambda_core.fitting.report import (
     ParameterCombination,
     PatternTest,
     PredictedPoint,
+    SampledParameter,
+    SampledPosterior,
     SuggestedPoint,
     known,
 )
+from lambda_core.fitting.sampling import check_count
+from lambda_core.fitting.sampling import sample as sample_posterior
 from lambda_core.fitting.subjects import Subject, subject_of
 from lambda_core.fitting.uncertainty import correlations
 
@@ -51,11 +55,14 @@ def fit_report(
     bearing: str | None = None,
     predict: str | Path | Measurements | None = None,
     suggest: bool = True,
+    sample: int = 0,
     progress: Progress | None = None,
     announce: Announce | None = None,
 ) -> FitReport:
     """Return what a fit of a case found, see :func:`lambda_core.fitting.api.fit`."""
     begin = time.perf_counter()
+    if sample:
+        check_count(sample)
     if not listed(vary, "vary"):
         raise UsageError("nothing to fit: name a parameter, for example --vary loss_factor")
     subject = subject_of(source, overrides, bearing)
@@ -78,7 +85,13 @@ def fit_report(
     sizes = {} if found.is_interrupted else discrepancy_sizes(problem, found)
     report = _report(subject, data, problem, found, suggestion, sizes)
     unseen = [] if predict is None or found.is_interrupted else _unseen(subject, problem, found, sizes, predict)
-    return report.model_copy(update={"predictions": unseen, "seconds": time.perf_counter() - begin})
+    posterior = None
+    if sample and not found.is_interrupted:
+        if announce is not None:
+            announce("sampling the posterior")
+        posterior = _posterior(problem, found, sample)
+    more = {"predictions": unseen, "posterior": posterior}
+    return report.model_copy(update={**more, "seconds": time.perf_counter() - begin})
 
 
 def _reporting(problem: CaseProblem, progress: Progress) -> Model:
@@ -93,6 +106,27 @@ def _reporting(problem: CaseProblem, progress: Progress) -> Model:
         return found
 
     return predict
+
+
+def _posterior(problem: CaseProblem, found: Fit, count: int) -> SampledPosterior:
+    """Return samples of the posterior with what they say about each parameter."""
+    drawn = sample_posterior(problem.predict, found, count)
+    ends = np.quantile(drawn.samples, [0.025, 0.5, 0.975], axis=0)
+    return SampledPosterior(
+        parameters=[
+            SampledParameter(
+                path=graded.path,
+                name=graded.short,
+                unit=graded.scale.unit,
+                median=float(ends[1, i]),
+                interval_95=[float(ends[0, i]), float(ends[2, i])],
+                samples=drawn.samples[:, i].tolist(),
+            )
+            for i, graded in enumerate(problem.varied)
+        ],
+        effective=drawn.effective,
+        interpolation_error=drawn.interpolation_error,
+    )
 
 
 def _unseen(

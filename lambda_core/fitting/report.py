@@ -91,6 +91,27 @@ class SuggestedPoint(Record):
     spread_after: float
 
 
+class SampledParameter(Record):
+    """What samples of the posterior say about one parameter."""
+
+    path: str
+    name: str
+    unit: str
+    median: float
+    interval_95: list[float] = Field(description="between which 95 % of the samples lie")
+    samples: list[float]
+
+
+class SampledPosterior(Record):
+    """Samples of the posterior: the range of each parameter before the fit, and the measured values."""
+
+    parameters: list[SampledParameter] = Field(description="all, those that the data do not determine included")
+    effective: float = Field(description="number of independent samples that they are worth")
+    interpolation_error: float = Field(
+        description="largest error of an interpolated prediction over the error of the measured value"
+    )
+
+
 class FitReport(Record):
     """What a fit of a case to measurements found."""
 
@@ -113,6 +134,7 @@ class FitReport(Record):
     discrepancy_pct: dict[str, float] = Field(
         description="standard deviation of what the laws may be wrong by, by quantity: the ranges that are not fitted"
     )
+    posterior: SampledPosterior | None = Field(default=None, description="samples; null where none were asked for")
     next_point: SuggestedPoint | None = Field(description="to measure next; null where none was looked for")
     scatter_pct: float | None = Field(description="standard deviation of the residuals; null where errors are known")
     chi_square_per_degree: float | None = Field(description="null where errors are not known")

@@ -27,6 +27,7 @@ def report_text(report: FitReport, width: int | None, units: UnitSystem) -> str:
     lines += _outliers(report)
     lines += ["", *_points(report, units)]
     lines += _predictions(report, units)
+    lines += _samples(report)
     lines += _next(report, units)
     return "\n".join(wrapped(lines, width))
 
@@ -124,6 +125,23 @@ def _predictions(report: FitReport, units: UnitSystem) -> list[str]:
     inside = sum(p.is_inside for p in report.predictions)
     title = f"points that the fit has not seen: {inside} of {len(rows)} inside the band"
     return [title, *_table([head, *rows]), ""]
+
+
+def _samples(report: FitReport) -> list[str]:
+    """Return what samples of the posterior say about each parameter."""
+    drawn = report.posterior
+    if drawn is None:
+        return []
+    rows = [
+        (one.name, f"{one.median:.4g} {one.unit}".rstrip(), f"{one.interval_95[0]:.4g}..{one.interval_95[1]:.4g}")
+        for one in drawn.parameters
+    ]
+    count = len(drawn.parameters[0].samples)
+    title = (
+        f"posterior, {count} samples worth {drawn.effective:.0f} independent ones; predictions interpolated within "
+        f"{drawn.interpolation_error:.2g} of an error"
+    )
+    return [title, *_table([("parameter", "median", "95 % interval"), *rows]), ""]
 
 
 def _next(report: FitReport, units: UnitSystem) -> list[str]:

@@ -1,0 +1,137 @@
+"""Sample the posterior of fitted parameters.
+
+A fit takes the model as linear around its values. Where the data say little, or a value lies near the end of its range,
+the posterior is not normal; samples show it as it is. They need thousands of predictions: these come from an
+interpolation of the model over the region where the posterior lies, whose error is measured at further points.
+
+References
+----------
+Affine-invariant ensembles: Goodman and Weare 2010, Commun. Appl. Math. Comput. Sci. 5, 65; emcee: Foreman-Mackey et al.
+2013, Publ. Astron. Soc. Pac. 125, 306. Interpolation of costly models: Sacks et al. 1989, Statist. Sci. 4, 409.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import UsageError
+from lambda_core.fitting.least_squares import Fit
+from lambda_core.fitting.model_calls import Model
+from lambda_core.fitting.parameters import bounds
+
+MOST = 100_000  # samples
+_REGION = 6.0  # standard deviations around the fitted value that the interpolation reaches, within the range
+_PER_PARAMETER = 12  # computed points of the interpolation
+_CHECKED = 4  # further points at which its error is measured
+_WALKERS = 32
+_SETTLE, _APART = 400, 15  # steps before the first sample, and between two of a walker: several correlation times
+_SEED = 1
+
+
+@dataclass(frozen=True)
+class Posterior:
+    """Samples of the parameters.
+
+    Attributes
+    ----------
+    samples : float64[:, :], shape (n, p)
+    effective : float
+        Number of independent samples that they are worth.
+    interpolation_error : float
+        Largest error of an interpolated prediction over the error of the measured value.
+    """
+
+    samples: FloatArray
+    effective: float
+    interpolation_error: float
+
+
+def sampler_package() -> Any:
+    """Return the package that samples; UsageError with what to install where it is missing."""
+    try:
+        import emcee
+    except ImportError:
+        raise UsageError('--sample needs another package: pip install "lambda-bearing[sampling]"') from None
+    return emcee
+
+
+def check_count(count: int) -> None:
+    """Refuse a number of samples that is too small or too large; UsageError."""
+    if not 1 <= count <= MOST:
+        raise UsageError(f"--sample {count}: must be a number from 1 to {MOST}")
+    sampler_package()
+
+
+def sample(model: Model, found: Fit, count: int) -> Posterior:
+    """Sample the posterior of all parameters, those that the data do not determine included.
+
+    Before the measurements each parameter is uniform over its range. Residuals count as in the fit: by Huber's loss,
+    over the same errors, and wider by the same factor where they are larger than these.
+
+    Parameters
+    ----------
+    model : callable
+        Returns the predicted values for values of the parameters.
+    found : Fit
+        What the fit found.
+    count : int
+        Number of samples.
+    """
+    emcee = sampler_package()
+    low, high = _region(found)
+    predict, error = _interpolation(model, found, low, high)
+
+    def logarithm(points: FloatArray) -> FloatArray:
+        inside = np.all((points >= low) & (points <= high), axis=1)
+        standardised = (predict(np.clip(points, low, high)) - found.data.values) / (found.errors * found.scale)
+        size = np.abs(standardised)
+        loss = np.where(size <= found.limit, 0.5 * size**2, found.limit * size - 0.5 * found.limit**2)
+        return np.where(inside, -loss.sum(axis=1) / found.factor, -math.inf)
+
+    random = np.random.RandomState(_SEED)  # the kind that the package takes
+    walkers = max(_WALKERS, 4 * low.size)
+    start = low + (high - low) * (0.01 + 0.98 * random.random_sample((walkers, low.size)))
+    sampler = emcee.EnsembleSampler(walkers, low.size, logarithm, vectorize=True)
+    sampler.random_state = random.get_state()
+    steps = _APART * math.ceil(count / walkers)
+    sampler.run_mcmc(start, _SETTLE + steps)
+    chains = sampler.get_chain(discard=_SETTLE)
+    time = float(np.max(emcee.autocorr.integrated_time(chains, tol=0)))
+    kept = chains[::_APART].reshape(-1, low.size)[:count]
+    return Posterior(kept, min(float(len(kept)), steps * walkers / max(time, 1.0)), error)
+
+
+def _region(found: Fit) -> tuple[FloatArray, FloatArray]:
+    """Return the ends between which samples lie: the range, and not too far from the fitted value."""
+    low, high = bounds(found.parameters)
+    reach = _REGION * np.sqrt(np.diag(found.posterior))
+    return np.maximum(low, found.values - reach), np.minimum(high, found.values + reach)
+
+
+def _interpolation(
+    model: Model, found: Fit, low: FloatArray, high: FloatArray
+) -> tuple[Callable[[FloatArray], FloatArray], float]:
+    """Return an interpolation of the model in the region, and its largest error over those of the measured values."""
+    from scipy.interpolate import RBFInterpolator
+    from scipy.stats import qmc
+
+    computed = _PER_PARAMETER * low.size
+    sequence = qmc.Halton(low.size, scramble=False).random(computed + _CHECKED + 1)[1:]  # the first is a corner
+    corners = np.array(np.meshgrid(*[(0.0, 1.0)] * low.size)).reshape(low.size, -1).T
+    shares = np.vstack([corners, sequence])
+    values = np.array([model(low + (high - low) * share) for share in shares])
+    known = len(shares) - _CHECKED
+    found_at = RBFInterpolator(shares[:known], values[:known], kernel="cubic", degree=2)
+    missed = np.abs(found_at(shares[known:]) - values[known:]) / (found.errors * found.scale)
+
+    def predict(points: FloatArray) -> FloatArray:
+        result: FloatArray = found_at((points - low) / (high - low))
+        return result
+
+    return predict, float(missed.max())
