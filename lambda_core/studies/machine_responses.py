@@ -171,7 +171,7 @@ def _of_bearing(name: str) -> list[Response]:
         Response(
             f"{name}.stiffness_N_per_um.{axis}",
             "N/um",
-            f"{name}: stiffness {axis} of the inner ring against the outer ring",
+            f"{name}: stiffness {axis}",
             _stiffness(name, index),
         )
         for index, axis in enumerate("xyz")

@@ -51,7 +51,7 @@ class Column:
     @property
     def is_part(self) -> bool:
         """Whether it is a part of another response: of the friction torque, or a component of a displacement."""
-        return re.search(r"_(Nmm|um|mrad)\.\w+$", self.name) is not None
+        return re.search(r"(?<!_per)_(Nmm|um|mrad)\.\w+$", self.name) is not None
 
     @property
     def label(self) -> str:

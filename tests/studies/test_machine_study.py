@@ -30,7 +30,9 @@ def test_a_study_of_a_machine_says_what_its_points_say(box: Path, tmp_path: Path
     }  # fmt: skip
     status = api.study_run(study, tmp_path / "power", executor="here")
     assert (status.done, status.points) == (2, 2), status.reasons
-    first, second = api.study_table(tmp_path / "power").rows()
+    table = api.study_table(tmp_path / "power")
+    assert "left.stiffness_N_per_um.x" in [one.name for one in table.responses if not one.is_part]  # printed
+    first, second = table.rows()
     at = api.quasistatic(box, ["gears.wheel.power=5 kW"])
     assert first["system_life_h"] == pytest.approx(at.system_life_h, rel=1e-9)
     assert first["left.radial_load_N"] == pytest.approx(at.bearing("left").radial_load_N, rel=1e-9)
