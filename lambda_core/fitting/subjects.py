@@ -33,6 +33,7 @@ from lambda_core.studies.job import resolve_point, with_temperatures
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
+    from lambda_core.analysis.band.roller_band import RollerEffects
     from lambda_core.case.case import Case
 
 
@@ -132,11 +133,19 @@ class RollerSubject(BearingSubject):
         return roller_values(model, names)[np.newaxis]
 
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
-        """Return nothing: rollers have no model band."""
-        return {}
+        """Return the relative standard deviation of each quantity that the ranges move."""
+        from lambda_core.analysis.band.roller_band import RollerEffects
+        from lambda_core.case.case_io import apply_overrides
+        from lambda_core.model.checking import resolve
+        from lambda_core.model.roller_case import roller_model
+
+        case = apply_overrides(self._case, changes)
+        rollers = roller_model(case)
+        assert rollers is not None
+        return law_deviations(RollerEffects(resolve(case, is_static=True), rollers, names, without=fitted))
 
 
-def law_deviations(effects: Effects) -> dict[str, float]:
+def law_deviations(effects: Effects | RollerEffects) -> dict[str, float]:
     """Return the relative standard deviation of results by all effects."""
     variances = sum((effect.variance for effect in effects.all()), np.zeros(len(effects.names)))
     return dict(zip(effects.names, np.sqrt(variances).tolist(), strict=True))

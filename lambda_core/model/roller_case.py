@@ -83,6 +83,8 @@ class RollerModel:
         In plain words.
     values : tuple of ResolvedValue
         Every value with its origin.
+    displacement : array or None
+        Where held directions of the inner ring are [m, rad], (5,); None: at zero.
     """
 
     name: str
@@ -101,6 +103,7 @@ class RollerModel:
     contamination: float | None
     assumptions: tuple[str, ...]
     values: tuple[ResolvedValue, ...] = ()
+    displacement: FloatArray | None = None
 
     @property
     def warnings(self) -> list[str]:

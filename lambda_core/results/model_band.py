@@ -115,7 +115,7 @@ class ModelBand(Record):
 
     def text(self) -> str:
         """Return a heading and one line per result."""
-        head = "model band, quasi-static, mean over the positions of the balls:"
+        head = "model band, quasi-static, mean over the positions of the rolling elements:"
         return "\n".join([head, *(band.text() for band in self.bands), *self.left_out])
 
 

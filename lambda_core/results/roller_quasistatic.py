@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,7 +22,7 @@ from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium
 from lambda_core.elements.roller.roller_friction import RollerFriction, friction
 from lambda_core.elements.roller.roller_life import lamina_life, modified_lamina_life, roller_basic_life
 from lambda_core.elements.roller.roller_motion import RollerMotion, rolling_motion
-from lambda_core.elements.roller.roller_positions import mean_friction, over_a_pitch
+from lambda_core.elements.roller.roller_positions import PLACES, mean_friction, over_a_pitch
 from lambda_core.elements.roller.roller_ratings import lamina_ratings, roller_equivalent_load, roller_static_load
 from lambda_core.formulas.life import (
     LEAST_KAPPA,
@@ -34,9 +35,11 @@ from lambda_core.formulas.loading import CARRYING, carries
 from lambda_core.model.settings.contamination import known_contamination
 from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
+from lambda_core.results.band_text import banded
 from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
+from lambda_core.results.model_band import Banded
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.results.text import life_factor_text, line, warning_lines
+from lambda_core.results.text import band_lines, life_factor_text, line, warning_lines
 
 if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
@@ -61,7 +64,7 @@ class RollerLoad(Record):
     max_line_load_N_mm: float = Field(description="largest load per length of a slice")
 
 
-class RollerQuasiStatic(Answer):
+class RollerQuasiStatic(Answer, Banded):
     """Loads, films, friction torque, lives and safety of a roller bearing without time; the cage is left out."""
 
     interface: int = INTERFACE
@@ -141,8 +144,13 @@ class SolvedRollers:
         return self.states[0]
 
 
-def solve_rollers(model: RollerModel) -> SolvedRollers:
+def solve_rollers(model: RollerModel, places: Sequence[float] = PLACES) -> SolvedRollers:
     """Find equilibria over one pitch and friction of a roller bearing.
+
+    Parameters
+    ----------
+    places : sequence of float
+        Of the rollers, as for :func:`over_a_pitch`.
 
     Raises
     ------
@@ -151,32 +159,31 @@ def solve_rollers(model: RollerModel) -> SolvedRollers:
     SolverError
         When there is no equilibrium.
     """
-    bearing = model.bearing
-    motion = rolling_motion(bearing, *model.speeds)
+    motion = rolling_motion(model.bearing, *model.speeds)
     try:
-        return solved_over_a_pitch(model, motion, model.loads, held=model.held)
+        states = over_a_pitch(
+            model.bearing,
+            model.loads,
+            held=model.held,
+            displacement=model.displacement,
+            inertial=motion.inertial(model.bearing),
+            slices=model.slices,
+            places=places,
+        )
     except ValueError as error:
         raise CaseError(model.name, [Problem("loads", str(error))]) from None
     except ArithmeticError as error:
         raise SolverError(f"{model.name}: {error}") from error
+    return with_friction(model, SolvedRollers(states, motion, None))
 
 
-def solved_over_a_pitch(
-    model: RollerModel,
-    motion: RollerMotion,
-    loads: FloatArray,
-    *,
-    held: tuple[bool, bool, bool, bool, bool],
-    displacement: FloatArray | None = None,
-) -> SolvedRollers:
-    """Solve a bearing under loads and held displacements; errors are those of :func:`balance`."""
-    bearing = model.bearing
-    inertial = motion.inertial(bearing)
-    states = over_a_pitch(bearing, loads, held=held, displacement=displacement, inertial=inertial, slices=model.slices)
+def with_friction(model: RollerModel, solved: SolvedRollers) -> SolvedRollers:
+    """Return solved equilibria with the friction of a model of the same loads."""
+    motion = solved.motion
     if motion.relative == 0.0:
-        return SolvedRollers(states, motion, None)
-    parts = [friction(bearing, state, motion, model.oil, model.friction) for state in states]
-    return SolvedRollers(states, motion, mean_friction(parts))
+        return replace(solved, friction=None)
+    parts = [friction(model.bearing, state, motion, model.oil, model.friction) for state in solved.states]
+    return replace(solved, friction=mean_friction(parts))
 
 
 def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
@@ -387,6 +394,7 @@ def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str
     """Return the answer, a line per subject and a table of rollers."""
     parts = found.friction_breakdown_Nmm
     tilt_y, tilt_z = found.inner_ring_tilt_mrad
+    pressure = units.text(found.max_pressure_GPa, "GPa", 3)
     x, y, z = (units.number(value, "um", 2) for value in found.inner_ring_displacement_um)
     lines = [
         units.sentence(found.headline),
@@ -394,14 +402,20 @@ def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str
             "equilibrium",
             f"{found.loaded_rollers} rollers loaded",
             f"Q_max {units.text(found.max_load_N, 'N', 0)}",
-            f"p_max {units.text(found.max_pressure_GPa, 'GPa', 3)}",
+            f"p_max {banded(found.max_pressure_GPa, found.max_pressure_GPa_band, 'GPa', pressure, units)}",
         ),
         line("inner ring", f"x {x}  y {y}  z {z} {units.unit('um')}", f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad"),
     ]
     if found.friction_torque_Nmm is not None:
+        torque = units.text(found.friction_torque_Nmm, "N mm")
         shares = f"raceways {100 * (found.raceway_share or 0.0):.0f} %, ribs {100 * (found.rib_share or 0.0):.0f} %"
         lines += [
-            line("friction torque", units.text(found.friction_torque_Nmm, "N mm"), "(without cage)", shares),
+            line(
+                "friction torque",
+                banded(found.friction_torque_Nmm, found.friction_torque_Nmm_band, "N mm", torque, units),
+                "(without cage)",
+                shares,
+            ),
             *(_ring_line(ring, parts, units) for ring in ("inner", "outer")),
             f"          rib {units.number(parts['rib'], 'N mm')}  drag {units.number(parts['drag'], 'N mm')}",
             line("rolling factors", f"heat {number(found.heat_factor, 3)}", f"supply {number(found.supply_factor, 3)}"),
@@ -421,6 +435,7 @@ def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str
             f"axial limit {units.text(found.axial_limit_N, 'N', 0)}" if found.axial_limit_N is not None else "",
         ),
         *_table(found, units),
+        *band_lines(found.model_band),
         *warning_lines([units.sentence(warning) for warning in found.warnings], width),
         line("assumed", f"{len(found.assumptions)} things: --json lists them"),
     ]

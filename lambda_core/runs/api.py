@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.domain.errors import CaseError
 from lambda_core.model.api import check
 from lambda_core.results.answer import answers
 from lambda_core.runs.rerun import ready, rerun
@@ -73,7 +74,7 @@ def quasistatic(
         machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
         with naming_laws(*(bearing.model for bearing in machine.bearings)):
             return machine_equilibrium(machine, band=band, announce=announce)
-    rollers = _roller_answer(source, overrides)
+    rollers = _roller_answer(source, overrides, band=band)
     if rollers is not None:
         return rollers
     from lambda_core.analysis.rating.engineering import rating_of
@@ -92,8 +93,11 @@ def quasistatic(
         return answer.with_band(band_of(model))
 
 
-def _roller_answer(source: Any, overrides: Iterable[str]) -> RollerQuasiStatic | None:
-    """Return the answer of a roller bearing; None where the source is no case of one."""
+def _roller_answer(source: Any, overrides: Iterable[str], *, band: bool) -> RollerQuasiStatic | None:
+    """Return the answer of a roller bearing; None where the source is no case of one.
+
+    Bearings that do not run in time, full complements, have no band: the ranges are those of laws in motion.
+    """
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.roller_case import roller_model
     from lambda_core.results.roller_quasistatic import roller_quasistatic
@@ -101,7 +105,15 @@ def _roller_answer(source: Any, overrides: Iterable[str]) -> RollerQuasiStatic |
     if isinstance(source, BearingModel):
         return None
     model = roller_model(source, overrides)
-    return None if model is None else roller_quasistatic(model)
+    answer = None if model is None else roller_quasistatic(model)
+    if model is None or answer is None or not band:
+        return answer
+    from lambda_core.analysis.band.model_band import band_alone
+
+    try:
+        return answer.with_band(band_alone(ready_model(source, overrides, is_static=True)))
+    except CaseError:
+        return answer
 
 
 @answers

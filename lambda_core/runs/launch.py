@@ -171,12 +171,12 @@ def prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Pro
 
 def _with_bands(model: Runnable, provenance: Provenance, announce: Announce | None) -> Provenance:
     """Return where a run comes from with the model band of each bearing."""
-    from lambda_core.analysis.band.model_band import band_of, bands_of_machine
+    from lambda_core.analysis.band.model_band import band_alone, bands_of_machine
 
     if announce is not None:
         announce("computing the model band from the ranges of parameters and laws")
     if isinstance(model, BearingModel):
-        bands = dict.fromkeys(provenance.bearings, band_of(model))
+        bands = dict.fromkeys(provenance.bearings, band_alone(model))
     else:
         from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 

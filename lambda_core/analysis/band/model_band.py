@@ -22,6 +22,7 @@ from lambda_core.results.model_band import COVERAGE, QUANTITIES, Band, Contribut
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.near_equilibrium import solve_near
+from lambda_core.solver.drivers.roller_reaction import RollerReaction
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
     from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 
 _NORMAL = 1.6448536269514722  # standard deviations of a normal distribution within which 90 % lie
-_NO_ROLLERS = "rollers have no model band yet"
 _LEAST_SHARE = 0.02  # of the variance of a contributor that is named
 Reader = Callable[[Equilibrium], float]
 
@@ -118,7 +118,7 @@ def model_band(
         return _of_machine(machine, quantities, bearing, announce)
     from lambda_core.analysis.thermal.temperatures import ready_model
 
-    return band_of(ready_model(source, overrides, announce, is_static=True), quantities)  # type: ignore[arg-type]
+    return band_alone(ready_model(source, overrides, announce, is_static=True), quantities)  # type: ignore[arg-type]
 
 
 def _of_machine(
@@ -141,14 +141,30 @@ def bands_of_machine(
     """
     from lambda_core.analysis.rotor.bearing_alone import alone_under_load
 
+    def band(i: int) -> ModelBand:
+        ring = state.rings[i]
+        if isinstance(ring, RollerReaction):
+            from lambda_core.analysis.band.roller_band import roller_band
+            from lambda_core.analysis.rotor.rollers_on_shaft import taken_out
+
+            return roller_band(machine.bearings[i].model, taken_out(ring), quantities)
+        return band_of(alone_under_load(machine, state, i), quantities)
+
     chosen = range(len(machine.bearings)) if number is None else (number,)
-    bearings = {
-        machine.bearings[i].name: band_of(alone_under_load(machine, state, i), quantities)
-        if machine.bearings[i].model.rollers is None
-        else ModelBand(case=machine.name, coverage=COVERAGE, bands=[], left_out=[_NO_ROLLERS])
-        for i in chosen
-    }
-    return MachineBand(case=machine.name, bearings=bearings)
+    return MachineBand(case=machine.name, bearings={machine.bearings[i].name: band(i) for i in chosen})
+
+
+def band_alone(model: BearingModel, quantities: Sequence[str] = QUANTITIES) -> ModelBand:
+    """Return the band of a bearing that is alone: of rollers that of their quasi-static answer."""
+    if model.rollers is None:
+        return band_of(model, quantities)
+    from lambda_core.analysis.band.roller_band import roller_band
+    from lambda_core.case.case_io import parse_case
+    from lambda_core.model.roller_case import roller_model
+
+    rollers = roller_model(parse_case(model.case_toml, model.name))
+    assert rollers is not None  # the model has them from this case
+    return roller_band(model, rollers, quantities)
 
 
 def band_of(
@@ -170,7 +186,7 @@ def band_of(
     return ModelBand(
         case=model.name,
         coverage=COVERAGE,
-        bands=[_band(name, units[name], i, float(value[i]), effects) for i, name in enumerate(found.names)],
+        bands=[band_around(name, units[name], i, float(value[i]), effects) for i, name in enumerate(found.names)],
         left_out=found.left_out,
     )
 
@@ -374,7 +390,7 @@ def _ends(row: FittedValue) -> str:
     return "..".join(f"{end!r} {row.unit}".rstrip() for end in ends)
 
 
-def _band(name: str, unit: str, index: int, value: float, effects: Sequence[Effect]) -> Band:
+def band_around(name: str, unit: str, index: int, value: float, effects: Sequence[Effect]) -> Band:
     """Return the band of a printed value: it reaches as far as the value, which is none of its corrections.
 
     Alternatives that lie mostly on one side shift the band, and the case keeps its value. The band of a value that is

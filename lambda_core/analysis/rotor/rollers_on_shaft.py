@@ -9,7 +9,6 @@ from typing import get_args
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.errors import SolverError
 from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_friction import OilState, RollerFriction
 from lambda_core.formulas.loading import Ring
@@ -18,7 +17,7 @@ from lambda_core.model.laws.roller_laws import friction_of_model
 from lambda_core.model.roller_case import RollerModel, friction_parameters
 from lambda_core.results.bearing_summary import Contact
 from lambda_core.results.rating import Rating
-from lambda_core.results.roller_quasistatic import RollerQuasiStatic, SolvedRollers, roller_answer, solved_over_a_pitch
+from lambda_core.results.roller_quasistatic import RollerQuasiStatic, SolvedRollers, roller_answer, solve_rollers
 from lambda_core.results.verdict import limits_of
 from lambda_core.solver.drivers.roller_reaction import RollerReaction
 
@@ -93,32 +92,9 @@ def _film(found: RollerFriction | None, ring: str, roller: int, loads: FloatArra
 
 
 def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
-    """Return what a roller bearing answers under the load that it carries at the last pose of its rings.
-
-    The rollers stand over one pitch as of a bearing that is alone, under this load at the tilt of the pose; where
-    cylinders stand along the shaft, too, is that of the pose.
-
-    Raises
-    ------
-    SolverError
-        When the rollers find no equilibrium at another place.
-    """
-    model, bearing, motion, state = ring.model, ring.rollers, ring.motion, ring.state
-    oil = _oil_state(ring.oil)
-    given = replace(
-        friction_parameters(bearing, model.roughness, model.lubrication, model.oil_level), **friction_of_model(model)
-    )
-    alone = RollerModel(
-        name=model.name, title=model.title, bearing=bearing, loads=np.zeros(5), held=(True,) * 5,
-        speeds=(motion.inner, motion.outer), oil=oil, friction=given, lubricant=ring.oil.name,
-        base_type=ring.oil.base_type, lubrication=model.lubrication, temperature=ring.oil.temperature,
-        slices=state.inner.shape[1], contamination=model.contamination, assumptions=model.assumptions,
-    )  # fmt: skip
-    held = (bearing.contact_angle == 0.0, False, False, True, True)
-    try:
-        solved = solved_over_a_pitch(alone, motion, state.loads, held=held, displacement=state.ring)
-    except (ArithmeticError, ValueError) as error:
-        raise SolverError(f"{model.name}: {error}") from error
+    """Return what a roller bearing answers at the last pose of its rings, as one that is alone."""
+    model, alone = ring.model, taken_out(ring)
+    solved = solve_rollers(alone)
     answer = roller_answer(alone, solved)
     rating = Rating(
         basic_life_h=answer.basic_life_h,
@@ -137,6 +113,27 @@ def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
         notes=[],
     )
     return RollersOnShaft(alone, solved, answer, rating)
+
+
+def taken_out(ring: RollerReaction) -> RollerModel:
+    """Return a roller bearing alone, under the load that it carries at the last pose of its rings.
+
+    Its tilts are those of the pose; so is its place in directions without a load that holds it.
+    """
+    model, bearing, motion, state = ring.model, ring.rollers, ring.motion, ring.state
+    oil = _oil_state(ring.oil)
+    given = replace(
+        friction_parameters(bearing, model.roughness, model.lubrication, model.oil_level), **friction_of_model(model)
+    )
+    loads = np.array([*state.loads[:3], 0.0, 0.0])  # tilts are held
+    along, across = bearing.contact_angle == 0.0 or loads[0] <= 0.0, state.carried[0] == 0.0
+    return RollerModel(
+        name=model.name, title=model.title, bearing=bearing, loads=loads,
+        held=(bool(along), across, across, True, True), displacement=state.ring,
+        speeds=(motion.inner, motion.outer), oil=oil, friction=given, lubricant=ring.oil.name,
+        base_type=ring.oil.base_type, lubrication=model.lubrication, temperature=ring.oil.temperature,
+        slices=state.inner.shape[1], contamination=model.contamination, assumptions=model.assumptions,
+    )  # fmt: skip
 
 
 def _oil_state(oil: Oil) -> OilState:

@@ -26,6 +26,7 @@ def over_a_pitch(
     displacement: FloatArray | None = None,
     inertial: FloatArray | None = None,
     slices: int = 40,
+    places: Sequence[float] = PLACES,
 ) -> tuple[RollerEquilibrium, ...]:
     """Return the equilibria at even places of the rollers over one pitch; the first is enough where all are alike.
 
@@ -35,12 +36,14 @@ def over_a_pitch(
     ----------
     bearing, loads, held, displacement, inertial, slices
         As for :func:`balance`, which raises what this raises.
+    places : sequence of float
+        In pitches from there.
     """
     given = np.zeros(5) if displacement is None else displacement
     y, z = (float(given[i] if held[i] else loads[i]) for i in (1, 2))
     toward = math.atan2(z, y) if y or z else 0.0
     found: list[RollerEquilibrium] = []
-    for place in PLACES:
+    for place in places:
         found.append(
             balance(
                 bearing,
