@@ -269,8 +269,7 @@ class SqlCatalogue:
     def names(self, kind: Kind) -> list[str]:
         """Return every valid name of one kind, sorted."""
         table, column = _NAMES[kind]
-        query = f"SELECT DISTINCT {column} AS name FROM {table} ORDER BY {column}"
-        return [row.name for row in self._rows(query)]
+        return [name for (name,) in self._file.execute(f"SELECT DISTINCT {column} FROM {table} ORDER BY {column}")]
 
     def shadows(self) -> tuple[Shadow, ...]:
         """Return the rows of plugins that stand in front of others."""

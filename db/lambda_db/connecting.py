@@ -35,10 +35,6 @@ def connect(uri: str, pragmas: tuple[str, ...] = ()) -> sqlite3.Connection:
 
 def select_rows(connection: sqlite3.Connection, statement: str, *values: object) -> list[Any]:
     """Return the rows of a query; each has its columns as attributes, as the classes of the tables have them."""
-    cursor = connection.cursor()
-    cursor.row_factory = _row
-    return cursor.execute(statement, values).fetchall()
-
-
-def _row(cursor: sqlite3.Cursor, cells: tuple[Any, ...]) -> SimpleNamespace:
-    return SimpleNamespace(**{described[0]: cell for described, cell in zip(cursor.description, cells, strict=True)})
+    cursor = connection.execute(statement, values)
+    names = [described[0] for described in cursor.description]
+    return [SimpleNamespace(**dict(zip(names, cells, strict=True))) for cells in cursor]

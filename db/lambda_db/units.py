@@ -59,6 +59,7 @@ def column_unit(column: str) -> tuple[str, str] | None:
     return None
 
 
+@cache
 def bare_name(column: str) -> str:
     """Return a column's name without its unit: ``bore_diameter_mm`` is ``bore_diameter``."""
     for ending in sorted(ENDINGS, key=len, reverse=True):

@@ -153,6 +153,7 @@ def test_a_bearing_that_is_not_there_is_refused(machine: str) -> None:
         subject_of("6319-cp10-1500", bearing="left")
 
 
+@pytest.mark.full  # the command: tests/fitting/test_fit_case.py
 def test_the_command_fits_one_bearing_of_a_machine(
     machine: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
