@@ -243,7 +243,7 @@ LONG = {"study of runs, samples, sensitivity, search", "export fmu, iterate", "v
 LONG |= {"run at its own temperatures"}
 # What these compute has files of its own: tests/thermal/test_machine_network.py, tests/studies/test_machine_study.py,
 # tests/runs/test_crosscheck.py, tests/electric/test_machine_electric.py.
-LONG |= {"study", "thermal", "cross-check", "electric"}
+LONG |= {"study", "thermal", "cross-check", "electric", "units"}
 ABOUT_ONE = ("stribeck", "compare", "electric-map")
 
 

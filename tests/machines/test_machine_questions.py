@@ -121,6 +121,7 @@ def test_a_missing_designation_names_the_section_of_that_bearing(
     assert "or write the geometry in [bearings.middle.geometry]" in capsys.readouterr().err
 
 
+@pytest.mark.full  # one picture of each kind: tests/machines/test_pictures.py
 def test_pictures_and_report_of_a_short_run(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -153,7 +153,9 @@ def test_a_model_that_breaks_the_convention_is_refused(site: Installation, name:
 
 
 @pytest.mark.timeout(900)  # the first test of a session that needs the solver compiles it
-@pytest.mark.parametrize("name", ["bad-return", "bad-number", "bad-index"])
+@pytest.mark.parametrize(
+    "name", ["bad-number", *(pytest.param(name, marks=pytest.mark.full) for name in ("bad-return", "bad-index"))]
+)
 def test_a_run_with_such_a_model_is_refused_before_it_starts(site: Installation, tmp_path: Path, name: str) -> None:
     out = tmp_path / "result.h5"
     answer = site.program("run", "6319-cp10-1500", "--set", f"models.traction={name}", "--quiet", "--out", str(out))

@@ -73,7 +73,7 @@ class Kind:
         return replace(found, bearings=tuple(often))
 
 
-@pytest.fixture(scope="module", params=["one bearing", "two bearings"])
+@pytest.fixture(scope="module", params=["one bearing", pytest.param("two bearings", marks=pytest.mark.full)])
 def kind(request: pytest.FixtureRequest) -> Kind:
     if request.param == "one bearing":
         return Kind("one", SINGLE, "1.5 ms", api.check)
