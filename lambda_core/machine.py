@@ -15,6 +15,7 @@ from lambda_core.domain.errors import UsageError
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
+    from lambda_core.case.case_io import Source
     from lambda_core.case.machine import MachineCase
 
 
@@ -93,7 +94,7 @@ class Machine:
         return machine
 
     @classmethod
-    def from_case(cls, source: str | Path | Mapping[str, Any] | Case | MachineCase) -> Machine:
+    def from_case(cls, source: Source) -> Machine:
         """Take a case file, a built-in name, tables or case.
 
         Raises

@@ -10,8 +10,7 @@ from lambda_core.domain.blas_threads import one_blas_thread
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
-    from lambda_core.case.case import Case
-    from lambda_core.case.machine import MachineCase
+    from lambda_core.case.case_io import Source
     from lambda_core.fitting.measured import MeasuredComparison, MeasuredSeries
     from lambda_core.fitting.measurements import Measurements
     from lambda_core.fitting.report import FitReport
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
 
 @one_blas_thread()
 def fit(
-    source: str | Path | Mapping[str, Any] | Case,
+    source: Source,
     measured: str | Path | Measurements,
     vary: Sequence[str],
     overrides: Iterable[str] = (),
@@ -79,7 +78,7 @@ def fit(
 
 
 def fitted_case(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase,
+    source: Source,
     report: FitReport,
     path: str | Path,
     overrides: Iterable[str] = (),

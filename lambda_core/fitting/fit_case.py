@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 import math
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -40,14 +40,14 @@ from lambda_core.fitting.subjects import Subject, subject_of
 from lambda_core.fitting.uncertainty import correlations
 
 if TYPE_CHECKING:
-    from lambda_core.case.case import Case
+    from lambda_core.case.case_io import Source
 
 Announce = Callable[[str], None]
 Progress = Callable[[int, float], None]
 
 
 def fit_report(
-    source: str | Path | Mapping[str, Any] | Case,
+    source: Source,
     measured: str | Path | Measurements,
     vary: Sequence[str],
     overrides: Iterable[str] = (),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,8 +12,7 @@ from lambda_core.fitting.report_text import compact
 if TYPE_CHECKING:
     from typing import TypeVar
 
-    from lambda_core.case.case import Case
-    from lambda_core.case.machine import MachineCase
+    from lambda_core.case.case_io import Source
     from lambda_core.case.written import Written
     from lambda_core.fitting.report import FitReport
 
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def write_fitted(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase,
+    source: Source,
     report: FitReport,
     path: str | Path,
     overrides: Iterable[str] = (),

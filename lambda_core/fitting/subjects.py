@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -35,6 +34,7 @@ if TYPE_CHECKING:
 
     from lambda_core.analysis.band.roller_band import RollerEffects
     from lambda_core.case.case import Case
+    from lambda_core.case.case_io import Source
 
 
 class Subject(Protocol):
@@ -56,9 +56,7 @@ class Subject(Protocol):
         """Return the relative standard deviation of each quantity by the ranges of all that is not fitted."""
 
 
-def subject_of(
-    source: str | Path | Mapping[str, Any] | Case, overrides: Iterable[str] = (), bearing: str | None = None
-) -> Subject:
+def subject_of(source: Source, overrides: Iterable[str] = (), bearing: str | None = None) -> Subject:
     """Return what a case is to a fit; UsageError where there is no such bearing."""
     from lambda_core.case.case_io import apply_overrides, is_machine, refuse_bearing
     from lambda_core.model.api import case_of

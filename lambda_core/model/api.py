@@ -395,7 +395,7 @@ def catalogue() -> Catalogue:
     return registry().catalogue()
 
 
-def case_of(source: str | Path | Mapping[str, Any] | Case) -> Case:
+def case_of(source: Source) -> Case:
     """Return the case of one bearing of any accepted source.
 
     Raises

@@ -245,7 +245,7 @@ def _of_ribs(law: ChosenLaw) -> ChosenLaw:
     if law.model.name != DEFAULT_ROLLER_MODELS["asperity_load"] or not names:
         return law
     values = {name: value for name, value in zip(("B", "C"), RIB_ASPERITIES, strict=True) if name in names}
-    origins = law.origins | dict.fromkeys(values, "Wingertszahn et al. 2023, Lubricants 11, 369: ribs")
+    origins = {**law.origins, **dict.fromkeys(values, "Wingertszahn et al. 2023, Lubricants 11, 369: ribs")}
     return replace(law, parameters=law.parameters.model_copy(update=values), origins=origins)
 
 

@@ -15,11 +15,10 @@ from lambda_core.runs.rerun import ready, rerun
 from lambda_core.runs.stored import result
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable
 
     from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
-    from lambda_core.case.case import Case
-    from lambda_core.case.machine import MachineCase
+    from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.quasistatic import QuasiStatic
@@ -35,7 +34,7 @@ if TYPE_CHECKING:
 @answers
 @one_blas_thread()
 def quasistatic(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
+    source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     band: bool = False,
@@ -119,7 +118,7 @@ def _roller_answer(source: Any, overrides: Iterable[str], *, band: bool) -> Roll
 @answers
 @one_blas_thread()
 def estimate(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
+    source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     announce: Callable[[str], None] | None = None,
@@ -156,7 +155,7 @@ def estimate(
 
 @one_blas_thread()
 def run(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
+    source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     out: str | Path | None = None,
@@ -201,7 +200,7 @@ def run(
 
 @one_blas_thread()
 def iterate(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
+    source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     interval: float | None = None,
@@ -306,7 +305,7 @@ def _stored_model(found: Result, overrides: Iterable[str]) -> BearingModel | Mac
 @answers
 @one_blas_thread()
 def cross_check(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
+    source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     free_cage: bool = False,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.analysis.thermal.temperatures import ready_model
@@ -13,10 +12,9 @@ from lambda_core.domain.lists import listed
 from lambda_core.results.answer import answers
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
-    from lambda_core.case.case import Case
-    from lambda_core.case.machine import MachineCase
+    from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.runs.comparison import Comparison
@@ -25,7 +23,7 @@ if TYPE_CHECKING:
 
 @answers
 def compare(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
+    source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     methods: Sequence[str] = (),

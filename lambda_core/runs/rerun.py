@@ -9,15 +9,14 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.blas_threads import one_blas_thread
 
 if TYPE_CHECKING:
-    from lambda_core.case.case import Case
-    from lambda_core.case.machine import MachineCase
+    from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
 
 
 def ready(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
+    source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     announce: Callable[[str], None] | None = None,
 ) -> BearingModel | MachineModel:

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import re
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor
 from contextlib import closing, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -31,6 +31,7 @@ from lambda_core.studies.store import Manifest, readable
 if TYPE_CHECKING:
     from lambda_core.analysis.electric.risk_map import RiskMap
     from lambda_core.case.case import Case
+    from lambda_core.case.case_io import Source
     from lambda_core.case.machine import MachineCase
     from lambda_core.studies.scheduler import StudyProgress
     from lambda_core.views.table import StudyTable
@@ -44,7 +45,7 @@ _ZERO_CELSIUS = 273.15
 
 
 def electric_map(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase,
+    source: Source,
     overrides: Iterable[str] = (),
     *,
     speed: str | None = None,
@@ -144,7 +145,7 @@ def _folder(folder: str | Path | None) -> Iterator[Path]:
 
 
 def _study(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase,
+    source: Source,
     overrides: Iterable[str],
     bearing: str | None,
     speed: str | None,

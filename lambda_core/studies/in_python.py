@@ -14,14 +14,13 @@ from lambda_core.domain.lists import listed
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
-    from lambda_core.case.case import Case
-    from lambda_core.case.machine import MachineCase
+    from lambda_core.case.case_io import Source
     from lambda_core.studies.scheduler import StudyProgress
     from lambda_core.views.table import StudyTable
 
 
 def study(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase,
+    source: Source,
     varies: Mapping[str, Sequence[Any]],
     asks: Iterable[str] = (),
     *,

@@ -5,8 +5,7 @@ It has the friction torque over speed with its parts, and SKF's catalogue model.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,8 +25,7 @@ from lambda_core.results.record import INTERFACE
 from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
 
 if TYPE_CHECKING:
-    from lambda_core.case.case import Case
-    from lambda_core.case.machine import MachineCase
+    from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
 
@@ -84,7 +82,7 @@ class SpeedCurve(Answer):
 @answers
 @one_blas_thread()
 def stribeck(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase | MachineModel,
+    source: Source | MachineModel,
     overrides: Iterable[str] = (),
     *,
     bearing: str | None = None,

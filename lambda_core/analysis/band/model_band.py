@@ -6,8 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,8 +25,8 @@ from lambda_core.solver.drivers.roller_reaction import RollerReaction
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
+    from lambda_core.case.case_io import Source
     from lambda_core.case.fitted import FitOrigin, FittedValue
-    from lambda_core.case.machine import MachineCase
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 
@@ -69,7 +68,7 @@ class Effect:
 
 @one_blas_thread()
 def model_band(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
+    source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     quantities: Sequence[str] = QUANTITIES,

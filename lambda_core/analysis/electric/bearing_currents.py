@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
@@ -12,22 +12,19 @@ from lambda_core.results.answer import answers
 from lambda_core.results.reader import Result
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable
 
     from lambda_core.analysis.electric.inversion import FilmOutcome
     from lambda_core.analysis.electric.simulation import CircuitSimulation, Simulation
-    from lambda_core.case.case import Case
-    from lambda_core.case.machine import MachineCase
+    from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
-
-    Source = str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel
 
 
 @answers
 @one_blas_thread()
 def electric(
-    source: Source,
+    source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     window: tuple[float, float] | None = None,
@@ -81,7 +78,7 @@ def electric(
 
 
 def film_from_capacitance(
-    source: Source,
+    source: Source | BearingModel | MachineModel,
     measured: str | Path,
     overrides: Iterable[str] = (),
     *,
@@ -135,7 +132,10 @@ def film_from_capacitance(
 
 
 def _alone(
-    source: Source, overrides: Iterable[str], bearing: str | None, announce: Callable[[str], None] | None
+    source: Source | BearingModel | MachineModel,
+    overrides: Iterable[str],
+    bearing: str | None,
+    announce: Callable[[str], None] | None,
 ) -> BearingModel:
     """Return one bearing: of a case, or of a machine under the load that it carries there."""
     if not is_machine(source):

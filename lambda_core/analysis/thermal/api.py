@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.case.case_io import is_machine
@@ -12,13 +11,12 @@ from lambda_core.domain.lists import listed
 from lambda_core.results.answer import answers
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable
 
     from lambda_core.analysis.thermal.machine_temperature_report import MachineTemperatures, MachineTemperaturesOverTime
     from lambda_core.analysis.thermal.machine_temperatures import MachineLoop
     from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
-    from lambda_core.case.case import Case
-    from lambda_core.case.machine import MachineCase
+    from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.views.chart import ViewData
@@ -27,7 +25,7 @@ if TYPE_CHECKING:
 @answers
 @one_blas_thread()
 def thermal(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
+    source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
     announce: Callable[[str], None] | None = None,
@@ -79,7 +77,7 @@ def thermal(
 @answers
 @one_blas_thread()
 def warm_up(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase | BearingModel | MachineModel,
+    source: Source | BearingModel | MachineModel,
     duration: float,
     overrides: Iterable[str] = (),
     *,

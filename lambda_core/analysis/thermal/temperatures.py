@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.model.checking import model_of, resolve
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable
 
     from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
-    from lambda_core.case.case import Case
+    from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.results.reader import Result
 
 
 def steady_temperatures(
-    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    source: Source | BearingModel,
     overrides: Iterable[str] = (),
     announce: Callable[[str], None] | None = None,
 ) -> SteadyTemperatures:
@@ -39,7 +39,7 @@ def steady_temperatures(
 
 
 def temperatures_over_time(
-    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    source: Source | BearingModel,
     duration: float,
     overrides: Iterable[str] = (),
     announce: Callable[[str], None] | None = None,
@@ -55,7 +55,7 @@ def temperatures_over_time(
 
 
 def ready_model(
-    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    source: Source | BearingModel,
     overrides: Iterable[str] = (),
     announce: Callable[[str], None] | None = None,
     *,

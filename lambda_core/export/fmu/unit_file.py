@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from lambda_core.case.case import Case
+    from lambda_core.case.case_io import Source
     from lambda_core.case.machine import MachineCase
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
@@ -42,7 +43,7 @@ _FIXED_TIME = (1980, 1, 1, 0, 0, 0)  # of files in the archive: the same case ma
 
 
 def export_fmu(
-    source: str | Path | Mapping[str, Any] | Case | MachineCase,
+    source: Source,
     overrides: Iterable[str] = (),
     *,
     out: str | Path | None = None,

@@ -51,8 +51,8 @@ def preloads(model: MachineModel, kernels: SharedKernels | None = None) -> dict[
     sided = [index for index, bearing in enumerate(model.bearings) if bearing.takes]
     if not sided:
         return {}
-    nothing = {"loads": np.zeros_like(model.loads), "weight": np.zeros_like(model.weight), "gravity": (0.0, 0.0, 0.0)}
-    alone = replace(model, **nothing, part_loads={})
+    without = np.zeros_like(model.loads)
+    alone = replace(model, loads=without, weight=without, gravity=(0.0, 0.0, 0.0), part_loads={})
     try:
         state = solve_shaft(alone, None, kernels)
     except SolverError:
