@@ -86,8 +86,8 @@ class BearingSummary(Banded):
         group="friction",
     )
     input_torque_Nmm: float | None = quantity(
-        "work of the drives over the relative angle", "N mm", label="input torque", digits=4,
-        group="friction",
+        "work of what prescribes rotations over the relative angle; null where a torque drives", "N mm",
+        label="input torque", digits=4, group="friction",
     )  # fmt: skip
     support_power_W: float | None = quantity(
         "mean power of dampers to the ground (of a machine, of all), no part of power_loss_W; null for none",

@@ -245,7 +245,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         friction_torque_Nmm=finite(1e3 * chosen.interval.torque()),
         friction_torque_ci_Nmm=finite(1e3 * chosen.torque.half_width),
         power_loss_W=finite(chosen.interval.torque() * chosen.interval.ratio("relative_angle", "time")),
-        input_torque_Nmm=finite(1e3 * chosen.interval.ratio("drive", "relative_angle")),
+        input_torque_Nmm=finite(1e3 * chosen.interval.ratio("drive", "relative_angle")) if _is_driven(result) else None,
         support_power_W=finite(chosen.interval.ratio("support", "time")) or None,
         friction_breakdown_Nmm=merged_cage(chosen.interval.breakdown()),
         cage_speed_ratio=finite(ratio),
@@ -292,6 +292,12 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         assumptions=list(result.assumptions),
     )
     return found.with_band(result.model_band) if result.model.get("rollers") is None else _of_rollers(found, result)
+
+
+def _is_driven(result: Result) -> bool:
+    """Tell whether something prescribes a ring's rotation: a torque on a bearing alone is a load."""
+    rings = (result.model["inner_ring"], result.model["outer_ring"])
+    return result.is_machine or any(ring["dofs"]["spin"]["mode"] == "prescribed" for ring in rings)
 
 
 def _of_rollers(found: BearingSummary, result: Result) -> BearingSummary:

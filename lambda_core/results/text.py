@@ -66,7 +66,11 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
             f"Lambda {shown(summary, 'film_parameter')} (central)",
         ),
         *warning_lines([units.sentence(warning) for warning in summary.warnings], width),
-        line("input torque", shown(summary, "input_torque_Nmm", units)),
+        *(
+            [line("input torque", shown(summary, "input_torque_Nmm", units))]
+            if summary.input_torque_Nmm is not None
+            else []
+        ),
         line("cage speed", f"{shown(summary, 'cage_speed_ratio')} of inner ring", _slip(summary)),
         line("inner ring", f"{_place(summary.inner_ring_displacement_um, units)} (mean)", _tilt(summary)),
         *(line("" if i else "ovality", _oval(bent, units)) for i, bent in enumerate(summary.bent)),

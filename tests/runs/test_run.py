@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from fake_engine import FakeEngine, MakeProvenance, Truth
 
+from lambda_core import api
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.results.provenance import Provenance
@@ -232,3 +233,16 @@ def test_memory_is_flat_over_a_long_run(
         tracemalloc.stop()
     written = 100 * 8 * sum(math.prod(result[c.name].shape[1:]) for c in result.channels)
     assert held[2] - held[1] < 0.05 * written
+
+
+def test_a_braked_ring_that_a_torque_drives(tmp_path: Path) -> None:
+    """The brake is no friction of the bearing, and the torque no drive that the program prescribes."""
+    spin = 'bodies.inner_ring.spin={mode="free",damping="0.002 N m s/rad"}'
+    changes = [spin, "operation.torque=0.5 N m", "solver.duration=1 ms"]
+    found = api.run("6208-axial-1300", changes, out=tmp_path / "braked.h5").summary()
+    assert found.support_power_W == pytest.approx(0.002 * 288.0**2, rel=0.1)
+    assert found.friction_torque_Nmm is not None
+    assert 200.0 < found.friction_torque_Nmm < 300.0
+    assert found.input_torque_Nmm is None
+    assert "input torque" not in found.text()
+    assert abs(found.energy_residual) < 1e-3
