@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from lambda_core import api
 from lambda_core.domain.errors import CaseError
+from lambda_core.model.checking import check_bearing
 
 CHOSEN_WITH = ("6205", "6208", "6212", "6220", "6305", "6309", "6312", "6319", "6010", "6018")
 SEED, COUNT = 34, 20  # number of the issue that asks for twenty; the first and only seed that was tried
@@ -60,7 +61,7 @@ def drawn_bearings() -> list[Drawn]:
             round(40.0 + 40.0 * shares[2], 1),
         )
         try:
-            api.resolve(one.case(), is_static=True)
+            check_bearing(one.case(), is_static=True)
         except CaseError:
             continue
         found.append(one)

@@ -94,9 +94,9 @@ def test_the_band_holds_skf_on_twenty_bearings() -> None:
     assert sum(good) >= 16
 
 
-def _light_self_aligning(speed: int, load: int) -> ModelBand:
-    """Return the band of a bearing whose unloaded balls have several steady motions."""
-    case = validate_case(
+def _light_case(speed: int, load: int) -> api.Case:
+    """Return a bearing whose unloaded balls have several steady motions."""
+    return validate_case(
         {
             "name": "light",
             "bearing": {"designation": "1208E", "maker": "SKF"},
@@ -105,7 +105,10 @@ def _light_self_aligning(speed: int, load: int) -> ModelBand:
             "operation": {"speed": f"{speed} rpm"},
         }
     )
-    found = api.model_band(case)
+
+
+def _light_self_aligning(speed: int, load: int) -> ModelBand:
+    found = api.model_band(_light_case(speed, load))
     assert isinstance(found, ModelBand)
     return found
 
@@ -260,8 +263,24 @@ def test_a_changed_model_is_the_resolved_changed_case(path: str) -> None:
     near = solve(model, phase=0.125)
     short = solve_near(moved, near, is_of_laws=is_of_laws(graded))
     long = solve(check_bearing(api.case("6319-cp10-1500", graded.changes(graded.high)), is_static=True), phase=0.125)
-    np.testing.assert_allclose(short.losses, long.losses, rtol=1e-6, atol=1e-9)
-    np.testing.assert_allclose(short.displacement, long.displacement, rtol=1e-6, atol=1e-12)
+    # The short way keeps which unloaded balls the cage drives, the long way finds it anew: 1e-4 of all losses.
+    losses, displacements = (1e-9, 1e-12) if is_of_laws(graded) else (1e-4 * float(long.losses.sum()), 1e-9)
+    np.testing.assert_allclose(short.losses, long.losses, rtol=1e-6, atol=losses)
+    np.testing.assert_allclose(short.displacement, long.displacement, rtol=1e-6, atol=displacements)
+
+
+@pytest.mark.parametrize("path", ["lubricant.temperature", "clearance"])
+def test_another_clearance_or_oil_leaves_unloaded_balls_in_their_motion(path: str) -> None:
+    """At 100 N they have several steady motions; another one than that of the case once added to the band."""
+    model = check_bearing(_light_case(3000, 100), is_static=True)
+    graded = next(entry for entry in graded_parameters(model) if entry.path.endswith(path))
+    near = solve(model, phase=0.125)
+    for end in (graded.low, graded.high):
+        moved = solve_near(
+            with_value(model, graded, end, partial(check_bearing, is_static=True)), near, is_of_laws=False
+        )
+        np.testing.assert_array_equal(moved.context.driven, near.context.driven)
+        assert moved.iterations < 100
 
 
 @pytest.mark.parametrize("load", ["loads.radial=300 N", "loads.axial=3 kN"])

@@ -33,8 +33,8 @@ def solve_near(
     near : Equilibrium
         Of the same bearing under the same loads.
     is_of_laws : bool
-        Whether only laws differ, or what only they see: then normal forces are as good as the same. Otherwise these and
-        the balls that the cage drives are found anew, and the balls start with their speeds in the solution.
+        Whether only laws differ, or what only they see: then normal forces are as good as the same. Otherwise these are
+        found anew, and the balls start with their speeds in the solution.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def solve_near(
             now, before = L.elements_in(context.bundle, state), L.elements_in(context.bundle, near.state)
             now["velocity"], now["spin"] = before["velocity"], before["spin"]
         are_balls = model.rollers is None
-        driven = near.context.driven if is_of_laws and are_balls else None
+        driven = near.context.driven if are_balls else None
         report = continue_static(compiled, context, state, friction=True, is_near=are_balls, driven=driven)
     except SolverError:
         return solve(model, kernels, phase=near.phase)
