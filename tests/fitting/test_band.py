@@ -187,6 +187,7 @@ def test_a_fitted_machine_hands_its_bearings_their_part_of_the_fit() -> None:
         api.check({**tables, "fit": {**fit, "correlation": [[1.0]]}})
 
 
+@pytest.mark.full
 def test_the_errors_of_a_fitted_machine_replace_the_ranges() -> None:
     """One value of both bearings: the law that it belongs to is kept, and its range does not count."""
     tables = tomllib.loads(geared_shaft("box"))

@@ -242,8 +242,8 @@ ROWS: dict[str, list[Step]] = {
 LONG = {"study of runs, samples, sensitivity, search", "export fmu, iterate", "view, animate, report, cite"}
 LONG |= {"run at its own temperatures"}
 # What these compute has files of its own: tests/thermal/test_machine_network.py, tests/studies/test_machine_study.py,
-# tests/runs/test_crosscheck.py, tests/electric/test_machine_electric.py.
-LONG |= {"study", "thermal", "cross-check", "electric", "units"}
+# tests/runs/test_crosscheck.py, tests/electric/test_machine_electric.py, tests/runs/test_machine_watch.py, ...
+LONG |= {"observers, events, depth, output", "study", "thermal", "cross-check", "electric", "units", "notebook"}
 ABOUT_ONE = ("stribeck", "compare", "electric-map")
 
 

@@ -143,7 +143,7 @@ def test_a_writer_that_was_killed_is_not_alive_before_its_parent_has_waited_for_
     process.communicate()
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.full)])
 def test_ctrl_c_keeps_a_readable_result_that_continues(
     number: int, warm: Warm, tmp_path: Path, undisturbed: dict[str, np.ndarray]
 ) -> None:

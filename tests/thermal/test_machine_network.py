@@ -274,6 +274,7 @@ def test_the_warm_up_of_a_machine_ends_where_it_gets_too_hot() -> None:
     assert "passed thermal.limit = 50 degC" in course.reason
 
 
+@pytest.mark.full
 def test_red_heat_is_beyond_the_limit() -> None:
     """Radiation at 1400 degC once swung the temperatures of the network until it did not settle."""
     glowing = pair(thermal={"limit": "80 degC", "nodes": {"left.inner_ring": {"heat": "2 kW"}}})

@@ -79,6 +79,7 @@ def test_a_measured_signal_without_a_spectrum_is_refused(radial_run: Result, tmp
         api.view(radial_run, "vibration", {"measured": str(file)})
 
 
+@pytest.mark.full
 def test_a_measured_signal_of_the_most_lines_is_read(radial_run: Result, tmp_path: Path) -> None:
     """200 000 lines are allowed, and 4 MiB were."""
     file = tmp_path / "rig.csv"
