@@ -21,7 +21,8 @@ from lambda_core.solver.drivers.viscosity_continuation import StaticReport
 log = logging.getLogger("lambda_core")
 
 PATH_ITERATIONS = 20
-PATH_SHARE = 0.5  # of the way to the velocities that the paths have
+PATH_SHARE = 0.5  # of the remaining difference between paths and velocities, where differences before foretell it
+_MEMORY = 2  # steps of the iteration that are combined, as in source/start.c of the units
 _STEPS = (1.0, 0.5, 0.25)  # shares of a step along the paths that are tried
 PATH_TOLERANCE = 0.05  # of the largest axial velocity
 NO_PATH = 1e-6  # of rolling
@@ -35,7 +36,9 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
     A ball that is carried across the grooves while it goes round drags the rings sideways where it slips; at rest it
     would drag them twice as much. Under a radial or an axial load alone there is no axial path and nothing to do. The
     sphere of a self-aligning outer ring gives a ball no place of its own along the shaft: friction holds it where it
-    is; so it does rollers. Where no equilibrium follows a step of the iteration, the last one stands; where velocities
+    is; so it does rollers. The iteration is the mixing of D. G. Anderson (1965, J. ACM 12, 547) in the form of H. F.
+    Walker and P. Ni (2011, SIAM J. Numer. Anal. 49, 1715, eq. 2.2 and 2.3): steps of a fixed share diverge at low speed
+    where few balls carry. Where no equilibrium follows a step of the iteration, the last one stands; where velocities
     and paths still differ by more than PATH_TOLERANCE, a warning in the log says so.
 
     Parameters
@@ -53,14 +56,17 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
     balls = L.elements_in(context.bundle, state)
     rolling = float(np.abs(balls["velocity"][:, 2]).max())
     moving = np.zeros((balls.size, 2))
-    for k in range(PATH_ITERATIONS):
+    points: list[FloatArray] = []
+    differences: list[FloatArray] = []
+    for _ in range(PATH_ITERATIONS):
         aim = np.concatenate([path_velocities(row) for row in np.split(balls, g.rows)])
         across = float(np.abs(aim[:, 0]).max())
         change = float(np.abs(aim - moving)[:, 0].max())
         if across <= NO_PATH * rolling or change <= PATH_TOLERANCE * across:
             return report
-        step = (PATH_SHARE if k else 1.0) * (aim - moving)
-        taken = _step_along(context.bundle, state, moving, step, solve)
+        points.append(moving.copy())
+        differences.append(aim - moving)
+        taken = _step_along(context.bundle, state, moving, _mixed(points, differences), solve)
         if taken is None:
             break
         report, done = taken
@@ -72,6 +78,22 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
         100.0 * PATH_TOLERANCE,
     )
     return report
+
+
+def _mixed(points: list[FloatArray], differences: list[FloatArray]) -> FloatArray:
+    """Return the next step of a fixed-point iteration from its points and what they miss the fixed point's map by.
+
+    The combination of the last differences that is least foretells where they vanish.
+    """
+    latest = differences[-1]
+    if len(points) == 1:
+        return latest
+    moved, changed = (
+        np.diff([one.ravel() for one in each[-_MEMORY - 1 :]], axis=0).T for each in (points, differences)
+    )
+    weights = np.linalg.lstsq(changed, latest.ravel(), rcond=None)[0]
+    step: FloatArray = PATH_SHARE * latest - ((moved + PATH_SHARE * changed) @ weights).reshape(latest.shape)
+    return step
 
 
 def _step_along(

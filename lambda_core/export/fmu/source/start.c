@@ -42,22 +42,46 @@ static double path(lb_bearing *b, unsigned j, unsigned place) {
   return slope * REAL(b, BALL(j, VELOCITY) + 16) / REAL(b, BALL(j, RADIUS));
 }
 
+#define PATHS (2 * LB_BALLS) /* axial and radial velocity of every ball */
+
+static double product(const double *a, const double *b) {
+  double sum = 0.0;
+  for (unsigned i = 0; i < PATHS; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+/* Weights with which the last one or two changes of a difference come nearest to it. */
+static void weigh(int memory, double changed[2][PATHS], const double *off, double weights[2]) {
+  double a = product(changed[0], changed[0]), p = product(changed[0], off);
+  weights[0] = weights[1] = 0.0;
+  if (memory == 1) weights[0] = p / a;
+  if (memory < 2) return;
+  double c = product(changed[0], changed[1]), d = product(changed[1], changed[1]), q = product(changed[1], off);
+  double det = a * d - c * c;
+  if (det > 0.0) weights[0] = (d * p - c * q) / det, weights[1] = (a * q - c * p) / det;
+}
+
+/* Anderson's mixing of two steps, as in drivers/ball_paths.py. */
 static int follow_paths(lb_bearing *b) {
-  double rolling = 0.0, moving[LB_BALLS][2], aim[LB_BALLS][2];
-  memset(moving, 0, sizeof moving);
+  double rolling = 0.0, moving[PATHS] = {0.0}, off[PATHS] = {0.0}, moved[2][PATHS], changed[2][PATHS], weights[2];
   for (unsigned j = 0; j < LB_BALLS; j++) rolling = fmax(rolling, fabs(REAL(b, BALL(j, VELOCITY) + 16)));
   for (int k = 0; k < LB_PATH_ITERATIONS; k++) {
     double across = 0.0, change = 0.0, share = k ? LB_PATH_SHARE : 1.0;
-    for (unsigned j = 0; j < LB_BALLS; j++) {
-      aim[j][0] = path(b, j, LB_BALL_X), aim[j][1] = path(b, j, LB_BALL_RADIUS);
-      across = fmax(across, fabs(aim[j][0])), change = fmax(change, fabs(aim[j][0] - moving[j][0]));
+    for (unsigned i = 0; i < PATHS; i++) {
+      double aim = path(b, i / 2, i % 2 ? LB_BALL_RADIUS : LB_BALL_X), before = off[i];
+      off[i] = aim - moving[i];
+      if (k) changed[(k - 1) % 2][i] = off[i] - before;
+      if (i % 2 == 0) across = fmax(across, fabs(aim)), change = fmax(change, fabs(off[i]));
     }
     if (across <= LB_NO_PATH * rolling || change <= LB_PATH_TOLERANCE * across) return 1;
-    for (unsigned j = 0; j < LB_BALLS; j++)
-      for (int i = 0; i < 2; i++) {
-        moving[j][i] += share * (aim[j][i] - moving[j][i]);
-        REAL(b, BALL(j, VELOCITY) + 8 * i) = moving[j][i];
-      }
+    int memory = k < 2 ? k : 2;
+    weigh(memory, changed, off, weights);
+    for (unsigned i = 0; i < PATHS; i++) {
+      double step = share * off[i];
+      for (int m = 0; m < memory; m++) step -= weights[m] * (moved[m][i] + share * changed[m][i]);
+      moved[k % 2][i] = step, moving[i] += step;
+    }
+    for (unsigned i = 0; i < PATHS; i++) REAL(b, BALL(i / 2, VELOCITY) + 8 * (i % 2)) = moving[i];
     if (!equilibrium(b, 1)) return 0;
   }
   return 1;
