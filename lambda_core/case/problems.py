@@ -114,6 +114,8 @@ def _message(item: Any, path: list[int | str], model: type[BaseModel], data: Any
         return f"{_quoted(value)} is no name of an option: names are texts"
     if kind == "too_short":
         return f"needs {context['min_length']} at least{_help(parent, name)}"
+    if kind == "string_too_short":
+        return f"is empty{_help(parent, name)}"
     if kind == "string_too_long":
         return f"has {len(value)} characters, at most {context['max_length']} are allowed{_help(parent, name)}"
     if kind == "literal_error":

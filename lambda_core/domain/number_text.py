@@ -17,6 +17,11 @@ def number(value: float | None, digits: int = 1) -> str:
     return f"{round(value, digits) + 0.0:,.{digits}f}".replace(",", " ")  # + 0.0 turns -0.0 into 0.0
 
 
+def counted(count: int, thing: str) -> str:
+    """Write how many things there are; their plural ends with s."""
+    return f"{count} {thing}{'' if count == 1 else 's'}"
+
+
 def hours(life: float) -> str:
     """Write a rating life to two digits: its scatter is a decade."""
     return f"{number(float(f'{life:.2g}'), 0)} h" if life < _LONG_LIFE else f"above {number(_LONG_LIFE, 0)} h"

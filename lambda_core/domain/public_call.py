@@ -10,6 +10,7 @@ import re
 import sys
 from collections.abc import Callable, Mapping
 from functools import cache, wraps
+from os import PathLike
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from lambda_core.domain.errors import UsageError, nearest
@@ -73,6 +74,8 @@ def _bound(function: Callable[..., Any], args: Any, options: Mapping[str, Any]) 
 
 def _checked(function: Callable[..., Any], name: str, value: Any) -> Any:
     """Return an argument: what can be gone through as a list, a number of numpy as one of Python, else as it is."""
+    if isinstance(value, str | PathLike) and "\0" in str(value):
+        raise UsageError(f"{function.__name__}: {name} holds a NUL character: no name and no unit has one")
     wanted = _adapter(function, name)
     if wanted is None:
         return value

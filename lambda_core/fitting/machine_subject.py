@@ -38,10 +38,13 @@ _OF_BEARING = {
     "friction torque": Measured("friction_torque_Nmm", "moment", "N mm"),
     "power loss": Measured("power_loss_W", "power", "W"),
     "radial load": Measured("radial_load_N", "force", "N"),
-    "axial load": Measured("axial_load_N", "force", "N"),
+    "axial load": Measured("axial_load_N", "force", "N", is_signed=True),
     "minimum film": Measured("min_film_um", "small_length", "um"),
     "capacitance": Measured("bearing_capacitance_nF", "capacitance", "nF"),
-    **{f"displacement {axis}": Measured(f"displacement_um.{axis}", "small_length", "um") for axis in "xyz"},
+    **{
+        f"displacement {axis}": Measured(f"displacement_um.{axis}", "small_length", "um", is_signed=True)
+        for axis in "xyz"
+    },
     **{f"stiffness {axis}": Measured(f"stiffness.{axis}", "stiffness", "N/um") for axis in "xyz"},
 }
 _PLACES = {

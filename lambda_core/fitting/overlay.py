@@ -48,7 +48,7 @@ def _vocabulary(panels: Iterable[Panel]) -> Vocabulary:
         across, up = _across(panel), _up(panel)
         conditions |= {name: Condition("", x[0], error_quantity(x[0])) for name in across}
         for name in up:
-            measured.setdefault(name, Measured("", *y))
+            measured.setdefault(name, Measured("", *y, is_signed=True))
         example = example or f'"{across[0]} [{x[1]}],{next(iter(up))} [{y[1]}]"'
     for name in measured:
         conditions.pop(name, None)

@@ -138,7 +138,7 @@ def traction_of(
         if not low <= value <= high:
             ends = f"{show(low, quantity)} to {show(high, quantity)}"
             raise UsageError(
-                f"--{option} {show(value, quantity, 4)}: is out of the range of traction machines; allowed: {ends}"
+                f"{option} {show(value, quantity, 4)}: is out of the range of traction machines; allowed: {ends}"
             )
     ratios = np.array(RATIOS)
     if points is not None:
@@ -173,7 +173,7 @@ def _read(option: str, text: str | float, quantity: str) -> float:
     try:
         return parse(text, quantity)
     except ValueError as error:
-        raise UsageError(f"--{option} {error}") from None
+        raise UsageError(f"{option}: {error}") from None
 
 
 def _measured(data: Measurements) -> MeasuredTraction:

@@ -16,6 +16,7 @@ from lambda_core.analysis.rating.engineering import mounted_rating, rating_of
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_folder, check_new, check_target
+from lambda_core.domain.number_text import counted
 from lambda_core.domain.units import show
 from lambda_core.laws.kernels import sources_key
 from lambda_core.laws.pack import NATIVE, code, other_code
@@ -218,7 +219,8 @@ def _machine(model: MachineModel, announce: Announce | None) -> tuple[RunEngine,
     start = engine.start
     if announce is not None:
         announce(
-            f"equilibrium of {len(engine.bearings)} bearings and {start.shaft.positions.size} lumps of the shaft: "
+            f"equilibrium of {counted(len(engine.bearings), 'bearing')} and "
+            f"{counted(start.shaft.positions.size, 'lump')} of the shaft: "
             f"{engine.states} states"
         )
     bearings = {}

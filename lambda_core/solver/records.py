@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from lambda_core.domain.roles import RACEWAYS, ROLES
+from lambda_core.laws.jit.binding import STRIDE
 
 f8, i8 = np.float64, np.int64
 
@@ -256,7 +257,7 @@ RACEWAY = record(
     # Of a LINE: its groove_circle is the radius of the raceway's cone at the nominal place of the roller's middle.
     ("cone", f8),  # angle of its generatrix to the bearing's axis, of the sign of ROW.axis_angle [rad]
     ("line", i8),  # row of Bundle.lines
-    # Of a RIB: its side is the direction along the shaft in which it pushes the roller.
+    # Of a RIB: its side is the end of the roller that it touches, +1 the one that the roller's axis points to.
     ("rib_radius", f8),  # distance of the nominal contact from the bearing's axis [m]
     ("rib_angle", f8),  # of the rib's normal to the bearing's axis [rad]
 )
@@ -355,7 +356,6 @@ FAULT = record(
 BATCH = 16
 PLACES = 2 * BATCH
 SWEEPS = 4  # places that the derivative of a contact's wrench takes
-STRIDE = 8  # from the results of one contact to those of the next
 LANES = record(  # what laws take of contacts, number by number
     *(
         (name, f8, (PLACES,))

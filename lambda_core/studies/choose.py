@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import closing
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import Field
 
@@ -29,6 +29,9 @@ from lambda_core.formulas.ratings import fatigue_load_limit, static_factor
 from lambda_core.model.checks.operating_limits import MINIMUM_LOAD
 from lambda_core.model.fresh_case import HALF_LOADED
 from lambda_core.results.record import INTERFACE, Record
+
+if TYPE_CHECKING:
+    from lambda_core.domain.call_types import Count
 
 _ALL = 1_000_000  # rows of the catalogue
 _TRIALS = 3  # equilibria that are solved at most for every bearing that is shown
@@ -107,7 +110,7 @@ def choose(
     temperature: str = "70 degC",
     contamination: float | str | None = None,
     static_safety: float = _LEAST_SAFETY,
-    limit: int = 10,
+    limit: Count = 10,
     announce: Callable[[str], None] | None = None,
 ) -> Choice:
     """Choose ball bearings for an operating point, smallest first.
@@ -148,8 +151,9 @@ def choose(
     UsageError
         For a value without a unit, or an unknown kind.
     CaseError
-        For an unknown oil, or a level of contamination that there is none of.
+        For an unknown oil, a value that is out of range, or a level of contamination that there is none of.
     """
+    from lambda_core.case.case_io import read_case
     from lambda_core.discovery.manager import registry
 
     if kind is not None and kind not in kinds():
@@ -165,6 +169,7 @@ def choose(
         "requirements": {"life": life, "static_safety": static_safety},
         **({} if contamination is None else {"life": {"contamination": contamination}}),
     }
+    read_case({"name": "choice", "bearing": {"designation": "any"}, **shared})  # mistakes, once for all candidates
     with closing(registry().catalogue()) as catalogue:
         rows = [row for row in catalogue.bearings(_words(maker), _ALL) if kind is None or row.kind == kind]
         left: Counter[str] = Counter()

@@ -92,6 +92,7 @@ def test_the_valid_case_is_valid(problems: Problems) -> None:
         ({"loads": {"radial": {"kind": "table"}}}, "loads.radial", "give either points or file"),
         ({"loads": {"radial": {"kind": "table", "file": "no.csv"}}}, "loads.radial", 'cannot read "no.csv"'),
         ({"name": "a/b"}, "name", "letters, digits"),
+        ({"electric": {"series": {"file": ""}}}, "electric.series.file", "is empty"),
         ({"markers": {"tip": {"body": "spindle"}}}, "markers.tip.body", "inner_ring"),
     ],
 )

@@ -26,7 +26,7 @@ from lambda_core.case.case_io import validate_case
 from lambda_core.case.case_writer import standalone_toml
 from lambda_core.case.machine import bearing_tables
 from lambda_core.discovery.manager import registry
-from lambda_core.domain.errors import CaseError
+from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.domain.number_text import rounded
 from lambda_core.export.report.band_table import model_bands
 from lambda_core.fitting.measurements import parse_measurements
@@ -164,6 +164,11 @@ def test_an_unknown_fitted_parameter_names_the_nearest_one() -> None:
     assert problem.where == "fit.parameters.0.path"
     assert "nearest: parameters.elastic_hysteresis.loss_factor" in problem.message
     assert "--vary" not in problem.message
+
+
+def test_an_unknown_quantity_of_the_band_names_the_nearest() -> None:
+    with pytest.raises(UsageError, match=r'"torque" is not a known .* of the model band; nearest: friction torque'):
+        api.model_band("6208-axial-1300", quantities=["torque"])
 
 
 def test_a_fitted_machine_hands_its_bearings_their_part_of_the_fit() -> None:

@@ -61,7 +61,7 @@ def test_mistakes_have_their_line(tmp_path: Path) -> None:
     file.write_text("slide-roll ratio [%],traction coefficient [-]\n1,0.03\n5,forty\n")
     with pytest.raises(CaseError, match="line 3, column 2"):
         api.traction(*POINT, measured=file)
-    with pytest.raises(UsageError, match="--pressure"):
+    with pytest.raises(UsageError, match="pressure: "):
         api.traction("FVA3", "1.2", "60 degC", "3 m/s")
     with pytest.raises(CaseError, match="FVA"):
         api.traction("FVA 333", "1.2 GPa", "60 degC", "3 m/s")
@@ -70,10 +70,10 @@ def test_mistakes_have_their_line(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({1: "1e30 Pa"}, r"--pressure 1e\+24 MPa: is out of the range of traction machines; allowed: 1 MPa to 10 GPa"),
-        ({1: "-1 GPa"}, "--pressure -1 GPa"),
-        ({3: "1e30 m/s"}, "--speed .* allowed: "),
-        ({3: "0 m/s"}, "--speed 0 m/s"),
+        ({1: "1e30 Pa"}, r"pressure 1e\+24 MPa: is out of the range of traction machines; allowed: 1 MPa to 10 GPa"),
+        ({1: "-1 GPa"}, "pressure -1 GPa"),
+        ({3: "1e30 m/s"}, "speed .* allowed: "),
+        ({3: "0 m/s"}, "speed 0 m/s"),
     ],
 )
 def test_conditions_of_no_traction_machine_are_refused(change: dict[int, str], words: str) -> None:

@@ -35,6 +35,10 @@ def test_weight_and_load_reach_the_bearing() -> None:
     assert "bending moment" not in found.text()
 
 
+def test_one_bearing_is_no_plural() -> None:
+    assert "1 bearing" in api.describe_machine(api.check(machine())).splitlines()[2].split(", ")
+
+
 def test_a_disc_decides_the_natural_frequency() -> None:
     """Four times the mass, half the frequency, as far as the inner ring's own mass lets it."""
     light = machine(discs={"rotor": {"at": "b", "mass": "2 kg"}}, gravity={"z": "0 m/s2"})

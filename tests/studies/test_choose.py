@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain.errors import LambdaError, UsageError
 
 QUESTION = {"radial": "5 kN", "axial": "1 kN", "speed": "3000 rpm", "life": "2000 h", "oil": "FVA3A", "bore": "40 mm"}
 
@@ -38,6 +39,20 @@ def test_given_cleanliness_makes_modified_lives_count(capsys: pytest.CaptureFixt
     assert best["life_name"] == "L_nmrh"
     assert best["met"]
     assert best["basic_life_h"] < 20000.0 < best["life_h"]  # a_ISO above 1 at kappa of about 4
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"life": "-1 h"}, "requirements.life +-1 h: must be greater than 0 h"),
+        ({"static_safety": -1.0}, "requirements.static_safety +-1.0: must be greater than 0"),
+        ({"temperature": "-300 degC"}, "at or below absolute zero"),
+        ({"limit": 0}, "limit = 0 is not allowed: give int, at least 1"),
+    ],
+)
+def test_values_out_of_range_are_refused_once_and_before_the_search(changes: dict[str, Any], said: str) -> None:
+    with pytest.raises(LambdaError, match=said):
+        api.choose(**{"radial": "1 kN", "speed": "1000 rpm", "life": "1000 h", **changes})
 
 
 def test_what_cannot_be_asked_is_named() -> None:

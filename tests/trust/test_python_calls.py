@@ -47,6 +47,7 @@ def test_a_change_that_is_no_text_is_named(change: Any) -> None:
         (lambda: API.run(CASE, ou="x.h5"), "unexpected keyword argument 'ou'; nearest: out; it takes source,"),
         (lambda: API.fit(CASE), "fit: missing a required argument: 'measured'; it takes source, measured, vary"),
         (lambda: API.result("a" * 300), 'result: cannot use "aaa.*File name too long'),
+        (lambda: API.study_status("a\0b"), "study_status: folder holds a NUL character"),
         (lambda: API.check({"name": "x", 1: 2}), "1 is no name of an option: names are texts"),
     ],
 )  # fmt: skip

@@ -15,7 +15,7 @@ from lambda_core.analysis.band.graded import Exchange, Graded, Resolver, exchang
 from lambda_core.analysis.band.readings import POSITIONS, READ, UNITS_OF, read_values
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread
-from lambda_core.domain.errors import CaseError, LambdaError, Problem, SolverError, UsageError
+from lambda_core.domain.errors import CaseError, LambdaError, Problem, SolverError, UsageError, unknown_name
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results.model_band import COVERAGE, QUANTITIES, Band, Contributor, MachineBand, ModelBand
 from lambda_core.solver.drivers.compiled_laws import Kernels
@@ -101,6 +101,8 @@ def model_band(
     ------
     CaseError, SolverError
         With a sentence about the case.
+    UsageError
+        For a quantity that has no band.
 
     References
     ----------
@@ -108,6 +110,9 @@ def model_band(
     """
     from lambda_core.case.case_io import is_machine
 
+    for name in quantities:
+        if name not in READ:
+            raise UsageError(unknown_name("quantity of the model band", name, READ))
     if announce is not None:
         announce("computing the model band from the ranges of parameters and laws")
     if is_machine(source):

@@ -39,11 +39,14 @@ class Measured:
         Its physical quantity.
     unit : str
         In which it is fitted and shown.
+    is_signed : bool
+        Whether it may be below zero: a direction, not a size.
     """
 
     response: str
     quantity: str
     unit: str
+    is_signed: bool = False
 
     @property
     def error_quantity(self) -> str:
@@ -83,9 +86,9 @@ MEASURED: dict[str, Measured] = {
     "power loss": Measured("power_loss_W", "power", "W"),
     "minimum film": Measured("min_film_um", "small_length", "um"),
     "capacitance": Measured("bearing_capacitance_nF", "capacitance", "nF"),
-    "displacement x": Measured("inner_ring_displacement_um.x", "small_length", "um"),
-    "displacement y": Measured("inner_ring_displacement_um.y", "small_length", "um"),
-    "displacement z": Measured("inner_ring_displacement_um.z", "small_length", "um"),
+    "displacement x": Measured("inner_ring_displacement_um.x", "small_length", "um", is_signed=True),
+    "displacement y": Measured("inner_ring_displacement_um.y", "small_length", "um", is_signed=True),
+    "displacement z": Measured("inner_ring_displacement_um.z", "small_length", "um", is_signed=True),
 }
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.number_text import NONE, hours
+from lambda_core.domain.number_text import NONE, counted, hours
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.model.checks.describe import assumption_block, verdict_line
@@ -252,7 +252,7 @@ def model_text(model: MachineModel, *, everything: bool = False) -> str:
         verdict_line(model.name, warned, model.assumptions),
         "",
         f"{model.name}: {shaft}, {model.body.total_mass:.4g} kg, "
-        f"{30.0 / math.pi * model.speed:.5g} 1/min, {len(model.bearings)} bearings",
+        f"{30.0 / math.pi * model.speed:.5g} 1/min, {counted(len(model.bearings), 'bearing')}",
     ]
     for bearing in model.bearings:
         side = {1: ", takes +x", -1: ", takes -x", 0: ""}[bearing.takes]

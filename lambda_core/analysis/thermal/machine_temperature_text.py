@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from lambda_core.analysis.thermal.temperature_lines import gain_text, node_words
-from lambda_core.domain.number_text import number
+from lambda_core.domain.number_text import counted, number
 from lambda_core.domain.unit_systems import UnitSystem
 from lambda_core.model.settings.machine_heat import BEARING_NODES, is_numbered
 from lambda_core.results.text import assumption_lines, line
@@ -26,7 +26,7 @@ def steady_text(found: MachineTemperatures, units: UnitSystem) -> str:
     return "\n".join(
         [
             _headline(found, [one.title for one in found.bearings.values()]),
-            line("losses", f"{loss} in {len(found.bearings)} bearings", found.losses_from),
+            line("losses", f"{loss} in {counted(len(found.bearings), 'bearing')}", found.losses_from),
             line("temperatures", units.unit("degC"), f"conductances {found.conductances}"),
             *_bearing_table(found, units),
             line("shaft", f"position {units.unit('mm')}, temperature {units.unit('degC')}, heat {units.unit('W')}"),

@@ -13,7 +13,7 @@ from lambda_core.case.machine_parts import Connection, MachineBody, PointLoad
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE, SPIN
-from lambda_core.domain.units import show
+from lambda_core.domain.units import from_si, show
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.formulas.elastic.body import ElasticBody
 from lambda_core.formulas.gear_forces import GearForces
@@ -92,7 +92,9 @@ def refuse_far(where: str, dof: str, motion: TimeFunction, ledger: Ledger) -> No
     """Note a motion of a seat or a body that goes farther than any does."""
     if not peak(motion) <= _FARTHEST:
         quantity = "angle" if dof.startswith("tilt") else "length"
-        far, most = show(peak(motion), quantity, 3), show(_FARTHEST, quantity)
+        far = show(peak(motion), quantity, 3)
+        unit = far.rpartition(" ")[2]
+        most = f"{from_si(_FARTHEST, quantity, unit):.3g} {unit}"
         ledger.problem(where, f"goes to {far}, allowed up to {most}: check the unit")
 
 

@@ -3,7 +3,7 @@
 Load, damping, film, rolling losses.
 
 A law is called once for all contacts from place `first` on, `count` of them, which lie in scratch. It takes what it
-needs from scratch.lanes and leaves its results in scratch.out, layout.STRIDE numbers apart.
+needs from scratch.lanes and leaves its results in scratch.out, STRIDE numbers apart.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import math
 
 import numpy as np
 
+from lambda_core.laws.jit.binding import STRIDE
 from lambda_core.solver.arrays.fault_roles import (
     ASPERITY_LOAD,
     DAMPING,
@@ -25,7 +26,6 @@ from lambda_core.solver.arrays.fault_roles import (
 )
 from lambda_core.solver.faults import report
 from lambda_core.solver.layout import helper, of, part, vector_helper
-from lambda_core.solver.records import STRIDE
 
 _VECTOR = 8  # contacts that compiled laws take at once
 

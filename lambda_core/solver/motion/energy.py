@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from lambda_core.laws.jit.binding import STRIDE
 from lambda_core.solver.cage.guides import (
     GAUSS_NODES,
     GAUSS_WEIGHTS,
@@ -16,7 +17,7 @@ from lambda_core.solver.contact.contact_kinematics import axis_x, touch
 from lambda_core.solver.layout import balls_of, guide_law, helper, of, part, raceway_laws
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.structures import structure_energy
-from lambda_core.solver.records import ROLLERS, STRIDE
+from lambda_core.solver.records import ROLLERS
 from lambda_core.solver.row_code import roller_code
 from lambda_core.solver.vec import length
 

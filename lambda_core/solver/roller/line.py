@@ -15,6 +15,7 @@ import math
 import numpy as np
 
 from lambda_core.elements.roller.rolling import FLOW_SHEAR
+from lambda_core.laws.jit.binding import STRIDE
 from lambda_core.solver.arrays.fault_roles import NORMAL_CONTACT
 from lambda_core.solver.cage.guides import GAUSS_NODES, GAUSS_WEIGHTS
 from lambda_core.solver.contact.dissipation import raceway_losses
@@ -23,7 +24,6 @@ from lambda_core.solver.contact.scalar_stages import film_stage, line_damping
 from lambda_core.solver.contact.shear import shear_stage, slip_field
 from lambda_core.solver.faults import report
 from lambda_core.solver.layout import cells_of, grid_of, helper, of, part, raceway_laws
-from lambda_core.solver.records import STRIDE
 from lambda_core.solver.vec import clear
 
 PLACE, WIDTH, DROP, RADIUS = range(4)  # rows of Bundle.lines
