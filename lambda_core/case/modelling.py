@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import AfterValidator, create_model
 
 from lambda_core.case.option import Section, option
-from lambda_core.domain.elements import ELEMENTS
+from lambda_core.domain.elements import ELEMENTS, RIBS
 from lambda_core.domain.role import Role
 from lambda_core.domain.roles import DEFAULT_MODELS, MOTION_ROLES
 from lambda_core.domain.units import Frequency, Time
@@ -70,7 +70,7 @@ else:
         __base__=Section,
         __doc__="Force elements between the bodies.",
         __module__=__name__,
-        **{name: (ForceElement, option({}, meaning)) for name, meaning in ELEMENTS.items()},
+        **{name: (ForceElement, option({}, meaning)) for name, meaning in (ELEMENTS | RIBS).items()},
     )
 
 

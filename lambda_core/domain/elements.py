@@ -18,7 +18,7 @@ POSE = (*TRANSLATIONS, *TILTS)  # of one ring against another [m, rad]
 INNER, OUTER, CAGE = range(len(BODIES))  # places of a bearing's bodies in every table of bodies
 
 RACEWAYS = {"ball_inner": "balls and inner raceway", "ball_outer": "balls and outer raceway"}
-RIBS = {"rib_inner": "ends of rollers and ribs of the inner ring", "rib_outer": "and of the outer ring"}
+RIBS = {"rib_inner": "ends of rollers and inner ribs", "rib_outer": "ends of rollers and outer ribs"}
 POCKETS = {"ball_cage": "balls and cage pockets"}
 NEIGHBOURS = {"ball_ball": "neighbouring balls, where there is no cage"}
 LANDS = {"cage_inner": "cage and inner ring's land", "cage_outer": "cage and outer ring's land"}

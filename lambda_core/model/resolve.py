@@ -17,7 +17,8 @@ from pydantic import BaseModel
 from lambda_core.case.case import Case
 from lambda_core.case.case_writer import standalone_toml
 from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue
-from lambda_core.domain.elements import BODIES
+from lambda_core.domain.elements import BODIES, RACEWAYS
+from lambda_core.domain.errors import Problem
 from lambda_core.domain.roles import DEFAULT_MODELS, DEFAULT_ROLLER_MODELS
 from lambda_core.domain.units import show
 from lambda_core.elements.ball.geometry import Geometry
@@ -62,7 +63,7 @@ from lambda_core.model.laws.resolve_links import resolve_links, resolve_markers
 from lambda_core.model.laws.resolve_states import check_states
 from lambda_core.model.laws.time_laws import resolve_time_laws, signals_of
 from lambda_core.model.ledger import Ledger
-from lambda_core.model.rollers_in_motion import as_balls, rollers_of, with_rollers
+from lambda_core.model.rollers_in_motion import as_balls, rollers_of, with_ribs, with_rollers
 from lambda_core.model.settings.contamination import contamination_of
 from lambda_core.model.settings.resolve_electric import resolve_electric
 from lambda_core.model.settings.resolve_solver import resolve_solver
@@ -110,7 +111,10 @@ def resolve(
     if found is not None:
         balls, usual = as_balls(case, found[0]), DEFAULT_MODELS | DEFAULT_ROLLER_MODELS
         model = resolve(balls, registry, catalogue, is_static=is_static, place=place, defaults=usual)
-        model = with_rollers(model, case, *found, lambda role, name: law_called(registry, role, name, given=False))
+        ribs = _laws_of_ribs(with_ribs(balls, case), registry, catalogue, usual, place) if found[0].ribs else {}
+        model = with_rollers(
+            model, case, *found, ribs, lambda role, name: law_called(registry, role, name, given=False)
+        )
         return dataclasses.replace(model, case_toml=standalone_toml(with_packages(case, registry)))
     ledger, written = Ledger(assumptions=list(case.assumptions), place=place), case
     row, designation, case = resolve_designation(written, catalogue, ledger)
@@ -202,6 +206,27 @@ def resolve(
         contamination=contamination_of(case, geometry.pitch_diameter, ledger),
         requirements=case.requirements,
     )
+
+
+def _laws_of_ribs(
+    case: Case,
+    registry: PluginSource,
+    catalogue: Catalogue,
+    defaults: Mapping[str, str],
+    place: Callable[[str], str],
+) -> Mapping[str, Mapping[str, ChosenLaw]]:
+    """Return the laws of the points at ribs by element, from a case with those of ribs at its raceways."""
+
+    def renamed(text: str) -> str:
+        text = text.replace("ball_inner", "rib_inner").replace("ball_outer", "rib_outer")
+        return text.replace("the contacts of balls are points", "ends of rollers touch ribs at points")
+
+    ledger = Ledger(place=lambda path: place(renamed(path)))
+    lubricant, _ = resolve_lubricant(case.lubricant, catalogue, ledger)
+    laws = LawResolver(case, registry, lubricant, "ball", ledger, defaults=defaults).resolve()
+    ledger.problems = [Problem(one.where, renamed(one.message)) for one in ledger.problems]
+    ledger.check(case.name)
+    return {renamed(element): laws[element] for element in RACEWAYS}
 
 
 def _distributions(

@@ -12,6 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lambda_core.case.case import Case
+from lambda_core.case.modelling import ForceElement
 from lambda_core.case.parts import InlineGeometry
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.catalogue.roller_designation import roller_designation
@@ -73,6 +74,9 @@ def rollers_of(
     for part in (name for name in type(case.elastic).model_fields if getattr(case.elastic, name) is not None):
         ledger.problem(f"elastic.{part}", "rings and cages of rollers are rigid: leave it out")
     _refuse_parameters(case, ledger)
+    rings = {f"rib_{rib.ring}" for rib in rollers.ribs} if rollers is not None else RIBS
+    for name in (name for name in RIBS if name not in rings and getattr(case.forces, name) != ForceElement()):
+        ledger.problem(f"forces.{name}", "this bearing has no such ribs: leave it out")
     ledger.check(case.name)
     assert rollers is not None  # else a problem says why
     if not {*TILTS} & case.bodies.inner_ring.model_fields_set:
@@ -98,7 +102,7 @@ def _refuse_parameters(case: Case, ledger: Ledger) -> None:
     written = {f"parameters.{role}": role for role in case.parameters if role not in DEFAULT_LINE_MODELS}
     forces = {name: getattr(case.forces, name) for name in case.forces.model_fields_set}
     for name, force in forces.items():
-        if force is not None:
+        if force is not None and name not in RIBS:
             written |= {f"forces.{name}.parameters.{role}": role for role in force.parameters}
             written |= {f"forces.{name}.models.{role}": role for role in force.models.model_fields_set}
     for path, role in written.items():
@@ -129,7 +133,15 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
     models = case.models.model_copy(update=dict.fromkeys((*DEFAULT_LINE_MODELS, *_SHAPED)))
     bodies = case.bodies.model_copy(update={"inner_ring": inner})
     parameters = {role: values for role, values in case.parameters.items() if role not in DEFAULT_LINE_MODELS}
-    return case.model_copy(update={"bearing": bearing, "bodies": bodies, "models": models, "parameters": parameters})
+    forces = case.forces.model_copy(update={rib: ForceElement() for rib in RIBS})
+    changed = {"forces": forces, "bearing": bearing, "bodies": bodies, "models": models, "parameters": parameters}
+    return case.model_copy(update=changed)
+
+
+def with_ribs(balls: Case, case: Case) -> Case:
+    """Return the case of :func:`as_balls` with the laws that a case gives to ribs at the raceways."""
+    ribs = {element: getattr(case.forces, rib) for element, rib in zip(_ELEMENTS, RIBS, strict=True)}
+    return balls.model_copy(update={"forces": balls.forces.model_copy(update=ribs)})
 
 
 def with_rollers(
@@ -138,6 +150,7 @@ def with_rollers(
     rollers: RollerBearing,
     title: str,
     assumptions: tuple[str, ...],
+    points: Mapping[str, Mapping[str, ChosenLaw]],
     law: Callable[[str, str], Law],
 ) -> BearingModel:
     """Return the model with rollers in the place of its balls.
@@ -150,6 +163,8 @@ def with_rollers(
         As it is written: its laws of line contacts take the place of the defaults.
     rollers, title, assumptions
         Of :func:`rollers_of`.
+    points : mapping
+        Laws of the points at ribs, by element and role.
     law : callable
         Returns a law from role and name.
 
@@ -175,9 +190,11 @@ def with_rollers(
     lines = {role: chosen(role, getattr(case.models, role) or name) for role, name in DEFAULT_LINE_MODELS.items()}
     laws = dict(model.laws)
     for ring in sorted({_ELEMENTS.index(f"ball_{rib.ring}") for rib in rollers.ribs}):
-        points = laws[_ELEMENTS[ring]]
-        own = {"supply": _with_constants(points["supply"], rollers), "asperity_load": _of_ribs(points["asperity_load"])}
-        laws[tuple(RIBS)[ring]] = {**points, **own, **{r: chosen(r, n) for r, n in DEFAULT_RIB_MODELS.items()}}
+        element = tuple(RIBS)[ring]
+        found, asked = points[element], getattr(case.forces, element).models
+        own = {"supply": _with_constants(found["supply"], rollers), "asperity_load": _of_ribs(found["asperity_load"])}
+        own |= {r: chosen(r, n) for r, n in DEFAULT_RIB_MODELS.items() if getattr(asked, r) is None}
+        laws[element] = {**found, **own}
     for element in _ELEMENTS:
         supply = _with_constants(laws[element]["supply"], rollers)
         laws[element] = {**laws[element], **lines, "supply": supply}

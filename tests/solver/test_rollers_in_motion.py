@@ -17,6 +17,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.domain.elements import CAGE
+from lambda_core.domain.errors import CaseError
 from lambda_core.elements.roller.roller_equilibrium import balance
 from lambda_core.elements.roller.roller_motion import rolling_motion
 from lambda_core.model.laws.time_functions import initial
@@ -260,6 +261,40 @@ def test_slow_ribs_resist_alike_in_both_answers() -> None:
     assert quick is not None
     assert quick.rib > 0.7 * quick.total
     assert quick.total - quick.drag == pytest.approx(found.losses.sum() / found.relative_speed, rel=0.06)
+
+
+def test_ribs_have_laws_of_their_own() -> None:
+    """A section of the ribs chooses laws and parameters for them alone, as for any other contact."""
+    own = {"models": {"film_thickness": "hamrock-dowson"}, "parameters": {"boundary_friction": {"mu": 0.08}}}
+    case = CASE | THRUST["32216"] | {"bearing": {"designation": "SKF 32216"}}
+    before, after = api.check(case), api.check(case | {"forces": {"rib_inner": own}})
+    ribs = after.laws["rib_inner"]
+    assert ribs["film_thickness"].model.name == "hamrock-dowson"
+    assert ribs["boundary_friction"].parameters.mu == 0.08
+    assert before.laws["rib_inner"]["film_thickness"].model.name == "chittenden"
+    assert ribs["asperity_load"].parameters == before.laws["rib_inner"]["asperity_load"].parameters
+    assert after.laws["ball_inner"] == before.laws["ball_inner"]
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"rib_inner": {"models": {"film_thickness": "moes-line"}}}, "ends of rollers touch ribs at points"),
+        ({"rib_inner": {"models": {"cage_contact": "roller-pocket"}}}, "rib_inner has no such role"),
+        ({"rib_inner": {"parameters": {"boundary_friction": {"muu": 0.1}}}}, "not a parameter"),
+        ({"rib_outer": {"models": {"film_thickness": "chittenden"}}}, "no such ribs"),
+    ],
+)
+def test_wrong_laws_of_ribs_are_refused(change: dict[str, Any], sentence: str) -> None:
+    case = CASE | THRUST["32216"] | {"bearing": {"designation": "SKF 32216"}, "forces": change}
+    with pytest.raises(CaseError, match=sentence):
+        api.check(case)
+
+
+def test_balls_have_no_ribs() -> None:
+    forces = {"rib_inner": {"models": {"film_thickness": "hamrock-dowson"}}}
+    with pytest.raises(CaseError, match="no ribs"):
+        api.check(CASE | {"bearing": {"designation": "6208"}, "forces": forces})
 
 
 def slip_of_the_cage(load: str) -> float:

@@ -10,9 +10,10 @@ from typing import Any, Protocol
 from pydantic import ValidationError
 
 from lambda_core.case.case import Case
+from lambda_core.case.modelling import ForceElement
 from lambda_core.case.problems import problems
 from lambda_core.catalogue.protocol import LubricantRow
-from lambda_core.domain.elements import ELEMENTS
+from lambda_core.domain.elements import ELEMENTS, RIBS
 from lambda_core.domain.errors import LambdaError, unknown_name
 from lambda_core.domain.installed import OWN
 from lambda_core.domain.lubrication import MIXTURES
@@ -83,6 +84,9 @@ class LawResolver:
         for role in self.case.parameters:
             if role not in MOTION_ROLES:
                 self.ledger.problem(f"parameters.{role}", unknown_name("role", role, MOTION_ROLES))
+        for element in RIBS:
+            if getattr(self.case.forces, element) != ForceElement():
+                self.ledger.problem(f"forces.{element}", "this bearing has no ribs that guide rollers: leave it out")
         for element in ELEMENTS:
             own = getattr(self.case.forces, element)
             roles = [role.name for role in MOTION_ROLES.values() if element in role.elements]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ValidationError
 
 from lambda_core.case.problems import problems
+from lambda_core.domain.elements import RIBS
 from lambda_core.domain.roles import ROLLER_FRICTION
 
 if TYPE_CHECKING:
@@ -48,6 +49,8 @@ def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[
                 ledger.given(f"parameters.{role}.{key}", found[fields[key]], "pressure" if key == "tau_eyring" else "")
         for key in written.keys() - fields.keys():
             ledger.assume(f"parameters.{role}.{key} counts in motion only: the quasi-static answer has no such law")
+    for rib in (name for name in RIBS if name in case.forces.model_fields_set):
+        ledger.assume(f"forces.{rib} counts in motion only: the quasi-static answer has its own laws at ribs")
     return found
 
 
