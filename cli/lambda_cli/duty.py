@@ -23,7 +23,8 @@ def duty(
     """Add up rating life and losses over the phases of a duty cycle.
 
     Each phase at its quasi-static equilibrium; lives by ISO 281 and ISO/TS 16281, damages added (Palmgren, Miner). Of a
-    machine: every bearing, and the life of all of them. A CSV file may hold the phases: spectrum = "loads.csv".
+    machine: every bearing, and the life of all of them. spectrum = "loads.csv" in the TOML file reads the phases from
+    a CSV file.
     """
     from lambda_core import api
 

@@ -69,7 +69,8 @@ class Choice(Record):
 
     def text(self, units: UnitSystem = SI) -> str:
         """Return a table for people, then why other bearings were left out."""
-        head = ("bearing", f"d x D x B {units.unit('mm')}", "life", "C0/P0", "n", f"torque {units.unit('N mm')}", "")
+        torque = f"torque {units.unit('N mm')}"
+        head = ("bearing", f"d x D x B {units.unit('mm')}", "life", "C0/P0", "n/limit", torque, "")
         rows = [head, *(_cells(one, units) for one in self.candidates)]
         widths = [max(len(row[i]) for row in rows) for i in range(len(head) - 1)]
         lines = [
