@@ -19,7 +19,7 @@ from lambda_core.solver.drivers.dynamics import MotionStart
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.right_hand_side import Handle
 
-_ENERGY = 1e-2  # [J], angle [rad] or displacement times time [m s]: scale of the integrals, times the tolerance
+ENERGY = 1e-2  # [J], angle [rad] or displacement times time [m s]: scale of the integrals, times the tolerance
 _STEPS = 10_000_000  # at most, between two outputs
 
 
@@ -100,7 +100,7 @@ def integrate(
         right_hand_side,
         method="BDF",
         rtol=0.0,  # errors are controlled on absolute scales, as in our integrator
-        atol=tolerance * np.concatenate([context.scale, np.full(powers, _ENERGY)]),
+        atol=tolerance * np.concatenate([context.scale, np.full(powers, ENERGY)]),
         max_order=max_order,
         max_step=begin.longest_step,
         max_num_steps=_STEPS,
