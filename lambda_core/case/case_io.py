@@ -201,7 +201,7 @@ def toml_tables(text: str, source: str) -> dict[str, Any]:
     """Return the plain tables of TOML text; CaseError with the line where it is none."""
     try:
         return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:  # of TOML, or of a whole number that Python does not read
         raise CaseError(source, [syntax_problem(str(error), text)]) from None
     except RecursionError:
         raise CaseError(source, [Problem("", "is nested too deeply")]) from None
@@ -252,6 +252,8 @@ def is_machine_case(data: Mapping[str, Any]) -> bool:
 
 def syntax_problem(message: str, text: str) -> Problem:
     """Say what is wrong with the TOML itself, with its line and a fix for the usual slip."""
+    if "integer string conversion" in message:
+        return Problem("", "holds a whole number of more digits than any number of a case has")
     location = _LOCATION.search(message)
     if location is None or location[1] is None:
         return Problem("end of the file", message.split(" (at")[0])
@@ -340,7 +342,7 @@ def _value(path: str, text: str, root: type[BaseModel]) -> Any:
     """Read the right-hand side of an override: TOML where the option wants it, else the text itself."""
     try:
         parsed = tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
+    except ValueError:
         return text
     info = field_at(root, path)
     wants_text = info is not None and "str" in str(info.annotation)

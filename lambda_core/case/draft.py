@@ -266,7 +266,7 @@ def draft_of(text: str, path: Path | None) -> Draft:
     """Return the draft of a file's text; CaseError when it is not TOML."""
     try:
         tables = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:
         raise CaseError(path.name if path else "case", [syntax_problem(str(error), text)]) from None
     root = MachineCase if is_machine_case(tables) else Case
     return Draft(path, text, tables, path.resolve().parent if path else Path.cwd(), root)

@@ -173,7 +173,7 @@ def parse_study(text: str, source: str = "study") -> Study:
         data = tomllib.loads(text)
     except RecursionError:
         raise CaseError(source, [Problem("", "is nested too deeply")]) from None
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:
         raise CaseError(source, [Problem("", f"is not TOML: {error}")]) from None
     return validate_study(data, source)
 

@@ -288,7 +288,7 @@ def _tables(path: Path) -> dict[str, Any]:
         return tomllib.loads(text)
     except UnicodeDecodeError:
         raise CaseError(path.name, [Problem("", "is not a text file in UTF-8")]) from None
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:
         raise CaseError(path.name, [syntax_problem(str(error), text)]) from None
     except RecursionError:
         raise CaseError(path.name, [Problem("", "is nested too deeply")]) from None

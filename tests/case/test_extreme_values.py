@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -36,6 +37,16 @@ def test_names_of_any_length_are_answered_at_once(table: str, key: str) -> None:
     with pytest.raises(LambdaError, match="has 100000 characters, at most 200 are allowed"):
         api.check({**CASE, table: {**CASE[table], key: "6" * 100_000}})
     assert time.perf_counter() - started < 5.0
+
+
+def test_whole_numbers_of_any_length_are_answered(tmp_path: Path) -> None:
+    """Python reads none of more than 4300 digits and said so in an error of its own."""
+    with pytest.raises(LambdaError, match="has 5000 characters, at most 200 are allowed"):
+        api.check(CASE, [f"bearing.designation={'6' * 5000}"])
+    (tmp_path / "long.toml").write_text(f"name = {'6' * 5000}", encoding="utf-8")
+    for ask in (api.check, api.draft, api.duty, api.study_check):
+        with pytest.raises(LambdaError, match=r"digits"):
+            ask(tmp_path / "long.toml")
 
 
 def test_what_a_plugin_raises_does_nothing_on_a_terminal() -> None:
