@@ -130,6 +130,7 @@ def test_every_screen_has_its_own_help() -> None:
         choice,
         dialogs,
         duty_screen,
+        fit_screen,
         own_row,
         results_screen,
         run_screen,
@@ -137,7 +138,7 @@ def test_every_screen_has_its_own_help() -> None:
     )
 
     modules = (
-        answer_screen, catalogue, choice, dialogs, duty_screen, own_row, results_screen, run_screen, study_screen,
+        answer_screen, catalogue, choice, dialogs, duty_screen, fit_screen, own_row, results_screen, run_screen, study_screen,
     )  # fmt: skip
     found = {
         name
