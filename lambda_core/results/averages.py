@@ -22,7 +22,7 @@ INTEGRALS: tuple[Channel, ...] = (
     Channel("loss", ("mechanism",), "J", "dissipated energy by mechanism"),
     Channel("input", (), "J", "work of drives, loads, gravity and prescribed motions"),
     Channel("input_abs", (), "J", "integral of the absolute value of that power"),
-    Channel("support", (), "J", "energy that dampers to the ground have taken"),
+    Channel("support", (), "J", "energy that dampers to the ground have taken; no friction of the bearing"),
     Channel("drive", (), "J", "work of the spin drives"),
     Channel("stored", (), "J", "kinetic and elastic energy, now minus at the start"),
     Channel("relative_angle", (), "rad", "integral of the absolute value of the rings' relative speed"),

@@ -138,7 +138,8 @@ def test_every_screen_has_its_own_help() -> None:
     )
 
     modules = (
-        answer_screen, catalogue, choice, dialogs, duty_screen, fit_screen, own_row, results_screen, run_screen, study_screen,
+        answer_screen, catalogue, choice, dialogs, duty_screen, fit_screen, own_row, results_screen, run_screen,
+        study_screen,
     )  # fmt: skip
     found = {
         name
