@@ -30,6 +30,7 @@ _WORDS = {  # what the type alone does not say
     "greater_than": "greater than {gt:g}",
     "greater_than_equal": "at least {ge:g}",
 }
+_KINDS = {"float": "a number", "int": "a whole number", "str": "a text", "bool": "True or False", "path-like": "a path"}
 
 
 def public(function: Callable[P, R], home: str) -> Callable[P, R]:
@@ -100,7 +101,9 @@ def _sentence(function: Callable[..., Any], name: str, value: Any, error: Valida
     kind, meaning = _described(function, name)
     written = printable(repr(value))
     shown = written if len(written) <= _SHOWN else f"{written[:_SHOWN]}..."
-    allowed = ", ".join(part for part in (kind, limit) if part)
+    kind = " or ".join(_KINDS.get(part, part) for part in kind.split(" or "))
+    parts = (limit,) if (kind, limit) == ("a number", _WORDS["finite_number"]) else (kind, limit)
+    allowed = ", ".join(part for part in parts if part)
     sentence = f"{function.__name__}: {name} = {shown} is not allowed: give {allowed}"
     return f"{sentence}. {meaning}" if meaning else sentence
 

@@ -23,7 +23,7 @@ from lambda_core.case.modelling import Forces, Models
 from lambda_core.case.motion import Bodies
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.discovery.manager import registry
-from lambda_core.domain.elements import BODIES, ELEMENTS
+from lambda_core.domain.elements import BODIES, ELEMENTS, RIBS
 from lambda_core.domain.errors import CaseError
 from lambda_core.domain.roles import MOTION_ROLES
 from lambda_core.formulas import fits
@@ -200,7 +200,7 @@ def test_cage_that_cannot_be_or_cannot_act() -> None:
 
 def test_sections_name_every_role_and_element() -> None:
     assert list(Models.model_fields) == list(MOTION_ROLES)
-    assert list(Forces.model_fields) == list(ELEMENTS)
+    assert list(Forces.model_fields) == list(ELEMENTS | RIBS)
     assert list(Bodies.model_fields) == list(BODIES)
 
 

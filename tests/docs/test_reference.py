@@ -19,7 +19,7 @@ from lambda_core.case.case import Case
 from lambda_core.discovery import hookspecs
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.channels import CHANNELS
-from lambda_core.domain.elements import BODIES, DOFS, ELEMENTS
+from lambda_core.domain.elements import BODIES, DOFS, ELEMENTS, RIBS
 from lambda_core.domain.installed import OWN
 from lambda_core.domain.option_tree import option_paths
 from lambda_core.domain.roles import ROLES
@@ -67,8 +67,8 @@ def test_code_of_examples_on_pages_follows_the_files() -> None:
 
 def _described(path: str) -> str:
     """Return the name under which an option stands on the page: tables of several places are described once."""
-    path = re.sub(rf"^forces\.({'|'.join(ELEMENTS)})\.models\.", "models.", path)
-    path = re.sub(rf"^forces\.({'|'.join(ELEMENTS)})\.", "forces.ELEMENT.", path)
+    path = re.sub(rf"^forces\.({'|'.join(ELEMENTS | RIBS)})\.models\.", "models.", path)
+    path = re.sub(rf"^forces\.({'|'.join(ELEMENTS | RIBS)})\.", "forces.ELEMENT.", path)
     path = re.sub(rf"^loads\.({'|'.join(BODIES)})\.", "loads.BODY.", path)
     path = re.sub(r"^materials\.(inner|outer|balls|cage)\.", "materials.PART.", path)
     path = re.sub(r"^elastic\.(inner|outer)_ring\.", "elastic.RING.", path)

@@ -325,7 +325,7 @@ def test_the_command_writes_it(c_compiler: tuple[str, ...], tmp_path: Path, caps
     ("changes", "words"),
     [
         ({"fmi": 1}, "FMI 1 is not supported: choose 2 or 3"),
-        ({"couple": "forces"}, "nearest: force"),
+        ({"couple": "forces"}, 'give "force" or "motion"'),
         ({"processor": "x86-64-v5"}, "nearest: x86-64-v"),
     ],
 )

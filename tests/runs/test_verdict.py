@@ -134,7 +134,13 @@ def test_compare_follows_the_contamination_of_the_case() -> None:
     assert not api.compare(rollers).contamination_given
 
 
-@pytest.mark.parametrize("contamination", [2.0, -0.1, float("nan")])
-def test_compare_refuses_a_contamination_that_is_none(contamination: float) -> None:
-    with pytest.raises(api.UsageError, match="e_C lies between 0 and 1"):
+@pytest.mark.parametrize(
+    ("contamination", "words"),
+    [
+        *((value, "e_C lies between 0 and 1") for value in (2.0, -0.1)),
+        (float("nan"), "give a finite number. e_C of ISO"),
+    ],
+)
+def test_compare_refuses_a_contamination_that_is_none(contamination: float, words: str) -> None:
+    with pytest.raises(api.UsageError, match=words):
         api.compare(CASE, contamination=contamination)

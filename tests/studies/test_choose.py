@@ -47,7 +47,7 @@ def test_given_cleanliness_makes_modified_lives_count(capsys: pytest.CaptureFixt
         ({"life": "-1 h"}, "requirements.life +-1 h: must be greater than 0 h"),
         ({"static_safety": -1.0}, "requirements.static_safety +-1.0: must be greater than 0"),
         ({"temperature": "-300 degC"}, "at or below absolute zero"),
-        ({"limit": 0}, "limit = 0 is not allowed: give int, at least 1"),
+        ({"limit": 0}, "limit = 0 is not allowed: give a whole number, at least 1"),
     ],
 )
 def test_values_out_of_range_are_refused_once_and_before_the_search(changes: dict[str, Any], said: str) -> None:

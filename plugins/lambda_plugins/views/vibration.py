@@ -36,9 +36,9 @@ _MOTIONS = {"displacement": ("um", 1e-6), "velocity": ("mm/s", 1e-3), "accelerat
 COLUMNS = Vocabulary(
     {"time": Condition("", "time", "time")},
     {
-        "displacement": Measured("", "small_length", "um"),
-        "velocity": Measured("", "velocity", "mm/s"),
-        "acceleration": Measured("", "acceleration", "m/s2"),
+        "displacement": Measured("", "small_length", "um", is_signed=True),
+        "velocity": Measured("", "velocity", "mm/s", is_signed=True),
+        "acceleration": Measured("", "acceleration", "m/s2", is_signed=True),
     },
     '"time [s],acceleration [m/s2]"',
     _MOST,
