@@ -135,7 +135,7 @@ def _further(folder: Path, runs: int, study: Any) -> bool:
 def killed_and_resumed(start: Start, path: Path, folder: Path, kills: int, seed: int, last: int = 2) -> None:
     """Kill a study at random moments, everything that belongs to it at once, and go on each time."""
     chance = random.Random(seed)
-    study = start("run", path, "--out", str(folder), "--workers", "2")
+    study = start("run", path, "--out", str(folder), "--workers", "2", "--band", "none")
     for kill in range(kills):
         wait_for(partial(_further, folder, kill, study))
         time.sleep(chance.uniform(0.0, 0.4))
@@ -187,7 +187,7 @@ def test_a_lost_worker_loses_no_point(
 ) -> None:
     folder = tmp_path / "lost"
     path = write(RUNS.format(duration="0.02 s", speeds=2, loads=2))
-    study = start("run", path, "--out", str(folder), "--workers", "1")
+    study = start("run", path, "--out", str(folder), "--workers", "1", "--band", "none")
     try:
         wait_for(lambda: files(folder) > 0 or study.poll() is not None)
         (worker,) = children(study.pid)
