@@ -22,7 +22,7 @@ from lambda_gui.head import Head
 from lambda_gui.live_draft import LiveDraft
 from lambda_gui.nodes import Keys, Node
 from lambda_gui.option_help import OptionHelp
-from lambda_gui.rows import Edited, Left, Row
+from lambda_gui.rows import Edited, Left, Row, row_of
 from lambda_gui.sketch import Sketch
 from lambda_gui.tree import ModelTree
 
@@ -222,7 +222,7 @@ class BuilderScreen(LiveDraft):
 
     def on_descendant_focus(self, event: events.DescendantFocus) -> None:
         """Say what the option under the keyboard is."""
-        row = next((w for w in event.widget.ancestors_with_self if isinstance(w, Row)), None)
+        row = row_of(event.widget)
         if row is not None:
             self.query_one(OptionHelp).show(row.help())
         elif isinstance(event.widget, ModelTree) and self.form is not None:

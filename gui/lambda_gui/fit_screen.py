@@ -26,7 +26,7 @@ from lambda_gui.helper import Helper
 from lambda_gui.lifecycle import is_here
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.places import Held
-from lambda_gui.rows import Row, Rows, Surroundings
+from lambda_gui.rows import Names, Row, Rows, row_of
 from lambda_gui.study_values import Values, card
 
 if TYPE_CHECKING:
@@ -39,17 +39,6 @@ _HINT = (
 )
 _PARAMETER, _FILE, _BEARING = "parameter", "file", "bearing"
 _PARAMETERS = 3  # rows for parameters
-
-
-class _Names(Surroundings):
-    """Completes paths of parameters, files of measurements and bearings."""
-
-    def __init__(self, names: dict[str, list[str]]) -> None:
-        self._names = names
-
-    def names(self, kind: str) -> list[str]:
-        """Return the names of one kind."""
-        return self._names.get(kind, [])
 
 
 class FitScreen(Screen[None]):
@@ -95,7 +84,7 @@ class FitScreen(Screen[None]):
             _FILE: sorted(path.name for path in folder.glob("*.csv")),
             _BEARING: self._bearings,
         }
-        self._folder, self._around = folder, _Names(names)
+        self._folder, self._around = folder, Names(names)
         self.values: Values = {}
         self.report: FitReport | None = None
         self._is_busy = False
@@ -135,7 +124,7 @@ class FitScreen(Screen[None]):
 
     def on_descendant_focus(self, event: events.DescendantFocus) -> None:
         """Say what the row under the keyboard is."""
-        row = next((w for w in event.widget.ancestors_with_self if isinstance(w, Row)), None)
+        row = row_of(event.widget)
         if row is not None:
             self.query_one(OptionHelp).show(row.help())
 

@@ -19,7 +19,7 @@ from lambda_gui.fields import row_for
 from lambda_gui.nodes import Keys
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.places import Held
-from lambda_gui.rows import Row, Rows, Surroundings
+from lambda_gui.rows import Row, Rows, Surroundings, row_of
 
 
 class OwnRow(ModalScreen[str | None]):
@@ -62,7 +62,7 @@ class OwnRow(ModalScreen[str | None]):
 
     def on_descendant_focus(self, event: events.DescendantFocus) -> None:
         """Say what the value under the keyboard is, and where it comes from."""
-        row = next((w for w in event.widget.ancestors_with_self if isinstance(w, Row)), None)
+        row = row_of(event.widget)
         if row is not None:
             self.query_one(OptionHelp).show(row.help())
 

@@ -5,7 +5,7 @@ Label, entry, help, error and mark of change.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -66,6 +66,22 @@ class Surroundings:
     def is_changed(self, keys: Keys) -> bool:
         """Tell whether an option differs from the file."""
         return False
+
+
+class Names(Surroundings):
+    """Names that a form of its own completes, by their kind."""
+
+    def __init__(self, names: Mapping[str, Sequence[str]]) -> None:
+        self._names = names
+
+    def names(self, kind: str) -> list[str]:
+        """Return the names of one kind."""
+        return list(self._names.get(kind, ()))
+
+
+def row_of(widget: Widget) -> Row | None:
+    """Return the row that a widget is in; None outside of rows."""
+    return next((around for around in widget.ancestors_with_self if isinstance(around, Row)), None)
 
 
 class Rows(VerticalScroll, can_focus=False, inherit_bindings=False):

@@ -22,7 +22,7 @@ from lambda_gui.lifecycle import is_here
 from lambda_gui.new_files import save_next_to_case
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.places import Held
-from lambda_gui.rows import Edited, Row, Rows, Surroundings
+from lambda_gui.rows import Edited, Names, Row, Rows, row_of
 from lambda_gui.study_values import MODES, POINTS, Values, asked, card, card_of, first_values, studied, study_tables
 
 if TYPE_CHECKING:
@@ -30,17 +30,6 @@ if TYPE_CHECKING:
 
 _CHECK_AFTER = 0.5  # of quiet [s]: the first point is solved each time
 _OPTION = "option"
-
-
-class _Names(Surroundings):
-    """Completes the paths of options."""
-
-    def __init__(self, paths: Sequence[str]) -> None:
-        self._paths = list(paths)
-
-    def names(self, kind: str) -> list[str]:
-        """Return the paths that can vary."""
-        return self._paths if kind == _OPTION else []
 
 
 class StudyScreen(Screen[None]):
@@ -91,7 +80,7 @@ class StudyScreen(Screen[None]):
         super().__init__()
         self._draft, self._model = draft, model
         self._usual = asked(bearing.name for bearing in getattr(model, "bearings", ()))
-        self._around = _Names(studied(draft.root, options))
+        self._around = Names({_OPTION: studied(draft.root, options)})
         varies = path if path in self._around.names(_OPTION) else ""
         self.values: Values = first_values(model.name, varies, written)
         self._helper = Helper(self._say, lambda: is_here(self))
@@ -172,7 +161,7 @@ class StudyScreen(Screen[None]):
 
     def on_descendant_focus(self, event: events.DescendantFocus) -> None:
         """Say what the row under the keyboard is."""
-        row = next((w for w in event.widget.ancestors_with_self if isinstance(w, Row)), None)
+        row = row_of(event.widget)
         if row is not None:
             self.query_one(OptionHelp).show(row.help())
 
