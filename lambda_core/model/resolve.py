@@ -19,7 +19,7 @@ from lambda_core.case.case_writer import standalone_toml
 from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue
 from lambda_core.domain.elements import BODIES, RACEWAYS
 from lambda_core.domain.errors import Problem
-from lambda_core.domain.roles import DEFAULT_MODELS, DEFAULT_ROLLER_MODELS
+from lambda_core.domain.roles import DEFAULT_MODELS, DEFAULT_RIB_MODELS, DEFAULT_ROLLER_MODELS
 from lambda_core.domain.units import show
 from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.laws.context import Material
@@ -111,7 +111,8 @@ def resolve(
     if found is not None:
         balls, usual = as_balls(case, found[0]), DEFAULT_MODELS | DEFAULT_ROLLER_MODELS
         model = resolve(balls, registry, catalogue, is_static=is_static, place=place, defaults=usual)
-        ribs = _laws_of_ribs(with_ribs(balls, case), registry, catalogue, usual, place) if found[0].ribs else {}
+        of_ribs = usual | DEFAULT_RIB_MODELS
+        ribs = _laws_of_ribs(with_ribs(balls, case), registry, catalogue, of_ribs, place) if found[0].ribs else {}
         model = with_rollers(
             model, case, *found, ribs, lambda role, name: law_called(registry, role, name, given=False)
         )

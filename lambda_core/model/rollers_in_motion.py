@@ -18,7 +18,7 @@ from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.catalogue.roller_designation import roller_designation
 from lambda_core.domain.elements import RIBS, TILTS
 from lambda_core.domain.errors import CaseError, Problem
-from lambda_core.domain.roles import DEFAULT_LINE_MODELS, DEFAULT_RIB_MODELS, DEFAULT_ROLLER_MODELS
+from lambda_core.domain.roles import DEFAULT_LINE_MODELS, DEFAULT_ROLLER_MODELS
 from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import thrust_problem
 from lambda_core.elements.roller.roller_friction import RIB_ASPERITIES, SKF_CONSTANTS, skf_kind
@@ -191,9 +191,8 @@ def with_rollers(
     laws = dict(model.laws)
     for ring in sorted({_ELEMENTS.index(f"ball_{rib.ring}") for rib in rollers.ribs}):
         element = tuple(RIBS)[ring]
-        found, asked = points[element], getattr(case.forces, element).models
+        found = points[element]
         own = {"supply": _with_constants(found["supply"], rollers), "asperity_load": _of_ribs(found["asperity_load"])}
-        own |= {r: chosen(r, n) for r, n in DEFAULT_RIB_MODELS.items() if getattr(asked, r) is None}
         laws[element] = {**found, **own}
     for element in _ELEMENTS:
         supply = _with_constants(laws[element]["supply"], rollers)
@@ -228,8 +227,9 @@ def _of_laws(
     for element, role in ((e, r) for e, roles in laws.items() for r in roles):
         if laws[element][role] is not model.laws.get(element, {}).get(role):
             changed |= {f"forces.{element}.{kind}.{role}" for kind in ("models", "parameters")}
-            if element not in RIBS.values() and element not in RIBS:
-                given = getattr(case.models, role, None) is not None
+            asked = getattr(case.forces, element) if element in RIBS else None
+            if asked is None or role in asked.parameters or role in asked.models.model_fields_set:
+                given = getattr(case.models if asked is None else asked.models, role, None) is not None
                 record_law(ledger, element, role, laws[element][role], "given" if given else "default")
     for value in model.values:
         if ".".join(value.path.split(".")[:4]) not in changed and not is_of_grooves(value.path):

@@ -273,6 +273,8 @@ def test_ribs_have_laws_of_their_own() -> None:
     assert ribs["boundary_friction"].parameters.mu == 0.08
     assert before.laws["rib_inner"]["film_thickness"].model.name == "chittenden"
     assert ribs["asperity_load"].parameters == before.laws["rib_inner"]["asperity_load"].parameters
+    recorded = {value.path: value.value for value in after.values}
+    assert recorded["forces.rib_inner.models.film_thickness"] == ribs["film_thickness"].model.name
     assert after.laws["ball_inner"] == before.laws["ball_inner"]
 
 
@@ -282,6 +284,10 @@ def test_ribs_have_laws_of_their_own() -> None:
         ({"rib_inner": {"models": {"film_thickness": "moes-line"}}}, "ends of rollers touch ribs at points"),
         ({"rib_inner": {"models": {"cage_contact": "roller-pocket"}}}, "rib_inner has no such role"),
         ({"rib_inner": {"parameters": {"boundary_friction": {"muu": 0.1}}}}, "not a parameter"),
+        (
+            {"rib_inner": {"parameters": {"elastic_hysteresis": {"loss_factor": 0.04}}}},
+            "not a parameter of elastic_hyst",
+        ),
         ({"rib_outer": {"models": {"film_thickness": "chittenden"}}}, "no such ribs"),
     ],
 )
