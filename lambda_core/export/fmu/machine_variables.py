@@ -163,7 +163,14 @@ def _bearing(machine: _Machine, number: int, one: FrozenBearing) -> Iterator[Var
     text = f"balls of {one.name} that connect the rings: metal touches metal on both"
     yield Variable(f"{name}.shorted", text, "1", Kind.SHORTED, number)
     parts = tuple((place, 1.0) for place in _losses(machine, number, one))
-    yield Variable(f"{name}.loss", f"power lost to friction in {one.name}", "W", Kind.WEIGHTED, 0, parts=parts)
+    yield Variable(
+        f"{name}.loss",
+        f"power lost to friction in {one.name}, without bending of elastic parts",
+        "W",
+        Kind.WEIGHTED,
+        0,
+        parts=parts,
+    )
 
 
 def _losses(machine: _Machine, number: int, one: FrozenBearing) -> Iterator[int]:
@@ -196,7 +203,7 @@ def _totals(machine: _Machine) -> Iterator[Variable]:
     count, stride = contacts.size // contacts.shape[-1], 8 * contacts.shape[-1]
     text = "friction torque of all bearings, mean over the step"
     yield Variable("machine.friction_torque", text, "N m", Kind.TORQUE, 0)
-    text = "power lost to friction, with the dampers of the shaft"
+    text = "power lost to friction in all bearings"
     yield Variable("machine.loss", text, "W", Kind.SUM, losses, frozen.losses, 8)
     text = "largest contact pressure"
     yield Variable("machine.max_pressure", text, "Pa", Kind.GREATEST, at, count, stride)
@@ -204,4 +211,6 @@ def _totals(machine: _Machine) -> Iterator[Variable]:
     yield Variable("machine.energy_lost", text, "J", Kind.SUM, integrals, frozen.losses, 8)
     text = "energy that came in through everything external since the start"
     yield Variable("machine.energy_in", text, "J", Kind.VALUE, frozen.integral("input"))
+    text = "energy that dampers outside the bearings have taken since the start"
+    yield Variable("machine.energy_to_dampers", text, "J", Kind.VALUE, frozen.integral("support"))
     yield steps(frozen)

@@ -203,6 +203,8 @@ def _bearing(frozen: Frozen) -> Iterator[Variable]:
     yield Variable("bearing.energy_lost", text, "J", Kind.SUM, integrals, frozen.losses, 8)
     text = "energy that came in through everything external since the start"
     yield Variable("bearing.energy_in", text, "J", Kind.VALUE, frozen.integral("input"))
+    text = "energy that dampers outside the bearing have taken since the start"
+    yield Variable("bearing.energy_to_dampers", text, "J", Kind.VALUE, frozen.integral("support"))
     yield steps(frozen)
 
 

@@ -52,9 +52,10 @@ static double product(const double *a, const double *b) {
 
 /* Weights with which the last one or two changes of a difference come nearest to it. */
 static void weigh(int memory, double changed[2][PATHS], const double *off, double weights[2]) {
-  double a = product(changed[0], changed[0]), p = product(changed[0], off);
   weights[0] = weights[1] = 0.0;
-  if (memory == 1) weights[0] = p / a;
+  if (memory < 1) return;
+  double a = product(changed[0], changed[0]), p = product(changed[0], off);
+  if (memory == 1 && a > 0.0) weights[0] = p / a;
   if (memory < 2) return;
   double c = product(changed[0], changed[1]), d = product(changed[1], changed[1]), q = product(changed[1], off);
   double det = a * d - c * c;
