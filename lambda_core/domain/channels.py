@@ -109,7 +109,12 @@ CHANNELS: tuple[Channel, ...] = (
     Channel("bearing_capacitance", (), "F", "balls in parallel, inner and outer contact in series"),
     Channel("input_torque", (), "N m", "torque of the drive about the inner ring's axis"),
     Channel("loss", ("mechanism",), "W", "dissipated power by mechanism"),
-    Channel("support_power", (), "W", "power that dampers to the ground take from rings and cage"),
+    Channel(
+        "support_power",
+        (),
+        "W",
+        "power that dampers to the ground take from rings and cage; of a machine they are outside its bearings",
+    ),
     Channel("input_power", (), "W", "power of drives, loads, gravity and prescribed motions"),
     Channel("stored_energy", (), "J", "kinetic plus elastic energy"),
 )

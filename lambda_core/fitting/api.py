@@ -164,7 +164,7 @@ def compare_measured(
         Names of :func:`measured_series`, or files of one's own: a TOML file with the same entries next to a CSV file of
         the same name. All of the program when empty.
     band : bool
-        Compute the 90 % model band at every point; roller bearings have none.
+        Compute the 90 % model band at every point of ball bearings.
     announce : callable, optional
         Called with a sentence for every series.
 

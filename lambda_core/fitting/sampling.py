@@ -57,14 +57,16 @@ def sampler_package() -> Any:
     try:
         import emcee
     except ImportError:
-        raise UsageError('--sample needs another package: pip install "lambda-bearing[sampling]"') from None
+        raise UsageError(
+            'samples of a posterior need another package: pip install "lambda-bearing[sampling]"'
+        ) from None
     return emcee
 
 
 def check_count(count: int) -> None:
     """Refuse a number of samples that is too small or too large; UsageError."""
     if not 1 <= count <= MOST:
-        raise UsageError(f"--sample {count}: must be a number from 1 to {MOST}")
+        raise UsageError(f"sample = {count}: must be a number from 1 to {MOST}")
     sampler_package()
 
 

@@ -46,7 +46,7 @@ class CvodeRun:
     jacobians: int
 
     def dissipated(self) -> FloatArray:
-        """Return the energy dissipated since the first time by all mechanisms together, shape (n,) [J]."""
+        """Return the energy that friction has dissipated since the first time, shape (n,) [J]."""
         lost: FloatArray = self.integrals[:, : self.integrals.shape[1] - L.BESIDE_LOSSES].sum(axis=1)
         return lost
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lambda_core.analysis.band.model_band import band_of, bands_of_machine
+from lambda_core.analysis.band.model_band import band_alone, bands_of_machine
 from lambda_core.analysis.band.neighbours import interpolated, spread_out
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import LambdaError
@@ -67,7 +67,7 @@ def _logarithms(model: BearingModel | MachineModel) -> dict[str, list[float]]:
         from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 
         return _of_machine(bands_of_machine(model, solve_shaft(model)))
-    return {} if model.rollers is not None else _of_bearing(band_of(model))
+    return _of_bearing(band_alone(model))
 
 
 def _of_bearing(found: ModelBand, prefix: str = "") -> dict[str, list[float]]:

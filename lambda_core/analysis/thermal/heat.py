@@ -38,7 +38,7 @@ def strain_shares(one: str, first: Material, other: str, second: Material) -> di
 def destinations(model: BearingModel) -> dict[str, Shares]:
     """Return for each mechanism of LOSSES which node gets what share of its power.
 
-    Drag heats the oil, bending the elastic parts, in equal shares.
+    Drag heats the oil; bending the elastic parts, in equal shares: the sum of their losses is known, not each one.
     """
     ball, cage = model.ball_material, model.cage_material
     rings = {"inner": model.inner_material, "outer": model.outer_material}

@@ -226,7 +226,7 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         return kept
 
     def spent(self) -> tuple[float, float]:
-        """Return the dissipated energy [J] and the relative angle of the rings [rad] since the start."""
+        """Return the energy lost to friction [J] and the relative angle of the rings [rad] since the start."""
         values = self._memory.integrals
         lost = sum(values[: values.size - L.BESIDE_LOSSES].tolist())
         return lost, float(running(values)["relative_speed"])
