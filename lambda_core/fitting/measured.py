@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from pydantic import ConfigDict, Field, ValidationError
 
-from lambda_core.analysis.band.model_band import band_of
+from lambda_core.analysis.band.model_band import band_alone
 from lambda_core.analysis.band.quantities import MEASURED
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, unknown_name
@@ -24,6 +24,9 @@ from lambda_core.fitting.measurements import Measurements, parse_measurements, r
 from lambda_core.fitting.operating_points import condition_change, point_values, roller_values
 from lambda_core.fitting.scores import interval_score
 from lambda_core.results.record import INTERFACE, Record
+
+if TYPE_CHECKING:
+    from lambda_core.case.case import Case
 
 _FOLDER = "measured_data"
 
@@ -241,12 +244,11 @@ def _points(one: _Loaded, band: bool) -> list[ComparedPoint]:
         changes = [condition_change(data.set_by[name], float(column[row])) for name, column in data.conditions.items()]
         names = [name for name, values in data.measured.items() if math.isfinite(values[row])]
         rollers = roller_model(case, changes)
-        bands = band_of(ready_model(case, changes, is_static=True), names) if band and rollers is None else None
+        bands = _bands(case, changes, names) if band else {}
         predicted = (
             point_values(text, changes, names).mean(axis=0) if rollers is None else roller_values(rollers, names)
         )
         for name, value in zip(names, predicted.tolist(), strict=True):
-            ends = bands.band(name) if bands is not None else None
             found.append(
                 ComparedPoint(
                     line=line,
@@ -254,7 +256,13 @@ def _points(one: _Loaded, band: bool) -> list[ComparedPoint]:
                     unit=MEASURED[name].unit,
                     measured=float(data.measured[name][row]),
                     predicted=value,
-                    band=[ends.low, ends.high] if ends is not None else [],
+                    band=bands.get(name, []),
                 )
             )
     return found
+
+
+def _bands(case: Case, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
+    """Return both ends of the model band of each quantity that has one."""
+    found = band_alone(ready_model(case, changes, is_static=True), names)
+    return {one.quantity: [one.low, one.high] for one in found.bands}

@@ -50,6 +50,7 @@ from lambda_core.model.bodies.resolve_materials import (
     resolve_material,
     resolve_oil_level,
 )
+from lambda_core.model.checks.fitted_paths import fit_problems, known_numbers
 from lambda_core.model.geometry.free_tilts import hold_tilts
 from lambda_core.model.geometry.geometry_checks import check_clearance
 from lambda_core.model.geometry.resolve_clearance import clearance_in_operation, resolve_mounting
@@ -63,7 +64,7 @@ from lambda_core.model.laws.resolve_links import resolve_links, resolve_markers
 from lambda_core.model.laws.resolve_states import check_states
 from lambda_core.model.laws.time_laws import resolve_time_laws, signals_of
 from lambda_core.model.ledger import Ledger
-from lambda_core.model.rollers_in_motion import as_balls, rollers_of, with_ribs, with_rollers
+from lambda_core.model.rollers_in_motion import as_balls, check_roller_fit, rollers_of, with_ribs, with_rollers
 from lambda_core.model.settings.contamination import contamination_of
 from lambda_core.model.settings.resolve_electric import resolve_electric
 from lambda_core.model.settings.resolve_solver import resolve_solver
@@ -116,6 +117,8 @@ def resolve(
         model = with_rollers(
             model, case, *found, ribs, lambda role, name: law_called(registry, role, name, given=False)
         )
+        if place is str:
+            check_roller_fit(case, model)
         return dataclasses.replace(model, case_toml=standalone_toml(with_packages(case, registry)))
     ledger, written = Ledger(assumptions=list(case.assumptions), place=place), case
     row, designation, case = resolve_designation(written, catalogue, ledger)
@@ -165,6 +168,8 @@ def resolve(
     names = (designation, oil.name, *(material.name for material in materials.values()), cage_row.name)
     check_states(laws, observers, ledger)
     tell_shadows(catalogue, registry, (case, names), laws, ledger)
+    if place is str:  # a machine checks its own
+        ledger.problems += fit_problems(case.fit, known_numbers(laws, ledger.values))
     ledger.check(case.name)
     return BearingModel(
         name=case.name,

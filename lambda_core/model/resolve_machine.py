@@ -50,6 +50,7 @@ from lambda_core.model.bodies.rigid_bodies import (
 )
 from lambda_core.model.checking import resolve
 from lambda_core.model.checks.dependent_errors import independent, is_shape_known
+from lambda_core.model.checks.fitted_paths import machine_fit_problems
 from lambda_core.model.laws.interpolation import say_overshoot
 from lambda_core.model.laws.time_functions import initial, planned_speed, time_function
 from lambda_core.model.laws.time_laws import resolve_time_laws
@@ -111,6 +112,8 @@ def resolve_machine(
     with closing(registry().catalogue()) if catalogue is None else nullcontext(catalogue) as opened:
         models = _bearings(tables, folder, opened, found)
         ledger = Ledger(assumptions=list(case.assumptions) if case else [])
+        if case is not None:
+            ledger.problems += machine_fit_problems(case.fit, tables, models)
         resolved = _shaft(case, models, opened, ledger, found) if case else None
     if found or ledger.problems or resolved is None:
         raise CaseError(name, [*found, *independent(found, ledger.problems, tables)])

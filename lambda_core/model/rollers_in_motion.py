@@ -23,12 +23,13 @@ from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import thrust_problem
 from lambda_core.elements.roller.roller_friction import RIB_ASPERITIES, SKF_CONSTANTS, skf_kind
 from lambda_core.model.bearing_model import BearingModel, ChosenLaw, ResolvedValue
+from lambda_core.model.checks.fitted_paths import fit_problems, known_numbers
 from lambda_core.model.geometry.resolve_geometry import is_of_grooves
 from lambda_core.model.laws.law_defaults import law_sentences, record_law
 from lambda_core.model.laws.roller_laws import written_parameters
 from lambda_core.model.laws.time_functions import initial, time_function
 from lambda_core.model.ledger import Ledger
-from lambda_core.model.roller_case import STRAIGHT, roller_geometry, roller_title
+from lambda_core.model.roller_case import STRAIGHT, roller_geometry, roller_model, roller_title
 
 if TYPE_CHECKING:
     from lambda_core.laws.law import Law
@@ -110,6 +111,16 @@ def _refuse_parameters(case: Case, ledger: Ledger) -> None:
             ledger.problem(path, "rollers in motion take the law's own values here: leave it out")
 
 
+def check_roller_fit(case: Case, model: BearingModel) -> None:
+    """Refuse fitted values at paths that neither the model in motion nor the quasi-static answer has; CaseError."""
+    if case.fit is None:
+        return
+    rollers = roller_model(case)
+    values = (*model.values, *(rollers.values if rollers is not None else ()))
+    if found := fit_problems(case.fit, known_numbers(model.laws, values)):
+        raise CaseError(case.name, found)
+
+
 def as_balls(case: Case, rollers: RollerBearing) -> Case:
     """Return the case of a bearing with as many balls of the same diameter.
 
@@ -135,7 +146,7 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
     parameters = {role: values for role, values in case.parameters.items() if role not in DEFAULT_LINE_MODELS}
     forces = case.forces.model_copy(update={rib: ForceElement() for rib in RIBS})
     changed = {"forces": forces, "bearing": bearing, "bodies": bodies, "models": models, "parameters": parameters}
-    return case.model_copy(update=changed)
+    return case.model_copy(update={**changed, "fit": None})
 
 
 def with_ribs(balls: Case, case: Case) -> Case:

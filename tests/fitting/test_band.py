@@ -154,16 +154,47 @@ def test_the_errors_of_a_fit_replace_the_ranges(tmp_path: Path) -> None:
     assert after.half_width_pct < 0.9 * before.half_width_pct
 
 
-def test_an_unknown_fitted_parameter_names_the_nearest_one() -> None:
-    row = {"path": "parameters.elastic_hysteresis.loss_facto", "value": 0.03, "standard_error": 0.001}
-    fit = {"file": "rig.csv", "sha256": "0", "date": "2026-01-01", "count": 9, "parameters": [row]}
-    case = api.case("6319-cp10-500").with_(fit={**fit, "correlation": [[1.0]]})
+def _fit_of(*rows: tuple[str, str]) -> dict[str, object]:
+    """Return the table `fit` with a value of 0.03 in each unit at each path."""
+    parameters = [{"path": path, "value": 0.03, "standard_error": 0.001, "unit": unit} for path, unit in rows]
+    matrix = [[float(i == j) for j in range(len(rows))] for i in range(len(rows))]
+    return {
+        "file": "rig.csv", "sha256": "0", "date": "2026-01-01", "count": 9, "parameters": parameters,
+        "correlation": matrix,
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("source", ["6319-cp10-500", "tapered"])
+def test_check_refuses_a_fitted_value_at_a_wrong_path(source: str) -> None:
+    tables = api.case("6319-cp10-500")
+    if source == "tapered":
+        tables = api.case({
+            "name": "tapered", "bearing": {"designation": "SKF 32208"}, "operation": {"speed": "500 rpm"},
+            "lubricant": {"name": "FVA3", "temperature": "60 degC"}, "loads": {"radial": "4 kN", "axial": "2 kN"},
+        })  # fmt: skip
+    right, wrong = "parameters.elastic_hysteresis.loss_factor", "parameters.elastic_hysteresis.loss_facto"
+    api.check(tables.with_(fit=_fit_of((right, ""), ("bearing.clearance", "um"))), is_static=True)
+    for check in (partial(api.check, is_static=True), partial(api.model_band, quantities=TORQUE)):
+        with pytest.raises(CaseError) as caught:
+            check(tables.with_(fit=_fit_of((right, ""), (wrong, ""), ("bearing.clearance", "N"))))
+        path, unit = caught.value.problems
+        assert path.where == "fit.parameters.1.path"
+        assert f"nearest: {right}" in path.message
+        assert unit.where == "fit.parameters.2.unit"
+        assert unit.message.startswith("bearing.clearance: ")
+
+
+def test_check_refuses_a_fitted_value_at_a_wrong_path_of_a_machine() -> None:
+    tables = tomllib.loads(geared_shaft("box"))
+    loss = "parameters.elastic_hysteresis.loss_factor"
+    right = [(loss, ""), (f"bearings.left.{loss}", ""), ("bearings.left.clearance", "um")]
+    api.check({**tables, "fit": _fit_of(*right)})
+    wrong = ("bearings.left.parameters.elastic_hysteresis.loss_facto", "")
     with pytest.raises(CaseError) as caught:
-        api.model_band(case, quantities=TORQUE)
+        api.check({**tables, "fit": _fit_of(*right, wrong)})
     (problem,) = caught.value.problems
-    assert problem.where == "fit.parameters.0.path"
-    assert "nearest: parameters.elastic_hysteresis.loss_factor" in problem.message
-    assert "--vary" not in problem.message
+    assert problem.where == "fit.parameters.3.path"
+    assert f"bearings.left.{loss}" in problem.message
 
 
 def test_an_unknown_quantity_of_the_band_names_the_nearest() -> None:

@@ -39,13 +39,15 @@ def test_series_without_a_case_have_the_reason() -> None:
 
 
 @pytest.mark.parametrize(("name", "most"), [("32216-axial", 17.0), ("32216-combined", 18.0), ("32008-axial", 24.0)])
-def test_tapered_bearings_are_compared_without_a_band(name: str, most: float) -> None:
+def test_tapered_bearings_are_compared_with_a_band(name: str, most: float) -> None:
     found = api.compare_measured([name])
     (one,) = found.compared
     assert one.mean_absolute_error_pct is not None
     assert one.mean_absolute_error_pct < most
-    assert one.inside is None
-    assert "inside" not in found.text()
+    assert one.inside is not None
+    assert f"{one.inside} of {len(one.points)} inside the 90 % band" in found.text()
+    for point in one.points:
+        assert 0.5 * point.predicted < point.band[0] <= point.predicted <= point.band[1] < 1.6 * point.predicted
 
 
 def test_the_page_about_validation_has_the_errors_of_today() -> None:
