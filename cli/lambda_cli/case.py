@@ -132,7 +132,10 @@ def _say_rollers(model: RollerModel, units: Units, *, as_json: bool) -> None:
 
 
 def _watch_problems(model: BearingModel) -> list[Problem]:
-    """Return the mistakes of observers and events; a case without them loads no solver."""
+    """Return the mistakes of observers and events.
+
+    A case without them loads no solver.
+    """
     from lambda_core import api
 
     return api.watch_problems(model) if model.observers or model.events else []

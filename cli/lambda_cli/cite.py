@@ -16,7 +16,10 @@ def cite(
     bearing: BearingOption = None,
     bibtex: Annotated[bool, typer.Option("--bibtex", help="Print BibTeX entries instead of text.")] = False,
 ) -> None:
-    """Print the references of exactly the laws and data that a result used, and of the program."""
+    """Print the references that a result used.
+
+    The list has exactly the laws and data of the result, and the program.
+    """
     from lambda_core import api
     from lambda_core.domain.errors import UsageError
 

@@ -25,7 +25,7 @@ from lambda_core.domain.plugin_errors import PluginError, describe
 
 @dataclass(frozen=True)
 class Entry:
-    """One command: its name, its line in the list, and how to get it."""
+    """One command: name, help line and loader."""
 
     name: str
     help: str
@@ -82,7 +82,10 @@ COMMANDS: dict[str, tuple[str, str]] = {
 
 
 def entries() -> dict[str, Entry]:
-    """Return every command that exists here, by name; imports none of them."""
+    """Return every command that exists here, by name.
+
+    Imports none of them.
+    """
     found = {
         name: _built_in(name, target, text)
         for name, (target, text) in COMMANDS.items()
@@ -99,7 +102,10 @@ def entries() -> dict[str, Entry]:
 
 
 def renamed() -> list[tuple[str, str]]:
-    """Return (distribution, sentence) of every command whose name was taken when its package came."""
+    """Return (distribution, sentence) of every renamed command.
+
+    Its name was taken when its package came.
+    """
     return [
         (entry.distribution, f'its command "{name.partition(":")[2]}" is called {name}: the name is taken')
         for name, entry in entries().items()
@@ -109,7 +115,10 @@ def renamed() -> list[tuple[str, str]]:
 
 @contextmanager
 def guarded(entry: Entry) -> Iterator[None]:
-    """Blame what a command of another package does wrong on that package; our own mistakes stay ours."""
+    """Blame errors of another package's command on it.
+
+    Errors of the program itself stay with the program.
+    """
     try:
         yield
     except (LambdaError, BrokenPipeError, typer.Abort):

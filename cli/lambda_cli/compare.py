@@ -31,7 +31,9 @@ def compare(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Compare the quasi-static solution of a case with catalogue formulas and standards.
+    """Compare a quasi-static solution with catalogues and standards.
+
+    The catalogue formulas and standards answer for the same case.
 
     Friction by the SKF and Schaeffler models, analytical capacitance, rating life after ISO 281 and ISO/TS
     16281, loads and stiffness of the quasi-static equilibrium, and the methods of plugins.

@@ -23,7 +23,9 @@ def cross_check(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Compare the program's own integrator with SUNDIALS CVODE on one case.
+    """Compare the program's integrator with SUNDIALS CVODE.
+
+    Both integrate one case.
 
     The cage follows its kinematic path: a free cage moves chaotically, and trajectories could not be compared.
     --free-cage compares mean dissipated powers instead. Needs the extra "sundials". Exit code 5 when the two do not

@@ -109,7 +109,10 @@ def choose(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Choose ball bearings by load, speed and required life: the smallest that meet everything first."""
+    """Choose ball bearings by load, speed and life.
+
+    The smallest that meet everything come first.
+    """
     from lambda_core import api
 
     with talk(progress, quiet) as speaker:
@@ -132,7 +135,10 @@ def show(
     rheology: Annotated[str | None, typer.Option(help="Of a lubricant: the law to evaluate; default: its own.")] = None,
     json: JsonOption = False,
 ) -> None:
-    """Show one row with the source and grade of every value; an oil also over temperature and pressure."""
+    """Show one row with its sources and grades.
+
+    Prints the source and grade of every value; an oil also over temperature and pressure.
+    """
     from lambda_db.presentation import find
 
     from lambda_core.api import BearingRow, LubricantRow
@@ -161,7 +167,10 @@ def add(
     replace: ReplaceOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Add one row to your own catalogue; the program estimates missing inner geometry."""
+    """Add one row to your own catalogue.
+
+    The program estimates missing inner geometry.
+    """
     from lambda_db.transfer import add_row
 
     cells = _cells(values)
@@ -193,7 +202,10 @@ def remove(
     ],
     json: JsonOption = False,
 ) -> None:
-    """Remove one row of your own and its dependent rows; built-in rows stay."""
+    """Remove one row of your own and its dependent rows.
+
+    Built-in rows stay.
+    """
     from lambda_db.removal import remove_row
 
     cells = _cells(values)
@@ -209,7 +221,10 @@ def remove(
 
 
 def _report(report: ImportReport, json: bool) -> None:
-    """Print what was written and refused; exit 3 if a row was refused."""
+    """Print what was written and refused.
+
+    The exit code is 3 if a row was refused.
+    """
     refused = [{"where": problem.where, "reason": problem.message} for problem in report.refused]
     if json:
         print_json(kind="import", path=str(report.path), added=report.added, replaced=report.replaced, refused=refused)
@@ -249,7 +264,10 @@ def export_rows(
     mine: Annotated[bool, typer.Option("--mine", help="Only your own rows.")] = False,
     json: JsonOption = False,
 ) -> None:
-    """Write the catalogue, or your own rows, to files; importing them gives the same rows."""
+    """Write the catalogue, or your own rows, to files.
+
+    Importing them gives the same rows.
+    """
     from lambda_db.seed_tables import SEED_TABLES
     from lambda_db.transfer import export_rows as write
 
@@ -282,7 +300,10 @@ def accept(json: JsonOption = False) -> None:
 
 @app.command()
 def check(json: JsonOption = False) -> None:
-    """Check the catalogue for contradictions; exit code 3 if a row cannot be used."""
+    """Check the catalogue for contradictions.
+
+    The exit code is 3 if a row cannot be used.
+    """
     from dataclasses import asdict
 
     from lambda_db.check import check_catalogue

@@ -96,7 +96,10 @@ def list_lubricants(rows: list[LubricantRow], json: bool) -> None:
 
 
 def show_bearing(catalogue: SqlCatalogue, name: str, row: BearingRow, json: bool) -> None:
-    """Print a bearing: values with sources, candidate designs, clearance classes, suffixes and a section to scale."""
+    """Print a bearing with sources and candidate designs.
+
+    Print also clearance classes, suffixes and a section to scale.
+    """
     from lambda_db.drawing import cross_section
     from lambda_db.presentation import candidate_lines, clearance_lines, suffix_lines, values_of
 
@@ -161,7 +164,10 @@ def show_lubricant(
     rheology: str | None,
     json: bool,
 ) -> None:
-    """Print an oil: values, constants of every law, and its behaviour over temperature and pressure."""
+    """Print an oil and its constants.
+
+    Print also its behaviour over temperature and pressure, by every law.
+    """
     from lambda_db.presentation import parameters_of, parsed, values_of
 
     from lambda_core.api import oil_table

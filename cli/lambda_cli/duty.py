@@ -20,7 +20,9 @@ def duty(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Add up rating life and losses over the phases of a duty cycle.
+    """Add up rating life and losses.
+
+    Adds over the phases of a duty cycle.
 
     Each phase at its quasi-static equilibrium; lives by ISO 281 and ISO/TS 16281, damages added (Palmgren, Miner). Of a
     machine: every bearing, and the life of all of them. spectrum = "loads.csv" in the TOML file reads the phases from

@@ -48,7 +48,9 @@ def electric(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Compute bearing voltage, discharges and impedance in the circuit of an electric machine.
+    """Compute bearing voltage, discharges and impedance.
+
+    The bearing is part of the circuit of an electric machine.
 
     The section electric of the case describes the circuit; the command lists the defaults that it uses. The films are
     those of quasi-static equilibria for a case, and those of the run for a result. All bearings of a machine are part
@@ -85,7 +87,10 @@ def film(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Find film thickness and starvation from a measured capacitance or impedance."""
+    """Find film thickness and starvation from a measurement.
+
+    The measured quantity is a capacitance or an impedance.
+    """
     from lambda_core import api
 
     with talk(progress, quiet) as speaker:

@@ -17,7 +17,7 @@ def estimate(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Estimate the processor time that a run of a case will take.
+    """Estimate the processor time of a run.
 
     The first moments of the run are computed, a twentieth of a cage turn and two seconds at most. Without --duration
     the run is the shortest that can converge. --json adds the equilibrium and its rating lives.

@@ -64,7 +64,9 @@ def fmu(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Write a case as a co-simulation unit (FMU): the compiled solver without Python.
+    """Write a case as a co-simulation unit (FMU).
+
+    The unit has the compiled solver and needs no Python.
 
     It starts at the equilibrium of the case at t = 0. Needs a C compiler; the extra fmu brings one.
     """

@@ -53,7 +53,9 @@ def fit(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Fit parameters of a case to measured operating points, and report what the measurements determine.
+    """Fit parameters of a case to measurements.
+
+    The measurements are operating points. Reports which parameters they determine.
 
     Quasi-static and without cage. Ctrl+C keeps the best values so far.
     """

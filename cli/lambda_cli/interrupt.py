@@ -26,7 +26,9 @@ _GRACE = 0.5  # [s] for the program's own way out, which is the better one
 
 @contextmanager
 def second_signal_ends(code: int) -> Iterator[None]:
-    """End the process with this exit code `_GRACE` after the second signal, if it is still in here then.
+    """End the process soon after a second signal.
+
+    The process gets this exit code `_GRACE` after the second signal, if it is still in here then.
 
     Nothing is lost that was written: result files are good at any moment.
     """
@@ -43,7 +45,10 @@ def second_signal_ends(code: int) -> Iterator[None]:
             _thread.interrupt_main()
 
     def hear_again(lost: sys.UnraisableHookArgs) -> None:
-        """Raise an interruption anew that came while a destructor or a callback ran, where Python drops it."""
+        """Raise an interruption that Python dropped.
+
+        It came while a destructor or a callback ran.
+        """
         if lost.exc_type is KeyboardInterrupt:
             again = threading.Timer(_SOON, interrupt)  # in here it would be dropped, too
             again.daemon = True

@@ -37,7 +37,10 @@ _START = 400_000  # objects of a program that has imported all and loaded what i
 
 
 def _collect_after_the_start() -> None:
-    """Let the collector of cycles begin where the start ends: of what is imported it finds nothing to drop."""
+    """Start the garbage collector after the imports.
+
+    It finds nothing to drop in what is imported.
+    """
     usual = gc.get_threshold()
 
     def begin(phase: str, _: dict[str, int]) -> None:
@@ -54,7 +57,10 @@ _collect_after_the_start()
 
 
 class LazyGroup(TyperGroup):
-    """A group that knows its commands' names and help, and imports only the one that is called."""
+    """Group that imports only the called command.
+
+    It knows the names and help of all its commands.
+    """
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
@@ -74,7 +80,10 @@ class LazyGroup(TyperGroup):
 
 
 def _command(entry: Entry) -> Any:
-    """Return the loaded command: a function becomes a command, a typer application a group."""
+    """Return the loaded command.
+
+    A function becomes a command, a typer application a group.
+    """
     with guarded(entry):
         loaded = entry.load()
         if not isinstance(loaded, typer.Typer):
@@ -91,7 +100,10 @@ def _command(entry: Entry) -> Any:
 
 
 def _for_reading(command: Any) -> None:
-    """Let the terminal break the lines of a help, not the source; a switch takes no value, and its help shows none."""
+    """Let the terminal break the lines of a help.
+
+    Breaks of the source are ignored; a switch takes no value, and its help shows none.
+    """
     paragraphs = inspect.cleandoc(command.help or "").split("\n\n")
     command.help = "\n\n".join(" ".join(paragraph.split()) for paragraph in paragraphs)
     for parameter in command.params:
@@ -193,7 +205,7 @@ def _say(text: str) -> None:
 
 
 def _say_usage(error: Any) -> None:
-    """Print what the command line did wrong, with the usage line of the command."""
+    """Print a usage error with the usage line."""
     context = getattr(error, "ctx", None)
     if context is not None:
         _say(context.get_usage())

@@ -40,7 +40,7 @@ def add(
     file: Annotated[Path, typer.Argument(metavar="FILE.toml", help="Description; the points are in FILE.csv.")],
     force: ForceOption = False,
 ) -> None:
-    """Copy a measured series of your own into your data folder."""
+    """Copy your own measured series into your data folder."""
     from lambda_core import api
 
     series = api.add_measured(file, overwrite=force)

@@ -27,7 +27,7 @@ class Units(StrEnum):
 
 
 class Bands(StrEnum):
-    """Which bands are computed with a result."""
+    """Bands to compute with a result."""
 
     MODEL = "model"
     NONE = "none"

@@ -26,7 +26,10 @@ def take_plugins(files: list[str] | None) -> None:
 
 
 def taken_options() -> str:
-    """Return the options of the files that this command was given, for a command that goes on with its work."""
+    """Return the options of the named plugin files.
+
+    For a command that goes on with its work.
+    """
     return "".join(f" {command_line(['--plugin', file])}" for file in dict.fromkeys(_taken))
 
 
@@ -40,7 +43,10 @@ def _with_option(
 
 
 def with_plugin_option(command: Any) -> None:
-    """Give a command, or every command of a group, the option."""
+    """Give the option to a command or group.
+
+    In a group, every command gets it.
+    """
     below = getattr(command, "commands", None)
     if below is not None:
         for other in below.values():
@@ -54,7 +60,10 @@ def with_plugin_option(command: Any) -> None:
 
 
 def named_plugin(name: str) -> str:
-    """Return what a plugin is called; a file is taken into use by being named."""
+    """Return the name of a plugin.
+
+    Naming a file takes it into use.
+    """
     if not name.endswith(".py"):
         return name
     take_plugins([name])

@@ -43,7 +43,10 @@ def list_plugins(
     role: Annotated[str, typer.Option(help="Only the models of one role.")] = "",
     as_json: JsonOption = False,
 ) -> None:
-    """List all plugins with their distribution, and the reasons for those not in use."""
+    """List plugins, and the reasons for unused ones.
+
+    Each line names the distribution.
+    """
     from lambda_cli.commands import renamed
     from lambda_core import api
     from lambda_core.api import NoteCard
@@ -81,7 +84,10 @@ def show(
     ],
     as_json: JsonOption = False,
 ) -> None:
-    """Show one model, or those of a file or package: parameters with units, limits and sources; validity, reference."""
+    """Show one model, or those of a plugin.
+
+    The plugin is a file or a package. Prints parameters with units, limits and sources; validity, reference.
+    """
     from lambda_core import api
 
     name = named_plugin(model)
@@ -149,7 +155,10 @@ def new(
     ] = Path(),
     as_json: JsonOption = False,
 ) -> None:
-    """Create a small plugin package with a law, method, view, rows, command and tests."""
+    """Create a small plugin package with examples.
+
+    It has a law, a method, a view, rows, a command and tests.
+    """
     from lambda_core import api
 
     files = api.new_plugin(name, folder)
@@ -169,7 +178,10 @@ def check(
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Test models against the rules of their role; exit code 3 if one fails."""
+    """Test models against the rules of their role.
+
+    The exit code is 3 if one fails.
+    """
     from lambda_core import api
     from lambda_core.api import Verdict
     from lambda_core.domain.plugin_errors import PluginError
@@ -201,7 +213,10 @@ def check(
 
 
 def _plain_name(name: str) -> str:
-    """Return what a plugin is called: a file by its name without the folder."""
+    """Return the plain name of a plugin.
+
+    A file by its name without the folder.
+    """
     return Path(name).name if name.endswith(".py") else name
 
 

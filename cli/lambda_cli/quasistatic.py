@@ -29,7 +29,9 @@ def quasistatic(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Solve loads, contact angles, films and friction of a case at t = 0, without time and cage.
+    """Solve the quasi-static equilibrium of a case.
+
+    Prints loads, contact angles, films and friction at t = 0, without time and cage.
 
     Of a machine: elastic shaft, bearings, housing, preload, thermal clearance and gear forces, with reactions,
     deflection, lives and friction of every bearing. --draw is for machines: shaft, deflection and bending moment.
@@ -64,7 +66,9 @@ def modes(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Compute critical speeds, natural frequencies and the stiffness of every bearing of a machine.
+    """Compute critical speeds and modes of a machine.
+
+    Prints also natural frequencies and the stiffness of every bearing.
 
     At the quasi-static equilibrium: bearings as stiff as at the operating point, damped by their films and contacts.
     --draw writes the Campbell diagram: natural frequencies over speed.

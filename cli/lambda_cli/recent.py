@@ -10,7 +10,10 @@ from lambda_cli.options import JsonOption
 
 
 def recent(as_json: JsonOption = False) -> None:
-    """List the case files that were checked, run, begun or opened last, the newest first."""
+    """List the recent case files.
+
+    The list has the files that you checked, ran, began or opened, the newest first.
+    """
     from lambda_db.recent import recent_cases
 
     found = [str(path) for path in recent_cases()]

@@ -38,7 +38,9 @@ def report(
     units: UnitsOption = Units.SI,
     force: ForceOption = False,
 ) -> None:
-    """Write a report: verdict with margins, sketch, loads, lives, losses, inputs and limits on four pages.
+    """Write a report of four pages.
+
+    It has a verdict with margins, a sketch, loads, lives, losses, inputs and limits.
 
     One HTML file that needs no network, or a PDF (--out x.pdf) where a browser or WeasyPrint is installed;
     the extra "pdf" brings one. A machine has its shaft first, then a page for each bearing.

@@ -21,7 +21,9 @@ def resume(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Continue a run from its last checkpoint, with the same results as without the interruption.
+    """Continue a run from its last checkpoint.
+
+    The results are the same as without the interruption.
 
     Works after Ctrl+C, a kill, a full disk or the limit of wall time. --duration makes a
     finished run longer. --max-wall applies to this session; the earlier limit is discarded.

@@ -39,7 +39,9 @@ def run(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Simulate a case from its quasi-static equilibrium and write its result.
+    """Simulate a case and write its result.
+
+    The run starts from the quasi-static equilibrium.
 
     Without --duration the run ends when the friction torque is known to 1 % (95 % confidence),
     after one discarded and at least four averaged cage revolutions. Ctrl+C keeps the results so far;
@@ -68,7 +70,10 @@ def limits(duration: str | None, max_wall: str | None) -> list[str]:
 
 
 def finish(result: Result, as_json: bool, units: Units) -> None:
-    """Print the summary and end with the exit code that its state calls for."""
+    """Print the summary and end with its code.
+
+    The state of the result decides the exit code.
+    """
     from lambda_core.domain.errors import PartialResultError
     from lambda_core.domain.plugin_errors import PluginError
 

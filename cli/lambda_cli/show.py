@@ -26,7 +26,9 @@ def show(
     assumptions: Annotated[bool, typer.Option("--assumptions", help="List the assumptions.")] = False,
     units: UnitsOption = Units.SI,
 ) -> None:
-    """Show the summary of a result: finished, still growing, or left behind by a killed run.
+    """Show the summary of a result.
+
+    The run may be finished, still going on, or killed.
 
     A machine shows its motion and a column for each bearing; --bearing shows one bearing in full. Several results
     show the differences of their cases and their key numbers in columns.

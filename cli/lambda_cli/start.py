@@ -11,7 +11,10 @@ _INTERRUPTED = 130
 
 
 def main() -> int:
-    """Import the commands and run the one that is asked for; return the exit code."""
+    """Run the requested command and return its code.
+
+    Imports the commands first.
+    """
     try:
         from lambda_cli.main import main as run
 

@@ -45,7 +45,9 @@ def stribeck(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Compute the friction torque and its parts over speed, and compare them with SKF's catalogue model.
+    """Compute the friction torque over speed.
+
+    Prints its parts, too, and compares them with SKF's catalogue model.
 
     Quasi-static and without cage; from 1 1/min to n d_m = 500 000 mm/min unless speeds are given.
     """

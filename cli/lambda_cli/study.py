@@ -142,7 +142,10 @@ def show(
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
 ) -> None:
-    """Print the table of a study: parameters, responses, state of every point."""
+    """Print the table of a study.
+
+    It has parameters, responses and the state of every point.
+    """
     from lambda_core import api
 
     table = api.study_table(folder)
@@ -170,7 +173,10 @@ def schema() -> None:
 
 
 def _finish(status: StudyStatus, as_json: bool) -> None:
-    """Print where the study stands and end with the exit code that this calls for."""
+    """Print the state of a study and exit.
+
+    The state decides the exit code.
+    """
     from lambda_core.domain.errors import PartialResultError
 
     typer.echo(status.model_dump_json(indent=2) if as_json else printable(status.text()))
@@ -207,12 +213,18 @@ def _written(value: object) -> object:
 
 
 def _finite(row: dict[str, Any]) -> dict[str, Any]:
-    """Return a row for JSON, which knows no infinity: there is no number where there is none."""
+    """Return a row without infinity for JSON.
+
+    There is no number where there is none.
+    """
     return {key: None if isinstance(v, float) and not math.isfinite(v) else v for key, v in row.items()}
 
 
 def _print(table: StudyTable, units: UnitSystem) -> None:
-    """Print what fits a terminal: parts of the friction torque are left to --csv and --json."""
+    """Print the columns that fit a terminal.
+
+    The parts of the friction torque are in --csv and --json.
+    """
     from rich.console import Console
     from rich.table import Table
 

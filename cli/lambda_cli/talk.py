@@ -24,7 +24,7 @@ _LINE_AFTER = 5.0  # wall time between plain lines [s]
 
 
 class Style(StrEnum):
-    """How progress is shown."""
+    """Style of the progress."""
 
     AUTO = "auto"
     BAR = "bar"
@@ -57,7 +57,10 @@ class Talk(Protocol):
 
 
 def talk(style: Style, quiet: bool) -> Talk:
-    """Return the way to talk that was asked for; `auto` is a bar on a terminal and lines elsewhere."""
+    """Return the progress style that the user chose.
+
+    `auto` is a bar on a terminal and lines elsewhere.
+    """
     if style is Style.AUTO:
         style = Style.BAR if sys.stderr.isatty() else Style.PLAIN
     if quiet and style is not Style.JSON:
@@ -66,7 +69,10 @@ def talk(style: Style, quiet: bool) -> Talk:
 
 
 def columns() -> int | None:
-    """Return the width of the terminal that the answer goes to, None for a file or a pipe."""
+    """Return the width of the answer's terminal.
+
+    None for a file or a pipe.
+    """
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
@@ -85,11 +91,14 @@ class Silence:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Nothing to close."""
+        """Close nothing."""
 
 
 class JsonLines(Silence):
-    """One JSON object per line, for programs that started this one."""
+    """One JSON object per line.
+
+    For programs that started this one.
+    """
 
     def say(self, text: str) -> None:
         """Write a message."""
@@ -139,7 +148,10 @@ class Bar(Silence):
         self._task = self._bar.add_task("starting", total=None, state="")
 
     def say(self, text: str) -> None:
-        """Show what is compiled in the bar's place, print everything else above it."""
+        """Show compilation in the bar's place.
+
+        Print everything else above it.
+        """
         if text.startswith("compiling"):
             self._bar.update(self._task, description=text, total=None)
         else:

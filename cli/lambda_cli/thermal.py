@@ -33,7 +33,9 @@ def thermal(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Find the temperatures of a bearing or a machine under its own losses.
+    """Find the temperatures of a bearing or machine.
+
+    Its own losses heat it.
 
     The section thermal of the case describes the network: bearings, shaft, housing, surroundings. Clearance, preload,
     viscosity and films follow the temperatures. With a result file the losses are the averages of that run.

@@ -33,7 +33,10 @@ def traction(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Compute traction over slide-roll ratio by every traction law, for a steel ball of 19.05 mm on a steel disc."""
+    """Compute traction over slide-roll ratio.
+
+    Compares all traction laws, for a steel ball of 19.05 mm on a steel disc.
+    """
     from lambda_core import api
 
     if draw is not None:

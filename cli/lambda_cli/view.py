@@ -79,7 +79,10 @@ def view(
 
 
 def _is_vibration(measured: Path) -> bool:
-    """Tell whether a file holds a signal of a vibration, by its first line with columns."""
+    """Tell whether a file holds a vibration signal.
+
+    By its first line with columns.
+    """
     if not measured.is_file():
         return False
     lines = measured.read_text(encoding="utf-8", errors="replace").splitlines()
@@ -88,7 +91,10 @@ def _is_vibration(measured: Path) -> bool:
 
 
 def _drawn(data: ViewData, out: Path, stem: str, formats: tuple[str, ...], alone: bool) -> list[Path]:
-    """Draw a view; report a plugin's view that fails among others, and draw the others."""
+    """Draw a view; report a plugin's failing view.
+
+    Draw the others.
+    """
     from lambda_core import api
     from lambda_core.domain.plugin_errors import PluginError, went_on_without
 
@@ -103,7 +109,10 @@ def _drawn(data: ViewData, out: Path, stem: str, formats: tuple[str, ...], alone
 
 
 def _all(sources: list[str], bearing: str | None) -> Iterable[ViewData]:
-    """Yield the data of every view that applies; say why others do not."""
+    """Yield the data of every view that applies.
+
+    Print why others do not.
+    """
     from lambda_core import api
 
     for name, data in api.view_all(sources, bearing=bearing):
@@ -114,7 +123,10 @@ def _all(sources: list[str], bearing: str | None) -> Iterable[ViewData]:
 
 
 def _sorted_out(words: list[str]) -> tuple[list[str], str]:
-    """Split what stands on the command line into results and the name of a view."""
+    """Split the arguments into results and a view.
+
+    The view is a name.
+    """
     from lambda_core import api
 
     sources = [word for word in words if Path(word).exists()]

@@ -9,7 +9,7 @@ from lambda_cli.talk import QuietOption
 
 
 def warmup(as_json: JsonOption = False, quiet: QuietOption = False) -> None:
-    """Compile the solver and every installed law before the first run.
+    """Compile the solver and every installed law.
 
     Takes half a minute to a minute on two cores, a second or two if everything is compiled.
     Exit code 3 if a law cannot be compiled; the command compiles all others.

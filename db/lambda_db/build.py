@@ -31,7 +31,10 @@ _KEPT = 8  # built databases in the cache
 
 
 def constraint_sentence(error: IntegrityError) -> str:
-    """Turn SQLite's constraint failure into the sentence that the table's CHECK carries."""
+    """Turn a constraint failure of SQLite into a sentence.
+
+    The table's CHECK carries the sentence.
+    """
     message = str(error.orig)
     name = message.rsplit(": ", 1)[-1].strip()
     for table in Base.metadata.tables.values():
@@ -44,7 +47,10 @@ def constraint_sentence(error: IntegrityError) -> str:
 
 
 def insert_row(connection: Connection, table: str, row: Row) -> str | None:
-    """Insert one row; return the reason if the database refuses it, None if it is in."""
+    """Insert one row.
+
+    Return the reason if the database refuses it, None if it is in.
+    """
     savepoint = connection.begin_nested()
     try:
         connection.execute(insert(table_of(table)), row)
@@ -56,7 +62,10 @@ def insert_row(connection: Connection, table: str, row: Row) -> str | None:
 
 
 def _replace_lower_layer(connection: Connection, table: str, rows: list[Row]) -> None:
-    """Remove what a plugin's rows stand in front of: the same key, and a parent's children with it."""
+    """Remove the rows that a plugin's rows replace.
+
+    The same key, and a parent's children with it.
+    """
     keys = CHILDREN[table][2] if table in CHILDREN else tuple(key_columns(table))
     target = table_of(table)
     for key in {tuple(row[column] for column in keys) for row in rows}:
@@ -98,7 +107,10 @@ def load(connection: Connection, records: Iterable[Record], layer: str) -> None:
 
 
 def _insert_all(connection: Connection, table: str, placed: list[tuple[str, Row]]) -> list[Problem]:
-    """Insert the rows at once; if the database refuses, one by one to learn which and why."""
+    """Insert the rows at once.
+
+    If the database refuses, insert them one by one to learn which and why.
+    """
     savepoint = connection.begin_nested()
     try:
         connection.execute(insert(table_of(table)), [row for _, row in placed])
@@ -111,7 +123,9 @@ def _insert_all(connection: Connection, table: str, placed: list[tuple[str, Row]
 
 
 def fill(connection: Connection, plugin_folders: list[Path]) -> None:
-    """Create the tables and read the seeds; a plugin's rows stand in front of the built-in ones.
+    """Create the tables and read the seeds.
+
+    A plugin's rows come before the built-in ones.
 
     Raises
     ------
@@ -126,7 +140,10 @@ def fill(connection: Connection, plugin_folders: list[Path]) -> None:
 
 
 def derive_candidates(connection: Connection) -> None:
-    """Rank designs for every bearing whose inner geometry is not published."""
+    """Rank designs for bearings with unpublished geometry.
+
+    The inner geometry.
+    """
     from lambda_db.estimate import candidate_rows
 
     bearings = connection.execute(select(table_of("bearing"))).mappings().all()
@@ -136,7 +153,10 @@ def derive_candidates(connection: Connection) -> None:
 
 
 def build_file(folder: Path, name: str, plugin_folders: list[Path]) -> Path:
-    """Build the database and move it into its place under its name and digest: a reader never sees half of it."""
+    """Build the database and move it into its place.
+
+    Under its name and digest: a reader never sees half of it.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     handle, path = tempfile.mkstemp(prefix=name, suffix=".tmp", dir=folder)
     os.close(handle)
@@ -159,7 +179,10 @@ def build_file(folder: Path, name: str, plugin_folders: list[Path]) -> Path:
 
 
 def _prune(folder: Path) -> None:
-    """Keep the databases built last; other versions of the program build theirs again when they need it."""
+    """Keep the databases built last.
+
+    Other versions of the program build theirs again when they need it.
+    """
     built = sorted(folder.glob("catalogue-*.sqlite"), key=lambda path: path.stat().st_mtime, reverse=True)
     for path in built[_KEPT:]:
         with suppress(OSError):  # in use on a system that locks open files
@@ -167,7 +190,10 @@ def _prune(folder: Path) -> None:
 
 
 def in_memory(plugin_folders: list[Path]) -> sqlite3.Connection:
-    """Build the database in memory, for a machine whose cache folder is not writable."""
+    """Build the database in memory.
+
+    For a machine whose cache folder is not writable.
+    """
     made = connect("file::memory:")
     with engine_over(lambda: made).begin() as connection:
         fill(connection, plugin_folders)

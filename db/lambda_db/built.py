@@ -20,7 +20,10 @@ def seed_files(folder: Path) -> list[Path]:
 
 
 def fingerprint(folders: list[Path]) -> str:
-    """Hash everything a built database depends on: the seeds and the code that turns them into tables."""
+    """Hash everything that a built database depends on.
+
+    The seeds and the code that turns them into tables.
+    """
     digest = hashlib.sha256()
     code = sorted(Path(__file__).parent.glob("*.py"))
     for path in [*code, *(file for folder in folders for file in seed_files(folder))]:
@@ -31,23 +34,32 @@ def fingerprint(folders: list[Path]) -> str:
 
 @lru_cache(maxsize=1024)
 def _content(path: Path, *_: int) -> bytes:
-    """Hash a file, again only when it is another one: a catalogue is opened for every check of a case."""
+    """Hash a file, again only after a change.
+
+    A catalogue is opened for every check of a case.
+    """
     return hashlib.sha256(path.read_bytes()).digest()
 
 
 def built_name(plugin_folders: list[Path]) -> str:
-    """Return the first part of the name of a built database."""
+    """Return the first part of a built database's name."""
     return f"catalogue-{fingerprint([BUILT_IN, *plugin_folders])}"
 
 
 def digest_of(path: Path) -> str:
-    """Return the hash at the end of the name of a built database."""
+    """Return the hash in a built database's name.
+
+    It is at the end.
+    """
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()[:16]
 
 
 def is_sound(path: Path) -> bool:
-    """Tell whether a built file is, byte for byte, what was built: its name holds its digest."""
+    """Tell whether a built file is unchanged.
+
+    Byte for byte: its name holds its digest.
+    """
     try:
         return path.stem.endswith(f"-{digest_of(path)}")
     except OSError:
@@ -55,7 +67,10 @@ def is_sound(path: Path) -> bool:
 
 
 def find_built(plugin_folders: list[Path]) -> Path | None:
-    """Return the core database, None where it is missing; a damaged file is removed."""
+    """Return the core database, None where it is missing.
+
+    A damaged file is removed.
+    """
     for path in sorted(cache_folder().glob(f"{built_name(plugin_folders)}-*.sqlite")):
         if is_sound(path):
             return path

@@ -46,7 +46,9 @@ _NAMES: dict[Kind, tuple[str, str]] = {  # table and column
 
 
 def open_catalogue(seed_folders: Sequence[Any] = ()) -> SqlCatalogue:
-    """Open the catalogue: build the core database at first use, overlay the user's own.
+    """Open the catalogue with the user's own rows.
+
+    Builds the core database at first use.
 
     Parameters
     ----------
@@ -66,7 +68,10 @@ def open_catalogue(seed_folders: Sequence[Any] = ()) -> SqlCatalogue:
 
 
 def _connection_to(folders: list[Path]) -> sqlite3.Connection:
-    """Return a connection to the core database, which is built where it is missing."""
+    """Return a connection to the core database.
+
+    Build the database where it is missing.
+    """
     path = find_built(folders)
     if path is None:
         from lambda_db import build
@@ -96,7 +101,7 @@ class SqlCatalogue:
         self.refresh()
 
     def refresh(self) -> None:
-        """Overlay the user's database if it has appeared, and read the sources again."""
+        """Overlay a new user database and read sources again."""
         path = user_database()
         if self._overlaid or path.exists():
             from lambda_db.overlay import attach_user, detach_user
@@ -122,14 +127,17 @@ class SqlCatalogue:
 
     @cached_property
     def connection(self) -> Connection:
-        """The same connection for SQLAlchemy: for the parts of this package that need whole tables."""
+        """Same connection for SQLAlchemy.
+
+        For the parts of this package that need whole tables.
+        """
         from lambda_db.engine import engine_over
 
         return engine_over(lambda: self._file).connect()
 
     @property
     def has_user_rows(self) -> bool:
-        """Whether the user's own database is overlaid."""
+        """Presence of the user's own database."""
         return self._overlaid
 
     def bearing(self, designation: str, maker: str | None = None) -> BearingRow:
@@ -159,7 +167,10 @@ class SqlCatalogue:
         return self._bearing_rows(found)[0]
 
     def _names_of(self, maker: str | None) -> list[str]:
-        """Return the designations of one maker (case ignored); none of a maker that the catalogue does not know."""
+        """Return the designations of one maker.
+
+        Case is ignored; none of a maker that the catalogue does not know.
+        """
         if maker is None:
             return []
         query = "SELECT designation FROM bearing WHERE maker = ? COLLATE NOCASE"
@@ -201,11 +212,17 @@ class SqlCatalogue:
 
     @staticmethod
     def _names_or_nearest_alias(name: str, names: list[str], aliases: list[str]) -> list[str]:
-        """Offer aliases only if no proper name is near: they are many and long."""
+        """Offer aliases only if no proper name is near.
+
+        They are many and long.
+        """
         return names if nearest(name, names) or not nearest(name, aliases) else aliases
 
     def lubricant(self, name: str) -> LubricantRow:
-        """Return one lubricant by its name or an alias (case ignored)."""
+        """Return one lubricant by name or alias.
+
+        Case is ignored.
+        """
         return self._lubricant_rows([self._named_row("lubricant", name)])[0]
 
     def _lubricant_rows(self, found: Sequence[Lubricant]) -> list[LubricantRow]:
@@ -221,7 +238,10 @@ class SqlCatalogue:
         return [rows.lubricant_row(row, *by_name[row.name.casefold()], self._sources) for row in found]
 
     def lubricants(self, text: str = "", limit: int = 50) -> list[LubricantRow]:
-        """Return the lubricants whose name, alias, base stock or note holds every word of `text`."""
+        """Return the lubricants that match `text`.
+
+        Their name, alias, base stock or note holds every word.
+        """
         from lambda_db.search import lubricant_query
 
         return self._lubricant_rows(self._found(lubricant_query(text, limit)))
@@ -231,11 +251,17 @@ class SqlCatalogue:
         return rows.material_row(self._named_row("material", name), self._sources)
 
     def cage(self, name: str) -> CageRow:
-        """Return one cage type by its name, suffix alias or another alias."""
+        """Return one cage type by name or alias.
+
+        A suffix is an alias, too.
+        """
         return rows.cage_row(self._named_row("cage", name), self._sources)
 
     def clearance(self, bore_diameter: float, clearance_class: str) -> ClearanceRow:
-        """Return the limits for a bore [m] and a class; bores on a boundary belong to the smaller range."""
+        """Return the clearance limits for bore [m] and class.
+
+        Bores on a boundary belong to the smaller range.
+        """
         bore, of_class = round(bore_diameter * 1e3, 9), "FROM clearance WHERE clearance_class = ? COLLATE NOCASE"
         wanted = clearance_class.strip()
         found = self._rows(f"SELECT * {of_class} AND bore_over_mm < ? AND bore_to_mm >= ?", wanted, bore, bore)
@@ -272,7 +298,7 @@ class SqlCatalogue:
         return [name for (name,) in self._file.execute(f"SELECT DISTINCT {column} FROM {table} ORDER BY {column}")]
 
     def shadows(self) -> tuple[Shadow, ...]:
-        """Return the rows of plugins that stand in front of others."""
+        """Return the plugin rows that replace others."""
         if not self._plugin_folders:
             return ()
         from lambda_db.shadows import shadows

@@ -31,7 +31,10 @@ RATING_TOLERANCE = 0.05
 
 @dataclass(frozen=True)
 class Finding:
-    """One finding; an error makes a row unusable, a warning asks for a look."""
+    """One finding of the check.
+
+    An error makes a row unusable, a warning asks for a look.
+    """
 
     severity: Literal["error", "warning"]
     where: str
@@ -39,7 +42,7 @@ class Finding:
 
 
 def check_catalogue(catalogue: SqlCatalogue, models: Registry) -> list[Finding]:
-    """Check every visible row beyond what the tables' constraints keep out."""
+    """Check every visible row beyond the tables' constraints."""
     findings = list(_user_file(catalogue))
     with at_one_moment(catalogue.connection):  # rows that refer to others are read by several statements
         findings += [finding for row in rows_of(catalogue, "bearing") for finding in _bearing(row)]
@@ -51,7 +54,7 @@ def check_catalogue(catalogue: SqlCatalogue, models: Registry) -> list[Finding]:
 
 
 def _shadows(catalogue: SqlCatalogue, models: Registry) -> Iterator[Finding]:
-    """Name what plugins put in front of rows that were there before."""
+    """Name the rows that plugins put before earlier ones."""
     packages = {str(folder): distribution for distribution, folder in models.data_folders}
     for each in catalogue.shadows():
         where = f"{each.table} {' '.join(each.key)}"

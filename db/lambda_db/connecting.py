@@ -12,7 +12,7 @@ BUSY_TIMEOUT_S = 15.0
 
 
 def file_uri(path: Path, mode: Literal["ro", "rw", "rwc", "immutable"]) -> str:
-    """SQLite URI of a file."""
+    """Return the SQLite URI of a file."""
     query = "immutable=1" if mode == "immutable" else f"mode={mode}"
     return f"file:{quote(str(path.resolve()))}?{query}"
 
@@ -34,7 +34,10 @@ def connect(uri: str, pragmas: tuple[str, ...] = ()) -> sqlite3.Connection:
 
 
 def select_rows(connection: sqlite3.Connection, statement: str, *values: object) -> list[Any]:
-    """Return the rows of a query; each has its columns as attributes, as the classes of the tables have them."""
+    """Return the rows of a query.
+
+    Each has its columns as attributes, as the classes of the tables have them.
+    """
     cursor = connection.execute(statement, values)
     names = [described[0] for described in cursor.description]
     return [SimpleNamespace(**dict(zip(names, cells, strict=True))) for cells in cursor]

@@ -46,7 +46,10 @@ def positive(*columns: str) -> list[CheckConstraint]:
 
 
 def together(group: str, columns: tuple[str, ...]) -> CheckConstraint:
-    """Require that a group's values stand with source and grade, or that all are empty."""
+    """Require values with source and grade, or none.
+
+    For one group of columns.
+    """
     some = " OR ".join(f"{c} IS NOT NULL" for c in columns)
     return check(
         f"{group}_with_source",
@@ -56,7 +59,10 @@ def together(group: str, columns: tuple[str, ...]) -> CheckConstraint:
 
 
 def kinds() -> list[CheckConstraint]:
-    """Require a known kind of bearing, and a contact angle with its source where the kind has one."""
+    """Require a known kind and its contact angle.
+
+    An angle with its source, where the kind of bearing has one.
+    """
     return [
         one_of("kind", KINDS),
         together("angle", ("contact_angle_deg",)),

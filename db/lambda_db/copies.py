@@ -27,7 +27,7 @@ def copy_bearing(
     source: str,
     grade: str,
 ) -> ImportReport:
-    """Write a bearing that differs from another into the user's database.
+    """Write a changed bearing into the user's database.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def copy_lubricant(
     grade: str,
     note: str = "",
 ) -> ImportReport:
-    """Write a lubricant that differs from another into the user's database.
+    """Write a changed lubricant into the user's database.
 
     Parameters
     ----------

@@ -59,7 +59,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Printed:
-    """What a maker prints about one bearing: mm and N; None where he does not."""
+    """Printed data of one bearing.
+
+    Mm and N; None where the maker prints nothing.
+    """
 
     bore_diameter: float
     outside_diameter: float
@@ -77,7 +80,7 @@ class Printed:
 
     @property
     def on_sphere(self) -> bool:
-        """Whether the outer raceway is a sphere."""
+        """True if the outer raceway is a sphere."""
         return self.kind in kinds() and kinds()[self.kind].on_sphere
 
     @property
@@ -93,7 +96,10 @@ class Printed:
 
     @property
     def pitch_diameter(self) -> float:
-        """Pitch [mm]: known, or middle of bore and outside diameter, averaged with the shoulders' if printed."""
+        """Pitch diameter [mm].
+
+        Known, or middle of bore and outside diameter, averaged with the shoulders' if printed.
+        """
         if self.known_pitch is not None:
             return self.known_pitch
         middle = 0.5 * (self.bore_diameter + self.outside_diameter)
@@ -104,7 +110,10 @@ class Printed:
 
 @dataclass(frozen=True)
 class RankedDesign:
-    """One candidate: mm and degrees; `weight` is relative among the candidates returned."""
+    """One candidate in mm and degrees.
+
+    `weight` is relative among the candidates returned.
+    """
 
     ball_count: int
     ball_diameter: float
@@ -115,20 +124,28 @@ class RankedDesign:
 
 
 def relative_rounding(number: float) -> float:
-    """Half a unit of the last digit of a printed number, relative to it: 17.9 is known within 0.28 %."""
+    """Return the relative rounding of a printed number.
+
+    Half a unit of its last digit: 17.9 is known within 0.28 %.
+    """
     decimals = len(repr(number).partition(".")[2]) if not float(number).is_integer() else 0
     return float(0.5 * 10.0**-decimals / number)
 
 
 def filling_angle(ball_count: int | Array, ball_diameter: float | Array, pitch_diameter: float) -> Array:
-    """Angle [deg] that the balls span side by side, as when a Conrad bearing is filled: 2 (Z - 1) asin(D_w/D_pw)."""
+    """Return the filling angle of the balls [deg].
+
+    The balls are side by side, as when a Conrad bearing is filled: 2 (Z - 1) asin(D_w/D_pw).
+    """
     ratio = np.clip(np.asarray(ball_diameter) / pitch_diameter, 0.0, 1.0)
     return np.asarray(2.0 * (np.asarray(ball_count) - 1.0) * np.degrees(np.arcsin(ratio)), dtype=np.float64)
 
 
 @cache
 def _factors_on_a_sphere() -> tuple[Array, Array]:
-    """D_w cos(alpha)/D_pw and f_0 of self-aligning bearings, close enough for 1e-5 between two of them.
+    """Return the table of f_0 for self-aligning bearings.
+
+    D_w cos(alpha)/D_pw and f_0, close enough for 1e-5 between two of them.
 
     Solved for each design in question, contacts took half of the time in which the catalogue is built.
     """
@@ -145,7 +162,10 @@ def static_rating_of(
     *,
     on_sphere: bool = False,
 ) -> Array:
-    """C_0 = f_0 i Z D_w^2 cos(alpha) [N], f_0 interpolated for conformities 0.52/0.52, or of the sphere."""
+    """Return the static load rating C_0 [N].
+
+    f_0 i Z D_w^2 cos(alpha), f_0 interpolated for conformities 0.52/0.52, or of the sphere.
+    """
     cosine = np.cos(contact_angle)
     gamma = ball_diameter * cosine / pitch_diameter
     known = _factors_on_a_sphere() if on_sphere else iso76_f0(both_052=True)
@@ -162,7 +182,10 @@ def dynamic_rating_of(
     *,
     on_sphere: bool = False,
 ) -> Array:
-    """C = b_m f_c (i cos alpha)^0.7 Z^(2/3) D_w^1.8 (3.647 D_w^1.4 above 25.4 mm) [N], b_m = 1.3 (ISO 281)."""
+    """Return the dynamic load rating C [N].
+
+    b_m f_c (i cos alpha)^0.7 Z^(2/3) D_w^1.8 (3.647 D_w^1.4 above 25.4 mm), b_m = 1.3 (ISO 281).
+    """
     balls, index = np.unique(ball_diameter, return_inverse=True)
     cosine = float(np.cos(contact_angle))
     factor_of = sphere_factor if on_sphere else dynamic_factor
@@ -227,7 +250,10 @@ def candidates(printed: Printed, kept: int = _KEPT) -> list[RankedDesign]:
 
 
 def family_weight(ranked: list[RankedDesign], design: RankedDesign) -> float:
-    """Weight of all candidates with the same ball count and a ball within 1 %: the same design for every purpose."""
+    """Return the weight of all equivalent candidates.
+
+    The same ball count and a ball within 1 % are the same design for every purpose.
+    """
     return sum(
         other.weight
         for other in ranked
@@ -236,7 +262,9 @@ def family_weight(ranked: list[RankedDesign], design: RankedDesign) -> float:
 
 
 def grade_of(printed: Printed, ranked: list[RankedDesign], design: RankedDesign) -> str:
-    """Grade one of the ranked candidates: B fits and stands alone, C fits but others come near, D does not fit.
+    """Grade one of the ranked candidates.
+
+    B fits and no other is near, C fits but others come near, D does not fit.
 
     B needs a score of at most 9, a :func:`family_weight` of at least 0.8 and, where the printed dynamic rating is a
     plain ISO 281 one, the recomputed rating within 1 % of it. A score beyond 25 (one residual of five standard

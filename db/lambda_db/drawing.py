@@ -26,7 +26,10 @@ Profile = Callable[[float], float]
 
 @dataclass(frozen=True)
 class Section:
-    """Half-section of a bearing in mm: x from the middle of the width, r from the axis."""
+    """Half-section of a bearing in mm.
+
+    x from the middle of the width, r from the axis.
+    """
 
     geometry: Geometry
     chamfer: float = 0.0  # [mm]
@@ -63,7 +66,10 @@ class Section:
 
     @cached_property
     def race_outer(self) -> float:
-        """Diameter of the outer raceway at its bottom, of a sphere its own [mm]."""
+        """Diameter of the outer raceway at its bottom [mm].
+
+        A sphere has its own diameter.
+        """
         return _mm(self.geometry.race_diameter_outer)
 
     def cell(self, x: float, r: float) -> str:
@@ -76,7 +82,10 @@ class Section:
         return RING if r <= 1e3 * inner(1e-3 * x) or r >= 1e3 * outer(1e-3 * x) else AIR
 
     def is_contact_line(self, x: float, r: float, half: float) -> bool:
-        """Tell whether a point of a ball is within `half` of the line through its contacts [mm]."""
+        """Tell whether a point is on the contact line.
+
+        Within `half` of the line through the contacts of a ball [mm].
+        """
         angle = self.geometry.contact_angle or self.geometry.resting_angle
         if not angle:
             return False
@@ -107,7 +116,9 @@ def _mm(length: float) -> float:
 
 
 def section_of(row: BearingRow) -> Section | None:
-    """Return the section of a catalogue's bearing without clearance, None where its inner geometry is not known.
+    """Return the section of a bearing without clearance.
+
+    None where the catalogue has no inner geometry.
 
     Four-point contact is drawn with one groove: its shims follow from a clearance.
     """

@@ -21,7 +21,10 @@ WRITTEN: LRUCache[Any, Any] = LRUCache(500)
 
 
 class Dialect(SQLiteDialect_pysqlite):
-    """SQLite as every connection here speaks it: what was written for one of them is good for all."""
+    """SQLite dialect of all connections.
+
+    A statement that was compiled for one of them is good for all.
+    """
 
     supports_statement_cache = True
 
@@ -70,7 +73,9 @@ def engine_over(connect: Callable[[], sqlite3.Connection]) -> Engine:
 
 @contextmanager
 def at_one_moment(connection: Connection) -> Iterator[None]:
-    """Read in here what one moment held, whatever others write meanwhile.
+    """Read a consistent state of the database.
+
+    Others may write meanwhile.
 
     Parameters
     ----------

@@ -18,7 +18,10 @@ Row = dict[str, Any]
 
 
 def is_uprated(rating_type: str) -> bool:
-    """Tell whether the dynamic rating is a maker's premium class above plain ISO 281."""
+    """Tell whether the dynamic rating is of premium class.
+
+    It is then above plain ISO 281.
+    """
     return "explorer" in rating_type.casefold()
 
 
@@ -29,7 +32,10 @@ def rated_rows(row: Row) -> int:
 
 
 def printed_of(row: Row) -> Printed:
-    """Collect what a bearing's row prints; ratings that were computed from a geometry are not evidence."""
+    """Collect the printed values of a bearing's row.
+
+    Ratings that were computed from a geometry are not evidence.
+    """
     static = row["static_rating_kN"] if row["static_rating_status"] != "derived" else None
     dynamic = row["dynamic_rating_kN"] if row["dynamic_rating_status"] != "derived" else None
     return Printed(
@@ -50,7 +56,10 @@ def printed_of(row: Row) -> Printed:
 
 
 def candidates_of(row: Row) -> list[RankedDesign]:
-    """Rank designs for a row whose inner geometry is not published; without a rating there is no evidence."""
+    """Rank designs for a row without inner geometry.
+
+    Without a rating there is no evidence.
+    """
     if row["geometry_status"] not in (None, "derived"):
         return []
     printed = printed_of(row)
@@ -60,7 +69,7 @@ def candidates_of(row: Row) -> list[RankedDesign]:
 
 
 def candidate_rows(row: Row) -> list[Row]:
-    """Rows of the candidate table for one bearing."""
+    """Return the candidate rows of one bearing."""
     return [
         {
             "designation": row["designation"],
@@ -78,7 +87,9 @@ def candidate_rows(row: Row) -> list[Row]:
 
 
 def with_design(row: Row, design: RankedDesign, grade: str) -> Row:
-    """Return the row with an estimated design, zero-clearance raceways and assumed grooves.
+    """Return the row with an estimated design.
+
+    With zero-clearance raceways and assumed grooves.
 
     The sphere of a self-aligning bearing follows from pitch, contact angle and clearance: such a row has no raceways.
     """
@@ -113,7 +124,10 @@ def with_design(row: Row, design: RankedDesign, grade: str) -> Row:
 
 
 def completed(row: Row) -> Row:
-    """Return the row with its inner geometry estimated if it has none and an estimate of grade B or C exists."""
+    """Return the row with its inner geometry.
+
+    The geometry is estimated if there is none and an estimate of grade B or C exists.
+    """
     if row["ball_count"] is not None:
         return row
     ranked = candidates_of(row)

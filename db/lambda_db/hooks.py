@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 
 @hookimpl
 def lambda_catalogue(seed_folders: list[Any]) -> Catalogue:
-    """Open the catalogue over the built-in seeds, the folders that plugins bring and the user's own database."""
+    """Open the catalogue with all sources.
+
+    The built-in seeds, the folders that plugins bring and the user's own database.
+    """
     from lambda_db.catalogue import open_catalogue
 
     return open_catalogue(seed_folders)

@@ -22,7 +22,10 @@ Rank = Annotated[int, mapped_column(Integer, primary_key=True)]
 
 
 class Base(DeclarativeBase):
-    """Base of every table; Python types map to the only type names a STRICT table knows."""
+    """Base of every table.
+
+    Python types map to the only type names that a STRICT table accepts.
+    """
 
     type_annotation_map = {str: Text(), float: Float().with_variant(REAL(), "sqlite"), int: Integer()}  # noqa: RUF012
 
@@ -60,7 +63,10 @@ _CATALOGUE = ("reference_speed_rpm", "limiting_speed_rpm", "mass_kg")
 
 
 class Bearing(Base):
-    """A bearing of one maker: dimensions, ratings, speeds, mass and, where known, inner geometry."""
+    """Bearing of one maker.
+
+    Dimensions, ratings, speeds, mass and, where known, inner geometry.
+    """
 
     __tablename__ = "bearing"
     __table_args__ = (
@@ -178,7 +184,10 @@ class Bearing(Base):
 
 
 class Candidate(Base):
-    """One ranked design for an inner geometry that no catalogue prints; written by the build, never imported."""
+    """Ranked design for an unpublished inner geometry.
+
+    The build writes it; it is never imported.
+    """
 
     __tablename__ = "candidate"
     __table_args__ = (STRICT,)
@@ -195,7 +204,10 @@ class Candidate(Base):
 
 
 class Clearance(Base):
-    """Limits of the radial internal clearance of one class over a range of bores."""
+    """Limits of radial internal clearance.
+
+    Of one class over a range of bores.
+    """
 
     __tablename__ = "clearance"
     __table_args__ = (
@@ -287,7 +299,10 @@ class Cage(Base):
 
 
 class Suffix(Base):
-    """What makers write behind a designation, or a family of it, and what a case takes from it."""
+    """Suffix of a designation or family of suffixes.
+
+    With what a case takes from it.
+    """
 
     __tablename__ = "suffix"
     __table_args__ = (
@@ -318,7 +333,10 @@ class Lubricant(Base):
 
 
 class LubricantProperty(Base):
-    """One general property of a lubricant, in the unit of its source."""
+    """General property of a lubricant.
+
+    In the unit of its source.
+    """
 
     __tablename__ = "lubricant_property"
     __table_args__ = (
@@ -340,7 +358,10 @@ class LubricantProperty(Base):
 
 
 class LubricantParameter(Base):
-    """One parameter of one model for a lubricant: a new law brings rows, not a migration."""
+    """Parameter of one model for a lubricant.
+
+    A new law brings rows, not a migration.
+    """
 
     __tablename__ = "lubricant_parameter"
     __table_args__ = (

@@ -28,7 +28,10 @@ def _same(columns: dict[str, str], theirs: str) -> str:
 
 
 def view_statement(table: str) -> str:
-    """Return the statement of one view: the user's rows, then those built-in rows that no user row replaces."""
+    """Return the statement of one view.
+
+    The user's rows, then those built-in rows that no user row replaces.
+    """
     definition = Base.metadata.tables[table]
     columns = ", ".join(column.name for column in definition.columns)
     if table in CHILDREN:
@@ -46,7 +49,9 @@ def view_statement(table: str) -> str:
 
 
 def attach_user(connection: Connection, path: Path, schema_version: int) -> bool:
-    """Overlay the user's database; a damaged, changed or unreadable one is reported and left out.
+    """Overlay the user's database.
+
+    A damaged, changed or unreadable one is reported and left out.
 
     Returns
     -------

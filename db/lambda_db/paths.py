@@ -16,11 +16,14 @@ APPLICATION = "lambda-bearing"
 
 
 def cache_folder() -> Path:
-    """Folder of the built core database: ``LAMBDA_BEARING_CACHE`` or the user's cache folder."""
+    """Return the folder of the built core database.
+
+    ``LAMBDA_BEARING_CACHE`` or the user's cache folder.
+    """
     given = os.environ.get("LAMBDA_BEARING_CACHE")
     return Path(given) if given else platformdirs.user_cache_path(APPLICATION)
 
 
 def user_database() -> Path:
-    """File of the user's own rows."""
+    """Return the file of the user's own rows."""
     return user_data_folder() / "catalogue.sqlite"

@@ -86,7 +86,10 @@ def _entry(name: str, value: Value) -> dict[str, Any]:
 
 
 def values_of(row: BaseModel) -> list[dict[str, Any]]:
-    """Every value of a row with unit, status, grade and source."""
+    """Return every value of a row with its source.
+
+    With unit, status and grade.
+    """
     if isinstance(row, LubricantRow):
         return [_entry(name, value) for name, value in row.properties.items()]
     fields = ((name, getattr(row, name)) for name in type(row).model_fields)
@@ -94,12 +97,15 @@ def values_of(row: BaseModel) -> list[dict[str, Any]]:
 
 
 def texts_of(row: BaseModel) -> dict[str, str]:
-    """The texts of a row: name, guidance, note."""
+    """Return name, guidance and note of a row."""
     return {name: getattr(row, name) for name in type(row).model_fields if isinstance(getattr(row, name), str)}
 
 
 def parameters_of(row: LubricantRow) -> list[dict[str, Any]]:
-    """Every parameter of every law, in the unit it was published in."""
+    """Return every parameter of every law.
+
+    In the unit it was published in.
+    """
     return [
         {"role": role, "model": model, "name": name, **parameter.model_dump()}
         for role, models in row.parameters.items()
@@ -109,7 +115,7 @@ def parameters_of(row: LubricantRow) -> list[dict[str, Any]]:
 
 
 def candidate_lines(row: BearingRow) -> list[dict[str, Any]]:
-    """Candidate designs in mm and degrees."""
+    """Return candidate designs in mm and degrees."""
     return [
         {
             "ball_count": design.ball_count,
@@ -124,7 +130,10 @@ def candidate_lines(row: BearingRow) -> list[dict[str, Any]]:
 
 
 def clearance_lines(catalogue: SqlCatalogue, row: BearingRow) -> list[dict[str, Any]]:
-    """Clearance classes that are tabulated for the bearing's bore, in um; those of radial contact alone have any."""
+    """Return the clearance classes of the bearing's bore.
+
+    In um; only bearings of radial contact have any.
+    """
     lines: list[dict[str, Any]] = []
     if row.contact_angle is not None:
         return lines
@@ -141,7 +150,10 @@ def clearance_lines(catalogue: SqlCatalogue, row: BearingRow) -> list[dict[str, 
 
 
 def rollers_found(catalogue: SqlCatalogue, text: str) -> list[RollerRow]:
-    """Return the roller bearings whose designation begins with the words; a maker's name may stand among them."""
+    """Return the roller bearings that match the words.
+
+    Their designation begins with the words; a maker's name may be among them.
+    """
     words = text.upper().split()
     found = []
     for row in catalogue.rollers():
@@ -152,7 +164,7 @@ def rollers_found(catalogue: SqlCatalogue, text: str) -> list[RollerRow]:
 
 
 def bearing_summary(row: AnyBearing) -> dict[str, Any]:
-    """One line of a list of bearings."""
+    """Return one line of a list of bearings."""
 
     def number(name: str) -> float | None:
         value = getattr(row, name)
@@ -191,12 +203,15 @@ def bearing_summary(row: AnyBearing) -> dict[str, Any]:
 
 
 def kind_of(row: LubricantRow) -> str:
-    """Return what a lubricant is called in a list: its base stock, or grease."""
+    """Return the kind of a lubricant for a list.
+
+    Its base stock, or grease.
+    """
     return "grease" if "nlgi" in row.properties else row.base_type
 
 
 def lubricant_summary(row: LubricantRow) -> dict[str, Any]:
-    """One line of a list of lubricants."""
+    """Return one line of a list of lubricants."""
 
     def number(name: str) -> float | None:
         value = row.properties.get(name)
@@ -215,7 +230,10 @@ def lubricant_summary(row: LubricantRow) -> dict[str, Any]:
 
 
 def suffix_lines(catalogue: SqlCatalogue, name: str) -> list[dict[str, str]]:
-    """Return what the suffixes of a bearing's designation mean, and what a case takes from each."""
+    """Explain the suffixes of a bearing's designation.
+
+    With what a case takes from each.
+    """
     read = read_designation(name, catalogue.names("bearing"), catalogue.suffixes())
     return [
         {"suffix": written, "meaning": suffix.meaning, "decides": "" if suffix.kind == "note" else suffix.kind}
@@ -224,7 +242,9 @@ def suffix_lines(catalogue: SqlCatalogue, name: str) -> list[dict[str, str]]:
 
 
 def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> BearingRow | LubricantRow | MaterialRow | CageRow:
-    """Find what a name stands for: a bearing, else a lubricant, material or cage.
+    """Find the row of a name.
+
+    A bearing, else a lubricant, material or cage.
 
     Raises
     ------

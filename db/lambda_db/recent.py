@@ -22,7 +22,9 @@ def _is_temporary(path: Path) -> bool:
 
 
 def recent_cases() -> list[Path]:
-    """Return the files that were worked on last and still exist, the newest first; an unreadable list is empty.
+    """Return recent files that still exist.
+
+    The newest first; an unreadable list is empty.
 
     Files in the folder for temporary files are left out.
     """
@@ -34,7 +36,10 @@ def recent_cases() -> list[Path]:
 
 
 def remember(path: str | Path) -> None:
-    """Put a case file at the head of the list; omit temporary files, and ignore failures to write."""
+    """Put a case file at the head of the list.
+
+    Omit temporary files, and ignore failures to write.
+    """
     with suppress(OSError):
         case = Path(path).resolve()
         if case.suffix != ".toml" or not case.is_file() or _is_temporary(case):

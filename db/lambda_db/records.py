@@ -27,7 +27,10 @@ def table_of(name: str) -> Table:
 
 
 def columns_of(name: str) -> list[str]:
-    """Columns that a file carries, in order: all but the layer, which the catalogue decides."""
+    """Return the columns of a file in order.
+
+    All but the layer, which the catalogue decides.
+    """
     return [column.name for column in table_of(name).columns if column.name != "layer"]
 
 
@@ -37,7 +40,10 @@ def key_columns(name: str) -> list[str]:
 
 
 def same_key(name: str, row: Mapping[str, Any]) -> list[ColumnElement[bool]]:
-    """Return the conditions that find the row with the same key; texts ignore case."""
+    """Return the conditions for the same key.
+
+    Texts ignore case.
+    """
     key = table_of(name).primary_key.columns
     return [
         (column.collate("NOCASE") if isinstance(column.type, Text) else column) == row[column.name] for column in key
@@ -50,7 +56,10 @@ def describe(name: str, row: Mapping[str, Any]) -> str:
 
 
 def _number(column: Column[Any], cell: object) -> float:
-    """Read a cell as the column's number: bare, or a unit string of the column's quantity."""
+    """Read a cell as the column's number.
+
+    Bare, or a unit string of the column's quantity.
+    """
     unit = column_unit(column.name)
     if isinstance(cell, bool) or not isinstance(cell, int | float | str):
         raise ValueError(f"{cell!r} is not a number")
@@ -113,7 +122,10 @@ def parse_row(name: str, cells: Mapping[str, object]) -> tuple[Row, list[str]]:
 
 
 def parse_key(name: str, cells: Mapping[str, object]) -> tuple[Row, list[str]]:
-    """Turn cells into columns of the key of table `name`, or a part of them; the second value says what is wrong."""
+    """Parse the key of table `name`, or its part.
+
+    The second value reports an error.
+    """
     table, keys = table_of(name), key_columns(name)
     found, problems = _by_column(name, cells)
     row: Row = {}
@@ -131,7 +143,10 @@ def parse_key(name: str, cells: Mapping[str, object]) -> tuple[Row, list[str]]:
 
 
 def _by_column(name: str, cells: Mapping[str, object]) -> tuple[dict[str, object], list[str]]:
-    """Match keys to columns; ``bore_diameter = "40 mm"`` stands for ``bore_diameter_mm = 40.0``."""
+    """Match keys to columns.
+
+    ``bore_diameter = "40 mm"`` means ``bore_diameter_mm = 40.0``.
+    """
     known = columns_of(name)
     short = {bare_name(column): column for column in known if column_unit(column)}
     found: dict[str, object] = {}
@@ -159,7 +174,10 @@ def _unit(column: str) -> str:
 
 
 def _unit_problems(name: str, row: Row) -> list[str]:
-    """Check the unit of a lubricant's property or parameter against what its name means."""
+    """Check the unit of a property or parameter.
+
+    Against the meaning of its name, for lubricants.
+    """
     if name not in ("lubricant_property", "lubricant_parameter"):
         return []
     quantity = PROPERTIES.get(row["name"]) if name == "lubricant_property" else None

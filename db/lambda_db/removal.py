@@ -22,7 +22,10 @@ from lambda_db.user import changing
 
 @dataclass
 class RemovalReport:
-    """What a removal did: rows per table, and whether another row of the same key shows again."""
+    """Report of a removal.
+
+    Rows per table, and whether another row of the same key shows again.
+    """
 
     path: Path
     row: str  # table and key, for people
@@ -31,7 +34,9 @@ class RemovalReport:
 
 
 def remove_row(catalogue: SqlCatalogue, table: str, cells: Mapping[str, object]) -> RemovalReport:
-    """Remove one row of the user's own, with what belongs to it (candidates of a bearing, constants of an oil).
+    """Remove one row of the user and dependent rows.
+
+    Candidates of a bearing, constants of an oil.
 
     Parameters
     ----------
@@ -100,7 +105,7 @@ def _match(table: str, key: Row) -> list[ColumnElement[bool]]:
 
 
 def _is_built_in(catalogue: SqlCatalogue, table: str, key: Row) -> bool:
-    """Tell whether the built-in rows, or those of plugins, have this key."""
+    """Tell whether built-in or plugin rows have this key."""
     target = table_of(table).to_metadata(Base.metadata.__class__(), schema="main")
     names = [name for name in key_columns(table) if name in key]
     same = [

@@ -15,7 +15,10 @@ _RATIO = "(roller_diameter_mm / pitch_diameter_mm)"
 
 
 class RollerDesign(Base):
-    """A roller bearing of one maker: dimensions, ratings and inner geometry."""
+    """Roller bearing of one maker.
+
+    Dimensions, ratings and inner geometry.
+    """
 
     __tablename__ = "roller_design"
     __table_args__ = (

@@ -67,7 +67,10 @@ BEARING_GROUPS: dict[str, tuple[str, ...]] = {
 
 @cache
 def _fields() -> tuple[tuple[str, str, tuple[str, str, str]], ...]:
-    """(column, field, its source, grade and status) of every value of a bearing: a search converts thousands."""
+    """Return (column, field, source, grade, status) of all values.
+
+    Each column and field of a bearing with its source, grade and status; a search converts thousands.
+    """
     return tuple(
         (column, bare_name(column), (f"{group}_source", f"{group}_grade", f"{group}_status"))
         for group, columns in BEARING_GROUPS.items()
@@ -157,7 +160,10 @@ def clearance_row(row: Clearance, sources: Sources) -> ClearanceRow:
 
 
 def material_row(row: Material, sources: Sources) -> MaterialRow:
-    """Convert one material: its source and grade hold for every value."""
+    """Convert one material.
+
+    Its source and grade hold for every value.
+    """
 
     def value(column: str) -> Value:
         return Value(
@@ -220,7 +226,10 @@ def lubricant_row(
     parameters: Iterable[LubricantParameter],
     sources: Sources,
 ) -> LubricantRow:
-    """Convert one lubricant with its properties (SI) and the parameters of every law (as published)."""
+    """Convert one lubricant with properties and parameters.
+
+    Properties in SI, the parameters of every law as published.
+    """
     nested: dict[str, dict[str, dict[str, Parameter]]] = {}
     for p in parameters:
         nested.setdefault(p.role, {}).setdefault(p.model, {})[p.name] = Parameter(

@@ -40,20 +40,25 @@ class ChangedError(Exception):
 
 
 def create_seal(connection: Connection) -> None:
-    """Make the table of digests, and seal the rows that there are."""
+    """Create the table of digests and seal all rows."""
     connection.exec_driver_sql('CREATE TABLE seal ("row" TEXT NOT NULL, digest TEXT NOT NULL)')
     renew_seal(connection)
 
 
 def renew_seal(connection: Connection) -> None:
-    """Write the digests of the rows as they are now, within the transaction that has changed them."""
+    """Write the digests of the present rows.
+
+    Within the transaction that has changed them.
+    """
     connection.exec_driver_sql("DELETE FROM seal")
     for pair in _digests(connection, "main").elements():
         connection.exec_driver_sql("INSERT INTO seal VALUES (?, ?)", pair)
 
 
 def differences(connection: Connection, schema: str) -> list[str]:
-    """Return which rows differ from what the program wrote, and how.
+    """Return the rows changed by others, and how.
+
+    Compared with what the program wrote.
 
     Parameters
     ----------
@@ -73,7 +78,10 @@ def differences(connection: Connection, schema: str) -> list[str]:
 
 
 def check_seal(connection: Connection, schema: str) -> None:
-    """Raise ChangedError when the rows of a database are not those that the program wrote."""
+    """Refuse a database that others changed.
+
+    Raise ChangedError when its rows are not those that the program wrote.
+    """
     if found := differences(connection, schema):
         raise ChangedError(found)
 

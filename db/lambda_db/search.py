@@ -54,7 +54,10 @@ def _compare(word: str, key: str, operator: str, text: str) -> ColumnElement[boo
 
 
 def _word(word: str) -> tuple[ColumnElement[bool], ColumnElement[int]]:
-    """Condition of one plain word and how well a row answers it (0 is best)."""
+    """Return the condition and rank of one word.
+
+    0 is the best rank of a row.
+    """
     exact = Bearing.designation.collate("NOCASE") == word
     starts = Bearing.designation.startswith(word, autoescape=True)
     ranks: list[tuple[ColumnElement[bool], int]] = [(exact, 0)]
@@ -74,7 +77,9 @@ def _word(word: str) -> tuple[ColumnElement[bool], ColumnElement[int]]:
 
 
 def bearing_query(text: str, limit: int) -> Select[Any]:
-    """Return the query for `text`, best rows first; every word has to match.
+    """Return the query for `text`, best rows first.
+
+    Every word has to match.
 
     Raises
     ------
@@ -99,7 +104,10 @@ def bearing_query(text: str, limit: int) -> Select[Any]:
 
 
 def lubricant_query(text: str, limit: int) -> Select[Any]:
-    """Return the query for lubricants whose name, alias, base stock or note holds every word of `text`."""
+    """Return the query for lubricants that match `text`.
+
+    Their name, alias, base stock or note holds every word.
+    """
     query = select(Lubricant).order_by(Lubricant.name)
     for word in text.split():
         aliases = select(Alias.name).where(Alias.kind == "lubricant", Alias.alias.contains(word, autoescape=True))

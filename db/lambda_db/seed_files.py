@@ -21,7 +21,10 @@ Record = tuple[Path, str, str, Cells]
 
 
 def read_csv(path: Path, table: str | None = None) -> Iterator[Record]:
-    """Yield the rows of a CSV file; the table is the file's name unless given."""
+    """Yield the rows of a CSV file.
+
+    The table is the file's name unless given.
+    """
     table = table or path.stem
     if table not in SEED_TABLES:
         raise CatalogueError(str(path), [Problem("", unknown_name("catalogue table", table, SEED_TABLES))])
@@ -42,7 +45,10 @@ def read_csv(path: Path, table: str | None = None) -> Iterator[Record]:
 
 
 def read_toml(path: Path) -> Iterator[Record]:
-    """Yield the rows of a TOML file with arrays of tables: ``[[bearing]]``, ``[[lubricant]]``..."""
+    """Yield the rows of a TOML file.
+
+    It has arrays of tables: ``[[bearing]]``, ``[[lubricant]]``...
+    """
     try:
         document = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
@@ -57,7 +63,10 @@ def read_toml(path: Path) -> Iterator[Record]:
 
 
 def read_path(path: Path, table: str | None = None) -> Iterator[Record]:
-    """Yield the rows of a file or of every seed file in a folder."""
+    """Yield the rows of a file or folder.
+
+    Of every seed file in a folder.
+    """
     if path.is_dir():
         for file in seed_files(path):
             yield from read_path(file)

@@ -19,7 +19,9 @@ _Key = tuple[str, tuple[str, ...]]  # table and key, case ignored
 
 
 def shadows(folders: tuple[Path, ...]) -> tuple[Shadow, ...]:
-    """Return every row of the folders that takes the place of a built-in one, or of one of a folder before it.
+    """Return every row that replaces an earlier one.
+
+    A row of a folder may replace a built-in one, or one of a folder before it.
 
     Parameters
     ----------
@@ -47,7 +49,10 @@ def _built_in() -> tuple[tuple[_Key, tuple[str, str]], ...]:
 
 
 def _rows(folder: Path) -> Iterator[tuple[_Key, str, tuple[str, ...]]]:
-    """Yield key, title (of sources) and the key as it is written, of every row or group of rows."""
+    """Yield the keys and titles of all rows.
+
+    Key, title (of sources) and the key as it is written, of every row or group of rows.
+    """
     for _, _, table, cells in read_path(folder):
         columns = CHILDREN[table][2] if table in CHILDREN else tuple(key_columns(table))
         written = tuple(" ".join(str(cells.get(column) or "").split()) for column in columns)

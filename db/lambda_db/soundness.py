@@ -21,7 +21,9 @@ class DamagedError(Exception):
 
 
 def check_sound(connection: Connection, schema: str, tables: tuple[str, ...]) -> None:
-    """Read a database once: its pages and constraints by SQLite's own check, then every column.
+    """Read a database once to check it.
+
+    Its pages and constraints by SQLite's own check, then every column.
 
     Parameters
     ----------
@@ -59,6 +61,9 @@ def is_damage(error: DatabaseError | UnicodeDecodeError) -> bool:
 
 
 def is_denied(error: DatabaseError | UnicodeDecodeError) -> bool:
-    """Tell a missing right to write in the folder, which SQLite needs for what several processes share."""
+    """Tell whether the folder denies writing.
+
+    SQLite must write in it what several processes share.
+    """
     reason = reason_of(error)
     return "unable to open" in reason or "readonly" in reason

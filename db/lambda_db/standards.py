@@ -20,7 +20,10 @@ def _rows(name: str) -> list[dict[str, str]]:
 
 @dataclass(frozen=True)
 class PublishedDesign:
-    """An inner geometry that somebody printed, to validate the derivation with (mm)."""
+    """Published inner geometry for validation (mm).
+
+    It validates the derivation.
+    """
 
     designation: str
     maker: str
@@ -36,13 +39,18 @@ class PublishedDesign:
 
 @cache
 def standard_balls() -> tuple[float, ...]:
-    """Standard ball diameters [mm], inch and metric (ISO 3290)."""
+    """Return standard ball diameters [mm].
+
+    Inch and metric (ISO 3290).
+    """
     return tuple(float(row["ball_diameter_mm"]) for row in _rows("balls.csv"))
 
 
 @cache
 def iso76_f0(*, both_052: bool = False) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """ISO 76, radial ball bearings: (D_w cos(alpha)/D_pw, f_0), N and mm.
+    """Return f_0 of ISO 76 for radial ball bearings.
+
+    (D_w cos(alpha)/D_pw, f_0), N and mm.
 
     The standard's table holds for conformities 0.52/0.53, where the outer raceway limits below 0.09. `both_052`
     gives the factor for 0.52/0.52, recomputed with Hertz theory (:func:`lambda_core.formulas.ratings.static_factor`):
@@ -55,14 +63,17 @@ def iso76_f0(*, both_052: bool = False) -> tuple[tuple[float, ...], tuple[float,
 
 @cache
 def iso281_fc() -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """ISO 281, single row radial contact ball bearings: (D_w cos(alpha)/D_pw, f_c), N and mm."""
+    """Return f_c of ISO 281 for single rows.
+
+    Radial contact ball bearings: (D_w cos(alpha)/D_pw, f_c), N and mm.
+    """
     rows = _rows("iso281_fc.csv")
     return tuple(float(row["gamma"]) for row in rows), tuple(float(row["fc"]) for row in rows)
 
 
 @cache
 def published_designs() -> tuple[PublishedDesign, ...]:
-    """Inner geometries from data sets and literature."""
+    """Return inner geometries from data sets and literature."""
     return tuple(
         PublishedDesign(
             row["designation"],

@@ -31,7 +31,10 @@ from lambda_db.user import changing
 
 @dataclass
 class ImportReport:
-    """What an import did: rows added and replaced per table, and those refused with place and reason."""
+    """Report of an import.
+
+    Rows added and replaced per table, and those refused with place and reason.
+    """
 
     path: Path
     added: dict[str, int] = field(default_factory=dict)
@@ -106,7 +109,10 @@ def _write(
 
 
 def _put(connection: Connection, table: str, row: Row, report: ImportReport, replace: bool) -> str | None:
-    """Insert one row, in front of the user's own of the same key if asked; return the reason if it is refused."""
+    """Insert one row, or return the reason against it.
+
+    In front of the user's own row of the same key if asked.
+    """
     target = table_of(table)
     if "layer" in target.c:
         row = row | {"layer": "user"}
@@ -130,7 +136,10 @@ def _put(connection: Connection, table: str, row: Row, report: ImportReport, rep
 
 
 def _put_geometry(connection: Connection, row: Row) -> str | None:
-    """Estimate what the row leaves open and write its candidates; the row itself has passed all checks by now."""
+    """Estimate missing geometry and write its candidates.
+
+    The row itself has passed all checks by now.
+    """
     bearing, candidate = table_of("bearing"), Base.metadata.tables["candidate"]
     link = CHILDREN["candidate"][1]
     connection.execute(delete(candidate).where(*(candidate.c[c].collate("NOCASE") == row[p] for p, c in link.items())))
@@ -149,14 +158,20 @@ def _put_geometry(connection: Connection, row: Row) -> str | None:
 def import_path(
     catalogue: SqlCatalogue, path: Path, table: str | None = None, *, keep_good: bool = False, replace: bool = False
 ) -> ImportReport:
-    """Import a CSV file (one table: its name, or `table`), a TOML file or a folder of them."""
+    """Import a CSV file, a TOML file or a folder.
+
+    A CSV file is one table: its name, or `table`.
+    """
     if not path.exists():
         raise UsageError(f"{path} does not exist")
     return import_rows(catalogue, read_path(path, table), keep_good=keep_good, replace=replace)
 
 
 def add_row(catalogue: SqlCatalogue, table: str, cells: Mapping[str, object], *, replace: bool = False) -> ImportReport:
-    """Add one row. ``source``, ``grade`` and ``status`` stand for those of every group of values that is given."""
+    """Add one row.
+
+    ``source``, ``grade`` and ``status`` apply to every group of values that is given.
+    """
     if table not in SEED_TABLES:
         raise UsageError(unknown_name("catalogue table", table, SEED_TABLES))
     return import_rows(catalogue, [(Path("row"), "", table, _with_provenance(table, cells))], replace=replace)
@@ -179,7 +194,10 @@ def _with_provenance(table: str, cells: Mapping[str, object]) -> dict[str, objec
 
 
 def rows_of(catalogue: SqlCatalogue, table: str, *, mine: bool = False) -> list[Row]:
-    """Return every visible row of a table, or the user's own, in the order of the key."""
+    """Return all rows of a table by key.
+
+    Every visible row, or the user's own.
+    """
     if mine and not catalogue.has_user_rows:
         return []
     target = table_of(table)
@@ -191,7 +209,9 @@ def rows_of(catalogue: SqlCatalogue, table: str, *, mine: bool = False) -> list[
 
 
 def export_rows(catalogue: SqlCatalogue, path: Path, tables: list[str], *, mine: bool = False) -> dict[str, int]:
-    """Write tables to a CSV file (one table), a TOML file, or a folder of CSV files; return the number of rows.
+    """Write tables to a file or folder.
+
+    A CSV file (one table), a TOML file, or a folder of CSV files; return the number of rows.
 
     Raises
     ------

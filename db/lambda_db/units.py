@@ -52,7 +52,10 @@ PROPERTIES: dict[str, str] = {
 
 @cache
 def column_unit(column: str) -> tuple[str, str] | None:
-    """Return (quantity, unit) of a column, or None for a plain number or text."""
+    """Return (quantity, unit) of a column.
+
+    None for a plain number or text.
+    """
     for ending in sorted(ENDINGS, key=len, reverse=True):
         if column.endswith(ending):
             return ENDINGS[ending]
@@ -70,19 +73,27 @@ def bare_name(column: str) -> str:
 
 @lru_cache(maxsize=65536)  # the same few thousand numbers are shown again with every search
 def column_si(column: str, value: float) -> float:
-    """Convert a column's printed number to SI, exactly as a case file's unit string would be."""
+    """Convert a column's printed number to SI.
+
+    Exactly as a case file's unit string.
+    """
     unit = column_unit(column)
     return float(value) if unit is None else parse(f"{value!r} {unit[1]}", unit[0])
 
 
 @cache
 def quantity_of_unit(unit: str) -> str | None:
-    """Return the first quantity that knows `unit`, None if there is none."""
+    """Return the first quantity that knows `unit`.
+
+    None if there is none.
+    """
     return next((quantity for quantity, units in UNITS.items() if unit in units), None)
 
 
 def to_si(value: float, unit: str, quantity: str | None = None) -> float:
-    """Convert a published number with its unit to SI; an empty unit is a plain number.
+    """Convert a published number with its unit to SI.
+
+    An empty unit is a plain number.
 
     Raises
     ------

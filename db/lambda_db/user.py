@@ -24,7 +24,10 @@ from lambda_db.soundness import ADVICE, UNREADABLE, DamagedError, check_sound, i
 
 
 def _renew(connection: Connection, name: str) -> None:
-    """Make a table again with the columns and constraints of today, its rows in it."""
+    """Make a table again with today's columns and constraints.
+
+    It keeps its rows.
+    """
     table = Base.metadata.tables[name]
     found = [row[1] for row in connection.exec_driver_sql(f"PRAGMA table_info({name})")]
     if len(found) == len(table.columns):  # an earlier step has made it
@@ -61,7 +64,9 @@ SCHEMA_VERSION = 7
 
 @contextmanager
 def changing(path: Path) -> Iterator[Connection]:
-    """Change the user's database in one transaction, made or brought up to date before, sealed at its end.
+    """Change the user's database in one transaction.
+
+    It is made or brought up to date before, and sealed at its end.
 
     Raises
     ------
@@ -83,7 +88,9 @@ def changing(path: Path) -> Iterator[Connection]:
 
 
 def accept(path: Path) -> list[str]:
-    """Seal the user's database as it is now, however it was changed; return which rows differ from the seal before.
+    """Seal the user's database as it is now.
+
+    However it was changed; return which rows differ from the seal before.
 
     Raises
     ------
@@ -105,7 +112,9 @@ def accept(path: Path) -> list[str]:
 
 
 def open_user_database(path: Path, *, changed: bool = False) -> Engine:
-    """Open the user's database for writing, creating or migrating it; with `changed` also one that others changed.
+    """Open the user's database for writing.
+
+    Create or migrate it; with `changed` also open one that others changed.
 
     Raises
     ------
@@ -131,7 +140,10 @@ def open_user_database(path: Path, *, changed: bool = False) -> Engine:
 
 
 def _create(path: Path) -> None:
-    """Put an empty catalogue in place whole, so that a file of no length is never one that is being made."""
+    """Put a complete empty catalogue in place.
+
+    So a file of no length is never one that is being made.
+    """
     with TemporaryDirectory(prefix=".catalogue-", dir=path.parent) as folder:
         made = Path(folder) / path.name
         engine = sqlite_engine(file_uri(made, "rwc"), "BEGIN IMMEDIATE", pragmas=("journal_mode = WAL",))
@@ -178,7 +190,10 @@ def _bring_up_to_date(connection: Connection, path: Path, *, changed: bool) -> N
 
 
 def migrate(path: Path) -> None:
-    """Bring an older database up to date before it is read; anything else is the reader's to report."""
+    """Bring an older database up to date.
+
+    Before it is read; the reader reports anything else.
+    """
     try:
         engine = sqlite_engine(file_uri(path, "ro"))
         with engine.connect() as connection:

@@ -17,7 +17,10 @@ from lambda_db.transfer import rows_of
 
 @dataclass(frozen=True)
 class Trial:
-    """One published design against the candidates from one maker's ratings of the same designation."""
+    """Published design against the candidates for it.
+
+    The candidates come from one maker's ratings of the same designation.
+    """
 
     published: PublishedDesign
     ratings: str  # whose
@@ -27,7 +30,7 @@ class Trial:
 
     @property
     def found(self) -> bool:
-        """Whether the best candidate is the published design."""
+        """True if the best candidate is the published design."""
         return self.rank == 1
 
 
@@ -37,7 +40,10 @@ def _is(design: RankedDesign, published: PublishedDesign) -> bool:
 
 
 def trials(catalogue: SqlCatalogue) -> list[Trial]:
-    """Derive every published design anew from dimensions and printed ratings alone: no pitch, no geometry given."""
+    """Derive every published design anew.
+
+    From dimensions and printed ratings alone: no pitch, no geometry given.
+    """
     found = []
     for published in published_designs():
         for row in rows_of(catalogue, "bearing"):
@@ -61,7 +67,7 @@ def _blind(row: Row) -> Row:
 
 
 def table(catalogue: SqlCatalogue) -> str:
-    """The trials as a Markdown table."""
+    """Return the trials as a Markdown table."""
     lines = [
         "| bearing | design by | published | ratings of | best candidate | score | rank of published |",
         "|---|---|---|---|---|---|---|",

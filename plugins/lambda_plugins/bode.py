@@ -37,7 +37,7 @@ class BodeDensity(Parameters):
 
 
 class BodeViscosity(BodeDensity):
-    """Constants of Bode's density and of the viscosity that goes with it."""
+    """Constants of Bode's density and of the matching viscosity."""
 
     visc_a1: float = _constant("A1 [mPa s]", gt=0.0)
     visc_a2: float = _constant("A2 [-]", gt=0.0)
@@ -54,24 +54,36 @@ class BodePermittivity(BodeDensity):
 
 
 def within_range(temperature: float) -> float:
-    """Return the temperature held within 223..573 K, where the polynomial N(T) is positive."""
+    """Limit the temperature to 223..573 K.
+
+    The polynomial N(T) is positive there.
+    """
     return at_most(at_least(temperature, _T_LOW), _T_HIGH)
 
 
 def pressure_scale(T: float, oil: BodeDensity) -> float:
-    """Return N(T) = a2 + a3 T + a4 T^2 + a5 T^3 [bar]; a1/N is the compressibility at ambient pressure."""
+    """Return the pressure scale N(T) [bar].
+
+    N(T) = a2 + a3 T + a4 T^2 + a5 T^3; a1/N is the compressibility at ambient pressure.
+    """
     return oil.a2 + T * (oil.a3 + T * (oil.a4 + T * oil.a5))
 
 
 def bode_density(p: float, T: float, oil: BodeDensity) -> float:
-    """Return rho [kg/m3] = rho_s (1 - alpha_s T)/(1 - a1 ln(1 + p/N)), p in Pa, T in K within range."""
+    """Return Bode's density [kg/m3].
+
+    rho_s (1 - alpha_s T)/(1 - a1 ln(1 + p/N)), p in Pa, T in K within range.
+    """
     bar = 1e-5 * at_least(p, 0.0)
     compression = 1.0 - oil.a1 * log1p(bar / pressure_scale(T, oil))
     return oil.rho_s * (1.0 - oil.alpha_s * T) / at_least(compression, 0.1)
 
 
 class Glass(NamedTuple):
-    """The oil's density, and its viscosity by the distance to the glass."""
+    """Density and viscosity of an oil by its glass transition.
+
+    The viscosity follows from the distance to the glass.
+    """
 
     oil: BodeDensity
     ln_A1: float  # ln(A1 / Pa s)
@@ -109,7 +121,9 @@ def _check(oil: BodeDensity) -> None:
     prepare=prepare_viscosity,
 )
 def bode_rheology(p: FloatArray, T: FloatArray, par: Glass, ln_eta: FloatArray, rho: FloatArray) -> int:
-    """Density after Bode and the viscosity that follows from its distance to the glass.
+    """Density and viscosity after Bode.
+
+    The viscosity follows from the distance of the density to the glass.
 
     eta = A1 exp[A2/(rho_g/rho - 1)], rho_g = A3 (1 + A4 T), a form inferred from the constants (it gives 97.3 and 8.81
     mPa s at 40 and 100 degC for the published oil). It has a pole at rho = rho_g (2.35 GPa at 40 degC): ln(eta) is

@@ -43,13 +43,16 @@ class Field(Parameters):
 def field(
     h: float, h_min: float, sigma: float, area: float, u_1: float, u_2: float, par: Field, out: FloatArray
 ) -> int:
-    """Smooth film: the field in its thinnest place, V = E_b h_min."""
+    """Smooth film that breaks down at its thinnest place.
+
+    The field there is V/h_min, so V = E_b h_min.
+    """
     out[0] = par.strength * h_min
     return OK
 
 
 class Rough(Field):
-    """Field that breaks the oil down, and how far roughness reaches."""
+    """Field of breakdown and the range of roughness."""
 
     correlation_length: Annotated[float, Quantity("small_length")] = parameter(
         "10 um", "l_c, distance at which heights are independent", source="order of size", status="assumed", gt=0.0
@@ -57,7 +60,9 @@ class Rough(Field):
 
 
 def lowest_spot(sigma: float, area: float, length: float, u: float) -> float:
-    """Return how far the lowest of N = A/l_c^2 independent Gaussian spots lies below the mean gap [m].
+    """Return the depth of the lowest roughness spot [m].
+
+    N = A/l_c^2 independent Gaussian spots; the depth counts from the mean gap.
 
     P(no spot lower than z sigma) = Phi(z)^N = u, so 1 - Phi(z) = 1 - u^(1/N) (weakest link).
     """
@@ -76,7 +81,9 @@ def lowest_spot(sigma: float, area: float, length: float, u: float) -> float:
 def statistical(
     h: float, h_min: float, sigma: float, area: float, u_1: float, u_2: float, par: Rough, out: FloatArray
 ) -> int:
-    """Rough film: the field in its lowest spot, P(no breakdown | V) = Phi((h - V/E_b)/sigma)^N, N = A/l_c^2.
+    """Rough film that breaks down at its lowest spot.
+
+    P(no breakdown | V) = Phi((h - V/E_b)/sigma)^N, N = A/l_c^2.
 
     h is the mean film, sigma the composite rms roughness. The exact form of the cited statistics was not read.
     """
@@ -106,7 +113,10 @@ class Particles(Rough):
 def particles(
     h: float, h_min: float, sigma: float, area: float, u_1: float, u_2: float, par: Particles, out: FloatArray
 ) -> int:
-    """Rough film with conducting particles: with probability 1 - exp(-n A h) one of size d leaves E_b (h - d)."""
+    """Rough film with conducting particles.
+
+    With probability 1 - exp(-n A h) a particle of size d leaves E_b (h - d).
+    """
     gap = h - lowest_spot(sigma, area, par.correlation_length, u_1)
     if u_2 < -math.expm1(-par.particle_density * area * h):
         gap = at_most(gap, h - par.particle_size)

@@ -91,7 +91,9 @@ class Guide(NamedTuple):
 
 
 def prepare_sphere(parameters: Pocket, context: Context) -> Guide:
-    """Return the constants with the pocket's clearance, the ball's radius and the film between both.
+    """Return the constants of a spherical pocket.
+
+    They include the pocket's clearance, the ball's radius and the film between both.
 
     A ball of radius R_b in a sphere of radius R_b + c: R_x = R_y = R_b (R_b + c)/c.
     """
@@ -99,7 +101,9 @@ def prepare_sphere(parameters: Pocket, context: Context) -> Guide:
 
 
 def prepare_cylinder(parameters: Pocket, context: Context) -> Guide:
-    """Return the same for a pocket whose wall is straight along its axis.
+    """Return the constants of a cylindrical pocket.
+
+    Its wall is straight along its axis.
 
     R_x = R_b along the axis, where the film ends with the wall, R_y = R_b (R_b + c)/c across it.
     """
@@ -120,7 +124,9 @@ def _pocket(parameters: Pocket, context: Context, *, round_along: bool) -> Guide
 
 
 def squeezed(guide: Guide, gap: float, closing: float, eta0: float) -> float:
-    """Return the force of the film between ball and pocket [N], `gap` apart, that close at a speed; no film pulls.
+    """Return the squeeze force of ball and pocket [N].
+
+    They are `gap` apart and close at a speed; no film pulls.
 
     Reynolds' equation between paraboloids at an approach v has p = 6 eta v/(1/R_x + 1/R_y) (1/gap^2 - 1/h_e^2), zero
     on the line gap = h_e = h + b^2/2 R_x that meets the wall's end: F = 12 pi eta v sqrt(R_x R_y)/(1/R_x + 1/R_y)
@@ -135,7 +141,9 @@ def squeezed(guide: Guide, gap: float, closing: float, eta0: float) -> float:
 
 
 def prepare_land(parameters: CageContact, context: Context) -> Guide:
-    """Return the constants with the land's clearance and its radius, negative on the inner ring.
+    """Return the land's clearance and radius with the constants.
+
+    The radius is negative on the inner ring.
 
     A cage displaced along n touches the outer ring's land at +R n, the inner ring's land at -R n.
     """
@@ -146,7 +154,10 @@ def prepare_land(parameters: CageContact, context: Context) -> Guide:
 
 
 def prepare_balls(parameters: CageContact, context: Context) -> Guide:
-    """Return the constants with the balls' diameter as distance of first touch, and their radius."""
+    """Return the balls' contact constants.
+
+    The distance of first touch is the balls' diameter.
+    """
     return Guide(parameters, context.ball_diameter, 0.5 * context.ball_diameter)
 
 
@@ -162,7 +173,9 @@ def push_back(
     film: float,
     out: FloatArray,
 ) -> None:
-    """Write force and point for a body that is `penetration` beyond its play in the unit direction n.
+    """Write the force and point that restore the play.
+
+    The body is `penetration` beyond its play in the unit direction n.
 
     Normal force along -n: k e^2/(2 e_0) up to the onset e_0 and k (e - e_0/2) above, plus damping
     d s^2 (3 - 2 s) de/dt, s = e/full penetration, never below zero, plus the force of a film: F_N. Friction: mu(v) F_N
@@ -208,7 +221,9 @@ def push_back(
 def spherical_pocket(
     r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: Guide, out: FloatArray
 ) -> int:
-    """Ball in a spherical pocket: contact once its centre is off the pocket's by the radial clearance.
+    """Ball in a spherical pocket.
+
+    They touch when the ball's centre is off the pocket's by the radial clearance.
 
     Syla et al. 2026, eq. 28 (F = mu_c(v) F_N with Teutsch's cubic coefficient); stiffness and damping are assumptions.
     Before that the oil between both is squeezed: F = 6 pi eta v R^2/h (1 - h/h_e)^2 (Pitois et al. 2000).
@@ -237,7 +252,9 @@ def spherical_pocket(
 def cylindrical_pocket(
     r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: Guide, out: FloatArray
 ) -> int:
-    """Ball in a cylindrical pocket with a radial axis: free along the radius, for ring-guided cages.
+    """Ball in a cylindrical pocket with a radial axis.
+
+    The ball is free along the radius, for ring-guided cages.
 
     Contact law and friction as in the spherical pocket. The film's wall is round across the pocket's axis only:
     F = 12 pi eta v sqrt(R_x R_y)/(1/R_x + 1/R_y) (1 - h/h_e)^2/h with R_x = R_b (own work).
@@ -265,7 +282,9 @@ def cylindrical_pocket(
 def land_guidance(
     r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: Guide, out: FloatArray
 ) -> int:
-    """Cage on the cylindrical land of a ring, at one axial station; free along the axis.
+    """Cage on the cylindrical land of a ring.
+
+    The contact is at one axial station; the cage is free along the axis.
 
     The cage's centre at this station is off the land's by more than the radial clearance; inner or outer ring follows
     from the force element. Contact law and friction as in the pockets; a lubricating film on the land is left out.
@@ -287,7 +306,9 @@ def land_guidance(
     prepare=prepare_balls,
 )
 def ball_ball(r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: Guide, out: FloatArray) -> int:
-    """Two neighbouring balls of a bearing without a cage: they touch when their centres are a diameter apart.
+    """Two neighbouring balls of a bearing without a cage.
+
+    They touch when their centres are a diameter apart.
 
     r is the position of one centre from the other's. Contact law and friction as in the pockets.
     """

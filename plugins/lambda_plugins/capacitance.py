@@ -34,7 +34,10 @@ def prepare_ball(parameters: NoParameters, context: Context) -> Ball:
 
 
 def open_gap(film: float, R_x: float, R_y: float, ball_radius: float, eps_r0: float) -> float:
-    """Return the capacitance [F] of ball and raceway without load that stand a film apart (:func:`gap_capacitance`)."""
+    """Return the capacitance [F] of an unloaded contact.
+
+    Ball and raceway are a film apart (:func:`gap_capacitance`).
+    """
     return eps_r0 * gap_capacitance(at_least(film, _LEAST_GAP), R_x, R_y, ball_radius)
 
 
@@ -60,7 +63,9 @@ def schneider(
     par: Ball,
     out: FloatArray,
 ) -> int:
-    """Correction factor after Schneider et al., C = k_c C_Hertz, at least the gap's capacitance.
+    """Capacitance by Schneider's correction factor.
+
+    C = k_c C_Hertz after Schneider et al., at least the gap's capacitance.
 
     k_c = 9.5923 U^0.3305 G^0.3431 W^-0.3342 k_e^0.1391 with Hamrock and Dowson's U, G, W (R_x, mean velocity) and
     k_e = a/b: Schneider, Liu, Bader, Furtmann and Poll 2021, Tribol. Int. 154, 106714; Syla et al. 2026, eq. 34. Held
@@ -124,7 +129,9 @@ def constant_factor(
     par: Factor,
     out: FloatArray,
 ) -> int:
-    """Constant correction factor, C = k_c C_Hertz, at least the gap's capacitance.
+    """Capacitance by a constant correction factor.
+
+    C = k_c C_Hertz, at least the gap's capacitance.
 
     Barz 1996 (thesis, Hannover), as cited by Syla et al. 2026, section 3. At least that of ball and raceway without
     load, a film apart (:func:`gap_capacitance`, Derjaguin 1934).
@@ -150,7 +157,7 @@ class GapIntegral(Parameters):
 
 
 class Region(NamedTuple):
-    """Where the integral ends."""
+    """End of the integral."""
 
     outer: float  # semi-axis along the ellipse's major one [m]
 
@@ -161,7 +168,9 @@ def prepare_gap_integral(parameters: GapIntegral, context: Context) -> Region:
 
 
 def gap_scale(major: float, minor: float, R_x: float, R_y: float) -> float:
-    """Return P = 1/(2 sqrt(R_x R_y I_A I_B)) with the integrals of :func:`gap_integral` taken to infinity.
+    """Return the scale P of the gap integral.
+
+    P = 1/(2 sqrt(R_x R_y I_A I_B)) with the integrals of :func:`gap_integral` taken to infinity.
 
     Hertz demands 2 P I_A and 2 P I_B to be the curvatures along both axes; with a fitted ellipse both hold only in the
     geometric mean. The integrands are even and analytic in w, so the trapezoidal rule converges exponentially (1e-9).
@@ -203,7 +212,9 @@ def gap_integral(
     par: Region,
     out: FloatArray,
 ) -> int:
-    """Hertzian area plus the integral of eps_0 eps_r dA/gap around it, at ambient permittivity.
+    """Capacitance of the Hertzian area and its surroundings.
+
+    The integral of eps_0 eps_r dA/gap covers the surroundings, at ambient permittivity.
 
     Confocal ellipses with semi-axes A^2 = a^2 + t^2, B^2 = b^2 + t^2, t = b sinh w, x = A cos phi, y = B sin phi, a the
     major one. Outside the contact Hertz's surfaces stand apart by g = h + P (x^2 I_A + y^2 I_B - I_1), where I_A, I_B,

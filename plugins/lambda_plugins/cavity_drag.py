@@ -20,7 +20,7 @@ _AIR_VISCOSITY = 1.8e-5  # [Pa s] of air at 20 degC, 2.1e-5 at 80 degC
 
 
 class CavityMixture(SphereDrag):
-    """Parameters of the mixture of oil and air in the cavity."""
+    """Parameters of the oil-air mixture in the cavity."""
 
     oil_share: float | None = parameter(
         None,
@@ -49,7 +49,9 @@ class Mixture(NamedTuple):
 
 
 def cavity_share(flow: float, speed: float, pitch_diameter: float) -> float:
-    """Return the share of oil in the cavity by Parker's correlation, not held at 1.
+    """Return the oil share of the cavity by Parker.
+
+    The correlation is not limited to 1.
 
     10^5 W^0.37/(n d_m^1.7), W in cm3/min, n in 1/min, d_m in mm: Parker 1984, NASA TP-2300, unconfirmed. From angular
     contact ball bearings of 35 to 167 mm bore with jets and through the inner ring, 1 to 3 10^6 n d, in which it gave
@@ -96,7 +98,9 @@ def prepare(parameters: CavityMixture, context: Context) -> Mixture:
 def cavity_mixture(
     v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: Mixture, out: FloatArray
 ) -> int:
-    """Drag and churning of single spheres in the mixture of oil and air that fills the cavity.
+    """Drag and churning of spheres in an oil-air mixture.
+
+    The mixture fills the cavity; each sphere counts as single.
 
     Density and viscosity of the mixture are means by volume, rho = x rho_oil + (1 - x) rho_air (as programs after
     Rumbarger et al. 1973, J. Lubr. Technol. 95, 401, take it; unconfirmed), with the share x of oil of Parker 1984,

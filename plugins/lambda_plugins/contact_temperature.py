@@ -13,7 +13,7 @@ _PECLET_AT_REST = 0.02
 
 
 class Solid(NamedTuple):
-    """How a body takes heat."""
+    """Thermal properties of a solid body."""
 
     conductivity: float  # [W/(m K)]
     diffusivity: float  # [m2/s]
@@ -39,7 +39,9 @@ def prepare_shear_heating(parameters: NoParameters, context: Context) -> Heated:
 
 
 def band_rise(semi_b: float, speed: float, body: Solid) -> float:
-    """Return the mean rise of a half-space under a moving band of length 2b, per heat flux [K m2/W].
+    """Return the mean temperature rise under a moving band.
+
+    Half-space, band of length 2b, per heat flux [K m2/W].
 
     0.752 (b/k)/sqrt(Pe), Pe = u b/(2 kappa), which is 0.752 sqrt(2b/(u k rho c)): the mean over 0..2b of
     2 q sqrt(x/(pi u k rho c)) (Jaeger 1942; Carslaw and Jaeger 1959, section 10.7). Pe^2 + 0.02 under the root ends the
@@ -67,7 +69,9 @@ def shear_heating(
     par: Heated,
     T: FloatArray,
 ) -> int:
-    """Mean film temperature from shear heat: rise across the film plus flash rise of both surfaces.
+    """Mean film temperature from shear heat.
+
+    It is the rise across the film plus the flash rise of both surfaces.
 
     The heat q = tau v per area is made evenly across the film. Film: T(z) is a parabola over the straight line between
     both surfaces, its mean q h/(12 lambda) above their average (its maximum q h/(8 lambda)). Surfaces: the mean over
@@ -99,7 +103,7 @@ def isothermal(
     par: NoParameters,
     T: FloatArray,
 ) -> int:
-    """The film keeps the temperature of the inlet."""
+    """Film at the temperature of the inlet."""
     for i in range(T.size):
         T[i] = T_in
     return OK

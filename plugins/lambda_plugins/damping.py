@@ -40,7 +40,10 @@ class Onset(NamedTuple):
 
 
 def prepare_cubic(parameters: CubicDamping, context: Context) -> Onset:
-    """Return the damping's onset; d_max from the contact stiffness at the mean load unless given."""
+    """Return the damping's onset.
+
+    d_max from the contact stiffness at the mean load unless given.
+    """
     full = parameters.coefficient
     if full is None:
         load = max(context.mean_load, 1.0)
@@ -71,7 +74,7 @@ def cubic(delta: float, delta_dot: float, load: float, par: Onset, out: FloatArr
 
 
 class SqueezeFilm(CubicDamping):
-    """Parameters of the cubic damping with the film between ball and raceway."""
+    """Parameters of cubic damping with the squeeze film."""
 
     layer: Annotated[float, Quantity("small_length")] = parameter(
         "10 um",
@@ -100,7 +103,9 @@ class Squeezed(NamedTuple):
 
 
 def prepare_film(parameters: SqueezeFilm, context: Context) -> Squeezed:
-    """Return the onset of the cubic damping, and the film's shape and thickness.
+    """Return the damping's onset and the film's dimensions.
+
+    The onset is that of the cubic damping; the film has a shape and a thickness.
 
     Film of smooth surfaces and roughness keep the bodies apart together, by the root of the sum of their squares:
     either alone where the other is small, and without a bend where they are alike, over speed or temperature.
@@ -134,7 +139,9 @@ def squeeze_film(
     par: Squeezed,
     out: FloatArray,
 ) -> int:
-    """Teutsch's cubic damping, and the film that a ball squeezes before it touches.
+    """Cubic damping with the squeeze film before touch.
+
+    Damping after Teutsch; the ball squeezes the film before it touches.
 
     Between paraboloids with the gap h + x^2/2 R_x + y^2/2 R_y Reynolds' equation for an approach at v has the solution
     p = 6 eta v/(1/R_x + 1/R_y) (1/gap^2 - 1/H^2) within the line gap = H on which the oil ends:

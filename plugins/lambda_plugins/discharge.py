@@ -30,7 +30,10 @@ class Channel(Parameters):
     validity="resistances of arcs are hardly known; charge and energy depend little on them, the largest current does",
 )
 def resistance(V: float, h: float, area: float, par: Channel, out: FloatArray) -> int:
-    """A channel of constant resistance: the film's charge runs out with R C."""
+    """Channel of constant resistance.
+
+    The film's charge decays with R C.
+    """
     out[0], out[1], out[2] = par.resistance, 0.0, par.least_current
     return OK
 
@@ -52,6 +55,9 @@ class Arc(Channel):
     validity="arcs that burn longer than they take to form",
 )
 def arc_voltage(V: float, h: float, area: float, par: Arc, out: FloatArray) -> int:
-    """A channel that keeps a voltage U: the charge below it stays on the film."""
+    """Channel of constant voltage U.
+
+    The charge below U stays on the film.
+    """
     out[0], out[1], out[2] = par.resistance, par.voltage, par.least_current
     return OK

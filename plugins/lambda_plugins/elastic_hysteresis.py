@@ -36,7 +36,9 @@ class LossFactor(Parameters):
 def loss_factor(
     load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: LossFactor, out: FloatArray
 ) -> int:
-    """Hysteresis couple of an elliptical contact, M = (3/16) alpha_h Q b.
+    """Hysteresis couple of an elliptical contact.
+
+    M = (3/16) alpha_h Q b.
 
     Greenwood, Minshall and Tabor 1961, Proc. R. Soc. A 259, 480; Johnson, Contact Mechanics (1985), section 9.2: the
     elastic work on the front half of the contact, of which the share alpha_h is lost; b is the semi-axis along rolling.
@@ -66,7 +68,10 @@ def houpert(
 
 
 class Scheuermann(Parameters):
-    """Constants of Scheuermann's rolling moment: not published, so there is no default."""
+    """Constants of Scheuermann's rolling moment.
+
+    Not published, so there is no default.
+    """
 
     coefficient: float = parameter(
         ...,
@@ -96,7 +101,9 @@ class Scheuermann(Parameters):
 def scheuermann(
     load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: Scheuermann, out: FloatArray
 ) -> int:
-    """Solid rolling moment as a power of the load, M = c_r Q^e_r, after Scheuermann.
+    """Rolling moment of the solids after Scheuermann.
+
+    A power of the load: M = c_r Q^e_r.
 
     Wingertszahn et al. 2023, Lubricants 11, 369, eq. 19; c_r and e_r must be given.
     """

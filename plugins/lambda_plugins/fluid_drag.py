@@ -27,12 +27,12 @@ _SLOW = 1.0  # [1/min] below which a power law with an exponent under 1 becomes 
 
 
 def _year(value: Any) -> Any:
-    """Return a year that was written as a number as text."""
+    """Return a year that is a number as text."""
     return str(value) if isinstance(value, int) else value
 
 
 class SharedLoss(Parameters):
-    """How a bearing's loss is split on each ball."""
+    """Share of a bearing's loss on each ball."""
 
     drag_share: float = parameter(
         0.8,
@@ -79,7 +79,10 @@ def mean_diameter(context: Context) -> float:
 
 
 def oil_height(context: Context) -> float:
-    """Return H, the oil level above the lowest point of the outer raceway, from none to drowned [mm]."""
+    """Return the oil level H [mm].
+
+    Above the lowest point of the outer raceway, from none to drowned.
+    """
     level = 1e3 * (oil_geometry(context).level + 0.5 * context.ball_diameter)
     return min(max(level, 0.0), 1.2 * mean_diameter(context))
 
@@ -92,7 +95,9 @@ def volume_factor(parameters: Skf, context: Context) -> float:
 
 
 def skf_torque(parameters: Skf, context: Context) -> tuple[float, float]:
-    """Return (M / n^2, M / (n^0.621 nu^1.379)) of SKF's drag torque [N mm], n in 1/min, nu in mm2/s.
+    """Return both parts of SKF's drag torque.
+
+    (M / n^2, M / (n^0.621 nu^1.379)) in N mm, n in 1/min, nu in mm2/s.
 
     2008: M = V_M K_ball d_m^5 n^2, K_ball = K_Z (d + D)/(D - d) 1e-12 for one row (mm). 2018: 0.4 of that, plus
     1.093e-7 n^2 d_m^3 (n d_m^2 f_t/nu)^-1.379 R_s, R_s = 0.36 d_m^2 (t - sin t) f_A, f_A = 0.05 K_Z (D + d)/(D - d),
@@ -143,7 +148,9 @@ def prepare_skf(parameters: Skf, context: Context) -> SkfShare:
 
 
 def power_factors(parameters: SharedLoss, context: Context) -> tuple[float, float]:
-    """Return force [N] and moment [N m] on a wholly immersed ball per N mm of the bearing's drag torque.
+    """Return force and moment on a wholly immersed ball.
+
+    [N] and [N m] per N mm of the bearing's drag torque.
 
     From Z mean(immersion) (F v_orbit + M omega_spin) = torque times speed of rotation, at kinematic speeds. A bearing
     whose balls never touch the oil has no loss.
@@ -169,7 +176,9 @@ def power_factors(parameters: SharedLoss, context: Context) -> tuple[float, floa
 def skf_catalogue(
     v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: SkfShare, out: FloatArray
 ) -> int:
-    """SKF's drag torque in an oil bath, on each ball by its immersion.
+    """SKF's drag torque in an oil bath.
+
+    It acts on each ball by its immersion.
 
     M_drag = 0.4 V_M K_ball d_m^5 n^2 and a viscous term: SKF, Rolling bearings, catalogue 17000 EN (2018), chapter
     Friction (the second form not confirmed from its original). Edition of 2008: V_M K_ball d_m^5 n^2 alone, Syla et
@@ -239,7 +248,10 @@ def prepare_schaeffler(parameters: Schaeffler, context: Context) -> SchaefflerSh
 
 
 def viscous_number(nu: float, n: float) -> float:
-    """Return (nu n)^(2/3) held at 160 and above (the catalogue steps by 0.8 % there); nu in m2/s, n in 1/min."""
+    """Return (nu n)^(2/3), at least 160.
+
+    The catalogue steps by 0.8 % there; nu in m2/s, n in 1/min.
+    """
     power: float = (1e6 * nu * abs(n)) ** (2.0 / 3.0)
     return at_least(power, 160.0)
 
@@ -256,7 +268,9 @@ def viscous_number(nu: float, n: float) -> float:
 def schaeffler_catalogue(
     v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: SchaefflerShare, out: FloatArray
 ) -> int:
-    """Fluid share of Schaeffler's torque M0, on each ball by its immersion.
+    """Fluid share of Schaeffler's torque M0.
+
+    It acts on each ball by its immersion.
 
     M0 = f0 1e-7 d_m^3 (nu n)^(2/3) from nu n = 2000 on, 160e-7 f0 d_m^3 below (mm, mm2/s, 1/min, N mm): Syla et al.
     2026, eq. 38-39. M0 holds rolling resistance too; only `fluid_share` of it is applied, so that nothing counts twice.

@@ -16,7 +16,10 @@ _ABSENT = "absent unless the case gives it"
 
 
 class Bushing(Parameters):
-    """Stiffness and damping along and about the axes, and a force at rest."""
+    """Stiffness and damping of a bushing.
+
+    Along and about the axes, with a force at rest.
+    """
 
     stiffness_x: Stiffness = parameter(
         "0 N/m", "against displacement along x", source=_ABSENT, status="assumed", ge=0.0
@@ -59,7 +62,10 @@ def bushing(
     par: Bushing,
     out: FloatArray,
 ) -> int:
-    """Linear springs and dampers: F = F_0 - k r - c v along the axes, M = -k_t phi - c_t omega about them."""
+    """Linear springs and dampers along and about the axes.
+
+    F = F_0 - k r - c v along the axes, M = -k_t phi - c_t omega about them.
+    """
     out[0] = par.preload_x - par.stiffness_x * place[0] - par.damping_x * v_rel[0]
     out[1] = -par.stiffness_y * place[1] - par.damping_y * v_rel[1]
     out[2] = -par.stiffness_z * place[2] - par.damping_z * v_rel[2]

@@ -93,7 +93,10 @@ class BarusOil(TwoPointOil):
 
 
 def kinematic_viscosity(oil: TwoPointOil, T: FloatArray) -> FloatArray:
-    """Return nu(T) [m2/s] after Walther, log log (nu + 0.7 mm2/s) = A - B log T: ASTM D341 in its simple form."""
+    """Return nu(T) [m2/s] after Walther.
+
+    Log log (nu + 0.7 mm2/s) = A - B log T: ASTM D341 in its simple form.
+    """
 
     def double_log(nu: float) -> float:
         return math.log10(math.log10(1e6 * nu + 0.7))
@@ -118,19 +121,28 @@ def _log_viscosity_series(oil: TwoPointOil) -> FloatArray:
 
 
 def scaled_inverse(T: float) -> float:
-    """Return 1/T mapped to -1..1 between 300 and -40 degC, held there."""
+    """Return 1/T mapped to -1..1.
+
+    From 300 to -40 degC, constant outside.
+    """
     held = at_most(at_least(T, _T_LOW), _T_HIGH)
     return (2.0 / held - 1.0 / _T_HIGH - 1.0 / _T_LOW) / (1.0 / _T_LOW - 1.0 / _T_HIGH)
 
 
 def oil_density(p: float, T: float, density_15: float, slope: float) -> float:
-    """Return rho [kg/m3]: linear in temperature (held at -40..300 degC), Dowson and Higginson under pressure."""
+    """Return the density of an oil [kg/m3].
+
+    Linear in temperature (limited to -40..300 degC), after Dowson and Higginson under pressure.
+    """
     held = at_most(at_least(T, _T_LOW), _T_HIGH)
     return (density_15 + slope * (held - 288.15)) * dowson_higginson(p)
 
 
 def roelands_exponent(oil: RoelandsOil) -> float:
-    """Return Z such that ln(eta) rises by alpha_p times the span at 40 degC; from the slope at zero for no span."""
+    """Return the exponent Z after Roelands.
+
+    ln(eta) rises by alpha_p times the span at 40 degC; without a span Z follows from the slope at zero.
+    """
     distance = math.log(oil.kinematic_viscosity_40 * float(_density(oil, np.array(_T_40)))) + _ROELANDS_LOG
     if distance <= 0.0:
         raise ValueError("the oil is thinner than 0.063 mPa s at 40 degC: Roelands' law does not hold")
@@ -170,7 +182,9 @@ def prepare_roelands(parameters: RoelandsOil, context: Context) -> RoelandsSerie
     prepare=prepare_roelands,
 )
 def roelands(p: FloatArray, T: FloatArray, par: RoelandsSeries, ln_eta: FloatArray, rho: FloatArray) -> int:
-    """Viscosity after Roelands over pressure and Walther over temperature.
+    """Viscosity after Roelands and Walther.
+
+    Roelands over pressure, Walther over temperature.
 
     ln eta = ln eta_0 + (ln eta_0 + 9.67) [(1 + 5.1e-9 p)^Z - 1], Z from alpha_p at 40 degC and constant: Roelands
     1966 (thesis, Delft); Hamrock, Schmid and Jacobson 2004, Fundamentals of Fluid Film Lubrication, section 4.6.
@@ -225,7 +239,9 @@ def prepare_barus(parameters: BarusOil, context: Context) -> BarusSeries:
     prepare=prepare_barus,
 )
 def barus_limited(p: FloatArray, T: FloatArray, par: BarusSeries, ln_eta: FloatArray, rho: FloatArray) -> int:
-    """Viscosity after Barus with a limited exponent, Walther over temperature.
+    """Viscosity after Barus and Walther.
+
+    Barus with a limited exponent over pressure, Walther over temperature.
 
     ln eta = ln eta_0 + min(alpha_p p, limit), corner rounded over a unit; Barus 1893, Am. J. Sci. 45, 87. alpha_p goes
     with nu^t over temperature: Gold et al. 2001, J. Synth. Lubr. 18, 51. eta_0 by ASTM D341. ln(eta) is capped at 1e12

@@ -18,7 +18,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
 
 
 class OilBath(NamedTuple):
-    """Where the oil stands among the balls."""
+    """Oil level among the balls."""
 
     level: float  # above the lowest point of the pitch circle [m]
     pitch_radius: float  # [m]
@@ -26,7 +26,10 @@ class OilBath(NamedTuple):
 
 
 def oil_geometry(context: Context) -> OilBath:
-    """Return the oil bath of a bearing; a grease has one that no ball reaches."""
+    """Return the oil bath of a bearing.
+
+    The bath of a grease reaches no ball.
+    """
     if context.lubrication not in ("oil bath", "grease"):
         raise ValueError(f'it needs an oil bath, and the case has "{context.lubrication}": take "cavity-mixture"')
     level = context.oil_level if math.isfinite(context.oil_level) else _EVERYWHERE
@@ -49,7 +52,10 @@ def mean_immersion(bath: OilBath) -> float:
     level, pitch_radius, ball_radius = bath
 
     def angle(height: float) -> float:
-        """Angle from the lowest point at which a ball's centre stands `height` above it."""
+        """Return the angle of a ball at a height.
+
+        From the lowest point, for a centre at `height` above it.
+        """
         return math.acos(min(max(1.0 - height / pitch_radius, -1.0), 1.0))
 
     full, none = angle(level - ball_radius), angle(level + ball_radius)
@@ -59,7 +65,9 @@ def mean_immersion(bath: OilBath) -> float:
 
 
 def kinematic_speeds(context: Context, speed: float) -> tuple[float, float]:
-    """Return (orbital speed of the ball's centre [m/s], spin of the ball [rad/s]) at `speed` [rad/s].
+    """Return the kinematic speeds of a ball.
+
+    (orbital speed of its centre [m/s], spin [rad/s]) at `speed` [rad/s].
 
     Pure rolling with the outer ring at rest and no contact angle: cage at (1 - gamma)/2 of the inner ring's speed,
     gamma = D_w/d_m (Harris and Kotzalas 2006, eq. 10.12). The spin is that against the oil at rest, (1 - gamma)/(2

@@ -35,7 +35,10 @@ _NEWTON = 6  # steps of the logarithm's solution: the error falls below rounding
 
 
 def hertz_line(line_load: float, R_x: float, E_eff: float) -> tuple[float, float]:
-    """Return half width [m] and maximum pressure [Pa] of a load per length (Johnson 1985, eq. 4.43 and 4.45)."""
+    """Return half width [m] and pressure [Pa] of a line.
+
+    Maximum pressure; for a load per length (Johnson 1985, eq. 4.43 and 4.45).
+    """
     return math.sqrt(8.0 * line_load * R_x / (math.pi * E_eff)), math.sqrt(line_load * E_eff / (2.0 * math.pi * R_x))
 
 
@@ -48,7 +51,9 @@ def hertz_line(line_load: float, R_x: float, E_eff: float) -> tuple[float, float
     contact="line",
 )
 def iso_line(delta: float, R_x: float, R_y: float, E_eff: float, par: NoParameters, out: FloatArray) -> int:
-    """Load of one raceway by the power law of ISO 16281, Q = c L^(8/9) delta^(10/9).
+    """Load of one raceway after ISO 16281.
+
+    Power law Q = c L^(8/9) delta^(10/9).
 
     ISO 16281 gives c_L = 35948 N/mm^2 for both raceways in series; alike, each takes half of the approach. Half width
     and pressure are Hertz's.
@@ -73,7 +78,9 @@ def iso_line(delta: float, R_x: float, R_y: float, E_eff: float, par: NoParamete
     contact="line",
 )
 def hertz_line_contact(delta: float, R_x: float, R_y: float, E_eff: float, par: NoParameters, out: FloatArray) -> int:
-    """Load of one raceway by the half space's logarithm, delta = 4 w/(pi E') [ln(2 L/b) + 1/2].
+    """Load of one raceway by the half space's logarithm.
+
+    Delta = 4 w/(pi E') [ln(2 L/b) + 1/2].
 
     The deflection below the middle of a strip of length L with Hertz's pressure across: Lundberg 1939. Solved for w by
     Newton's method in ln w.
@@ -116,7 +123,9 @@ def moes_line(
     par: FilmFloors,
     out: FloatArray,
 ) -> int:
-    """Film of a line contact in all four regimes, after Moes.
+    """Film of a line contact after Moes.
+
+    In all four regimes.
 
     The central film of :func:`moes_line_film` for the component of entrainment across the line. The minimum is 0.866
     U^0.01 G^-0.02 W^-0.03 of it, the ratio of Dowson's 2.65 U^0.70 G^0.54 W^-0.13 (Dowson 1968) to Dowson and Toyoda's
@@ -157,7 +166,9 @@ def dowson_toyoda(
     par: FilmFloors,
     out: FloatArray,
 ) -> int:
-    """Film of a line contact, h = 3.06 R U^0.69 G^0.56 W^-0.10, minimum 2.65 R U^0.70 G^0.54 W^-0.13.
+    """Film of a line contact after Dowson and Toyoda.
+
+    h = 3.06 R U^0.69 G^0.56 W^-0.10, minimum 2.65 R U^0.70 G^0.54 W^-0.13.
 
     Dowson and Toyoda 1979 for the centre, Dowson 1968 for the minimum; U with the mean velocity across the line.
     """
@@ -198,7 +209,9 @@ def biboulet_houpert_line(
     par: InletShear,
     out: FloatArray,
 ) -> int:
-    """Rolling resistance of a line contact after Biboulet and Houpert, with Aihara's thermal factor.
+    """Rolling resistance of a line, Biboulet and Houpert.
+
+    With Aihara's thermal factor.
 
     :func:`rolling_force` times the length, on each surface, in proportion to the speed near rest.
     """
@@ -222,7 +235,9 @@ def biboulet_houpert_line(
 def johnson_line(
     load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: LossFactor, out: FloatArray
 ) -> int:
-    """Hysteresis couple of a line contact, M = (2/(3 pi)) alpha_h Q b.
+    """Hysteresis couple of a line contact.
+
+    M = (2/(3 pi)) alpha_h Q b.
 
     The elastic work on the front half of the contact, of which the share alpha_h is lost: Johnson, Contact Mechanics
     (1985), section 9.2.
@@ -232,7 +247,7 @@ def johnson_line(
 
 
 class SqueezedLine(NamedTuple):
-    """The cubic damping's onset and the numbers of a cylinder's film."""
+    """Onset of the cubic damping and film of a cylinder."""
 
     d_max: float  # [N s/m]
     delta_max: float  # [m]
@@ -241,7 +256,9 @@ class SqueezedLine(NamedTuple):
 
 
 def prepare_line_film(parameters: SqueezeFilm, context: Context) -> SqueezedLine:
-    """Return the onset of the cubic damping, and reach and thickness of the film.
+    """Return the damping's onset and the film's dimensions.
+
+    The onset is that of the cubic damping; the film has a reach and a thickness.
 
     Film of smooth surfaces (Dowson and Toyoda) and roughness keep the bodies apart together, by the root of the sum of
     their squares. Without a coefficient the full damping is the time constant times the line's stiffness at the mean
@@ -280,7 +297,9 @@ def squeeze_line(
     par: SqueezedLine,
     out: FloatArray,
 ) -> int:
-    """Teutsch's cubic damping, and the film that a roller squeezes before it touches.
+    """Cubic damping with the squeeze film of a roller.
+
+    Damping after Teutsch; the roller squeezes the film before it touches.
 
     Between a cylinder and a plane, gap = h + x^2/(2 R), Reynolds' equation for an approach at v has the solution
     p = 6 eta v R/gap^2, F/L = 3 sqrt(2) pi eta v (R/h)^(3/2), less that of the gap H at which the oil ends. At first
@@ -318,7 +337,9 @@ def line_gap(
     par: NoParameters,
     out: FloatArray,
 ) -> int:
-    """Capacitance of the flat and of the gaps on both sides of it, to where the surfaces are a roller radius apart.
+    """Capacitance of a line contact and its gaps.
+
+    Of the flat and of the gaps on both sides, to where the surfaces are a roller radius apart.
 
     C = C_Hertz + 2 eps L int_b^X dx/(h + (x^2 - b^2)/(2 R)), X = R: with c^2 = 2 R h - b^2 the integral is
     2 R/c [atan(X/c) - atan(b/c)], or a logarithm where c^2 is negative. Without load the cylinder's own.

@@ -41,7 +41,9 @@ class ZhouHoeprich(Parameters):
     validity="constants belong to the roughness that they were fitted with",
 )
 def zhou_hoeprich(Lambda: float, par: ZhouHoeprich, out: FloatArray) -> int:
-    """Share of the load on asperities, psi = exp(-B Lambda^C), after Zhou and Hoeprich.
+    """Share of the load on asperities after Zhou-Hoeprich.
+
+    Psi = exp(-B Lambda^C), Zhou and Hoeprich.
 
     Zhou and Hoeprich 1991, J. Tribol. 113, 590; constants as in the tapered roller model of Wingertszahn et al. 2023.
     """
@@ -66,7 +68,9 @@ class SpikesOlver(Parameters):
     validity="friction of rough point contacts over the whole transition; Lambda of the smooth surfaces",
 )
 def spikes_olver(Lambda: float, par: SpikesOlver, out: FloatArray) -> int:
-    """Share of boundary friction in mixed lubrication, psi = (1 + Lambda)^-m, after Spikes and Olver.
+    """Share of boundary friction after Spikes and Olver.
+
+    In mixed lubrication, psi = (1 + Lambda)^-m.
 
     From friction measured in rough rolling and sliding contacts, mu = mu_film + (mu_bl - mu_film)/(1 + Lambda)^m,
     Lambda the smooth film over the composite rms roughness: Spikes and Olver 2003, Lubr. Sci. 16(1), 3.
@@ -78,7 +82,7 @@ def spikes_olver(Lambda: float, par: SpikesOlver, out: FloatArray) -> int:
 
 @law("asperity_load", "none", role_api=3, reference="-")
 def none(Lambda: float, par: NoParameters, out: FloatArray) -> int:
-    """Full film: no load on asperities."""
+    """Full film without load on asperities."""
     out[0] = 0.0
     return OK
 
@@ -100,7 +104,7 @@ class MicroSlip(Parameters):
 
 
 class Creep(NamedTuple):
-    """What gross sliding takes."""
+    """Coefficient and limit of gross sliding."""
 
     mu: float
     per_pressure: float  # creep of gross sliding over the pressure [1/Pa]
@@ -123,7 +127,9 @@ def prepare_micro_slip(parameters: MicroSlip, context: Context) -> Creep:
     prepare=prepare_micro_slip,
 )
 def micro_slip(slip: FloatArray, p: FloatArray, u_mean: float, par: Creep, mu: FloatArray) -> int:
-    """Coulomb friction of a rolling contact: elastic creep first, gross sliding from the creep that fills the contact.
+    """Coulomb friction of a rolling contact with elastic creep.
+
+    Gross sliding begins at the creep that fills the contact.
 
     Surfaces that roll against each other stick at the inlet and slip at the outlet; the shear force is
     mu (2 z - z^2) of the load, z = xi/xi_c, with the creep xi = v/u and mu from xi_c = 4 mu p_0/E' on, where the stuck
@@ -170,7 +176,9 @@ class CubicFriction(Parameters):
     validity="constants are assumptions until measured for the oil and surfaces",
 )
 def cubic(slip: FloatArray, p: FloatArray, u_mean: float, par: CubicFriction, mu: FloatArray) -> int:
-    """Boundary friction that rises from 0 at rest to mu_s at v_s and falls to mu_d at v_d, after Teutsch.
+    """Boundary friction by a cubic law, after Teutsch.
+
+    It rises from 0 at rest to mu_s at v_s and falls to mu_d at v_d.
 
     Teutsch 2005; Wingertszahn et al. 2023, Lubricants 11, 369, eq. 21 with its missing factor.
     """

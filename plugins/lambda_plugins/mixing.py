@@ -21,14 +21,17 @@ def load_share(
     psi: float, Lambda: float, load: float, p_max: float, semi_a: float, semi_b: float, par: NoParameters,
     out: FloatArray,
 ) -> int:  # fmt: skip
-    """Film and asperities by their shares of the load, tau = (1 - psi) tau_film + psi mu p."""
+    """Film and asperities by their shares of the load.
+
+    Tau = (1 - psi) tau_film + psi mu p.
+    """
     out[0] = 1.0 - psi
     out[1] = psi
     return OK
 
 
 class Hardness(Parameters):
-    """What yields where asperities touch."""
+    """Hardness of the softer surface."""
 
     hardness: Annotated[float, Quantity("pressure")] = parameter(
         "7 GPa", "indentation hardness of the softer surface", source="ISO 18265, table A.1: 61 HRC is 720 HV", gt=0.0
@@ -47,7 +50,9 @@ class Hardness(Parameters):
 def contact_area(
     psi: float, Lambda: float, load: float, p_max: float, semi_a: float, semi_b: float, par: Hardness, out: FloatArray
 ) -> int:
-    """Film and asperities by their shares of the area, tau = (1 - A_r/A) tau_film + psi mu p, A_r = psi F/H.
+    """Film and asperities by their shares of the area.
+
+    Tau = (1 - A_r/A) tau_film + psi mu p, A_r = psi F/H.
 
     Asperities that carry the load psi F under their yield pressure H touch on the real area psi F/H alone (Bowden and
     Tabor); the film is sheared everywhere else, so that friction is the sum of both integrals, each over its own area

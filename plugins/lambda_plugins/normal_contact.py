@@ -28,7 +28,7 @@ def chebyshev(x: float, coefficients: FloatArray) -> float:
 
 
 class Shape(NamedTuple):
-    """What a contact of given radii keeps at every load."""
+    """Load-independent numbers of a contact of given radii."""
 
     R_x: float  # [m]
     R_y: float  # [m]
@@ -39,7 +39,10 @@ class Shape(NamedTuple):
 
 
 def proportions(R_x: float, R_y: float, k: float, first: float, second: float) -> tuple[float, float, float, float]:
-    """Return (k, first, scale, root) of :class:`Shape` from ellipse ratio and elliptic integrals."""
+    """Return (k, first, scale, root) of :class:`Shape`.
+
+    From ellipse ratio and elliptic integrals.
+    """
     R = R_x * R_y / (R_x + R_y)
     scale = math.sqrt(second * R / 4.5)
     return k, first, scale, (6.0 * second * R * scale) ** (1.0 / 3.0)
@@ -48,7 +51,9 @@ def proportions(R_x: float, R_y: float, k: float, first: float, second: float) -
 def ellipse_from_penetration(
     delta: float, R_x: float, R_y: float, E_eff: float, shape: tuple[float, float, float, float], out: FloatArray
 ) -> None:
-    """Write load, semi-axes and pressure for an ellipse of the given :func:`proportions`.
+    """Write load, semi-axes and pressure for a penetration.
+
+    For an ellipse of the given :func:`proportions`.
 
     Syla et al. 2026, eq. 1-3: delta = F [4.5/(eps R') (Q/(pi k E'))^2]^(1/3), major semi-axis
     (6 k^2 eps Q R'/(pi E'))^(1/3), solved for Q and written in s = sqrt(delta/F), so that nothing divides by a
@@ -74,14 +79,20 @@ def fitted(R_x: float, R_y: float) -> tuple[float, float, float, float]:
 
 
 def known(radii: tuple[float, float], find: Callable[[float, float], tuple[float, float, float, float]]) -> Shape:
-    """Return the shape of a contact, or where its radii are not known one that no radii meet."""
+    """Return the shape of a contact.
+
+    Without known radii it is the shape of radii that cannot occur.
+    """
     if not (math.isfinite(radii[0]) and math.isfinite(radii[1])):
         return Shape(0.0, 0.0, 1.0, 1.0, 1.0, 1.0)
     return Shape(*radii, *find(*radii))
 
 
 def prepare_fitted(parameters: NoParameters, context: Context) -> Shape:
-    """Return the shape for the radii of the contact, so that powers and logarithms are taken once."""
+    """Return the shape for the radii of the contact.
+
+    So powers and logarithms are computed once.
+    """
     return known((context.radius_x, context.radius_y), fitted)
 
 
@@ -94,7 +105,9 @@ def prepare_fitted(parameters: NoParameters, context: Context) -> Shape:
     prepare=prepare_fitted,
 )
 def hamrock_brewe(delta: float, R_x: float, R_y: float, E_eff: float, par: Shape, out: FloatArray) -> int:
-    """Hertz with Hamrock and Brewe's fits of ellipse ratio and elliptic integrals.
+    """Hertz by the fits of Hamrock and Brewe.
+
+    For ellipse ratio and elliptic integrals.
 
     k = a_H^(2/pi), F = pi/2 + q ln a_H, eps = 1 + q/a_H, q = pi/2 - 1, a_H = R_y/R_x or its inverse, whichever is
     >= 1: Syla et al. 2026, eq. 4-11. Against exact integrals, for ratios 12..60 and equal load: p_max -0.2..+1.4 %,
@@ -123,7 +136,10 @@ def _exact_series() -> ExactSeries:
 
 
 def exact(R_x: float, R_y: float, series: ExactSeries) -> tuple[float, float, float, float]:
-    """Return the :func:`proportions` of radii by elliptic integrals; their ratio is at most 20 000."""
+    """Return the exact :func:`proportions` of radii.
+
+    By elliptic integrals; the ratio of the radii is at most 20 000.
+    """
     ratio = R_y / R_x if R_y >= R_x else R_x / R_y
     x = 2.0 * math.log(ratio) / math.log(_MAX_RATIO) - 1.0
     k = math.exp(chebyshev(x, series.ln_ellipticity))
@@ -131,18 +147,24 @@ def exact(R_x: float, R_y: float, series: ExactSeries) -> tuple[float, float, fl
 
 
 class Exact(NamedTuple):
-    """The series, and the shape of the contact that they are meant for."""
+    """Series of the integrals and shape of the contact."""
 
     shape: Shape
     series: ExactSeries
 
 
 def prepare_exact(parameters: NoParameters, context: Context) -> Exact:
-    """Return the series of the exact integrals (computed once per process) and the shape of the contact."""
+    """Return the exact integrals' series and the contact's shape.
+
+    A process computes the series once.
+    """
     series = _exact_series()
 
     def held(R_x: float, R_y: float) -> tuple[float, float, float, float]:
-        """What is longer than the series reach is refused by the kernel."""
+        """Return a series that the kernel accepts.
+
+        The kernel refuses longer ones.
+        """
         return exact(R_x, min(max(R_y, R_x / _MAX_RATIO), R_x * _MAX_RATIO), series)
 
     return Exact(known((context.radius_x, context.radius_y), held), series)
@@ -174,7 +196,10 @@ def hertz_exact(delta: float, R_x: float, R_y: float, E_eff: float, par: Exact, 
 
 
 def stiffness(load: float, radius_x: float, radius_y: float, e_eff: float) -> float:
-    """Return dQ/d(delta) [N/m] of the Hamrock-Brewe contact at `load` [N]; Q goes with delta^1.5."""
+    """Return dQ/d(delta) [N/m] of the Hamrock-Brewe contact.
+
+    At `load` [N]; Q is proportional to delta^1.5.
+    """
     unit = np.empty(4)
     hamrock_brewe(1e-6, radius_x, radius_y, e_eff, known((radius_x, radius_y), fitted), unit)
     penetration: float = 1e-6 * (load / float(unit[0])) ** (2.0 / 3.0)

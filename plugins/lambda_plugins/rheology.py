@@ -15,7 +15,10 @@ DOWSON_RISE, DOWSON_STIFFNESS = 0.6e-9, 1.7e-9  # of :func:`dowson_higginson` [1
 
 
 def capped(ln_eta: float) -> float:
-    """Return ln(eta / Pa s) held below 1e12 Pa s (corner rounded over a factor e each way) and above 1.5e-8 Pa s."""
+    """Return ln(eta / Pa s) within limits.
+
+    Below 1e12 Pa s (corner rounded over a factor e each way) and above 1.5e-8 Pa s.
+    """
     return at_least(smooth_min(ln_eta, LN_ETA_CAP, _CAP_WIDTH), LN_ETA_FLOOR)
 
 

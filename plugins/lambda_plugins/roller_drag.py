@@ -13,7 +13,7 @@ _K_L, _K_Z = 0.65, 5.1
 
 
 class SkfRollers(SharedLoss):
-    """Parameters of SKF's drag losses of rollers in an oil bath."""
+    """Parameters of SKF's drag of rollers in oil."""
 
     k_l: float = parameter(
         _K_L,
@@ -58,7 +58,9 @@ def prepare(parameters: SkfRollers, context: Context) -> SkfShare:
 def skf_rollers(
     v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: SkfShare, out: FloatArray
 ) -> int:
-    """SKF's drag torque of rollers in an oil bath, on each roller by its immersion.
+    """SKF's drag torque of rollers in an oil bath.
+
+    It acts on each roller by its immersion.
 
     M_drag = 4 V_M K_roll C_w B d_m^4 n^2 and the viscous term of balls: SKF, Rolling bearings, catalogue 17000 EN
     (2018), chapter Friction. Immersion is that of a sphere of the roller's diameter.

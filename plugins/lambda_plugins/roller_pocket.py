@@ -39,7 +39,9 @@ class RollerGuide(NamedTuple):
 
 
 def prepare_roller(parameters: RollerPocket, context: Context) -> RollerGuide:
-    """Return play and lever of bars and end faces, and the film of a roller at a round bar of the pocket's width.
+    """Return the constants of a roller's pocket.
+
+    Play and lever of bars and end faces, and the film of a roller at a round bar of the pocket's width.
 
     A roller of radius R in a bar of radius R + c has the reduced radius R_x = R (R + c)/c.
     """
@@ -60,7 +62,9 @@ def prepare_roller(parameters: RollerPocket, context: Context) -> RollerGuide:
 
 
 def squeezed_line(guide: RollerGuide, gap: float, closing: float, eta0: float) -> float:
-    """Return the force of the film between a roller and a bar that close at a speed [N]; no film pulls.
+    """Return the squeeze force of roller and bar [N].
+
+    They close at a speed; no film pulls.
 
     Reynolds' equation has p = 6 eta v R_x (1/g^2 - 1/g_w^2) with the gap g = h + x^2/(2 R_x), g_w where the film ends
     at x = w: F = 6 eta v L R_x (k/h^2) [atan u + u/(1 + u^2) - 2 u/(1 + u^2)^2], k = sqrt(2 R_x h), u = w/k. Wide

@@ -53,7 +53,9 @@ def matsuyama(
     par: InletShear,
     out: FloatArray,
 ) -> int:
-    """Rolling resistance after Matsuyama, strip by strip, with Aihara's thermal factor.
+    """Rolling resistance after Matsuyama.
+
+    Strip by strip, with Aihara's thermal factor.
 
     F/l = 7.1 E' R_x U^0.75 G^-0.04 W^0.08, half of the moment 14.2 E' l R_x^2 U^0.75 G^-0.04 W^0.08 over R_x: Manjunath
     et al. 2023, Machines 11, 801, table 1. U = eta0 u_m/(E' R_x), G = alpha_p E', W = w/(E' R_x): a fit to solved EHL
@@ -94,7 +96,9 @@ def zhou_hoeprich(
     par: InletShear,
     out: FloatArray,
 ) -> int:
-    """Rolling resistance after Zhou and Hoeprich, strip by strip, with Aihara's thermal factor.
+    """Rolling resistance after Zhou and Hoeprich.
+
+    Strip by strip, with Aihara's thermal factor.
 
     F/l = 29.2 (R_x/alpha_p) (G U)^0.648 W^0.246: Zhou and Hoeprich 1991, J. Tribol. 113, 590, eq. 17, a fit to their
     solutions of isothermal line contacts (table 1), in the form of Goksem and Hargreaves. Their thermal factor, Zhu and
@@ -152,7 +156,9 @@ def aihara(
 
 
 def ellipse_perimeter(ratio: float) -> float:
-    """Return the complete elliptic integral E of the second kind, modulus squared 1 - r^2, r = b/a from 0 to 1.
+    """Return the complete elliptic integral E.
+
+    Of the second kind, modulus squared 1 - r^2, r = b/a from 0 to 1.
 
     Abramowitz and Stegun, 17.3.36: within 2e-8.
     """
@@ -188,7 +194,9 @@ def biboulet_houpert_point(
     par: InletShear,
     out: FloatArray,
 ) -> int:
-    """Rolling resistance of a point contact after Biboulet and Houpert, with Aihara's thermal factor.
+    """Rolling resistance of a point, Biboulet and Houpert.
+
+    With Aihara's thermal factor.
 
     F/(E' R_x^2) = (2 a/R_x) {[0.77 b^(-1/3) k^0.12 U2^(-1/12) - 1.8 b^(-1/4)]/(1 + M/6.6) + 1.8 b^(-1/4)} U2^0.75,
     b = (4/pi) E/(1 + R_x/R_y), M = b^(1/4) k W/U2^0.75, U2 = 2 eta0 u_m/(E' R_x), W = Q/(E' R_x^2), k = semi_b/semi_a,

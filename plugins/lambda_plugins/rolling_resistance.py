@@ -49,13 +49,18 @@ class Strips(NamedTuple):
 
 @functools.cache
 def _gauss() -> tuple[FloatArray, FloatArray]:
-    """Return cos t at 400 Gauss points and their weights: finding them takes twenty times the sum itself."""
+    """Return cos t at 400 Gauss points, and weights.
+
+    The search for them takes twenty times the sum itself.
+    """
     nodes, weights = np.polynomial.legendre.leggauss(400)
     return np.cos(0.25 * math.pi * (nodes + 1.0)), weights
 
 
 def strip_sum(q: FloatArray) -> FloatArray:
-    """Return the integral of sqrt(1 - s^2) [1 + q^5 (1 - s^2)^5]^-0.1 ds over -1..1.
+    """Return the strips' sum of the thermal factor.
+
+    Integral of sqrt(1 - s^2) [1 + q^5 (1 - s^2)^5]^-0.1 ds over -1..1.
 
     By 400 Gauss points in t, s = sin t, where the integrand is smooth up to the ellipse's tips.
     """
@@ -67,7 +72,10 @@ def strip_sum(q: FloatArray) -> FloatArray:
 
 @functools.cache
 def _halves() -> FloatArray:
-    """Return the polynomials of :func:`strip_sum` for q from 2^_OCTAVE_LOW to 2^_OCTAVE_HIGH (once per process)."""
+    """Return the polynomials of :func:`strip_sum`.
+
+    For q from 2^_OCTAVE_LOW to 2^_OCTAVE_HIGH (once per process).
+    """
     edges = [2.0**k * m for k in range(_OCTAVE_LOW, _OCTAVE_HIGH) for m in (1.0, 1.5)] + [2.0**_OCTAVE_HIGH]
     return np.concatenate([series(strip_sum, low, high) for low, high in itertools.pairwise(edges)])
 
@@ -78,7 +86,10 @@ def prepare(parameters: InletShear, context: Context) -> Strips:
 
 
 def summed(q: float, halves: FloatArray) -> float:
-    """Return :func:`strip_sum` of one q > 0: constant far below 1, falling with the root far above; NaN of NaN."""
+    """Return :func:`strip_sum` of one q > 0.
+
+    Constant far below 1, falling with the root far above; NaN of NaN.
+    """
     held = at_most(q, 2.0**_OCTAVE_HIGH * (1.0 - 1e-15)) if q > 2.0**_OCTAVE_LOW else 2.0**_OCTAVE_LOW
     bits = np.float64(held).view(np.int64)
     half = (bits >> 51) - _HALVES_BELOW
@@ -96,7 +107,10 @@ def regular_speed(u_mean: float, floor: float) -> float:
 
 
 def thermal_factor(coefficient: float, speed: float, eta0: float, beta: float, k_oil: float) -> float:
-    """Return 1/(1 + c L^0.78), L = eta0 beta u^2/lambda: Aihara 1987, J. Tribol. 109, 471 (c = 0.29)."""
+    """Return 1/(1 + c L^0.78), L = eta0 beta u^2/lambda.
+
+    Aihara 1987, J. Tribol. 109, 471 (c = 0.29).
+    """
     L = eta0 * beta * speed * speed / k_oil
     return 1.0 / (1.0 + coefficient * power(at_least(L, _LEAST), 0.78))
 
@@ -125,7 +139,9 @@ def biboulet_houpert(
     par: Strips,
     out: FloatArray,
 ) -> int:
-    """Rolling resistance after Biboulet and Houpert, strip by strip, with Aihara's thermal factor.
+    """Rolling resistance after Biboulet and Houpert.
+
+    Strip by strip, with Aihara's thermal factor.
 
     F/l = 1.4 E' R_x sqrt(U2 W)/{0.985 [1 + (0.966 sqrt(M))^10]^0.1}, U2 = 2 eta0 u_m/(E' R_x), W = w/(E' R_x),
     M = W/sqrt(U2): Biboulet and Houpert 2010, Proc. IMechE J 224, Part 1: line contacts, doi 10.1243/13506501JET790,
@@ -167,7 +183,9 @@ def goksem_hargreaves(
     par: InletShear,
     out: FloatArray,
 ) -> int:
-    """Rolling resistance after Goksem and Hargreaves, strip by strip, with Aihara's thermal factor.
+    """Rolling resistance after Goksem and Hargreaves.
+
+    Strip by strip, with Aihara's thermal factor.
 
     F/l = 4.318 (R_x/alpha_p) (G U)^0.658 W^0.0126, U = eta0 u_m/(E' R_x) with the mean velocity, W = w/(E' R_x):
     Goksem and Hargreaves 1978, J. Lubr. Technol. 100, 346; Zhou and Hoeprich 1991, J. Tribol. 113, 590.

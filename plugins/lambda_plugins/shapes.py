@@ -14,7 +14,10 @@ from lambda_core.plugins import FloatArray
 
 
 def at_least(value: float, low: float) -> float:
-    """Return the larger of both; NaN stays NaN, so that a bad input is seen in the output."""
+    """Return the larger of both.
+
+    NaN stays NaN, so that a bad input is seen in the output.
+    """
     return low if value < low else value
 
 
@@ -24,7 +27,9 @@ def at_most(value: float, high: float) -> float:
 
 
 def smooth_min(value: float, limit: float, width: float) -> float:
-    """Return min(value, limit) with the corner rounded by a parabola within `limit` -+ `width`.
+    """Return min(value, limit) with a rounded corner.
+
+    By a parabola within `limit` -+ `width`.
 
     Continuous with its first derivative; exact outside the rounded corner, low by `width`/4 at its middle.
     """
@@ -38,14 +43,19 @@ def corner(width: float) -> float:
 
 
 def smooth_min_by(per_corner: float, value: float, limit: float, width: float) -> float:
-    """Return :func:`smooth_min` by the inverse of :func:`corner`, for callers that divide by more at once."""
+    """Return :func:`smooth_min` by the inverse of :func:`corner`.
+
+    For callers that divide by more at once.
+    """
     held = at_most(value, limit + width)
     inside = at_least(held - (limit - width), 0.0)
     return held - inside * inside * per_corner
 
 
 def cubic_friction_slope(speed: float, mu_s: float, mu_d: float, v_s: float, v_d: float) -> float:
-    """Return mu(v)/v [s/m] of Teutsch's cubic friction law at `speed` >= 0 [m/s]; finite at rest.
+    """Return mu(v)/v [s/m] of Teutsch's cubic law.
+
+    At `speed` >= 0 [m/s]; finite at rest.
 
     Teutsch 2005 in the form of Wingertszahn et al. 2023, Lubricants 11, 369, eq. 21 (with the factor that is
     missing in print): a cubic from 0 at rest to `mu_s` at `v_s`, a second one down to `mu_d` at `v_d`, constant
@@ -59,7 +69,10 @@ def cubic_friction_slope(speed: float, mu_s: float, mu_d: float, v_s: float, v_d
 
 
 def cubic_friction(speed: float, mu_s: float, mu_d: float, per_v_s: float, per_fall: float) -> float:
-    """Return mu(v) of the law of :func:`cubic_friction_slope`; `per_v_s` is 1/v_s, `per_fall` is 1/(v_d - v_s)."""
+    """Return mu(v) of the law of :func:`cubic_friction_slope`.
+
+    `per_v_s` is 1/v_s, `per_fall` is 1/(v_d - v_s).
+    """
     x = speed * per_v_s
     d = at_most(at_least((speed - 1.0 / per_v_s) * per_fall, 0.0), 1.0)
     rise = 0.5 * mu_s * x * (3.0 - x * x)
@@ -70,7 +83,10 @@ POLYNOMIAL_TERMS = 13
 
 
 def series(function: Callable[[FloatArray], FloatArray], low: float, high: float) -> FloatArray:
-    """Return the coefficients of a polynomial for `function` over low..high mapped to -1..1 (Chebyshev points)."""
+    """Return the coefficients of a polynomial for `function`.
+
+    Over low..high mapped to -1..1 (Chebyshev points).
+    """
     nodes = np.cos((np.arange(64) + 0.5) * math.pi / 64)
     values = function(0.5 * (low + high) + 0.5 * (high - low) * nodes)
     fit = np.polynomial.chebyshev.chebfit(nodes, values, POLYNOMIAL_TERMS - 1)
@@ -78,7 +94,10 @@ def series(function: Callable[[FloatArray], FloatArray], low: float, high: float
 
 
 def polynomial(x: float, c: FloatArray) -> float:
-    """Return sum c[i] x^i of 13 terms; spelled out, so that loops over cells vectorise."""
+    """Return sum c[i] x^i of 13 terms.
+
+    Spelled out, so that loops over cells vectorise.
+    """
     low = c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * (c[5] + x * c[6])))))
     high = c[7] + x * (c[8] + x * (c[9] + x * (c[10] + x * (c[11] + x * c[12]))))
     x2 = x * x

@@ -38,7 +38,9 @@ def prepare(parameters: SphereDrag, context: Context) -> Stream:
 
 
 def drag_of_sphere(share: float, v: float, R: float, nu: float, rho: float) -> float:
-    """Return the drag [N] of a sphere of radius R at the speed v, `share` of it in the fluid; finite at rest.
+    """Return the drag [N] of a sphere.
+
+    Of radius R at the speed v, `share` of it in the fluid; finite at rest.
 
     Clift, Grace and Weber 1978, eq. 5-8: the formula is that of :func:`sphere_drag`.
     """
@@ -50,7 +52,9 @@ def drag_of_sphere(share: float, v: float, R: float, nu: float, rho: float) -> f
 
 
 def churning_of_sphere(share: float, omega: float, R: float, nu: float, rho: float) -> float:
-    """Return the moment [N m] against the spin of a sphere, `share` of it in the fluid.
+    """Return the churning moment [N m] of a sphere.
+
+    Against its spin, `share` of it in the fluid.
 
     Kirchhoff 1876 and Sawatzki 1970: the formula is that of :func:`sphere_drag`.
     """
@@ -73,7 +77,9 @@ def churning_of_sphere(share: float, omega: float, R: float, nu: float, rho: flo
 def sphere_drag(
     v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: Stream, out: FloatArray
 ) -> int:
-    """Drag curve of a sphere and moment of a spinning sphere, times the submerged share of the ball.
+    """Drag and churning of a sphere by its immersion.
+
+    Drag curve and moment of a spinning sphere, times the submerged share of the ball.
 
     F = C_D rho v^2 pi R^2/2, C_D = 24/Re (1 + 0.15 Re^0.687) + 0.42/(1 + 42500 Re^-1.16), Re = 2 R v/nu < 3e5: Schiller
     and Naumann 1933; Clift and Gauvin 1970; Clift, Grace and Weber 1978, Bubbles, Drops and Particles, eq. 5-8.

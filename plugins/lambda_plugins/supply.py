@@ -20,14 +20,20 @@ class FilmFactor(Parameters):
 
 
 class Given(NamedTuple):
-    """A film factor and the gap at the meniscus that leaves it."""
+    """Film factor and the gap at the meniscus.
+
+    The gap leaves this film.
+    """
 
     film: float
     gap: float  # over the flooded central film
 
 
 def given(parameters: FilmFactor, context: Context) -> Given:
-    """Return the factor of the case and its meniscus, which is endlessly far in a flooded contact."""
+    """Return the factor of the case and its meniscus.
+
+    The meniscus is at infinity in a flooded contact.
+    """
     film = context.starvation if parameters.film_factor is None else parameters.film_factor
     return Given(film, meniscus(film))
 
@@ -53,7 +59,9 @@ def constant(
     par: Given,
     out: FloatArray,
 ) -> int:
-    """Film factor as given; the rolling resistance of the inlet that leaves this film.
+    """Constant film factor.
+
+    With the rolling resistance of the inlet that leaves this film.
 
     Where the oil has to begin follows from Grubin's inlet (:func:`meniscus`, Wolveridge et al. 1971), the rolling
     resistance from the gap there (:func:`starved_rolling`, Biboulet and Houpert 2010, Part 1, eq. 44).
@@ -64,7 +72,7 @@ def constant(
 
 
 class InletDistance(Parameters):
-    """Where the inlet begins."""
+    """Start of the inlet."""
 
     distance: float = parameter(
         ..., "m, inlet meniscus from the centre over semi-axis b", source="to be given", gt=1.0, le=1e12
@@ -72,7 +80,10 @@ class InletDistance(Parameters):
 
 
 class Meniscus(NamedTuple):
-    """Where the inlet begins, and how wide Hertz's dry contact gapes there."""
+    """Start of the inlet and its gap.
+
+    The gap is that of Hertz's dry contact.
+    """
 
     distance: float  # over b
     gap: float  # times 2 R_x/b^2
@@ -105,7 +116,9 @@ def inlet_distance(
     par: Meniscus,
     out: FloatArray,
 ) -> int:
-    """Starvation by the distance of the inlet meniscus, after Hamrock and Dowson.
+    """Starvation by the meniscus, after Hamrock and Dowson.
+
+    By the distance of the inlet meniscus.
 
     h/h_ff = [(m - 1)/(m* - 1)]^0.29 below m* = 1 + 3.06 [(R_x/b)^2 H_c]^0.58, H_c = h_cen/R_x, 1 above: Hamrock and
     Dowson 1977, J. Lubr. Technol. 99, 15 (part IV). The oil at the inlet fills the gap there, h + b^2/(2 R_x)
@@ -138,7 +151,10 @@ class Replenishment(FilmFactor):
 
 
 class Decay(NamedTuple):
-    """How fast the rolling resistance falls with speed, and the film that the case prescribes."""
+    """Decay of the rolling resistance, and a prescribed film.
+
+    The resistance falls with speed; the case prescribes the film.
+    """
 
     per_speed: float  # -ln(phi_rs) over the mean surface velocity [s/m]
     film: float  # factor on the film
@@ -180,7 +196,9 @@ def skf_replenishment(
     par: Decay,
     out: FloatArray,
 ) -> int:
-    """SKF's kinematic replenishment: rolling resistance by phi_rs, the film as flooded or as the case prescribes.
+    """Starvation by SKF's kinematic replenishment.
+
+    Rolling resistance by phi_rs, the film as flooded or as the case prescribes.
 
     phi_rs = exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))), mm, mm2/s, 1/min: the inlet does not refill between two
     balls. SKF, Rolling bearings, catalogue 17000 EN (2018), Friction. n from the mean surface velocity of the contact.

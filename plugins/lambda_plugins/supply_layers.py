@@ -58,7 +58,9 @@ def oil_layer(
     par: OilLayer,
     out: FloatArray,
 ) -> int:
-    """Film and rolling resistance of a contact that is fed by a layer of oil.
+    """Contact that is fed by a layer of oil.
+
+    Film and rolling resistance.
 
     Film: :func:`starved_film` (Chevalier et al. 1998), compressibility left out. Rolling: of the inlet that leaves this
     film, :func:`meniscus` and :func:`starved_rolling`.
@@ -70,7 +72,7 @@ def oil_layer(
 
 
 class SideFlow(OilLayer):
-    """A layer of oil, how long it has been run on, and what comes after."""
+    """Layer of oil, its age and its supply."""
 
     time: Annotated[float, Quantity("time")] = parameter(
         ..., "how long contacts have run on the layer", source="to be given", ge=0.0
@@ -85,7 +87,7 @@ class SideFlow(OilLayer):
 
 
 class Track(NamedTuple):
-    """What the layer of one ring's track is and how contacts wear it down."""
+    """Layer of a ring's track and its wear by contacts."""
 
     gamma: float
     fresh: float  # layer at the start, both surfaces [m]
@@ -96,7 +98,10 @@ class Track(NamedTuple):
 
 
 def prepare_side_flow(parameters: SideFlow, context: Context) -> Track:
-    """Return the track: l_t is the ring's circumference and half of those of the balls, which both rings share."""
+    """Return the track of one ring.
+
+    l_t is the ring's circumference and half of those of the balls, which both rings share.
+    """
     length = math.pi * (context.race_diameter + 0.5 * context.ball_count * context.ball_diameter)
     return Track(
         parameters.gamma,
@@ -109,7 +114,9 @@ def prepare_side_flow(parameters: SideFlow, context: Context) -> Track:
 
 
 def side_flow(passes: float, p_max: float, along: float, across: float, alpha_p: float) -> float:
-    """Return F [1/(m2 s)] of dh/dt = -(1/12) F h^3, how fast contacts press a layer off the track.
+    """Return the side flow F [1/(m2 s)] of a layer.
+
+    dh/dt = -(1/12) F h^3: how fast contacts press a layer off the track.
 
     F = (2 Z/l_t) (p_h/a^2) (b/eta_0) pi [(pi alpha p_h/2)^1.5 + 1]^(-2/3), a across and b along rolling; the bracket is
     an approximation of pi [I_0(alpha p_h) - L_0(alpha p_h)], the integral of exp(-alpha p)/sqrt(1 - x^2/b^2) over the
@@ -120,12 +127,18 @@ def side_flow(passes: float, p_max: float, along: float, across: float, alpha_p:
 
 
 def density_ratio(p: float) -> float:
-    """Density over that at ambient pressure: Dowson and Higginson 1966."""
+    """Return the density over that at ambient pressure.
+
+    Dowson and Higginson 1966.
+    """
     return float((5.9e8 + 1.34 * p) / (5.9e8 + p))
 
 
 def _clock(y: float) -> float:
-    """Return how long dy/dtau = 1 - y^3 takes: to y from nothing below 1, from endlessly much above 1."""
+    """Return the time of a decay to y.
+
+    Of dy/dtau = 1 - y^3: to y from nothing below 1, from infinity above 1.
+    """
     if y > FAR:  # the closed form would leave 1/y^2 of its digits
         cube = y**-3.0
         return float((0.5 + cube * (0.2 + cube * (0.125 + cube / 11.0))) / (y * y))
@@ -137,7 +150,9 @@ def _clock(y: float) -> float:
 
 
 def layer_after(fresh: float, time: float, flow: float, replenishment: float) -> float:
-    """Return the layer of both surfaces after dh/dt = -(1/12) F h^3 + 2 R.
+    """Return the layer of both surfaces after a time.
+
+    dh/dt = -(1/12) F h^3 + 2 R.
 
     Without replenishment (F t/6 + h_0^-2)^(-1/2); after a long time with it 2 (3 R/F)^(1/3). Between them
     h = h_eq y with dy/dtau = 1 - y^3, tau = 2 R t/h_eq, whose integral is turned round by halving.
@@ -180,7 +195,9 @@ def side_flow_layer(
     par: Track,
     out: FloatArray,
 ) -> int:
-    """Film and rolling resistance on a layer that every overrolling presses aside.
+    """Layer that every overrolling presses aside.
+
+    Film and rolling resistance.
 
     The pressure of a contact drives oil out of its middle to both sides, most where the oil is still thin; what it
     loses does not come back.

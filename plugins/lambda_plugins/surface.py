@@ -72,7 +72,10 @@ class Waves(NamedTuple):
 
 
 def prepare_waviness(parameters: Waviness, context: Context) -> Waves:
-    """Return the harmonics, the first one before those of the list."""
+    """Return the harmonics in order.
+
+    The first one stands before those of the list.
+    """
     waves = (parameters, *parameters.harmonics)
     return Waves(
         np.array([wave.amplitude * math.sqrt(1.0 - wave.axial_share * wave.axial_share) for wave in waves]),
@@ -92,7 +95,9 @@ def prepare_waviness(parameters: Waviness, context: Context) -> Waves:
     prepare=prepare_waviness,
 )
 def waviness(azimuth: float, contact_angle: float, par: Waves, out: FloatArray) -> int:
-    """Waviness of a raceway, w = sum over harmonics of (A_r cos alpha + A_x sin alpha) cos k (psi - phase).
+    """Waviness of a raceway by harmonics.
+
+    w = sum over harmonics of (A_r cos alpha + A_x sin alpha) cos k (psi - phase).
 
     A groove whose section is displaced by A_r towards the balls and by A_x along the axis rises at contact angle alpha
     by the component along the normal: Wardle 1988, Proc. Instn Mech. Engrs 202 C5, 305 (which also gives the orders
@@ -179,7 +184,9 @@ def prepare_defect(parameters: Defect, context: Context) -> Gap:
     prepare=prepare_defect,
 )
 def defect(azimuth: float, contact_angle: float, par: Gap, out: FloatArray) -> int:
-    """Gap in the raceway that a rigid ball crosses: it turns about the edge behind, then about the edge ahead.
+    """Gap in the raceway that a rigid ball crosses.
+
+    The ball turns about the edge behind, then about the edge ahead.
 
     At the distance e from the nearer edge the ball's centre has dropped by e^2/(2 R_x), at most by the depth: geometry
     of a circle on an edge, entry and exit of Sawalhi and Randall 2008, Mech. Syst. Signal Process. 22, 1924. Floor,

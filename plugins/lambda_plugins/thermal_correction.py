@@ -67,7 +67,9 @@ def zhu_cheng(
     par: ZhuCheng,
     out: FloatArray,
 ) -> int:
-    """Thermal film factor with pressure and slide-to-roll ratio, after Zhu and Cheng.
+    """Thermal film factor after Zhu and Cheng.
+
+    With pressure and slide-to-roll ratio.
 
     Phi_T = [1 - 13.2 (p_0/E') L^0.42]/[1 + 0.213 (1 + 2.23 S^0.83) L^0.64], L = eta0 beta u_m^2/lambda, S = slide over
     mean velocity. Gupta, Cheng, Zhu, Forster and Schrand 1992, Tribol. Trans. 35, 269; Wingertszahn et al. 2023,
@@ -92,6 +94,6 @@ def none(
     par: NoParameters,
     out: FloatArray,
 ) -> int:
-    """Isothermal inlet: factor 1."""
+    """Isothermal inlet with factor 1."""
     out[0] = 1.0
     return OK

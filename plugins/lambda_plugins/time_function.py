@@ -12,7 +12,7 @@ Time = Annotated[float, Quantity("time")]
 
 
 class Sweep(Parameters):
-    """Frequencies at both ends and the time from one to the other."""
+    """Frequencies at both ends and the sweep time."""
 
     start: Frequency = parameter("10 Hz", "frequency at t = 0", source="to be given", status="assumed", ge=0.0)
     end: Frequency = parameter("500 Hz", "frequency at the end", source="to be given", status="assumed", ge=0.0)
@@ -33,7 +33,10 @@ class Sweep(Parameters):
     reference="linear swept sine sin(2 pi integral of f dt), f rising evenly (ISO 7626-2, swept sinusoidal excitation)",
 )
 def chirp(t: float, par: Sweep, out: FloatArray) -> int:
-    """Sine whose frequency changes evenly from one value to another: sin phi, dphi/dt = 2 pi f(t)."""
+    """Sine whose frequency changes evenly over time.
+
+    Sin phi, dphi/dt = 2 pi f(t).
+    """
     rate = (par.end - par.start) / par.duration
     swept = min(max(t, 0.0), par.duration)
     frequency = par.start + rate * swept

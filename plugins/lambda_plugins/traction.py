@@ -13,7 +13,10 @@ _LOG_ETA_MAX = 60.0
 
 
 class LimitedShear(Parameters):
-    """The limit that every fluid law needs: no liquid carries any shear stress."""
+    """Limit of the shear stress.
+
+    Every fluid law needs it, since no liquid carries any shear stress.
+    """
 
     limit_ratio: float = parameter(
         0.065,
@@ -51,7 +54,9 @@ class ReeEyring(LimitedShear):
 def ree_eyring(
     slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: FloatArray, par: ReeEyring, tau: FloatArray
 ) -> int:
-    """Shear stress of an Eyring fluid, limited to a share of the pressure.
+    """Shear stress of an Eyring fluid.
+
+    Limited to a share of the pressure.
 
     tau = tau_e asinh(eta gamma_dot/tau_e), gamma_dot = v/h_cen (Johnson and Tevaarwerk 1977, Proc. R. Soc. A 356, 215;
     Syla et al. 2026, eq. 20-21), tau <= zeta p with the corner rounded over the last tenth. Viscous part only: no shear
@@ -89,7 +94,9 @@ class BairWiner(LimitedShear):
 def bair_winer(
     slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: FloatArray, par: BairWiner, tau: FloatArray
 ) -> int:
-    """Shear stress that approaches its limit exponentially, after Bair and Winer.
+    """Shear stress after Bair and Winer.
+
+    It approaches its limit exponentially.
 
     gamma_dot = -(tau_L/eta) ln(1 - tau/tau_L), tau_L = zeta p: Bair and Winer 1979, J. Lubr. Technol. 101, 258;
     Wingertszahn et al. 2023, Lubricants 11, 369, eq. 6 with its sign corrected. Viscous part only.
@@ -118,7 +125,9 @@ class Newtonian(LimitedShear):
 def newtonian(
     slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: FloatArray, par: Newtonian, tau: FloatArray
 ) -> int:
-    """Shear stress of a Newtonian fluid, tau = eta v/h_cen, limited to a share of the pressure.
+    """Shear stress of a Newtonian fluid.
+
+    Tau = eta v/h_cen, limited to a share of the pressure.
 
     Without the limit the stress of a film at bearing pressures would exceed the strength of steel.
     """

@@ -15,7 +15,7 @@ _SOURCE = "the oil's measurement; FVA3: Wingertszahn et al. 2023, Lubricants 11,
 
 
 class VogelDicke(Parameters):
-    """Parameters of Vogel and Dicke, in the units of their sources."""
+    """Parameters of Vogel and Dicke in source units."""
 
     vogel_k: float = parameter(..., "Vogel K [mPa s]", source=_SOURCE, status="lubricant", gt=0.0)
     vogel_b: float = parameter(..., "Vogel B [degC]", source=_SOURCE, status="lubricant", gt=0.0)
@@ -73,7 +73,9 @@ def prepare(parameters: VogelDicke, context: Context) -> Constants:
     prepare=prepare,
 )
 def vogel_dicke(p: FloatArray, T: FloatArray, par: Constants, ln_eta: FloatArray, rho: FloatArray) -> int:
-    """Viscosity after Vogel and Dicke, density linear in temperature with Dowson-Higginson compression.
+    """Viscosity after Vogel and Dicke.
+
+    Density linear in temperature with Dowson-Higginson compression.
 
     eta = K exp[B/(C + t)] exp{p/[a1 + a2 t + (b1 + b2 t) p]}, t in degC, p in bar: Wingertszahn et al. 2023, Lubricants
     11, 369, Table A1. ln(eta) is capped at 1e12 Pa s; temperatures outside -40..300 degC act like the nearest bound.

@@ -31,7 +31,10 @@ _EDITION: dict[str, str | None] = {"parameters.fluid_drag.edition": "2018", "par
 
 
 class Residual(Record):
-    """How straight other tools' rows stand over ours without drag, for one choice of temperatures."""
+    """Scatter of other tools' rows over ours.
+
+    Without drag, for one choice of temperatures.
+    """
 
     temperatures: str
     pct: dict[str, float] = Field(
@@ -106,7 +109,9 @@ def _jobs(sets: Sequence[Mapping[str, str | None]], kind: str = "friction") -> l
 
 
 def recovered(runner: JobRunner) -> list[float]:
-    """Return the temperature of each point [degC] at which SKF's model gives the printed SKF row.
+    """Return the temperature of each point [degC].
+
+    There SKF's model gives the printed SKF row.
 
     Present formula of the drag with the chart's V_M, mu_EHL = 0.05, no boundary share, viscosity of FVA3.
     """
@@ -118,12 +123,17 @@ def recovered(runner: JobRunner) -> list[float]:
 
 
 def temperature_of(torque: FloatArray, printed: float) -> float:
-    """Return where a torque that falls with the temperatures of the grid has the printed value [degC]."""
+    """Return the temperature of a printed torque [degC].
+
+    The torque falls with the temperatures of the grid.
+    """
     return float(np.interp(-np.log(printed), -np.log(torque), _GRID))
 
 
 def _over_bath(bath: float) -> dict[str, str | None]:
-    """Return the anchored set with temperatures of its own for rings and balls, which the oil bath alone cools.
+    """Return the anchored set with separate temperatures.
+
+    Of rings and balls, which the oil bath alone cools.
 
     An alternative, not a fit: coefficients are the thermal network's, nothing leaves through shaft and housing.
     """
@@ -144,7 +154,10 @@ def _full_film(answer: JobResult) -> float:
 
 
 def _band(runner: JobRunner, heat: Sequence[float], offset: FloatArray, count: int) -> tuple[list[float], list[float]]:
-    """Return 5 % and 95 % of the torques over the published ranges, temperatures about the recovered ones."""
+    """Return 5 % and 95 % of the torques.
+
+    Over the published ranges, temperatures about the recovered ones.
+    """
     own = {path for path, value in P.anchored().items() if value is not None} | set(_OWN_LAWS)
     rows = []
     for sample in P.samples(count):
@@ -162,7 +175,10 @@ _OWN_LAWS = ("models.rolling_resistance",)
 
 
 def _loss(sampled: str) -> str:
-    """Move a loss factor from the range of the blind set to that of the anchored one, both logarithmic."""
+    """Move a loss factor to the anchored range.
+
+    From that of the blind set, both logarithmic.
+    """
     first = [float(end) for end in P.entry(LOSS).range]
     share = np.log(float(sampled) / first[0]) / np.log(first[1] / first[0])
     return f"{LOSS_RANGE[0] * (LOSS_RANGE[1] / LOSS_RANGE[0]) ** share:.6g}"
@@ -179,7 +195,10 @@ def _calibrations(runner: JobRunner, at: Sequence[Mapping[str, str | None]], off
 
 
 def _residuals(runner: JobRunner, heat: Sequence[float]) -> list[Residual]:
-    """Return the residuals with the blind set, once with one temperature and once with the recovered ones."""
+    """Return the residuals with the blind set.
+
+    Once with one temperature and once with the recovered ones.
+    """
     choices = {
         f"{CONSTANT:g} degC everywhere": [CONSTANT] * len(POINTS),
         "from the printed SKF row": list(heat),
@@ -195,14 +214,20 @@ def _residuals(runner: JobRunner, heat: Sequence[float]) -> list[Residual]:
 
 
 def plane_residual(ratio: FloatArray) -> float:
-    """Return the scatter of ln(ratio) about a plane in ln n and ln F, per degree of freedom [%]."""
+    """Return the scatter of ln(ratio) about a plane [%].
+
+    In ln n and ln F, per degree of freedom.
+    """
     terms = np.array([[1.0, np.log(point.speed), np.log(LOADS[point.load])] for point in POINTS])
     left = np.log(ratio) - terms @ np.linalg.lstsq(terms, np.log(ratio), rcond=None)[0]
     return float(100.0 * np.sqrt(left @ left / (len(POINTS) - terms.shape[1])))
 
 
 def _lambda_row(runner: JobRunner, runs: Sequence[JobResult]) -> dict[str, float]:
-    """Return the mean deviation from LaMBDA's row of both sets without drag, as the paper computes."""
+    """Return the mean deviation from LaMBDA's row.
+
+    Of both sets without drag, as the paper computes.
+    """
     blind = runner.all([Job(point.case, P.changes(), "torque") for point in POINTS])
     row = TABLE_4["LaMBDA"]
     return {

@@ -45,7 +45,10 @@ _SEED = 16
 
 
 class Spread(Record):
-    """How one set compares with SKF's model over the grid: ratios less one."""
+    """Deviation of one set from SKF's model.
+
+    Over the grid, ratios less one.
+    """
 
     parameters: str
     grooves: str
@@ -95,7 +98,10 @@ class Anchors(Record):
 
 @dataclass(frozen=True)
 class _Row:
-    """What of a catalogue bearing the grid needs: mm and N."""
+    """Catalogue values that the grid needs.
+
+    Mm and N.
+    """
 
     designation: str
     maker: str
@@ -107,7 +113,10 @@ class _Row:
         return f"{self.designation} {self.maker}"
 
     def changes(self, share: float, speed_factor: float, oil: str = "mineral-vg68", heat: str = "") -> tuple[str, ...]:
-        """Return bearing, load C/P and speed n d_m as changes of the case."""
+        """Return load C/P and speed n d_m as changes.
+
+        With the bearing, as changes of the case.
+        """
         return (
             f"bearing.designation={self.designation}",
             f"bearing.maker={self.maker}",
@@ -119,7 +128,10 @@ class _Row:
 
 
 def laws_of(parameters: str) -> tuple[str, ...]:
-    """Return laws and constants of a set; the defaults need none."""
+    """Return laws and constants of a set.
+
+    The defaults need none.
+    """
     return P.laws() if parameters == "blind" else ()
 
 
@@ -200,7 +212,10 @@ def _spread(parameters: str, grooves: str, rows: Sequence[_Row], answers: Sequen
 
 
 def _populations(runner: JobRunner) -> list[Population]:
-    """Return random bearings, loads, speeds and temperatures against SKF's model, by both sets."""
+    """Return random bearings against SKF's model.
+
+    With random loads, speeds and temperatures, by both sets.
+    """
     kinds = [(name, parameters) for parameters in SETS for name in POPULATIONS]
     plans = [[Job(ANCHOR, (*case, *laws_of(kind[1])), "anchor") for case in random_cases(kind[0])] for kind in kinds]
     answers = iter(runner.all([job for plan in plans for job in plan]))
@@ -229,7 +244,9 @@ def _part_median(answers: Sequence[JobResult], own: tuple[str, ...], skf: str) -
 
 
 def random_cases(name: str) -> list[tuple[str, ...]]:
-    """Return the cases of a population: the same at every call.
+    """Return the cases of a population.
+
+    They are the same at every call.
 
     SKF bearings of the series of SKF's friction table, 10 to 120 mm bore; C/P 5 to 40, n d_m 5e3 to 5e5 mm/min
     (logarithmic), 40 to 80 degC; axial load 0.1 to 0.5 of the radial one.

@@ -17,7 +17,10 @@ ACCELERATIONS = (0.0, 20.0, 40.0, 80.0, 160.0)  # amplitudes [m/s2]
 
 
 class Apart(Record):
-    """A run over the quasi-static solution of the same case, which knows nothing of the shaking."""
+    """Run over the quasi-static solution of its case.
+
+    The quasi-static solution ignores the excitation.
+    """
 
     acceleration_m_per_s2: float
     friction_difference_pct: float = Field(description="of the torque without the cage's part")
@@ -26,7 +29,10 @@ class Apart(Record):
 
 
 def apart(runner: JobRunner) -> list[Apart]:
-    """Run the 6220 of variant A under growing axial excitation and compare."""
+    """Run the 6220 under growing excitation and compare.
+
+    Variant A, axial excitation.
+    """
     jobs = [Job(CASE, SETTING.changes(), "friction")]
     jobs += [Job(CASE, SETTING.changes(FREQUENCY, a), "torque") for a in ACCELERATIONS]
     still, *runs = runner.all(jobs)

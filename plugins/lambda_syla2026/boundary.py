@@ -28,7 +28,9 @@ _GAMMA = 25.4 / 140.0  # of the 6220, for the nominal cage speed
 
 @dataclass(frozen=True)
 class Setting:
-    """One bearing in one condition; the excitation is what varies on top of it.
+    """Bearing in one condition without its excitation.
+
+    The excitation varies on top of it.
 
     Attributes
     ----------
@@ -53,7 +55,9 @@ class Setting:
         return 0.5 * (1.0 - _GAMMA) * self.speed / 60.0
 
     def changes(self, frequency: float = 0.0, acceleration: float = 0.0) -> tuple[str, ...]:
-        """Return the changes to the case for an axial motion of this amplitude [m/s2]; still when 0.
+        """Return the changes for an axial motion.
+
+        Of this amplitude [m/s2]; no motion when 0.
 
         The motion X (cos(2 pi f t) - 1) starts from rest where the rings' equilibrium is.
         """
@@ -88,7 +92,9 @@ class Setting:
 
 @dataclass(frozen=True)
 class Boundary:
-    """Where a criterion is just met on a ray, and how well that is known.
+    """Point of a ray where a criterion is met.
+
+    With its uncertainty.
 
     Attributes
     ----------
@@ -107,7 +113,10 @@ class Boundary:
 
 @dataclass
 class Ray:
-    """Growing excitation at one frequency: what was tried, and the bracket of each criterion."""
+    """Growing excitation at one frequency.
+
+    The amplitudes tried, and the bracket of each criterion.
+    """
 
     setting: Setting
     frequency: float  # [Hz]
@@ -119,14 +128,20 @@ class Ray:
         return Job(CASE, self.setting.changes(self.frequency, acceleration), "stability")
 
     def bracket(self, criterion: str, still: JobResult) -> tuple[float | None, float | None]:
-        """Return the largest unaltered amplitude below the smallest altered one, and that one [m/s2]."""
+        """Return the bracket of a criterion [m/s2].
+
+        The largest unaltered amplitude below the smallest altered one, and that one.
+        """
         altered = sorted(a for a, answer in self.tried.items() if excess(criterion, answer, still) > 0.0)
         high = altered[0] if altered else None
         low = [a for a in self.tried if high is None or a < high]
         return (max(low) if low else None), high
 
     def wanted(self, criterion: str, still: JobResult, ratio: float) -> float | None:
-        """Return the amplitude to try next, None when the bracket is narrower than `ratio` or there is none."""
+        """Return the next amplitude to try.
+
+        None when the bracket is narrower than `ratio` or does not exist.
+        """
         low, high = self.bracket(criterion, still)
         if low is not None and high is not None:
             return math.sqrt(low * high) if high / low > ratio else None
@@ -136,7 +151,9 @@ class Ray:
         return high / STEP if high / STEP >= ENDS[0] else None
 
     def boundary(self, criterion: str, still: JobResult) -> Boundary | None:
-        """Return the amplitude at which a criterion is just met, None when it never is.
+        """Return the amplitude that just meets a criterion.
+
+        None when none does.
 
         Between the ends of the bracket the excess is interpolated linearly over the logarithm; the standard errors
         of S and T in the three runs are carried over to it to first order.
@@ -163,7 +180,9 @@ class Ray:
 
 
 def excess(criterion: str, answer: JobResult, still: JobResult) -> float:
-    """Return by how much a criterion is exceeded; positive: the running is altered.
+    """Return the excess over a criterion.
+
+    Positive: the running is altered.
 
     S: |S/S_0 - 1| - 0.2, T: T - T_0 - 0.05; not counted as altered unless the change exceeds three standard errors.
     """
@@ -177,7 +196,9 @@ def excess(criterion: str, answer: JobResult, still: JobResult) -> float:
 
 
 def search(runner: JobRunner, rays: Iterable[Ray], ratio: float) -> Mapping[Setting, JobResult]:
-    """Narrow the brackets of both criteria on every ray, all rays side by side; returns the runs without excitation.
+    """Narrow the brackets of both criteria on all rays.
+
+    The rays are computed in parallel; returns the runs without excitation.
 
     Parameters
     ----------
@@ -204,6 +225,9 @@ def search(runner: JobRunner, rays: Iterable[Ray], ratio: float) -> Mapping[Sett
 
 
 def _next(ray: Ray, still: JobResult, ratio: float) -> list[float]:
-    """Return the amplitudes that the criteria want tried next; both may want the same."""
+    """Return the amplitudes that the criteria need next.
+
+    Both may need the same.
+    """
     wanted = (ray.wanted(criterion, still, ratio) for criterion in CRITERIA)
     return sorted({amplitude for amplitude in wanted if amplitude is not None})

@@ -27,7 +27,10 @@ ROLES = ("elastic_hysteresis", "rolling_resistance")
 
 
 class Calibration(Record):
-    """tau_e alone fitted on one row of the table, the other row predicted."""
+    """Fit of tau_e on one row of the table.
+
+    It predicts the other row.
+    """
 
     elastic_hysteresis: str
     rolling_resistance: str
@@ -51,7 +54,9 @@ def torques(answers: Sequence[JobResult]) -> list[float]:
 
 
 def laws_of(role: str) -> list[str]:
-    """Return the registered laws of a role that need no constants of the user, the blind one first.
+    """Return the laws of a role without user constants.
+
+    Only registered laws, the blind one first.
 
     Without rolling resistance there is nothing to compare, so "none" counts for hysteresis only.
     """
@@ -68,7 +73,9 @@ def laws_of(role: str) -> list[str]:
 
 
 def by_law(runner: JobRunner, offset: FloatArray) -> list[Calibration]:
-    """Fit for every pair of laws on either row; quasi-static plus what the blind runs add to it.
+    """Fit for every pair of laws on either row.
+
+    Quasi-static plus what the blind runs add to it.
 
     Parameters
     ----------
@@ -87,7 +94,10 @@ def by_law(runner: JobRunner, offset: FloatArray) -> list[Calibration]:
 
 
 def _chosen(pair: tuple[str, ...]) -> dict[str, str | None]:
-    """Return the replacements for a pair of laws; none where both are the blind ones."""
+    """Return the replacements for a pair of laws.
+
+    None where both are the blind ones.
+    """
     found: dict[str, str | None] = {}
     for role, name in zip(ROLES, pair, strict=True):
         if name != P.entry(f"models.{role}").value:
@@ -96,7 +106,9 @@ def _chosen(pair: tuple[str, ...]) -> dict[str, str | None]:
 
 
 def band(table: FloatArray) -> tuple[list[float], list[float]]:
-    """Return 5 % and 95 % of the samples of each point that have a result.
+    """Return 5 % and 95 % of each point's samples.
+
+    Of those that have a result.
 
     Parameters
     ----------
@@ -109,7 +121,10 @@ def band(table: FloatArray) -> tuple[list[float], list[float]]:
 
 
 def spline(grid: FloatArray) -> Callable[[float], FloatArray]:
-    """Return the torque of each point over tau_e [MPa]; NaN where a value of the grid is missing."""
+    """Return the torque of each point over tau_e [MPa].
+
+    NaN where a value of the grid is missing.
+    """
     from scipy.interpolate import CubicSpline
 
     known = np.isfinite(grid).all(axis=0)
@@ -124,14 +139,19 @@ def _on_curve(pair: tuple[str, ...], grid: FloatArray, load: str) -> Calibration
 
 
 def by_runs(fit: Calibration, load: str, row: list[float]) -> Calibration:
-    """Return a calibration with the torques of runs at its tau_e."""
+    """Return a calibration with torques of runs.
+
+    At its tau_e.
+    """
     pair = (fit.elastic_hysteresis, fit.rolling_resistance)
     tau = (fit.tau_e_MPa, fit.at_limit, fit.free_tau_e_MPa)
     return calibration(pair, load, fit.unfitted_pct, tau, row, simulated=True)
 
 
 def fitted(grid: FloatArray, load: str) -> tuple[float, bool, float]:
-    """Return tau_e [MPa] fitted on the points of one load, whether it stands at a limit, and the free optimum.
+    """Return tau_e [MPa] fitted on the points of one load.
+
+    Also whether it is at a limit, and the free optimum.
 
     Least squares of the relative errors, on a spline through the grid.
 
@@ -168,7 +188,7 @@ def calibration(
     *,
     simulated: bool = False,
 ) -> Calibration:
-    """Put a fit and the six torques that belong to it together with their errors."""
+    """Combine a fit, its six torques and their errors."""
 
     def error(keep: list[Point]) -> float:
         chosen = [(value, point) for value, point in zip(row, POINTS, strict=True) if point in keep]

@@ -29,7 +29,10 @@ def _array(values: object) -> FloatArray:
 
 
 def table4_chart(found: Table4) -> ViewData:
-    """Torque over speed for both loads: measurement, blind with its band, calibrated, and the other methods."""
+    """Draw torque over speed for both loads.
+
+    Measurement, blind with its band, calibrated, and the other methods.
+    """
     speed = _array(SPEEDS)
     panels = []
     for title, rows in _ROWS.items():
@@ -56,7 +59,10 @@ def table4_chart(found: Table4) -> ViewData:
 
 
 def sensitivity_chart(found: Table4) -> ViewData:
-    """Change of the torque from one end of every range to the other, largest first; what does nothing in words."""
+    """Draw the change of torque over every range.
+
+    From one end to the other, largest first; parameters without effect are listed in words.
+    """
 
     def effect(s: Sensitivity) -> float:
         return max(abs(s.low_change_pct), abs(s.high_change_pct))
@@ -82,7 +88,10 @@ def sensitivity_chart(found: Table4) -> ViewData:
 
 
 def fig5_chart(found: Fig5) -> ViewData:
-    """Excitation velocity at the boundary over frequency, a panel per variant and criterion."""
+    """Draw the excitation velocity at the boundary.
+
+    Over frequency, a panel per variant and criterion.
+    """
     panels = []
     for variant, criterion in dict.fromkeys((p.variant, p.criterion) for p in found.points):
         mine = [p for p in found.points if (p.variant, p.criterion) == (variant, criterion)]
@@ -114,7 +123,10 @@ def fig5_chart(found: Fig5) -> ViewData:
 
 
 def _slope_of_one(points: Sequence[BoundaryPoint]) -> Series:
-    """A line of constant acceleration through the middle of the declared points, to compare slopes with."""
+    """Return a line of constant acceleration.
+
+    Through the middle of the declared points, to compare slopes with.
+    """
     found = [p.acceleration_m_per_s2 for p in points if p.declared and p.acceleration_m_per_s2 is not None]
     acceleration = float(np.exp(np.mean(np.log(found)))) if found else 1.0
     frequency = _array(sorted({p.frequency_Hz for p in points}))
@@ -123,7 +135,10 @@ def _slope_of_one(points: Sequence[BoundaryPoint]) -> Series:
 
 
 def fig7_chart(found: Fig7) -> ViewData:
-    """Compare simulated and analytical C_Hertz over axial load, for both rings."""
+    """Compare simulated and analytical C_Hertz over axial load.
+
+    For both rings.
+    """
     panels = []
     for ring in ("inner", "outer"):
         mine = [c for c in found.contacts if c.ring == ring]

@@ -52,7 +52,10 @@ VARIATIONS: dict[str, tuple[Setting, ...]] = {
 
 
 class Resonance(Record):
-    """Axial resonances: inner ring with shaft on the bearing's stiffness; what only centrifugal force holds."""
+    """Axial resonances of the inner ring and loose parts.
+
+    Inner ring with shaft on the bearing's stiffness; parts that only centrifugal force holds.
+    """
 
     load_N: float
     stiffness_N_per_um: float
@@ -63,7 +66,10 @@ class Resonance(Record):
 
 
 class Variation(Record):
-    """What one assumption does to the boundary: velocity over that of the base case at the same frequency."""
+    """Effect of one assumption on the boundary.
+
+    Velocity over that of the base case at the same frequency.
+    """
 
     what: str
     criterion: str

@@ -66,7 +66,10 @@ class Fig7(Record):
 
 
 def fig7(runner: JobRunner, *, quick: bool = False) -> Fig7:
-    """Compute the three loads, quasi-static and by runs (`quick`: one run)."""
+    """Compute the three loads, quasi-static and by runs.
+
+    `quick` computes one run.
+    """
     still = runner.all([Job(_case(load), (), "capacitance") for load in AXIAL_LOADS])
     cold = runner.all([Job(_case(load), ISOTHERMAL, "capacitance") for load in AXIAL_LOADS])
     ends = (AXIAL_LOADS[0], AXIAL_LOADS[-1])

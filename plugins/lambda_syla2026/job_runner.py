@@ -35,7 +35,7 @@ _FORMAT = 3  # of the kept numbers; raised when a reading changes its meaning
 
 @dataclass(frozen=True)
 class Job:
-    """What is to be read of which model."""
+    """Reading of one model."""
 
     case: str  # name of a built-in case, or ANCHOR
     changes: tuple[str, ...]  # path=value
@@ -44,7 +44,7 @@ class Job:
 
 @dataclass(frozen=True)
 class JobResult:
-    """What a job has found.
+    """Result of a job.
 
     `state` is "done", "partial" (a run that has not converged), "failed", "stopped" (somebody asked the run to) or
     "pending" (another process is at work on it); the reason says why. `processor_s` is the time of the processor that
@@ -60,14 +60,17 @@ class JobResult:
     fresh: bool = False
 
     def __getitem__(self, name: str) -> float:
-        """Return one number; NaN where the job has failed or the reading has none."""
+        """Return one number.
+
+        NaN where the job has failed or the reading has none.
+        """
         value = None if self.state == "failed" else self.numbers[name]
         return math.nan if value is None else value
 
 
 @dataclass(frozen=True)
 class Assignment:
-    """A job and the folder where what it finds is kept."""
+    """Job and the folder of its results."""
 
     job: Job
     folder: str
@@ -75,7 +78,7 @@ class Assignment:
 
 @dataclass(frozen=True)
 class Found:
-    """What became of a job."""
+    """Outcome of a job."""
 
     job: Job
     answer: JobResult
@@ -121,7 +124,10 @@ def _answer(job: Job, folder: str) -> JobResult:
 
 @lru_cache(maxsize=16)
 def case_text(name: str) -> str:
-    """Return a built-in case as a file of its own, or the one that any bearing is put into."""
+    """Return a built-in case as a file.
+
+    Or the case that any bearing is put into.
+    """
     from lambda_core.case.case_io import load_case
     from lambda_core.case.case_writer import standalone_toml
 
@@ -140,7 +146,9 @@ def _run(job: Job, hash_: str, folder: str) -> JobResult:
 
 @dataclass
 class JobRunner:
-    """Workers and the folder that keeps what they find; the store of their director.
+    """Workers and the folder of their results.
+
+    The folder is the store of their director.
 
     Parameters
     ----------
@@ -182,7 +190,9 @@ class JobRunner:
         self._pool.close(stop=kind is not None)
 
     def all(self, jobs: Sequence[Job]) -> list[JobResult]:
-        """Do jobs side by side and return their answers in order; equal jobs are done once.
+        """Do jobs in parallel and return their answers.
+
+        In order; equal jobs are done once.
 
         Raises
         ------

@@ -32,7 +32,9 @@ class Chapter:
 
 
 def write(registry: Registry, chapters: Sequence[Chapter], folder: Path) -> list[Path]:
-    """Write ``NAME.svg`` and ``NAME.png`` of every chart and ``reproduction.html`` with all of it.
+    """Write all charts and the page.
+
+    ``NAME.svg`` and ``NAME.png`` of every chart and ``reproduction.html`` with all of it.
 
     Raises
     ------
@@ -65,7 +67,10 @@ def write(registry: Registry, chapters: Sequence[Chapter], folder: Path) -> list
 
 
 def _figure(registry: Registry, data: ViewData) -> Figure:
-    """Draw a chart that belongs to no installed view: the house's drawing."""
+    """Draw a chart that belongs to no installed view.
+
+    In the style of the program.
+    """
 
     def unused(subject: object, options: object) -> ViewData:
         return data

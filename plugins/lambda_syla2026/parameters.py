@@ -56,7 +56,10 @@ class Entry:
 
     @property
     def ends(self) -> tuple[str, ...]:
-        """Values at which the sensitivity is taken: the ends of the range, or the other laws."""
+        """Values at which the sensitivity is computed.
+
+        The ends of the range, or the other laws.
+        """
         return self.range or tuple(name for name in self.alternatives if name != self.value)
 
 
@@ -74,7 +77,10 @@ def _entry(
 
 
 def laws(replaced: Mapping[str, str | None] | None = None) -> tuple[str, ...]:
-    """Return laws and constants of the set for any bearing: without the 6319, its oil, its cage and its bath."""
+    """Return the general laws and constants of the set.
+
+    For any bearing, without the 6319, its oil, its cage and its bath.
+    """
     return tuple(
         change
         for change in changes(replaced)
@@ -85,7 +91,10 @@ def laws(replaced: Mapping[str, str | None] | None = None) -> tuple[str, ...]:
 
 @cache
 def anchored_set() -> tuple[tuple[str, str | None, str], ...]:
-    """Return path, value and source of what the anchored set has in place of the blind one; None leaves it out."""
+    """Return path, value and source of the anchored set.
+
+    Those that differ from the blind one; None removes an entry.
+    """
     data = tomllib.loads(files(__package__).joinpath(ANCHORED_FILE).read_text(encoding="utf-8"))
     return tuple((table["path"], table.get("value"), table["source"]) for table in data["entry"])
 
@@ -101,20 +110,29 @@ def entry(path: str) -> Entry:
 
 
 def changes(replaced: Mapping[str, str | None] | None = None) -> tuple[str, ...]:
-    """Return the set as ``path=value`` texts, some values replaced; None leaves an entry out."""
+    """Return the set as ``path=value`` texts.
+
+    Some values replaced; None leaves an entry out.
+    """
     values: dict[str, str | None] = {entry.path: entry.value for entry in blind_set()}
     values.update(replaced or {})
     return tuple(f"{path}={value}" for path, value in values.items() if value is not None)
 
 
 def with_law(role: str, name: str) -> dict[str, str | None]:
-    """Return the replacements that choose another law: parameters of the blind one do not belong to it."""
+    """Return the replacements that choose another law.
+
+    Parameters of the blind one do not belong to it.
+    """
     own = (entry.path for entry in blind_set() if entry.path.startswith(f"parameters.{role}."))
     return {**dict.fromkeys(own), f"models.{role}": name}
 
 
 def samples(count: int, seed: int = 1) -> list[dict[str, str | None]]:
-    """Return replacements of a Latin hypercube over every published range (McKay, Beckman and Conover 1979)."""
+    """Return Latin hypercube samples of every published range.
+
+    As replacements (McKay, Beckman and Conover 1979).
+    """
     points = _plan(count, seed).points()
     return [{path: value for path, _, value in (c.partition("=") for c in point.changes)} for point in points]
 
@@ -135,5 +153,8 @@ def _plan(count: int, seed: int) -> Plan:
 
 
 def _numbers(ends: tuple[str, ...]) -> list[str | float]:
-    """Return the ends of a range as a study takes them: unit strings, or plain numbers."""
+    """Return the ends of a range for a study.
+
+    Unit strings, or plain numbers.
+    """
     return list(ends) if scale_of(ends) is not None else [float(end) for end in ends]

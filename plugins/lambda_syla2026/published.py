@@ -62,18 +62,27 @@ GAP_CHANGE = -9.0  # [%] of the gap from 700 to 2000 N
 
 
 def mean_absolute_error(values: tuple[float, ...] | list[float], points: tuple[Point, ...] = POINTS) -> float:
-    """Return the mean of |value/measured - 1| over operating points [%]; points without a value are left out."""
+    """Return the mean of |value/measured - 1| [%].
+
+    Over operating points, without those that have no value.
+    """
     errors = [abs(value / point.measured - 1.0) for value, point in zip(values, points, strict=True)]
     known = [error for error in errors if not math.isnan(error)]
     return 100.0 * sum(known) / len(known) if known else math.nan
 
 
 def known_mean(values: FloatArray) -> float:
-    """Return the mean of what is not NaN; NaN where nothing is left."""
+    """Return the mean of all values but NaN.
+
+    NaN where nothing is left.
+    """
     known = values[np.isfinite(values)]
     return float(known.mean()) if known.size else math.nan
 
 
 def largest(values: Sequence[float]) -> float:
-    """Return the value of the largest magnitude, with its sign, of what is not NaN; NaN where nothing is left."""
+    """Return the value of the largest magnitude.
+
+    With its sign, without NaN; NaN where nothing is left.
+    """
     return max((value for value in values if not math.isnan(value)), key=abs, default=math.nan)

@@ -21,7 +21,10 @@ BAR = (0.8, 1.25)
 
 
 class Rated(Record):
-    """Losses over q_r A_r of one series, or of all: median, and the range that holds 90 % of the bearings."""
+    """Losses over q_r A_r of one series.
+
+    Or of all: median, and the range that holds 90 % of the bearings.
+    """
 
     series: str
     bearings: int
@@ -35,7 +38,9 @@ class Rated(Record):
 
 
 def rated_speeds(runner: JobRunner) -> tuple[list[Rated], int]:
-    """Return all bearings together and each series, and how many have no answer.
+    """Compare the losses of all bearings and series.
+
+    Returns all together, each series, and the number without an answer.
 
     No answer: the catalogue does not decide the inner geometry.
     """
@@ -47,7 +52,10 @@ def rated_speeds(runner: JobRunner) -> tuple[list[Rated], int]:
 
 
 def _plans() -> tuple[list[tuple[str, tuple[str, ...]]], int]:
-    """Return series and case of every SKF bearing with a printed reference speed, and how many have no geometry."""
+    """Return the cases of SKF bearings with reference speeds.
+
+    Their series and case, and how many have no geometry.
+    """
     from lambda_core.discovery.manager import registry
 
     found, unknown = [], 0

@@ -43,7 +43,10 @@ def _grouped(losses: Mapping[str, float]) -> dict[str, float]:
 
 
 def friction(model: BearingModel) -> Numbers:
-    """Friction torque of the quasi-static solution, averaged over the positions of the balls [N mm]; no cage."""
+    """Return the quasi-static friction torque [N mm].
+
+    Averaged over the positions of the balls; no cage.
+    """
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.solver.records import CONTACT_CHANNELS
     from lambda_core.studies.job import kernels_of, with_temperatures
@@ -61,7 +64,10 @@ def friction(model: BearingModel) -> Numbers:
 
 
 def skf(model: BearingModel) -> Numbers:
-    """Friction torque of the complete SKF model on the same case [N mm]."""
+    """Return the friction torque of SKF's model [N mm].
+
+    Of the complete model on the same case.
+    """
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry
     from lambda_core.solver.drivers.equilibrium import solve
@@ -72,7 +78,10 @@ def skf(model: BearingModel) -> Numbers:
 
 
 def anchor(model: BearingModel) -> Numbers:
-    """Friction torque without cage and drag, mean over the positions of the balls, and SKF's [N mm]."""
+    """Return friction torques without cage and drag [N mm].
+
+    Mean over the positions of the balls, and SKF's.
+    """
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry
     from lambda_core.solver.drivers.equilibrium import solve
@@ -92,7 +101,7 @@ def anchor(model: BearingModel) -> Numbers:
 
 
 def axial_load(model: BearingModel) -> Numbers:
-    """What :func:`anchor` finds, and the load-dependent part of Schaeffler's friction torque [N mm]."""
+    """Return :func:`anchor` and the load-dependent torque of Schaeffler [N mm]."""
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry
     from lambda_core.solver.drivers.equilibrium import solve
@@ -105,7 +114,10 @@ def axial_load(model: BearingModel) -> Numbers:
 
 
 def rated(model: BearingModel) -> Numbers:
-    """Return the loss of the equilibrium, SKF's, and the heat that ISO 15312 lets the bearing give up [W]."""
+    """Return the losses and the rated heat [W].
+
+    The loss of the equilibrium, SKF's, and the heat that ISO 15312 lets the bearing emit.
+    """
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.analysis.thermal import iso15312
     from lambda_core.discovery.manager import registry
@@ -127,7 +139,10 @@ def rated(model: BearingModel) -> Numbers:
 
 
 def capacitance(model: BearingModel) -> Numbers:
-    """Contacts of the quasi-static solution, means over the loaded balls, and the analytical capacitance."""
+    """Return the contacts and the analytical capacitance.
+
+    Contacts of the quasi-static solution, means over the loaded balls.
+    """
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry
     from lambda_core.solver.drivers.equilibrium import solve
@@ -143,7 +158,9 @@ def capacitance(model: BearingModel) -> Numbers:
 
 
 def contact_numbers(channels: Mapping[str, FloatArray], carrying: float) -> Numbers:
-    """Return means over loaded contacts of each ring and the bearing's capacitance.
+    """Return contact means and the bearing's capacitance.
+
+    Means over loaded contacts of each ring.
 
     Parameters
     ----------
@@ -174,7 +191,9 @@ def contact_numbers(channels: Mapping[str, FloatArray], carrying: float) -> Numb
 
 
 def axial_resonance(model: BearingModel) -> Numbers:
-    """Axial stiffness about the equilibrium and the natural frequency of the inner ring with its shaft on it [Hz].
+    """Return axial stiffness and natural frequency [Hz].
+
+    The stiffness about the equilibrium; the frequency of the inner ring with its shaft on it.
 
     Of the bearing under its static load; where the rings share their axial motion it is the frequency that the
     inner ring would have. It also returns those of bodies that only centrifugal force holds axially, in the
@@ -201,7 +220,10 @@ def axial_resonance(model: BearingModel) -> Numbers:
 
 
 def _held_by_centrifugal_force(found: Equilibrium) -> tuple[float, float]:
-    """Return the axial natural frequencies of an unloaded ball and of the cage on all unloaded balls [Hz]."""
+    """Return the axial natural frequencies of loose parts [Hz].
+
+    Of an unloaded ball and of the cage on all unloaded balls, which centrifugal force holds.
+    """
     model = found.context.model
     geometry, cage = model.geometry, model.cage_body
     mass = model.ball_material.density * math.pi / 6.0 * geometry.ball_diameter**3
@@ -215,7 +237,10 @@ def _held_by_centrifugal_force(found: Equilibrium) -> tuple[float, float]:
 
 
 def torque(result: Result) -> Numbers:
-    """Averages of a run: torque and parts [N mm], load of the most loaded ball, what says how good they are."""
+    """Return averages of a run.
+
+    Torque and parts [N mm], load of the most loaded ball, and measures of their accuracy.
+    """
     summary = result.summary()
     parts = _grouped({name: value or 0.0 for name, value in summary.friction_breakdown_Nmm.items()})
     largest = np.concatenate(
@@ -241,7 +266,10 @@ def _averages_start(result: Result) -> float:
 
 
 def contacts(result: Result) -> Numbers:
-    """Means over time and loaded balls of a run's contacts, for comparison with the quasi-static ones."""
+    """Return mean contacts of a run.
+
+    Over time and loaded balls, for comparison with the quasi-static ones.
+    """
     names = ("load", "contact_angle", "semi_axis_a", "semi_axis_b", "film_central", "capacitance_hertz", "capacitance")
     blocks = list(result.blocks(names, _averages_start(result)))
     return contact_numbers({name: np.concatenate([block[name] for block in blocks]) for name in names}, CARRYING)

@@ -45,7 +45,10 @@ _CONDUCTIVITY = P.Entry(
 
 
 class Sensitivity(Record):
-    """Change of the torque when one parameter goes to the ends of its range, all others as in the blind set."""
+    """Change of the torque over one parameter's range.
+
+    All others as in the blind set.
+    """
 
     name: str
     value: str
@@ -61,23 +64,32 @@ class Sensitivity(Record):
 
     @property
     def short(self) -> str:
-        """The name without the law or section that it belongs to."""
+        """Name without its law or section."""
         return _SHORT.get(self.name, self.name.rpartition(": ")[2])
 
     @property
     def span(self) -> str:
-        """Both ends of the range; the other law where there is one only."""
+        """Both ends of the range.
+
+        Or the other law where there is one only.
+        """
         return self.low if self.low == self.high else f"{self.low} to {self.high}"
 
     @property
     def effect(self) -> str:
-        """Change of the torque at both ends [%]; with the other law where there is one only."""
+        """Change of the torque at both ends [%].
+
+        With the other law where there is one only.
+        """
         low, high = f"{self.low_change_pct:+.1f}", f"{self.high_change_pct:+.1f}"
         return f"{low} % with {self.low}" if self.low == self.high else f"{low} to {high} %"
 
 
 def ends_of(entry: P.Entry) -> tuple[str, str]:
-    """Return the two values at which a parameter is tried: a law without a second alternative counts once."""
+    """Return the two values to try for a parameter.
+
+    A law without a second alternative counts once.
+    """
     ends = entry.ends
     return ends[0], ends[-1]
 
@@ -85,7 +97,9 @@ def ends_of(entry: P.Entry) -> tuple[str, str]:
 def sensitivities(
     runner: JobRunner, static: Sequence[JobResult], runs: Sequence[JobResult], quick: bool = False
 ) -> list[Sensitivity]:
-    """Return the effect of every parameter that has a range, largest first.
+    """Return the effect of every parameter with a range.
+
+    Largest first.
 
     Parameters
     ----------
@@ -118,7 +132,10 @@ def _changes(entry: P.Entry, end: str) -> tuple[str, ...]:
 
 
 def _own_oil() -> tuple[str, ...]:
-    """Return the changes that write the catalogue's oil into the case, so that one of its properties can change."""
+    """Return the changes that write the catalogue's oil.
+
+    Into the case, so that one of its properties can change.
+    """
     from lambda_core.domain.units import show
     from lambda_core.studies.job import resolve_point
     from lambda_syla2026.job_runner import case_text
@@ -169,7 +186,10 @@ def _static(
 
 
 def _of_cage(runner: JobRunner, runs: Sequence[JobResult]) -> list[Sensitivity]:
-    """Return what the cage's parameters do, by runs at one point."""
+    """Return the effects of the cage's parameters.
+
+    By runs at one point.
+    """
     mine = next(i for i, point in enumerate(POINTS) if point.case == _CAGE_CASE)
     varied = [entry for entry in P.blind_set() if entry.cage and entry.ends]
     answers = runner.all(

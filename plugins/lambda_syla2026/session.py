@@ -29,7 +29,7 @@ _NAMED = 10  # points without a result that a note names
 
 
 class Effort(Record):
-    """What an experiment took."""
+    """Cost of an experiment."""
 
     experiment: str
     jobs: int = Field(description="runs and quasi-static solutions that were asked for, each counted once")
@@ -80,7 +80,9 @@ def reproduce(
     progress: Report | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Reproduction:
-    """Repeat one experiment or all; what an earlier call in the same folder has computed is not done again.
+    """Repeat one experiment or all.
+
+    Results of an earlier call in the same folder are used again.
 
     Raises
     ------
@@ -123,7 +125,10 @@ def _effort(name: str, answers: Sequence[JobResult], wall: float) -> Effort:
 
 
 def chapters(found: Reproduction) -> list[Chapter]:
-    """Return texts, figures and tables of each experiment; points without a result are marked."""
+    """Return texts, figures and tables of each experiment.
+
+    Points without a result are marked.
+    """
     return [
         replace(each, bars=tuple(text.marked(bar) for bar in each.bars), tables=text.marked_tables(each.tables))
         for each in _chapters(found)
@@ -164,7 +169,10 @@ def _chapters(found: Reproduction) -> list[Chapter]:
 
 
 def _notes(found: Reproduction, name: str, notes: Sequence[str]) -> tuple[str, ...]:
-    """Return the notes of an experiment, its points without a result, and how many runs have not converged."""
+    """Return the notes of an experiment.
+
+    With its points without a result, and how many runs have not converged.
+    """
     lost = found.failed.get(name, [])
     wrong = [sentence for sentence in found.unconverged.get(name, []) if sentence not in lost]
     more = [f"{len(lost)} points have no result, marked {text.LOST}: {'; '.join(lost[:_NAMED])}"] if lost else []

@@ -34,7 +34,10 @@ class Zone:
     half: float  # half its angle [rad]; pi when all balls are loaded, 0 when none
 
     def outside(self, azimuth: FloatArray) -> NDArray[np.bool_]:
-        """Say which azimuths [rad] lie outside, by more than the margin."""
+        """Tell which azimuths [rad] are outside the zone.
+
+        By more than the margin.
+        """
         away = np.abs(np.mod(azimuth - self.middle + math.pi, 2.0 * math.pi) - math.pi)
         return np.asarray(away > self.half + MARGIN)
 
@@ -51,20 +54,25 @@ def half_zone(shift: float, clearance: float) -> float:
 
 
 def static_zone(result: Result) -> Zone:
-    """Return the load zone of the equilibrium that the run started from."""
+    """Return the load zone of the initial equilibrium."""
     start = result.sample(0, ("body_position",))["body_position"]
     y, z = (float(start[0, i] - start[1, i]) for i in (1, 2))
     return Zone(math.atan2(z, y), half_zone(math.hypot(y, z), float(result.model["geometry"]["clearance"])))
 
 
 def excitation_frequency(result: Result) -> float:
-    """Return the frequency of the outer ring's axial motion [Hz]; 0 when it stands still."""
+    """Return the outer ring's axial excitation frequency [Hz].
+
+    0 when it does not move.
+    """
     terms = result.model["outer_ring"]["dofs"]["x"]["motion"]["terms"]
     return max((float(t["values"][1]) for t in terms if t["kind"] == "harmonic"), default=0.0)
 
 
 def jackknife(sums: NDArray[Any], counts: NDArray[Any]) -> tuple[float, float]:
-    """Return rms over bins of the mean of a quantity, and its standard error (Efron and Tibshirani 1993, eq. 11.5).
+    """Return the rms of means and its standard error.
+
+    Over bins of the mean of a quantity (Efron and Tibshirani 1993, eq. 11.5).
 
     Parameters
     ----------
@@ -82,7 +90,10 @@ def jackknife(sums: NDArray[Any], counts: NDArray[Any]) -> tuple[float, float]:
 
 
 def stability(result: Result) -> dict[str, float | None]:
-    """Return S, T and their standard errors over the whole excitation periods after the first cage turn."""
+    """Return S, T and their standard errors.
+
+    Over the whole excitation periods after the first cage turn.
+    """
     zone, frequency = static_zone(result), excitation_frequency(result)
     time, turn = result["time"], _cage_turn(result)
     window = float(result.model["solver"]["duration"]) - turn
@@ -120,7 +131,9 @@ def _cage_turn(result: Result) -> float:
 
 
 def _over_kinematic(result: Result, rows: NDArray[np.bool_]) -> FloatArray:
-    """Return orbital over kinematic speed of every ball, shape (time, ball).
+    """Return orbital over kinematic speed of every ball.
+
+    Shape (time, ball).
 
     Kinematic: no slip at the mean contact angle of the loaded balls.
     """

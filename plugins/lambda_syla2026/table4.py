@@ -38,7 +38,7 @@ class OperatingPoint(Record):
 
 
 class Detail(Record):
-    """What stands behind one point."""
+    """Details of one point."""
 
     label: str
     confidence_Nmm: float = Field(description="95 % half-width of the blind run")
@@ -52,7 +52,10 @@ class Detail(Record):
 
 
 class Law(Record):
-    """Another published law in place of one of the blind set, nothing else changed."""
+    """Published alternative to one law of the blind set.
+
+    Nothing else changes.
+    """
 
     role: str
     law: str
@@ -80,7 +83,10 @@ class Table4(Record):
 
 
 def jobs_of(replaced: Mapping[str, str | None] | None = None, kind: str = "friction") -> list[Job]:
-    """Return the jobs of the six points with some values of the blind set replaced."""
+    """Return the jobs of the six points.
+
+    With some values of the blind set replaced.
+    """
     return [Job(point.case, P.changes(replaced), kind) for point in POINTS]
 
 
@@ -145,7 +151,10 @@ def _halves(answers: Sequence[JobResult]) -> tuple[list[JobResult], list[JobResu
 
 
 def _band(runner: JobRunner, offset: FloatArray, count: int) -> tuple[list[float], list[float], int]:
-    """Return 5 % and 95 % of the sampled torques at each point, and the number of samples that have a solution."""
+    """Return 5 % and 95 % of the sampled torques.
+
+    At each point, and the number of samples that have a solution.
+    """
     jobs = [job for replaced in P.samples(count) for job in jobs_of(replaced)]
     answers = runner.all(jobs)
     rows = [answers[i : i + len(POINTS)] for i in range(0, len(answers), len(POINTS))]
@@ -156,7 +165,10 @@ def _band(runner: JobRunner, offset: FloatArray, count: int) -> tuple[list[float
 def _simulated(
     runner: JobRunner, offset: FloatArray, sets: Sequence[Mapping[str, str | None]], quick: bool
 ) -> list[list[float]]:
-    """Return the six torques of each parameter set: by runs, or when `quick` quasi-static plus the offset."""
+    """Return the six torques of each parameter set.
+
+    By runs, or when `quick` quasi-static plus the offset.
+    """
     kind = "friction" if quick else "torque"
     answers = runner.all([job for replaced in sets for job in jobs_of(replaced, kind)])
     shift = offset if quick else np.zeros(len(POINTS))
@@ -174,7 +186,10 @@ def _laws(runner: JobRunner, offset: FloatArray, quick: bool) -> list[Law]:
 
 
 def _calibrations(runner: JobRunner, offset: FloatArray, fits: Sequence[Calibration], quick: bool) -> list[Calibration]:
-    """Return the calibrations with the blind laws, by runs at the fitted tau_e unless `quick`."""
+    """Return the calibrations with the blind laws.
+
+    By runs at the fitted tau_e unless `quick`.
+    """
     if quick:
         return list(fits)
     rows = _simulated(runner, offset, [{TAU: f"{fit.tau_e_MPa:.4g} MPa"} for fit in fits], quick)
@@ -264,7 +279,10 @@ def _notes(quick: bool) -> list[str]:
 
 
 def rows_of(found: Table4) -> list[tuple[str, list[float], float]]:
-    """Return name, six torques and mean error of every row of the table, the measurement first."""
+    """Return name, torques and error of every row.
+
+    Six torques and their mean error, the measurement first.
+    """
     rows = [("measured", [point.measured_Nmm for point in found.points], 0.0)]
     errors = found.mean_absolute_error_pct
     rows.append(("blind", [point.simulated_Nmm for point in found.points], errors["blind"]))

@@ -44,7 +44,10 @@ def _tau(fit: Calibration) -> str:
 
 
 def _free(tau: float) -> str:
-    """Write where a free fit of tau_e ends; the ends of its grid are no optimum."""
+    """Write where a free fit of tau_e ends.
+
+    The ends of its grid are no optimum.
+    """
     low, *_, high = TAU_GRID
     if tau < low + 0.05:
         return f"below {low:g}"

@@ -62,7 +62,10 @@ class Line(Record):
 
 
 class Step(Record):
-    """What a higher load does to a boundary: geometric mean over the declared frequencies."""
+    """Effect of a higher load on a boundary.
+
+    Geometric mean over the declared frequencies.
+    """
 
     variant: str
     criterion: str
@@ -108,7 +111,10 @@ def _line(key: tuple[str, float, str], points: Sequence[BoundaryPoint]) -> Line:
 
 
 def _slope(points: Sequence[BoundaryPoint]) -> tuple[float | None, float | None]:
-    """Return the slope of log velocity over log frequency and its standard error; None where a boundary is missing."""
+    """Return the log-log slope and its standard error.
+
+    Velocity over frequency; None where a boundary is missing.
+    """
     velocity = [p.velocity_m_per_s for p in points]
     if any(v is None for v in velocity):
         return None, None
@@ -118,7 +124,10 @@ def _slope(points: Sequence[BoundaryPoint]) -> tuple[float | None, float | None]
 
 
 def _spread(points: Sequence[BoundaryPoint], weights: FloatArray) -> float | None:
-    """Return the standard error of a weighted sum of logarithms of points that share their run without excitation."""
+    """Return the standard error of a weighted sum.
+
+    Of logarithms of points that share their run without excitation.
+    """
     own, still = [p.own_error for p in points], [p.still_error for p in points]
     if any(e is None for e in (*own, *still)):
         return None
@@ -127,7 +136,10 @@ def _spread(points: Sequence[BoundaryPoint], weights: FloatArray) -> float | Non
 
 
 def steps(points: Sequence[BoundaryPoint]) -> list[Step]:
-    """Return what every step of the load does over the declared range; none where a boundary is missing."""
+    """Return the effect of every step of the load.
+
+    Over the declared range; none where a boundary is missing.
+    """
     found = []
     for variant, criterion in dict.fromkeys((p.variant, p.criterion) for p in points):
         mine = [p for p in points if p.declared and (p.variant, p.criterion) == (variant, criterion)]
@@ -205,7 +217,9 @@ def with_error(value: float | None, error: float | None, digits: int = 2) -> str
 
 
 def _load_bar(points: Sequence[BoundaryPoint], criterion: str) -> str:
-    """Check that the mean boundary rises with every step of the load.
+    """Check that the boundary rises with the load.
+
+    The mean boundary, with every step of the load.
 
     A rise counts when it is more than twice its standard error; frequencies at which the boundary falls are named.
     """
@@ -228,14 +242,20 @@ def _said(mine: Sequence[Step]) -> Iterator[str]:
 
 
 def _rise(step: Step) -> str:
-    """Write a step with its standard error, and whether it is more than twice that."""
+    """Write a step with its standard error.
+
+    And whether it is more than twice that.
+    """
     text = f"{with_error(step.rise_pct, step.error_pct, 1)} % to {step.to_N / 1e3:g} kN"
     resolved = step.error_pct is None or abs(step.rise_pct) > RESOLVED * step.error_pct
     return text if resolved else f"{text} (not resolved)"
 
 
 def _against(mine: Sequence[BoundaryPoint]) -> Iterator[str]:
-    """Name every point that lies below that of the next lower load, and by how much."""
+    """Name every point below the next lower load's.
+
+    With the difference.
+    """
     for point in mine:
         lower = [p for p in mine if (p.variant, p.frequency_Hz) == (point.variant, point.frequency_Hz)]
         lower = sorted((p for p in lower if p.load_N < point.load_N), key=lambda p: p.load_N)[-1:]

@@ -30,7 +30,9 @@ class PlateContact:
 
 
 def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, inner: bool) -> PlateContact:
-    """Plate capacitor of one contact under `load` [N] at `contact_angle` [rad].
+    """Return the plate capacitance of one contact.
+
+    Under `load` [N] at `contact_angle` [rad].
 
     Raises
     ------
@@ -98,7 +100,9 @@ def _rows(inner: PlateContact, outer: PlateContact) -> list[MethodRow]:
 
 
 def evaluate(inputs: MethodInputs) -> MethodTable:
-    """Capacitance of the most heavily loaded ball's contacts, and of all loaded balls together.
+    """Compute the capacitance of the loaded contacts.
+
+    Of the contacts of the most heavily loaded ball, and of all loaded balls together.
 
     A ball's two contacts are in series, the balls in parallel; balls without load are left out.
     """

@@ -9,7 +9,10 @@ from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable
 
 
 def _mean_angle(inputs: MethodInputs) -> float:
-    """Load-weighted mean contact angle of the loaded balls [rad]; 0 without an equilibrium."""
+    """Return the mean contact angle of loaded balls [rad].
+
+    Weighted by the load; 0 without an equilibrium.
+    """
     if inputs.state is None:
         return 0.0
     total = sum(contact.load_inner + contact.load_outer for contact in inputs.state.contacts)
@@ -23,7 +26,10 @@ def _mean_angle(inputs: MethodInputs) -> float:
 
 
 def evaluate(inputs: MethodInputs) -> MethodTable:
-    """Cage and ball speeds and the frequencies FTF, BPFO, BPFI and BSF."""
+    """Compute cage and ball speeds and characteristic frequencies.
+
+    FTF, BPFO, BPFI and BSF.
+    """
     angle = _mean_angle(inputs)
     gamma = diameter_ratio(inputs.ball_diameter, inputs.pitch_diameter, angle)
     orders = frequency_orders(inputs.ball_count, inputs.ball_diameter, inputs.pitch_diameter, angle)

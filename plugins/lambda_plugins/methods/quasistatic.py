@@ -25,7 +25,10 @@ _SUMS = {
 
 
 def _stiffness_rows(stiffness: tuple[tuple[float, ...], ...]) -> list[MethodRow]:
-    """Upper triangle of the 5 x 5 matrix in N/um, N/mrad and N m/mrad."""
+    """Return the upper triangle of the stiffness matrix.
+
+    5 x 5, in N/um, N/mrad and N m/mrad.
+    """
     rows = []
     for i, first in enumerate(_AXES):
         for j in range(i, len(_AXES)):
@@ -53,7 +56,10 @@ def _load_rows(state: EquilibriumState) -> list[MethodRow]:
 
 
 def _friction_rows(state: EquilibriumState) -> list[MethodRow]:
-    """Total, the three sums that catalogues print, then every part."""
+    """Return the friction torque and its parts.
+
+    The total first, then the three sums that catalogues print, then every part.
+    """
     if not state.friction:
         return []
     total = sum(value for _, value in state.friction)
@@ -67,7 +73,10 @@ def _friction_rows(state: EquilibriumState) -> list[MethodRow]:
 
 
 def evaluate(inputs: MethodInputs) -> MethodTable:
-    """Loads, displacement, stiffness and friction of the quasi-static equilibrium."""
+    """Return loads, displacement, stiffness and friction of an equilibrium.
+
+    The equilibrium is quasi-static.
+    """
     state = inputs.state
     if state is None or not state.contacts:
         raise NotApplicable("no quasi-static equilibrium was found")

@@ -20,7 +20,10 @@ from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, No
 
 
 def _ratings(inputs: MethodInputs, assumptions: list[str]) -> tuple[float, float, float]:
-    """C, C_0 and C_u: the catalogue's where it has them, else from the geometry, said in `assumptions`."""
+    """Return C, C_0 and C_u.
+
+    From the catalogue where it has them, else from the geometry, as `assumptions` reports.
+    """
     of_kind: dict[str, Any] = {
         "contact_angle": inputs.contact_angle,
         "rows": inputs.rated_rows,
@@ -52,7 +55,10 @@ def _gamma(inputs: MethodInputs) -> float:
 
 
 def evaluate_iso281(inputs: MethodInputs) -> MethodTable:
-    """Basic and modified rating life and static safety from radial and axial load."""
+    """Compute rating lives and static safety from loads.
+
+    Basic and modified rating life, from radial and axial load.
+    """
     assumptions: list[str] = []
     dynamic, static, fatigue = _ratings(inputs, assumptions)
     loads, kind = (inputs.radial_load, inputs.axial_load), (inputs.contact_angle, inputs.rated_rows)
@@ -74,7 +80,10 @@ def evaluate_iso281(inputs: MethodInputs) -> MethodTable:
 def _modified_rows(
     prefix: str, life: float, load: float, fatigue: float, inputs: MethodInputs, assumptions: list[str]
 ) -> list[MethodRow]:
-    """kappa, a_ISO and the modified life, or the reason why there is none among the assumptions."""
+    """Return kappa, a_ISO and the modified life.
+
+    Or give the reason for their absence among the assumptions.
+    """
     if inputs.relative_speed == 0.0:
         return []
     ratio = inputs.kinematic_viscosity / reference_viscosity(inputs.relative_speed, inputs.pitch_diameter)
@@ -94,7 +103,10 @@ def _modified_rows(
 
 
 def evaluate_ts16281(inputs: MethodInputs) -> MethodTable:
-    """Reference rating life from the quasi-static load of every ball."""
+    """Compute the reference rating life.
+
+    From the quasi-static load of every ball.
+    """
     if inputs.state is None:
         raise NotApplicable("the loads of the contacts are needed: no quasi-static equilibrium was found")
     assumptions: list[str] = ["the load stands still relative to the outer ring"]

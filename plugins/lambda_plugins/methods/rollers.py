@@ -59,7 +59,9 @@ def factors_of(inputs: RollerMethodInputs) -> SeriesFactors:
 
 
 def evaluate_schaeffler(inputs: RollerMethodInputs) -> MethodTable:
-    """Answer a roller bearing with M_0 + M_1 of Palmgren, as Schaeffler prints it.
+    """Compute M_0 + M_1 of Palmgren for a roller bearing.
+
+    As Schaeffler prints it.
 
     M_1 = f_1 P_1 d_m, P_1 = F_r of cylindrical and needle rollers, the larger of F_r and 2 Y F_a of tapered ones.
     """
@@ -153,7 +155,10 @@ def evaluate_quasistatic(inputs: RollerMethodInputs) -> MethodTable:
 
 
 def evaluate_iso281(inputs: RollerMethodInputs) -> MethodTable:
-    """Give basic and modified rating life (exponent 10/3) and static safety."""
+    """Compute basic and modified rating life and static safety.
+
+    The exponent of the life is 10/3.
+    """
     bearing, speed = inputs.bearing, inputs.relative_speed
     thrust = inputs.axial_load if bearing.contact_angle > 0.0 else 0.0
     load = roller_equivalent_load(inputs.radial_load, thrust, bearing.contact_angle)
@@ -189,7 +194,10 @@ def evaluate_iso281(inputs: RollerMethodInputs) -> MethodTable:
 
 
 def evaluate_iso16281(inputs: RollerMethodInputs) -> MethodTable:
-    """Give the reference rating life from the load of every lamina."""
+    """Compute the reference rating life by laminae.
+
+    From the load of every lamina.
+    """
     bearing, state = inputs.bearing, inputs.state
     gamma = bearing.diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
     ratings = lamina_ratings(
@@ -209,7 +217,10 @@ def evaluate_iso16281(inputs: RollerMethodInputs) -> MethodTable:
 
 
 def evaluate_kinematics(inputs: RollerMethodInputs) -> MethodTable:
-    """Give speeds of cage and rollers without sliding, and the frequencies of defects."""
+    """Compute speeds without sliding and defect frequencies.
+
+    Of cage and rollers.
+    """
     bearing = inputs.bearing
     if inputs.relative_speed == 0.0:
         raise NotApplicable("nothing turns")

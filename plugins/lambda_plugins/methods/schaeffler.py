@@ -18,7 +18,10 @@ from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, No
 
 @dataclass(frozen=True)
 class SeriesFactors:
-    """f_0 for an oil bath to the middle of the lowest ball, for grease and oil-air, and f_1 by series [-]."""
+    """Factors f_0 and f_1 of a series [-].
+
+    f_0 for an oil bath to the middle of the lowest ball, for grease and for oil-air.
+    """
 
     f0_bath: float
     f0_grease: float
@@ -52,7 +55,9 @@ def series_factors(series: str) -> SeriesFactors:
 
 
 def idle_torque(f0: float, mean_diameter: float, speed: float, kinematic_viscosity: float) -> float:
-    """M_0 [N m]: f_0 1e-7 d_m^3 (nu n)^(2/3), or 160e-7 f_0 d_m^3 below nu n = 2000 (Syla et al. 2026, eq. 38-39).
+    """Return the idle torque M_0 [N m].
+
+    f_0 1e-7 d_m^3 (nu n)^(2/3), or 160e-7 f_0 d_m^3 below nu n = 2000 (Syla et al. 2026, eq. 38-39).
 
     (mm, mm2/s, 1/min; N mm.) The two branches meet within 0.8 % at nu n = 2000.
 
@@ -73,7 +78,7 @@ def idle_torque(f0: float, mean_diameter: float, speed: float, kinematic_viscosi
 def load_torque(
     f1: float, mean_diameter: float, radial_load: float, axial_load: float, static_rating: float
 ) -> tuple[float, float]:
-    """M_1 [N m] and the load P_1 [N] that decides it.
+    """Return M_1 [N m] and its decisive load P_1 [N].
 
     M_1 = f_1 sqrt(P_0/C_0) P_1 d_m, P_1 = max(F_r, 3.3 F_a - 0.1 F_r), P_0 the static equivalent load.
     """

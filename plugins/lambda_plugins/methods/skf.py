@@ -30,7 +30,10 @@ NEGLIGIBLE_AXIAL_SHARE = 1e-3
 
 @dataclass(frozen=True)
 class SeriesConstants:
-    """Constants of one dimension series (mm, N; G_rr and G_sl in N mm)."""
+    """Constants of one dimension series (mm, N.
+
+    G_rr and G_sl in N mm).
+    """
 
     r1: float
     r2: float
@@ -50,7 +53,7 @@ SERIES: dict[str, SeriesConstants] = {
 
 @dataclass(frozen=True)
 class SkfFriction:
-    """Parts of the friction torque [N m] and the factors behind them [-]."""
+    """Parts of SKF's friction torque [N m] and factors."""
 
     rolling: float  # M_rr
     sliding: float  # M_sl
@@ -89,7 +92,10 @@ def series_constants(series: str) -> SeriesConstants:
 
 
 def operating_contact_angle(axial_load: float, static_rating: float) -> float:
-    """Angle alpha_F = 24.6 (F_a/C_0)^0.24 degrees of the SKF model, returned in rad."""
+    """Return alpha_F = 24.6 (F_a/C_0)^0.24 of SKF's model.
+
+    The formula is in degrees; the result is in rad.
+    """
     return math.radians(24.6 * (axial_load / static_rating) ** 0.24)
 
 
@@ -100,7 +106,9 @@ def load_variables(
     axial_load: float = 0.0,
     static_rating: float | None = None,
 ) -> tuple[float, float]:
-    """Load and geometry variables (G_rr, G_sl) in the catalogue's units (torque in N mm).
+    """Return the load and geometry variables G_rr and G_sl.
+
+    In the catalogue's units (torque in N mm).
 
     F_a = 0 (below 0.1 % of F_r): G_rr = R1 d_m^1.96 F_r^0.54, G_sl = S1 d_m^-0.26 F_r^(5/3); else G_rr = R1 d_m^1.96
     (F_r + R2 F_a/sin alpha_F)^0.54, G_sl = S1 d_m^-0.145 (F_r^5 + S2 d_m^1.5 F_a^4/sin alpha_F)^(1/3). The
@@ -129,7 +137,9 @@ def load_variables(
 def continuous_sliding(
     constants: SeriesConstants, mean_diameter: float, radial_load: float, axial_load: float, static_rating: float
 ) -> float:
-    """Sliding variable G_sl without the step of the print where the axial load leaves zero [N mm over mu_sl].
+    """Return G_sl without the step at zero axial load.
+
+    The step of the print is where the axial load leaves zero [N mm over mu_sl].
 
     G_sl = S1 ((d_m^-0.26)^3 F_r^5 + (d_m^-0.145)^3 S2 d_m^1.5 F_a^4/sin alpha_F)^(1/3): each load keeps the power of
     d_m that the catalogue prints for it alone, so that both pure loads have the printed value. Own work; under combined
@@ -145,24 +155,33 @@ def continuous_sliding(
 
 
 def inlet_heating_factor(speed_rpm: float, mean_diameter: float, viscosity: float) -> float:
-    """phi_ish = 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) (n in 1/min, d_m in mm, nu in mm2/s)."""
+    """Return the inlet heating factor phi_ish.
+
+    1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) (n in 1/min, d_m in mm, nu in mm2/s).
+    """
     return float(1.0 / (1.0 + 1.84e-9 * (speed_rpm * mean_diameter) ** 1.28 * viscosity**0.64))
 
 
 def boundary_share(speed_rpm: float, viscosity: float, mean_diameter: float) -> float:
-    """phi_bl = exp(-2.6e-8 (n nu)^1.4 d_m) (1/min, mm2/s, mm)."""
+    """Return the share of boundary lubrication phi_bl.
+
+    exp(-2.6e-8 (n nu)^1.4 d_m) (1/min, mm2/s, mm).
+    """
     return math.exp(-2.6e-8 * (speed_rpm * viscosity) ** 1.4 * mean_diameter)
 
 
 def sliding_coefficient(boundary: float, full_film: float) -> float:
-    """mu_sl = phi_bl mu_bl + (1 - phi_bl) mu_EHL."""
+    """Return mu_sl = phi_bl mu_bl + (1 - phi_bl) mu_EHL."""
     return boundary * MU_BOUNDARY + (1.0 - boundary) * full_film
 
 
 def replenishment_factor(
     speed_rpm: float, bore: float, outside: float, viscosity: float, lubrication: Lubrication, k_z: float = K_Z
 ) -> float:
-    """phi_rs = exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))) (mm, 1/min, mm2/s); K_rs 3e-8 bath, 6e-8 grease."""
+    """Return the replenishment factor phi_rs.
+
+    exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))) (mm, 1/min, mm2/s); K_rs 3e-8 bath, 6e-8 grease.
+    """
     geometry = (bore + outside) * math.sqrt(k_z / (2.0 * (outside - bore)))
     return math.exp(-STARVATION[lubrication] * viscosity * speed_rpm * geometry)
 
@@ -183,7 +202,9 @@ def skf_friction(
     volume_factor: float = 0.0,
     edition: Literal["2008", "2018"] = "2018",
 ) -> SkfFriction:
-    """Friction torque of an open ball bearing after SKF, deep groove or angular contact; see the module for the source.
+    """Return the friction torque of a ball bearing by SKF.
+
+    Open deep groove or angular contact bearing; the module names the source.
 
     M_rr = phi_ish phi_rs G_rr (nu n)^0.6; M_sl = G_sl mu_sl, mu_sl = phi_bl mu_bl + (1 - phi_bl) mu_EHL,
     phi_bl = exp(-2.6e-8 (n nu)^1.4 d_m). Valid for steady running at normal operating clearance.
@@ -245,7 +266,10 @@ def skf_friction(
 
 
 def full_film_coefficient(base_type: str) -> float:
-    """mu_EHL by the oil's base type: 0.05 mineral, 0.04 synthetic (everything that is not called mineral)."""
+    """Return mu_EHL by the oil's base type.
+
+    0.05 mineral, 0.04 synthetic (every oil that is not called mineral).
+    """
     return 0.05 if "mineral" in base_type.lower() else 0.04
 
 
@@ -308,7 +332,10 @@ def evaluate(inputs: MethodInputs) -> MethodTable:
 
 
 def _without_step(inputs: MethodInputs, result: SkfFriction) -> float | None:
-    """Return M_sl of the continuous form [N m]; None where the print has no step: other series, a pure load."""
+    """Return M_sl of the continuous form [N m].
+
+    None where the print has no step: other series, a pure load.
+    """
     if inputs.series in skf_angular.SERIES or inputs.static_rating is None or not inputs.radial_load > 0.0:
         return None
     if inputs.axial_load <= NEGLIGIBLE_AXIAL_SHARE * inputs.radial_load:
@@ -320,7 +347,7 @@ def _without_step(inputs: MethodInputs, result: SkfFriction) -> float | None:
 
 
 def _seals(inputs: MethodInputs) -> tuple[float, str]:
-    """Return the friction torque of the seals [N m], and a sentence about it."""
+    """Return the seals' friction torque [N m] and a sentence."""
     kind, sides = seals_of(inputs.designation)
     if not kind:
         return 0.0, "open bearing without contact seals"

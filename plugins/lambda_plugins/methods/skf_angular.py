@@ -23,7 +23,10 @@ SERIES = tuple(K_Z)
 
 @dataclass(frozen=True)
 class AngularConstants:
-    """Constants of one kind (mm, N, 1/min; G_rr and G_sl in N mm)."""
+    """Constants of one kind (mm, N, 1/min.
+
+    G_rr and G_sl in N mm).
+    """
 
     r1: float
     r2: float
@@ -49,7 +52,9 @@ _POWERS, _POWERS_ALIGNING = (1.97, 0.26, 4.0), (2.0, -0.12, 3.5)
 def angular_variables(
     mean_diameter: float, radial_load: float, axial_load: float, speed: float, series: str = "72"
 ) -> tuple[float, float]:
-    """Load and geometry variables (G_rr, G_sl) in the catalogue's units (torque in N mm).
+    """Return the load and geometry variables G_rr and G_sl.
+
+    In the catalogue's units (torque in N mm).
 
     G_rr = R1 d_m^1.97 (F_r + F_g + R2 F_a)^0.54 with F_g = R3 d_m^4 n^2; G_sl = S1 d_m^0.26 ((F_r + F_g)^(4/3) +
     S2 F_a^(4/3)) with F_g = S3 d_m^4 n^2 (mm, N, 1/min); of self-aligning bearings d_m has the powers 2, -0.12, 3.5.

@@ -32,7 +32,9 @@ EARLIER = 2.25e-5
 
 
 def drag_loss_factor(level: float, edition: str = "2018") -> float:
-    """Return V_M at the oil level H over the mean diameter d_m, linear between the chart's points.
+    """Return V_M at the relative oil level H/d_m.
+
+    Linear between the chart's points.
 
     0 without oil, constant above 1.4, where the bearing is drowned. The chart belongs to the edition of 2018; the other
     has one number for every level.

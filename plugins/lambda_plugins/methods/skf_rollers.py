@@ -52,7 +52,9 @@ _FULL_FILM = {"cylindrical": 0.02, "full complement": 0.02, "tapered": 0.002}  #
 def roller_load_variables(
     kind: str, series: str, mean_diameter: float, radial_load: float, axial_load: float, axial_factor: float = 0.0
 ) -> tuple[float, float]:
-    """Return G_rr and G_sl in the catalogue's units (torque in N mm).
+    """Return G_rr and G_sl of a roller bearing.
+
+    In the catalogue's units (torque in N mm).
 
     Cylindrical: G_rr = R1 d_m^2.41 F_r^0.31, G_sl = S1 d_m^0.9 F_a + S2 d_m F_r. Tapered: G_rr = R1 d_m^2.38 (F_r +
     R2 Y F_a)^0.31, G_sl = S1 d_m^0.82 (F_r + S2 Y F_a).

@@ -17,7 +17,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class SealRow:
-    """One row of the table: up to which outside diameter it holds, exponent, constants."""
+    """One row of the table of seals.
+
+    Limit of the outside diameter, exponent, constants.
+    """
 
     up_to: float  # D [mm], included
     beta: float
@@ -41,13 +44,18 @@ _WRITTEN = re.compile(r"(?<![A-Z0-9])(2?)(RZ|RSL|RSH|RS1)(?![A-Z0-9])")  # of NB
 
 
 def seals_of(designation: str) -> tuple[str, int]:
-    """Return the kind of seal that SKF's suffix in a designation names, and on how many sides; ("", 0) for none."""
+    """Return kind and number of seals of a designation.
+
+    By SKF's suffix; ("", 0) for none.
+    """
     match = _WRITTEN.search(designation.upper())
     return (match[2], 2 if match[1] else 1) if match else ("", 0)
 
 
 def seal_torque(kind: str, outside_diameter: float, counterface: float, sides: int = 2) -> float | None:
-    """Friction torque of the seals of a deep-groove ball bearing [N m]; None where the table has no row.
+    """Return the friction torque of the seals [N m].
+
+    Of a deep-groove ball bearing; None where the table has no row.
 
     M_seal = K_S1 d_s^beta + K_S2 of two seals; one has half of it.
 

@@ -47,7 +47,10 @@ def frames(scene: Scene) -> Iterator[NDArray[np.uint8]]:
 
 
 def _parts(figure: Figure, scene: Scene) -> list[Any]:
-    """Build everything that stands still; return what moves, each a function of the frame."""
+    """Draw the fixed parts and return the moving ones.
+
+    Each moving part is a function of the frame.
+    """
     figure.text(0.02, 0.955, scene.title, fontsize=15, weight="bold", color=INK)
     figure.text(0.02, 0.915, scene.source, fontsize=10.5, color=SOFT)
     bearing: Any = figure.add_axes((0.02, 0.06, 0.54, 0.84))
@@ -86,7 +89,7 @@ def _bearing(axes: Any, scene: Scene) -> list[Any]:
 
 
 def _spoke(axes: Any, scene: Scene, inside: float, outside: float) -> Any:
-    """Draw the mark that shows how far the inner ring has turned."""
+    """Draw the mark of the inner ring's rotation."""
     (line,) = axes.plot([], [], color=INK, linewidth=3.0, solid_capstyle="butt", zorder=2)
 
     def move(frame: int) -> None:
@@ -98,7 +101,10 @@ def _spoke(axes: Any, scene: Scene, inside: float, outside: float) -> Any:
 
 
 def _cage(axes: Any, scene: Scene, ball: float, pitch: float) -> Any:
-    """Draw the bars of the cage between its pockets; displacements of micrometres are in the orbit, not here."""
+    """Draw the bars of the cage between its pockets.
+
+    The orbit shows displacements of micrometres.
+    """
     count = scene.load.shape[1]
     half_gap = math.asin(min(0.5 * ball * 1.06 / (0.5 * pitch), 1.0))
     step = 2.0 * math.pi / count
@@ -116,7 +122,10 @@ def _cage(axes: Any, scene: Scene, ball: float, pitch: float) -> Any:
 
 
 def _balls(axes: Any, scene: Scene, ball: float) -> Any:
-    """Draw the balls, darker under load, each with two spots that turn with it."""
+    """Draw the balls, darker under load.
+
+    Each has two spots that turn with it.
+    """
     from scipy.spatial.transform import Rotation
 
     top = 1e-3 * float(scene.load.max()) or 1.0
@@ -143,7 +152,10 @@ def _balls(axes: Any, scene: Scene, ball: float) -> Any:
 
 
 def _vectors(axes: Any, scene: Scene, races: list[float], ball: float) -> Any:
-    """Draw the forces of the balls on the rings, and of the cage on the balls."""
+    """Draw the forces on the rings and balls.
+
+    Of the balls on the rings, and of the cage on the balls.
+    """
     force = 1e-3 * scene.load_vectors()[..., 1:]
     sizes = np.linalg.norm(force, axis=-1)
     most, push = float(sizes.max()) or 1.0, np.linalg.norm(scene.pocket_force[..., 1:], axis=-1)
@@ -213,7 +225,10 @@ def _unit(angle: Any) -> FloatArray:
 
 
 def _loads(axes: Any, scene: Scene) -> Any:
-    """Draw the load of every ball over its azimuth: where it has been, and where it is."""
+    """Draw the load of every ball over its azimuth.
+
+    The past and the present position.
+    """
     azimuth, load = np.degrees(scene.ball_azimuth) % 360.0, 1e-3 * scene.load
     points = []
     for ring, name in enumerate(("inner", "outer")):
@@ -237,7 +252,10 @@ def _loads(axes: Any, scene: Scene) -> Any:
 
 
 def _orbit(axes: Any, scene: Scene) -> Any:
-    """Draw the centre of the cage against the outer ring, to its own scale."""
+    """Draw the centre of the cage in the outer ring.
+
+    To its own scale.
+    """
     away = 1e6 * (scene.body_position[:, 2, 1:] - scene.body_position[:, 1, 1:])
     axes.plot(away[:, 0], away[:, 1], color=_CAGE, linewidth=1.0, alpha=0.5)
     (point,) = axes.plot([], [], "^", color=_CAGE, markersize=9)

@@ -11,7 +11,7 @@ from lambda_plugins.views.common import Span, averaging, over_azimuth, source
 
 
 def _of_arcs(run: RunData, span: Span, ring: str, channel: str, scale: float, *, loaded: bool) -> tuple[Series, ...]:
-    """Return a channel of both arcs of a ring, times `scale`."""
+    """Return a channel of both arcs, times `scale`."""
     found: list[Series] = []
     for number, arc in enumerate(ARCS):
         if not arc.startswith(ring):
@@ -24,7 +24,7 @@ def _of_arcs(run: RunData, span: Span, ring: str, channel: str, scale: float, *,
 
 
 def arcs(run: RunData, options: Options) -> ViewData:
-    """Loads and contact angles of all four contacts of the balls."""
+    """Loads and contact angles of all four ball contacts."""
     if not _has_arcs(run):
         raise NotApplicable("the rings of this bearing have one groove for each row: arcs are of four-point contact")
     span = averaging(run)
@@ -41,7 +41,10 @@ def arcs(run: RunData, options: Options) -> ViewData:
 
 
 def _has_arcs(run: RunData) -> bool:
-    """Tell whether the rings of a run have two arcs each."""
+    """Tell whether the rings of a run have arcs.
+
+    Each ring has two.
+    """
     return any(channel.name == "arc_load" for channel in run.channels)
 
 

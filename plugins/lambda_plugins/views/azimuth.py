@@ -30,7 +30,10 @@ def notes(span: Span) -> tuple[str, ...]:
 
 
 def load_distribution(run: RunData, options: Options) -> ViewData:
-    """Draw the load of every ball on both rings, polar and over azimuth."""
+    """Draw the load of every ball on both rings.
+
+    Polar and over azimuth.
+    """
     span = averaging(run)
     series = tuple(_series(run, span, "load", 1e-3, loaded=False))
     polar = Panel("around the bearing", AZIMUTH, Axis("load", "kN", low=0.0), series, shape="polar")
@@ -57,7 +60,10 @@ def pressure(run: RunData, options: Options) -> ViewData:
 
 
 def film(run: RunData, options: Options) -> ViewData:
-    """Central film thickness and film parameter of the loaded contacts over azimuth."""
+    """Film thickness and film parameter over azimuth.
+
+    Central film of the loaded contacts.
+    """
     span = averaging(run)
     thickness = _series(run, span, "film_central", 1e6)
     lambdas = _series(run, span, "film_parameter", 1.0)

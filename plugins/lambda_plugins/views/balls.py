@@ -10,7 +10,10 @@ from lambda_plugins.views.common import averaging, of_ring, over_azimuth, source
 
 
 def ball_speeds(run: RunData, options: Options) -> ViewData:
-    """Orbital and spinning speed of the balls over kinematics, and sliding at both rings, over azimuth."""
+    """Speeds and sliding of the balls over azimuth.
+
+    Orbital and spinning speed over kinematics, and sliding at both rings.
+    """
     span = averaging(run)
     known = speeds(run, span)
     geometry = run.model["geometry"]

@@ -15,7 +15,10 @@ _WHIRL_WINDOW = 0.1  # cage revolutions over which the whirl speed is averaged
 
 
 def _guide(run: RunData) -> tuple[int, float, str]:
-    """Return the body that the cage moves against, the free radius [m] (NaN if unknown) and its name."""
+    """Return the guide of the cage and its clearance.
+
+    The body, the free radius [m] (NaN if unknown) and its name.
+    """
     cage = run.model["cage"]
     if cage["guidance"] == "ball":
         return BODY["outer"], 0.5 * number(cage["pocket_clearance"]), "pocket clearance"
@@ -29,7 +32,10 @@ def _circle(radius: float) -> tuple[FloatArray, FloatArray]:
 
 
 def cage_orbit(run: RunData, options: Options) -> ViewData:
-    """Path of the cage's centre, its whirl speed over the cage speed, and the cage speed over kinematics."""
+    """Path, whirl and speed of the cage.
+
+    Its whirl speed over the cage speed, and the cage speed over kinematics.
+    """
     require_cage(run)
     span = averaging(run)
     rows = span.rows(run["time"])
@@ -63,7 +69,10 @@ def cage_orbit(run: RunData, options: Options) -> ViewData:
 
 
 def _close_up(path: Series, end: Series, radius: float) -> tuple[Panel, ...]:
-    """Return the orbit alone where it is small compared with the circle [um] of the clearance."""
+    """Return the orbit alone where it is small.
+
+    Compared with the circle [um] of the clearance.
+    """
     size = max(float(np.ptp(path.x)), float(np.ptp(path.y)))
     if not math.isfinite(radius) or size > _SMALL * 2.0 * radius:
         return ()
@@ -73,7 +82,10 @@ def _close_up(path: Series, end: Series, radius: float) -> tuple[Panel, ...]:
 
 
 def _whirl(time: FloatArray, away: FloatArray, spin: FloatArray) -> tuple[Series, ...]:
-    """Return the whirl speed of the cage over its own, averaged over a tenth of a revolution."""
+    """Return the relative whirl speed of the cage.
+
+    Over its own speed, averaged over a tenth of a revolution.
+    """
     angle = np.unwrap(np.arctan2(away[:, 1], away[:, 0]))
     turned = np.abs(np.concatenate([[0.0], np.cumsum(0.5 * (spin[1:] + spin[:-1]) * np.diff(time))])) / (2.0 * math.pi)
     edges = np.arange(0.0, turned[-1], _WHIRL_WINDOW)
@@ -87,7 +99,10 @@ def _whirl(time: FloatArray, away: FloatArray, spin: FloatArray) -> tuple[Series
 
 
 def pocket_forces(run: RunData, options: Options) -> ViewData:
-    """Forces between balls and cage over azimuth and over time, and of the lands."""
+    """Forces on the cage over azimuth and time.
+
+    Of the balls and of the lands.
+    """
     require_cage(run)
     span = averaging(run)
     rows = span.rows(run["time"])

@@ -14,7 +14,10 @@ _STEADY = 1e-9  # relative swing below which there is no spectrum
 
 
 def capacitance(run: RunData, options: Options) -> ViewData:
-    """Capacitance of the bearing over time and its spectrum, and of the contacts over azimuth."""
+    """Capacitance of the bearing and of its contacts.
+
+    Of the bearing over time and its spectrum, of the contacts over azimuth.
+    """
     span = averaging(run)
     rows = span.rows(run["time"])
     time, values = run["time"][rows], 1e12 * run["bearing_capacitance"][rows]

@@ -19,7 +19,10 @@ _PARTS = (
 
 
 def catalogues(run: RunData, options: Options) -> ViewData:
-    """Friction torque of the simulation by parts, and what SKF's and Schaeffler's models say for the same point."""
+    """Friction torque of the simulation and of catalogues.
+
+    By parts, with SKF's and Schaeffler's models for the same point.
+    """
     summary = run.summary()
     rating = summary.rating
     if rating is None or summary.friction_torque_Nmm is None:

@@ -17,14 +17,17 @@ _MOST_LINES = 12  # more entries are drawn as a mean with the range that they co
 
 
 class ChannelOptions(Options):
-    """Which channel, and which of its balls."""
+    """Channel and balls to show."""
 
     channel: str = Field("load", description="name of the channel, as in the result file")
     ball: int = Field(0, ge=0, description="number of the ball; 0: all of them")
 
 
 def channel(run: RunData, options: ChannelOptions) -> ViewData:
-    """One channel over time; each entry as a line, or of many their mean and range."""
+    """One channel over time.
+
+    Each entry as a line, or of many their mean and range.
+    """
     known = {one.name: one for one in run.channels if one.name != "time"}
     if options.channel not in known:
         raise UsageError(f"view channel: {unknown_name('channel of this run', options.channel, known)}")

@@ -35,7 +35,10 @@ class Span:
 
 
 def averaging(run: RunData) -> Span:
-    """Return the averaging window of a run: whole cage revolutions after the discarded ones."""
+    """Return the averaging window of a run.
+
+    Whole cage revolutions after the discarded ones.
+    """
     settings = Solver(**{name: float(value) for name, value in run.model["solver"].items()})
     chosen = window(settings, run.revolutions(), run.integrals()[-1])
     start, end = float(chosen.interval.first[0]), float(chosen.interval.last[0])
@@ -46,7 +49,10 @@ def averaging(run: RunData) -> Span:
 
 
 def source(run: RunData) -> str:
-    """Return the line that says which run is shown: case, bearing, loads and speed, oil and clearance."""
+    """Return the line that identifies a run.
+
+    Case, bearing, loads and speed, oil and clearance.
+    """
     bearing, conditions, *_ = run.headline.splitlines()
     parts = re.split(r" {2,}", bearing)
     loads = [part for part in re.split(r" {3,}", conditions) if part != "cage on" and not part.startswith("strips ")]
@@ -66,13 +72,19 @@ def require_cage(run: RunData) -> None:
 
 
 def number(value: object) -> float:
-    """Return a number of the resolved model, which writes NaN and infinity as text."""
+    """Return a number of the resolved model.
+
+    The model writes NaN and infinity as text.
+    """
     return float(str(value))
 
 
 @dataclass(frozen=True)
 class Profile:
-    """A channel over azimuth: mean and spread in bins of equal width."""
+    """A channel over azimuth.
+
+    Mean and spread in bins of equal width.
+    """
 
     azimuth: FloatArray  # centres of the bins [deg], shape (bins,)
     mean: FloatArray  # NaN where nothing was
@@ -114,7 +126,9 @@ def over_azimuth(
     *,
     end: bool = True,
 ) -> list[Series]:
-    """Return a channel over azimuth: mean with the range it covers, and every ball at the end state as a point.
+    """Return a channel over azimuth.
+
+    Mean and range, and every ball at the end state as a point.
 
     Parameters
     ----------
@@ -139,13 +153,19 @@ def over_azimuth(
 
 
 def of_ring(run: RunData, channel: str, ring: str) -> FloatArray:
-    """Return a contact channel of one ring, shape (time, ball), SI."""
+    """Return a contact channel of one ring.
+
+    Shape (time, ball), SI.
+    """
     return run[channel][:, :, RINGS.index(ring)]
 
 
 @dataclass(frozen=True)
 class Speeds:
-    """Mean speeds of a span and what kinematics makes of them, [rad/s] but for `orders`."""
+    """Mean and kinematic speeds of a span.
+
+    [rad/s] except `orders`.
+    """
 
     inner: float
     outer: float
@@ -173,7 +193,10 @@ class Speeds:
 
 
 def speeds(run: RunData, span: Span) -> Speeds:
-    """Return the mean speeds of the rings in a span and the kinematics that belong to them."""
+    """Return mean and kinematic speeds of a span.
+
+    The kinematic ones belong to the mean speeds of the rings.
+    """
     rows = span.rows(run["time"])
     spin = run["body_spin"][rows].mean(axis=0)
     load, angle = run["load"][rows], run["contact_angle"][rows]
@@ -211,12 +234,18 @@ def spectrum(time: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArr
 
 
 def integration(run: RunData, frequency: float) -> tuple[str, ...]:
-    """Return what the integration does to vibrations in a spectrum that ends at a frequency [Hz]."""
+    """Return what the integration does to vibrations.
+
+    In a spectrum that ends at a frequency [Hz].
+    """
     found = run.summary().vibrations
     return (found.note(frequency),) if found is not None and frequency > 0.0 else ()
 
 
 def trace(name: str, x: FloatArray, y: FloatArray, role: str = "") -> Series:
-    """Return a line; of a long record every k-th point, so that at most some thousand are drawn."""
+    """Return a line of at most some thousand points.
+
+    Of a long record every k-th point is drawn.
+    """
     step = max(1, -(-x.size // _MOST_POINTS))
     return Series(name, x[::step], y[::step], "line", role)

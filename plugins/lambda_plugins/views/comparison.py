@@ -18,7 +18,10 @@ _TOLD = 8  # differing inputs, at most
 
 
 def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
-    """Friction by mechanism, cage slip, films, pressures and load distributions of several runs."""
+    """Friction, slip, films, pressures and loads of several runs.
+
+    Friction by mechanism and load distributions.
+    """
     if len(runs) < 2:
         raise NotApplicable("a comparison needs at least two results")
     if len(runs) > _MOST:
@@ -74,7 +77,10 @@ def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
 
 
 def _side_by_side(summaries: Sequence[Any]) -> Iterator[tuple[str, list[float | None]]]:
-    """Yield the friction torques of the simulations, and of the catalogues for the same cases."""
+    """Yield the friction torques of simulations and catalogues.
+
+    The catalogues answer for the same cases.
+    """
     yield "simulation", [s.friction_torque_Nmm for s in summaries]
     for name, field in (("SKF", "skf_torque_Nmm"), ("Schaeffler", "schaeffler_torque_Nmm")):
         yield name, [getattr(s.rating, field, None) for s in summaries]

@@ -43,7 +43,7 @@ _CHANNELS = (
 
 
 class Choice(Options):
-    """Which contact, and when."""
+    """Contact and time to show."""
 
     ball: int = Declared(0, ge=0, description="number of the ball, from 1; 0: the one with the largest load")
     ring: Literal["inner", "outer"] = Declared("inner", description="inner or outer")
@@ -51,7 +51,10 @@ class Choice(Options):
 
 
 def contact_map(run: RunData, options: Choice) -> ViewData:
-    """Maps over one contact ellipse, computed from the recorded state by the contact pipeline itself."""
+    """Maps over one contact ellipse.
+
+    The contact pipeline computes them from the recorded state.
+    """
     if has_rollers(run):
         raise NotApplicable("rollers touch along lines: the view line-contact shows them")
     row, sample = _moment(run, options.time)
@@ -89,7 +92,10 @@ def _moment(run: RunData, time: float) -> tuple[int, dict[str, FloatArray]]:
 
 
 def _field(run: Any, row: int, sample: dict[str, FloatArray], ball: int, ring: str) -> ContactField:
-    """Assemble the model of the run again and run its pipeline at the recorded state."""
+    """Evaluate the pipeline at the recorded state.
+
+    The model of the run is assembled again.
+    """
     from lambda_core.analysis.rotor.bearing_alone import bearing_of_run
     from lambda_core.elements.ball.raceways import raceways_of_a_ball
     from lambda_core.model.laws.state_channels import state_channels
@@ -110,7 +116,10 @@ def _field(run: Any, row: int, sample: dict[str, FloatArray], ball: int, ring: s
 
 
 def _place(run: RunData, row: int, context: SolverContext, ball: int, ring: str) -> int:
-    """Return which of a ball's contacts is that with a ring: with two arcs the one that carries more."""
+    """Return a ball's contact with a ring.
+
+    Of two arcs the one that carries more.
+    """
     from lambda_core.solver.drivers.ring_values import rings_of_contacts
 
     places = np.flatnonzero(rings_of_contacts(context.model.geometry) == ("inner", "outer").index(ring))
@@ -120,7 +129,10 @@ def _place(run: RunData, row: int, context: SolverContext, ball: int, ring: str)
 
 
 def _refuse_other_physics(run: RunData, context: SolverContext, ring: str) -> None:
-    """Refuse a map of other physics than the run's: catalogue or laws of the contact may have changed since."""
+    """Refuse a map of other physics than the run's.
+
+    The catalogue or the laws of the contact may have changed since.
+    """
     from lambda_core.results.provenance import differences, model_data
 
     element, keys = f"ball_{ring}", context.kernels.keys()
@@ -165,7 +177,10 @@ def _edge(found: ContactField) -> Series:
 
 
 def _slip_arrows(found: ContactField) -> Arrows:
-    """Return slip vectors at some cells; u along the major axis, v along rolling."""
+    """Return slip vectors at some cells.
+
+    u along the major axis, v along rolling.
+    """
     strips, rows = found.across.shape
     some = np.ix_(
         np.linspace(0, strips - 1, _ARROWS[0] + 2).round().astype(int)[1:-1],
@@ -176,7 +191,7 @@ def _slip_arrows(found: ContactField) -> Arrows:
 
 
 def _film(found: ContactField) -> Field:
-    """Return the film over the contact and the gap around it.
+    """Return the film over the contact and around it.
 
     Confocal coordinates x = A cos phi, y = B sin phi, A^2 = a^2 + t^2, B^2 = b^2 + t^2, t = b sinh w. Outside the
     contact Hertz's surfaces stand apart by P (x^2 I_A + y^2 I_B - I_1) with the integrals of 1/A^3, 1/(B^2 A) and
@@ -205,7 +220,10 @@ def _film(found: ContactField) -> Field:
 
 
 def _running(values: FloatArray, w: FloatArray) -> FloatArray:
-    """Return the running integral of values over w by the trapezoidal rule."""
+    """Return the running integral of values over w.
+
+    By the trapezoidal rule.
+    """
     return np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(w))])
 
 

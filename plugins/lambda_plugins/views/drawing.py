@@ -30,7 +30,7 @@ _CHARACTER = 0.074  # width of a character of the notes [inch]
 
 
 class HouseFigure(Figure):
-    """A matplotlib figure that is always written in the house's style."""
+    """Matplotlib figure in the style of the program."""
 
     def _repr_png_(self) -> bytes:
         """Return the figure as a notebook shows it."""
@@ -39,7 +39,10 @@ class HouseFigure(Figure):
         return buffer.getvalue()
 
     def draw(self, renderer: Any) -> None:
-        """Draw the figure; when matplotlib draws it to nowhere before it writes one, find the layout alone."""
+        """Draw the figure.
+
+        When matplotlib draws it to nowhere before it writes one, find the layout alone.
+        """
         layout = self.get_layout_engine()
         if isinstance(layout, ConstrainedLayoutEngine) and self.canvas.is_saving():
             layout.execute(self)
@@ -47,7 +50,10 @@ class HouseFigure(Figure):
             super().draw(renderer)
 
     def savefig(self, fname: Any, **options: Any) -> None:
-        """Write the figure; an SVG carries no date, so that equal data give equal files."""
+        """Write the figure without a date.
+
+        Equal data then give equal SVG files.
+        """
         if options.get("format") == "svg":
             options.setdefault("metadata", {"Date": None})
         with matplotlib.rc_context(RC | {"svg.hashsalt": self.get_label() or "view"}):
@@ -95,7 +101,10 @@ def _width(panel: Panel, columns: int) -> float:
 
 
 def _legends(panels: tuple[Panel, ...]) -> set[int]:
-    """Return the panels that get a legend: of several with the same entries one, and rather not a round one."""
+    """Return the panels that get a legend.
+
+    Of several with the same entries one, a round one last.
+    """
     first: dict[tuple[str, ...], int] = {}
     for number in sorted(range(len(panels)), key=lambda n: panels[n].shape == "polar"):
         panel = panels[number]

@@ -17,7 +17,7 @@ _FREQUENCIES = np.geomspace(1e2, 1e7, 51)
 
 
 class Seed(Options):
-    """What discharges are drawn by."""
+    """Seed of the discharges."""
 
     seed: int = Field(1, ge=0, description="key of the random numbers")
 
@@ -44,7 +44,10 @@ def _source(run: Any, found: Simulation) -> str:
 
 
 def voltage(run: Any, options: Seed) -> ViewData:
-    """Voltage between the rings edge by edge, and its range over the whole span with every discharge."""
+    """Voltage between the rings with every discharge.
+
+    Edge by edge, and its range over the whole span.
+    """
     found = _simulation(run, f"electric.seed={options.seed}", window=True)
     trace, events = found.solution.trace, found.events
     begin = found.time[0]
@@ -71,7 +74,10 @@ def voltage(run: Any, options: Seed) -> ViewData:
 
 
 def discharges(run: Any, options: Seed) -> ViewData:
-    """Share of the breakdowns over each raceway, and how large voltages and energies are."""
+    """Breakdowns of the raceways with voltages and energies.
+
+    Share of the breakdowns over each raceway, and the size of voltages and energies.
+    """
     found = _simulation(run, f"electric.seed={options.seed}")
     outcome = found.outcome
     if outcome.voltage_histogram is None or outcome.energy_histogram is None:
@@ -95,7 +101,10 @@ def discharges(run: Any, options: Seed) -> ViewData:
 
 
 def impedance(run: Any, options: Options) -> ViewData:
-    """Impedance between the rings over frequency, as a meter sees it while the bearing turns."""
+    """Impedance between the rings over frequency.
+
+    As a meter measures it while the bearing turns.
+    """
     from lambda_core.analysis.electric.circuit import impedance as meter
 
     found = _simulation(run)

@@ -14,7 +14,10 @@ _LOSS = [COLUMNS.index(f"loss.{name}") for name in LOSSES]
 
 
 def energy_balance(run: RunData, options: Options) -> ViewData:
-    """Work put in, energy dissipated and stored over time, and what is missing between them."""
+    """Work, dissipated and stored energy over time.
+
+    And the difference between them.
+    """
     rows = run.integrals()
     if rows.shape[0] < 2:
         raise NotApplicable("no energies are recorded yet")

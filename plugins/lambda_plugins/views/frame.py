@@ -24,7 +24,9 @@ _OUTSIDE = 4  # a longer legend goes next to the axes
 
 
 class Numbers(ScalarFormatter):
-    """Print numbers of an axis as plain text, a power of ten at the axis as a formula.
+    """Print the numbers of an axis as plain text.
+
+    A power of ten is a formula at the axis.
 
     The library sets every number as a formula where the power is one; reading those took a quarter of a figure's time.
     """
@@ -36,13 +38,13 @@ class Numbers(ScalarFormatter):
 
 
 def is_restless(values: Any) -> bool:
-    """Tell whether a line goes up and down so often that it fills its panel."""
+    """Tell whether a line fills its panel by oscillation."""
     known = values[np.isfinite(values)]
     return bool(known.size > 2 and np.abs(np.diff(known)).sum() > _RESTLESS * np.ptp(known))
 
 
 def draw_axes(axes: Any, panel: Panel) -> None:
-    """Give the axes of a panel their labels, scales and limits."""
+    """Label, scale and limit the axes of a panel."""
     if panel.shape == "polar":
         axes.set_theta_zero_location("E")
         axes.set_thetagrids(range(0, 360, 30))
@@ -94,7 +96,10 @@ def _scale(axes: Any, axis: Axis, which: str) -> None:
 
 
 def _few_decades(axis: Any, low: float, high: float) -> None:
-    """Write 500, 1000, 2000 on a short logarithmic axis: powers of ten at every mark would lie over each other."""
+    """Write 500, 1000, 2000 on a short logarithmic axis.
+
+    Powers of ten at every mark would overlap.
+    """
     if high < _DECADES * low:
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
@@ -102,7 +107,10 @@ def _few_decades(axis: Any, low: float, high: float) -> None:
 
 
 def _limit(axes: Any, axis: Axis, which: str) -> None:
-    """Set the ends that the axis asks for; the rest follows the data."""
+    """Set the ends that the axis requires.
+
+    The data set the others.
+    """
     set_limits = getattr(axes, f"set_{which}lim")
     low, high = getattr(axes, f"get_{which}lim")()
     if axis.low is not None and axis.high is None and not axis.log:
@@ -140,7 +148,10 @@ def _is_full(panel: Panel) -> bool:
 
 
 def draw_legend(axes: Any, panel: Panel) -> None:
-    """Put a legend where it hides nothing: inside, next to or below the axes."""
+    """Put a legend where it hides nothing.
+
+    Inside, next to or below the axes.
+    """
     handles, labels = axes.get_legend_handles_labels()
     if not labels or (len(labels) == 1 and panel.field is None and not panel.marks and len(panel.series) == 1):
         return

@@ -18,7 +18,10 @@ _ANGLE, _TIME = COLUMNS.index("relative_angle"), COLUMNS.index("time")
 
 
 def friction_breakdown(run: RunData, options: Options) -> ViewData:
-    """Friction torque by mechanism and ring, mean of the averaging window."""
+    """Friction torque by mechanism and ring.
+
+    Mean of the averaging window.
+    """
     summary = run.summary()
     parts = summary.friction_breakdown_Nmm
     total = summary.friction_torque_Nmm
@@ -48,7 +51,10 @@ def friction_breakdown(run: RunData, options: Options) -> ViewData:
 
 
 def _over_records(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the middle time [ms] and the friction torque [N mm] between records."""
+    """Return middle times and friction torque between records.
+
+    [ms] and [N mm].
+    """
     growth = np.diff(rows, axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
         torque = 1e3 * growth[:, _LOSS].sum(axis=1) / growth[:, _ANGLE]
@@ -56,7 +62,10 @@ def _over_records(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def convergence(run: RunData, options: Options) -> ViewData:
-    """Friction torque over time, the means of whole cage revolutions, and the confidence of their mean."""
+    """Friction torque over time and its mean.
+
+    With the means of whole cage revolutions, and the confidence of their mean.
+    """
     summary = run.summary()
     records, turns = run.integrals(), run.revolutions()
     if records.shape[0] < 2 or summary.friction_torque_Nmm is None:

@@ -13,7 +13,10 @@ from lambda_plugins.views.common import source
 
 
 def heat(run: RunData, options: Options) -> ViewData:
-    """Losses by mechanism, the nodes that get them, the flows to the surroundings, and the temperatures that follow."""
+    """Losses, heat flows and temperatures.
+
+    Losses by mechanism, the nodes that get them, the flows to the surroundings, and the temperatures that follow.
+    """
     from lambda_core import api
 
     try:

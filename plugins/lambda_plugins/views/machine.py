@@ -12,7 +12,10 @@ _POINTS = 4000  # of a line, at most
 
 
 def orbit(run: Any, options: Options) -> ViewData:
-    """Orbits of the shaft at every bearing and where it moves most."""
+    """Orbits of the shaft at bearings and extremes.
+
+    At every bearing and where the shaft moves most.
+    """
     machine = _machine(run)
     moved = 1e6 * _thinned(machine["shaft_position"])
     lumps = np.array(machine.labels("lump"), dtype=float)
@@ -50,7 +53,10 @@ def _is_machine(run: Any) -> bool:
 
 
 def _machine(run: Any) -> Any:
-    """Return the result of the whole machine; NotApplicable for one bearing alone."""
+    """Return the result of the whole machine.
+
+    NotApplicable for one bearing alone.
+    """
     if not _is_machine(run):
         raise NotApplicable("the case is one bearing alone, not a machine with a shaft")
     return run.of_machine()

@@ -21,7 +21,10 @@ def _source(found: Any) -> str:
 
 
 def deflection(machine: MachineData, options: Options) -> ViewData:
-    """Return the shaft, its deflection and its bending moment over one axis."""
+    """Return deflection and bending moment of the shaft.
+
+    Over one axis.
+    """
     model, report = machine.model, machine.equilibrium
     if report is None:
         raise NotApplicable("the equilibrium was not solved")
@@ -53,7 +56,10 @@ def deflection(machine: MachineData, options: Options) -> ViewData:
 
 
 def _drawing(model: Any, report: Any) -> Panel:
-    """Return the shaft from the side with its bearings, discs, and the reactions as arrows."""
+    """Draw the shaft from the side.
+
+    With its bearings, discs, and the reactions as arrows.
+    """
     series = [_loop("shaft", [_box(1e3 * a, 1e3 * b, -500.0 * d, 500.0 * d) for a, b, d, _ in model.outline], "total")]
     bores = [_box(1e3 * a, 1e3 * b, -500.0 * bore, 500.0 * bore) for a, b, _, bore in model.outline if bore > 0.0]
     if bores:
@@ -96,7 +102,10 @@ def _loop(name: str, boxes: list[list[tuple[float, float]]], role: str) -> Serie
 
 
 def ball_loads(machine: MachineData, options: Options) -> ViewData:
-    """Return the load of every ball on both rings over its azimuth, a panel for each bearing."""
+    """Return the ball loads over azimuth.
+
+    On both rings, a panel for each bearing.
+    """
     found = machine.equilibrium
     if found is None or not hasattr(next(iter(getattr(found, "bearings", [found]))), "contacts"):
         raise NotApplicable("an equilibrium of balls shows their loads")
@@ -107,7 +116,7 @@ def ball_loads(machine: MachineData, options: Options) -> ViewData:
 
 
 def _loads(name: str, contacts: Any) -> Panel:
-    """Return the loads of the balls of one bearing, ring by ring."""
+    """Return the ball loads of one bearing by rings."""
     series = []
     for ring in ("inner", "outer"):
         own = sorted((contact.azimuth_deg, contact.load_N) for contact in contacts if contact.ring == ring)
@@ -118,7 +127,10 @@ def _loads(name: str, contacts: Any) -> Panel:
 
 
 def campbell(machine: MachineData, options: Options) -> ViewData:
-    """Return natural frequencies of bending over speed, with the line of one per revolution."""
+    """Return natural bending frequencies over speed.
+
+    With the line of one per revolution.
+    """
     report = machine.modes
     if report is None or len(report.campbell) < 2:
         raise NotApplicable("the modes were not computed")

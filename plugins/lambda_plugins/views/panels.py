@@ -58,7 +58,9 @@ def _name(series: Series) -> str | None:
 
 
 def _looks(series: tuple[Series, ...]) -> list[Look]:
-    """Return the look of every series: that of its role, of its group, or the next of the cycle.
+    """Return the look of every series.
+
+    That of its role, of its group, or the next of the cycle.
 
     Inner and outer ring look like the first two of the cycle: where they are drawn, the cycle starts behind them.
     """
@@ -98,7 +100,10 @@ def _curve(axes: Any, series: Series, look: Look, *, polar: bool = False, framed
 
 
 def _is_calm(values: Any) -> bool:
-    """Tell whether a line can be dashed: dashes of a long record that goes up and down would be noise of their own."""
+    """Tell whether a line can be dashed.
+
+    Dashes of a long record that goes up and down would look like noise.
+    """
     return values.size <= _DASHED or not is_restless(values)
 
 
@@ -118,7 +123,10 @@ def _fill(look: Look) -> dict[str, Any]:
 
 
 def _values(axes: Any, places: Any, tops: Any, values: Any) -> None:
-    """Write numbers at the ends of bars, all to the digits that the largest one has."""
+    """Write numbers at the ends of bars.
+
+    All to the digits of the largest one.
+    """
     largest = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0
     digits = max(0, 2 - int(np.floor(np.log10(largest)))) if largest > 0.0 else 0
     for place, top, value in zip(places, tops, values, strict=True):
@@ -138,7 +146,10 @@ def _values(axes: Any, places: Any, tops: Any, values: Any) -> None:
 
 
 def _stacks(axes: Any, series: tuple[Series, ...], looks: list[Look]) -> None:
-    """Draw bars or areas on top of each other; anything else lies above them."""
+    """Draw bars or areas on top of each other.
+
+    Anything else lies above them.
+    """
     base: Any = None
     for item, look in zip(series, looks, strict=True):
         if item.kind not in ("bars", "area"):
@@ -159,7 +170,10 @@ def _stacks(axes: Any, series: tuple[Series, ...], looks: list[Look]) -> None:
 
 
 def _corners(places: FloatArray, log: bool) -> FloatArray:
-    """Return the corners of the cells around the places of a mesh, half-way to the next on a linear or log axis."""
+    """Return the corners of a mesh's cells.
+
+    Half-way to the next place, on a linear or log axis.
+    """
     grid = np.log(places) if log else np.asarray(places, dtype=np.float64)
     for axis in (0, 1):
         if grid.shape[axis] == 1:

@@ -17,7 +17,10 @@ _STILL = 1e-12  # [m] below this a ring does not move
 
 
 def ring_orbit(run: RunData, options: Options) -> ViewData:
-    """Path of the inner ring's centre across the shaft, and its motion over time."""
+    """Path and motion of the inner ring's centre.
+
+    The path across the shaft, the motion over time.
+    """
     span = averaging(run)
     rows = span.rows(run["time"])
     time = 1e3 * run["time"][rows]
@@ -49,14 +52,20 @@ def ring_orbit(run: RunData, options: Options) -> ViewData:
 
 
 def _last_turns(run: RunData, rows: slice) -> int:
-    """Return the first row, within a span, of the last turns of the rings against each other."""
+    """Return the start of the last turns.
+
+    The first row, within a span, of the last turns of the rings against each other.
+    """
     spin = run["body_spin_angle"][rows]
     turned = np.abs(spin[:, BODY["inner"]] - spin[:, BODY["outer"]]) / (2.0 * np.pi)
     return int(np.searchsorted(turned, turned[-1] - _TURNS)) if turned[-1] > turned[0] else 0
 
 
 def ring_spectrum(run: RunData, options: Options) -> ViewData:
-    """Amplitude spectrum of the inner ring's motion with the characteristic frequencies."""
+    """Amplitude spectrum of the inner ring's motion.
+
+    With the characteristic frequencies.
+    """
     span = averaging(run)
     rows = span.rows(run["time"])
     time, place = run["time"][rows], run["body_position"][rows, BODY["inner"]]

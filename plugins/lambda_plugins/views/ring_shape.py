@@ -17,7 +17,10 @@ Orders = dict[int, NDArray[np.float64]]
 
 
 def ring_shape(run: RunData, options: Options) -> ViewData:
-    """Rings and cage at the end of the run, displacements drawn larger, and the size of every wave over time."""
+    """Shape of rings and cage, and their waves.
+
+    At the end of the run, displacements enlarged; the size of every wave over time.
+    """
     found = _waves(run)
     if not found:
         raise NotApplicable("no part of this run is elastic: [elastic.outer_ring] in the case makes one so")
@@ -38,7 +41,10 @@ def ring_shape(run: RunData, options: Options) -> ViewData:
 
 
 def _waves(run: RunData) -> dict[str, Orders]:
-    """Return the amplitudes of every part by the number of waves, shape (n, 2) [m]."""
+    """Return the wave amplitudes of every part.
+
+    By the number of waves, shape (n, 2) [m].
+    """
     found: dict[str, Orders] = {}
     for channel in run.channels:
         if match := _NAME.fullmatch(channel.name):
@@ -52,7 +58,10 @@ def _part(name: str) -> str:
 
 
 def _shape(orders: Orders, azimuths: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the displacement outwards of a part at azimuths in its own frame [m]."""
+    """Return the outward displacement of a part [m].
+
+    At azimuths in its own frame.
+    """
     total = np.zeros(azimuths.size)
     for n, (cosine, sine) in orders.items():
         total += cosine * np.cos(n * azimuths) + sine * np.sin(n * azimuths)
@@ -60,7 +69,10 @@ def _shape(orders: Orders, azimuths: NDArray[np.float64]) -> NDArray[np.float64]
 
 
 def _bent(run: RunData, ring: str, shape: NDArray[np.float64], around: NDArray[np.float64]) -> Panel:
-    """Return a part, round and bent; its largest displacement is a quarter of its radius."""
+    """Return a part, round and bent.
+
+    Its largest displacement is drawn as a quarter of its radius.
+    """
     geometry = run.model["geometry"]
     radius = 0.5e3 * float(geometry["pitch_diameter" if ring == "cage" else f"race_diameter_{ring}"])
     largest = float(np.abs(shape).max())

@@ -22,7 +22,7 @@ _ROLES = {"inner +x": "inner", "inner -x": "total", "outer +x": "outer", "outer 
 
 
 class Choice(Options):
-    """Which roller, and when."""
+    """Roller and time to show."""
 
     roller: int = Declared(0, ge=0, description="number of the roller, from 1; 0: the one with the largest load")
     time: float = Declared(-1.0, description="moment [s]; negative: the end of the run")
@@ -34,7 +34,10 @@ def _require_rollers(run: RunData) -> None:
 
 
 def line_contact(run: RunData, options: Choice) -> ViewData:
-    """Pressure and load over length along both contacts of one roller, spread as the law of the contact does."""
+    """Pressure and load along a roller's contacts.
+
+    Over the length of both contacts, spread as the law of the contact does.
+    """
     _require_rollers(run)
     times = run["time"]
     if options.time > times[-1]:
@@ -86,7 +89,10 @@ def _fields(run: Any, sample: dict[str, Any], roller: int) -> dict[str, LineFiel
 
 
 def lean(run: RunData, options: Options) -> ViewData:
-    """Tilt and skew of the rollers over azimuth and of all rollers over time."""
+    """Tilt and skew of the rollers.
+
+    Over azimuth, and of all rollers over time.
+    """
     _require_rollers(run)
     span, time, angles = averaging(run), run["time"], 1e3 * run["roller_lean"]
     panels = []
@@ -109,7 +115,10 @@ def lean(run: RunData, options: Options) -> ViewData:
 
 
 def rib_load(run: RunData, options: Options) -> ViewData:
-    """Loads of the ribs on the rollers over azimuth, and their sums over time."""
+    """Loads of the ribs on the rollers.
+
+    Over azimuth, and their sums over time.
+    """
     _require_rollers(run)
     span, time, loads = averaging(run), run["time"], run["rib_load"]
     touched = [k for k in range(len(RIBS)) if loads[:, :, k].any()]

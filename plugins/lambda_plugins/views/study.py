@@ -45,7 +45,9 @@ _MECHANISMS = (*PER_RING, *REST)
 def _surface(
     table: StudyTable, options: Surface, response: Column
 ) -> tuple[Column, Column, FloatArray, FloatArray, FloatArray]:
-    """Return two parameters and the mesh of one response over them.
+    """Return the mesh of one response.
+
+    Over its two parameters.
 
     A crossed study fills the mesh as it is; points scattered over these two parameters are interpolated linearly
     between neighbours. Where a third parameter varies there is no map: neighbours would differ for a reason that it
@@ -173,13 +175,16 @@ def _has_result(parts: list[Column], row: int) -> bool:
 
 
 def _levelled(panels: list[Panel]) -> tuple[Panel, ...]:
-    """Give stacked panels one height, so that they can be compared."""
+    """Give stacked panels one height.
+
+    So that they can be compared.
+    """
     top = 1.05 * max(float(np.sum([s.y for s in panel.series], axis=0).max()) for panel in panels)
     return tuple(replace(panel, y=replace(panel.y, high=top)) for panel in panels)
 
 
 def sensitivity(table: StudyTable, options: Which) -> ViewData:
-    """How much each parameter decides each response."""
+    """Influence of each parameter on each response."""
     panels = []
     for response in responses(table, options.response):
         found = sensitivities(table, response.name)
@@ -208,7 +213,10 @@ def _tornado(response: Column, found: Sensitivity) -> Panel:
 
 
 def stability_map(table: StudyTable, options: Threshold) -> ViewData:
-    """Where a measure of unsteadiness stays below a limit, over two parameters."""
+    """Region where a measure of unsteadiness stays small.
+
+    Below a limit, over two parameters.
+    """
     if options.response == STEADINESS and STEADINESS not in table.units():
         raise NotApplicable(f'the study has no response "{options.response}": choose another with response=NAME')
     response = table.response(options.response)

@@ -28,7 +28,10 @@ _SAME: dict[str, str] = {"friction/total": "friction_torque_Nmm"}
 
 
 def study_curves(table: StudyTable, options: Curves) -> ViewData:
-    """Every response over one parameter, a curve for each combination of the others."""
+    """Every response over one parameter.
+
+    A curve for each combination of the others.
+    """
     candidates = [*numeric_parameters(table), *varied(table)]
     if not candidates:
         raise NotApplicable("no parameter varies in this study")
@@ -60,13 +63,19 @@ def study_curves(table: StudyTable, options: Curves) -> ViewData:
 
 
 def _least(columns: list[Column]) -> float:
-    """Return a range below which values count as equal: their last digits are rounding."""
+    """Return the range of rounding.
+
+    Values whose difference is smaller count as equal.
+    """
     sizes = [np.abs(column.numbers()[np.isfinite(column.numbers())]) for column in columns]
     return _ROUNDING * max((float(size.max()) for size in sizes if size.size), default=0.0)
 
 
 def _by_question(columns: list[Column]) -> list[list[Column]]:
-    """Return the responses, those together that answer one question in one unit."""
+    """Return the responses in groups.
+
+    Those together that answer one question in one unit.
+    """
     found: dict[tuple[str, str], list[Column]] = {}
     for column in columns:
         row = column.name.partition("/")[2]

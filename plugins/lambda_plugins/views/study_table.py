@@ -21,7 +21,7 @@ STEADINESS = "cage_speed_deviation"  # the response that the stability map judge
 
 
 class Which(Options):
-    """Which response a view shows."""
+    """Response to show."""
 
     response: str = Declared("", description="name of a response; empty: every one")
 
@@ -33,30 +33,36 @@ class Along(Options):
 
 
 class Curves(Along, Which):
-    """Which curves are shown."""
+    """Curves to show."""
 
 
 class Surface(Curves):
-    """Which surfaces are shown."""
+    """Surfaces to show."""
 
     y: str = Declared("", description="parameter of the second axis; empty: the next numeric one")
 
 
 class Threshold(Surface):
-    """What the stability map shows."""
+    """Measure and limit of the stability map."""
 
     response: str = Declared(STEADINESS, description="name of the response that is judged")
     limit: float = Declared(0.2, description="largest value that counts as stable")
 
 
 def source_line(table: StudyTable) -> str:
-    """Return the line below the title: the study, its kind and how many points it has."""
+    """Return the line below the title.
+
+    The study, its kind and the number of its points.
+    """
     done = sum(state in ("done", "partial") for state in table.states)
     return f"{table.title}   {table.mode}, {table.design}, {done} of {len(table)} points"
 
 
 def positions(column: Column) -> NDArray[np.float64]:
-    """Return where the values of a column are on its axis: each text has a position of its own."""
+    """Return the positions of a column's values.
+
+    Each text has its own position on the axis.
+    """
     if column.numeric:
         return column.numbers()
     places = {text: float(place) for place, text in enumerate(_texts(column))}
@@ -68,7 +74,10 @@ def _texts(column: Column) -> tuple[str, ...]:
 
 
 def axis_of(column: Column) -> Axis:
-    """Return the axis of a column; values that rise by factors are drawn on a logarithmic scale."""
+    """Return the axis of a column.
+
+    Values that rise by factors get a logarithmic scale.
+    """
     if not column.numeric:
         return Axis(column.label, column.unit, categories=_texts(column))
     values = column.numbers()
@@ -88,7 +97,7 @@ def numeric_parameters(table: StudyTable) -> list[Column]:
 
 
 def responses(table: StudyTable, name: str) -> list[Column]:
-    """Return the response of that name, or every one that a view can show."""
+    """Return one response or all that can be shown."""
     if name:
         return [table.response(name)]
     found = [
@@ -100,7 +109,10 @@ def responses(table: StudyTable, name: str) -> list[Column]:
 
 
 def rows_by_label(table: StudyTable, x: Column) -> dict[str, list[int]]:
-    """Return the rows that share the values of all parameters but `x`, by a label of these."""
+    """Return rows that share all parameters but `x`.
+
+    By a label of these.
+    """
     others = [column for column in varied(table) if column.name != x.name]
     found: dict[str, list[int]] = {}
     for row in range(len(table)):
@@ -110,7 +122,7 @@ def rows_by_label(table: StudyTable, x: Column) -> dict[str, list[int]]:
 
 
 def cell(column: Column, row: int) -> str:
-    """Return one value of a column as a label has it."""
+    """Return one value of a column for a label."""
     value = column.values[row]
     if isinstance(value, str) or value is None:
         return str(value)

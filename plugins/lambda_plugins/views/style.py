@@ -100,5 +100,8 @@ SIGNED_MAP = "RdBu_r"
 
 
 def look_of(role: str, position: int) -> Look:
-    """Return the look of a series: that of its role, or the next of the cycle."""
+    """Return the look of a series.
+
+    That of its role, or the next of the cycle.
+    """
     return ROLES.get(role) or CYCLE[position % len(CYCLE)]

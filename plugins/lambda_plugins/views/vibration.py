@@ -46,7 +46,7 @@ COLUMNS = Vocabulary(
 
 
 class VibrationOptions(Options):
-    """What a sensor measures, and where."""
+    """Measured quantity and place of a sensor."""
 
     motion: Literal["displacement", "velocity", "acceleration"] = Field("acceleration", description="what is shown")
     place: Literal["housing", "shaft"] = Field("shaft", description="outer ring with its housing, or inner ring")
@@ -66,7 +66,9 @@ class _Signal:
 
 
 def envelope(time: FloatArray, values: FloatArray, low: float) -> FloatArray:
-    """Return the envelope of the part of a signal above a frequency: the size of its analytic signal.
+    """Return the envelope of a signal above a frequency.
+
+    The size of its analytic signal.
 
     Parameters
     ----------
@@ -86,7 +88,10 @@ def envelope(time: FloatArray, values: FloatArray, low: float) -> FloatArray:
 
 
 def vibration(run: RunData, options: VibrationOptions) -> ViewData:
-    """Show displacement, velocity or acceleration over time, its spectrum and that of its envelope."""
+    """Show a vibration signal and its spectra.
+
+    Displacement, velocity or acceleration over time, its spectrum and that of its envelope.
+    """
     span = averaging(run)
     unit, _ = _MOTIONS[options.motion]
     own = _computed(run, options, span.rows(run["time"]))
@@ -118,7 +123,10 @@ def vibration(run: RunData, options: VibrationOptions) -> ViewData:
 
 
 def _computed(run: RunData, options: VibrationOptions, rows: slice) -> _Signal:
-    """Return the signal of a run; acceleration by differences of the velocity."""
+    """Return the signal of a run.
+
+    Acceleration is the difference of the velocity.
+    """
     body, k = BODY["outer" if options.place == "housing" else "inner"], DIMENSIONS["axis"].index(options.axis)
     time, place = run["time"][rows], run["body_position"][rows, body, k]
     if place.size < 3 or np.ptp(place) <= _STILL:
@@ -156,7 +164,10 @@ def _read(options: VibrationOptions) -> _Signal:
 
 
 def _over_time(signals: list[_Signal], motion: str, unit: str) -> Panel:
-    """Return the signals, each from its beginning on, as long as the shorter one."""
+    """Return signals of equal length.
+
+    Each from its beginning on, as long as the shorter one.
+    """
     length = min(float(s.time[-1] - s.time[0]) for s in signals)
     series = []
     for s in signals:
@@ -180,7 +191,10 @@ def _spectra(
 
 
 def _sidebands(marks: dict[str, float]) -> tuple[Mark, ...]:
-    """Return the sidebands that the load zone makes of a defect of the inner ring."""
+    """Return the sidebands of an inner ring defect.
+
+    The load zone makes them.
+    """
     inner, shaft = marks["BPFI"], marks["shaft"]
     return (Mark("BPFI - shaft", inner - shaft, "x"), Mark("BPFI + shaft", inner + shaft, "x"))
 
