@@ -223,7 +223,9 @@ def _shaft(
     body = _body(case, stand, material, links, discs, ledger) if outside is None else with_discs(outside, discs)
     if body is None:
         return None
-    if case.shaft.is_rigid:
+    neglected = "equilibrium"
+    if case.shaft.is_rigid:  # the balls of its one bearing are in equilibrium with their friction, too
+        neglected = "displacement"
         ledger.assume("the shaft is rigid, its mass that of inner ring and discs: it has no sections")
     heat = resolve_heat(case, [one.name for one in bearings], body, (material, around), ledger)
     shared: dict[str, list[str]] = {}
@@ -232,7 +234,7 @@ def _shaft(
             shared.setdefault(sentence, []).append(name)
     for sentence, names in shared.items():
         ledger.assume(f"{', '.join(names)}: {sentence}")
-    ledger.assume("bearing friction is neglected in the equilibrium of the shaft")
+    ledger.assume(f"bearing friction is neglected in the {neglected} of the shaft")
     gravity = (case.gravity.x, case.gravity.y, case.gravity.z)
     drive = case.shaft.drive if case.shaft.drive is not None else float(body.positions[0])
     acting = [(name, load.place) for name, load in case.loads.items() if stand.on_shaft("loads", name)]

@@ -15,6 +15,7 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.elastic.ring import shape
 from lambda_core.formulas.loading import CARRYING, Ring, largest_contact, loaded_balls
 from lambda_core.model.checks.operating_limits import operating_warnings
+from lambda_core.model.geometry.axial_play import axial_play
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.results.answer import Answer, dataset, declared_numbers, drawn
 from lambda_core.results.averages import finite
@@ -75,6 +76,10 @@ class QuasiStatic(Answer, Banded):
     )  # fmt: skip
     contacts: list[Contact]
     inner_ring_displacement_um: list[float] = same_as(BearingSummary, "inner_ring_displacement_um", "x, y, z")
+    axial_play_um: float | None = Field(
+        description="from the middle to first contact without load: part of displacement x; null of two rows",
+        default=None,
+    )
     inner_ring_tilt_mrad: list[float] = same_as(BearingSummary, "inner_ring_tilt_mrad", "about y and z")
     ring_shapes: list[RingShape] = Field(description="how elastic rings bend; empty where all are rigid", default=[])
     film_um: list[float] = same_as(BearingSummary, "film_um", "smallest and largest central film under load")
@@ -159,6 +164,7 @@ def quasistatic_of(found: Equilibrium, rating: Rating | None = None) -> QuasiSta
         orbit_speed_ratio=finite(_ratio(found)),
         contacts=contact_list({**channels, "ball_azimuth": _azimuths(found)}),
         inner_ring_displacement_um=[1e6 * value for value in (x, y, z)],
+        axial_play_um=1e6 * axial_play(model, model.geometry.clearance) if model.geometry.rated_rows == 1 else None,
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
         ring_shapes=_ring_shapes(found),
         film_um=span(1e6 * channels["film_central"][carrying]),

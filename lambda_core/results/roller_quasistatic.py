@@ -39,7 +39,7 @@ from lambda_core.results.band_text import banded
 from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
 from lambda_core.results.model_band import Banded
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.results.text import band_lines, life_factor_text, line, warning_lines
+from lambda_core.results.text import band_lines, life_factor_text, line, place_with_play, warning_lines
 
 if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
@@ -91,6 +91,9 @@ class RollerQuasiStatic(Answer, Banded):
     rib_film_um: float | None
     rib_friction: float | None = Field(description="coefficient of friction of the most loaded rib")
     inner_ring_displacement_um: list[float]
+    axial_play_um: float = Field(
+        description="from the middle to first contact without load: part of displacement x", default=0.0
+    )
     inner_ring_tilt_mrad: list[float]
     inner_ring_moment_Nm: list[float] = Field(description="about y and z, that the rollers put on the shaft")
     modified_life_h: float | None = Field(description="L_nmh = a_ISO L_10h of ISO 281")
@@ -226,6 +229,7 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
         rib_film_um=finite(1e6 * found.rib_film),
         rib_friction=finite(found.rib_friction),
         inner_ring_displacement_um=[1e6 * x, 1e6 * y, 1e6 * z],
+        axial_play_um=0.0 if bearing.kind == "tapered" else 1e6 * bearing.end_play,
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
         inner_ring_moment_Nm=[-float(state.loads[3]), -float(state.loads[4])],
         **roller_lives(bearing, state, (radial, axial), motion.relative, model.oil.kinematic, model.contamination),
@@ -395,7 +399,6 @@ def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str
     parts = found.friction_breakdown_Nmm
     tilt_y, tilt_z = found.inner_ring_tilt_mrad
     pressure = units.text(found.max_pressure_GPa, "GPa", 3)
-    x, y, z = (units.number(value, "um", 2) for value in found.inner_ring_displacement_um)
     lines = [
         units.sentence(found.headline),
         line(
@@ -404,7 +407,11 @@ def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str
             f"Q_max {units.text(found.max_load_N, 'N', 0)}",
             f"p_max {banded(found.max_pressure_GPa, found.max_pressure_GPa_band, 'GPa', pressure, units)}",
         ),
-        line("inner ring", f"x {x}  y {y}  z {z} {units.unit('um')}", f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad"),
+        line(
+            "inner ring",
+            *place_with_play(found.inner_ring_displacement_um, found.axial_play_um, units),
+            f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad",
+        ),
     ]
     if found.friction_torque_Nmm is not None:
         torque = units.text(found.friction_torque_Nmm, "N mm")

@@ -276,7 +276,9 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
             f"p_max {shown(found, 'max_pressure_GPa', units)}",
         ),
         line(
-            "inner ring", _place(found.inner_ring_displacement_um, units), f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad"
+            "inner ring",
+            *place_with_play(found.inner_ring_displacement_um, found.axial_play_um, units),
+            f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad",
         ),
         *(line("" if i else "shape of rings", *_bent(bent, units)) for i, bent in enumerate(found.ring_shapes)),
         *_friction_lines(found, units),
@@ -356,6 +358,13 @@ def _place(position: Sequence[float | None], units: UnitSystem) -> str:
     """Write a displacement [um] along x, y and z."""
     axes = (f"{axis} {units.number(value, 'um', 2)}" for axis, value in zip("xyz", position, strict=True))
     return f"{'  '.join(axes)} {units.unit('um')}"
+
+
+def place_with_play(place: Sequence[float], play: float | None, units: UnitSystem) -> list[str]:
+    """Write a displacement, and the axial play in it where the ring has moved through half of it [um]."""
+    if not play or abs(place[0]) < 0.5 * play:
+        return [_place(place, units)]
+    return [_place(place, units), f"x includes {units.number(play, 'um', 2)} {units.unit('um')} of axial play"]
 
 
 def _tilt(summary: Summary) -> str:

@@ -57,6 +57,14 @@ def test_outcome_of_the_shaft(found: CircuitSimulation) -> None:
     assert "the machine has one more bearing" not in text
 
 
+def test_the_line_of_discharges_names_the_share_at_the_assumed_limit(found: CircuitSimulation) -> None:
+    """A rate without it was read as a forecast; it was written as 4.759e+04."""
+    lines = [line for line in found.outcome.text().splitlines() if line.startswith("discharges")]
+    share = "% of the breakdowns at breakdown.least_voltage, an assumed lower limit"
+    assert [share in line for line in lines] == [True, True, False]
+    assert not any("e+" in line for line in lines)
+
+
 def test_insulation_at_the_drive_end_moves_the_discharges() -> None:
     """A thin sleeve there takes nearly all of its voltage: the films of the other end break down."""
     moved = api.electric(MOTOR, [*SHORT, "electric.bearings.drive_end.insulation=5 pF"]).outcome.bearings

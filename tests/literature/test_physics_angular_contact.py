@@ -279,3 +279,14 @@ def test_friction_carries_the_gyroscopic_moment_in_harris_size_and_newtons_direc
     assert moment == pytest.approx(inertia * one.orbit * float(one.spin[1]), rel=0.02)
     printed = -size  # of the traction at both rings, with any l_i + l_o = 2
     assert moment * printed < 0.0
+
+
+def test_the_axial_play_in_a_displacement_is_said() -> None:
+    """Without load the ring stands A sin(alpha_0) from the middle: 337 um of a 7208BE were read as deflection."""
+    light = api.quasistatic(CASE, [*SYMMETRIC, "loads.axial=5 N", "operation.speed=0 rpm"])
+    play = 1e6 * DISTANCE * math.sin(FREE)
+    assert light.axial_play_um == pytest.approx(play, rel=1e-9)
+    assert light.inner_ring_displacement_um[0] == pytest.approx(play, abs=1.0)
+    assert f"x includes {play:.2f} um of axial play" in light.text()
+    across = api.quasistatic(CASE, [*SYMMETRIC, "loads.axial=0 N", "loads.radial=5 kN", "operation.speed=0 rpm"])
+    assert "axial play" not in across.text()

@@ -35,6 +35,14 @@ def test_weight_and_load_reach_the_bearing() -> None:
     assert "bending moment" not in found.text()
 
 
+def test_friction_is_neglected_where_the_shaft_stands_and_not_in_its_loads() -> None:
+    """It was called neglected in the equilibrium, too, which counts it."""
+    assert "bearing friction is neglected in the displacement of the shaft" in api.check(machine()).assumptions
+    sections = {"sections": [{"length": "200 mm", "diameter": "40 mm"}]}
+    pair = {"bearings": BEARINGS, "loads": {}, "discs": {}, "shaft": sections}
+    assert "bearing friction is neglected in the equilibrium of the shaft" in api.check(machine(**pair)).assumptions
+
+
 def test_one_bearing_is_no_plural() -> None:
     assert "1 bearing" in api.describe_machine(api.check(machine())).splitlines()[2].split(", ")
 

@@ -16,6 +16,7 @@ from lambda_core.analysis.electric.events import discharges_of, sector_shares
 from lambda_core.analysis.electric.voltage_sources import period_of
 from lambda_core.case.electric import Electric, Inverter, MachineElectric, Sine, Step
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.number_text import number
 from lambda_core.model.settings.resolve_electric import assumed
 from lambda_core.results.answer import Answer
 from lambda_core.results.record import INTERFACE, Record
@@ -288,11 +289,11 @@ def bearing_lines(found: Outcome) -> list[str]:
         line("bearing voltage", f"{low:.1f} .. {high:.1f} V", f"BVR {100 * found.bearing_voltage_ratio:.2f} %"),
         line(
             "discharges",
-            f"{found.discharges_per_s:.4g} 1/s through the bearing",
-            f"{found.partial_discharges / found.simulated_s:.4g} 1/s through one film",
+            f"{_rate(found.discharges_per_s)} 1/s through the bearing",
+            f"{_rate(found.partial_discharges / found.simulated_s)} 1/s through one film",
             f"metal {100 * found.shorted_share:.2g} %",
+            *([_floor(found.floor_share)] if found.floor_share > 0.0 else []),
         ),
-        *([line("", _floor(found))] if found.floor_share > 0.0 else []),
         line("  voltage", _three(found.breakdown_voltage_V, "V")),
         line("  peak current", _three(found.peak_current_A, "A")),
         line("  energy", _three(found.energy_nJ, "nJ"), f"{found.arc_power_mW:.3g} mW in arcs"),
@@ -306,9 +307,19 @@ def bearing_lines(found: Outcome) -> list[str]:
     ]
 
 
-def _floor(found: Outcome) -> str:
-    share = f"{100 * found.floor_share:.0f} % of the breakdowns"
-    return f"{share} at breakdown.least_voltage, an assumed lower limit"
+def _floor(share: float) -> str:
+    return f"{100 * share:.0f} % of the breakdowns at breakdown.least_voltage, an assumed lower limit"
+
+
+def _floor_of_all(found: ShaftOutcome) -> float:
+    """Return the share of the breakdowns of all bearings at their least voltage."""
+    each = [(one.discharges + one.partial_discharges, one.floor_share) for one in found.bearings.values()]
+    return sum(count * share for count, share in each) / max(sum(count for count, _ in each), 1)
+
+
+def _rate(value: float) -> str:
+    """Write a rate with four digits and no power of ten."""
+    return f"{value:.4g}" if value < 1e3 else number(float(f"{value:.4g}"), 0)
 
 
 def _limit(limit: Limit) -> str:
@@ -389,7 +400,12 @@ def shaft_text(found: ShaftOutcome) -> str:
     lines = [
         line("source", found.source),
         line("shaft", f"{low:.1f} .. {high:.1f} V", f"C_rotor {found.rotor_capacitance_pF:.1f} pF"),
-        line("discharges", f"{found.discharges_per_s:.4g} 1/s in all", f"{found.arc_power_mW:.3g} mW in arcs"),
+        line(
+            "discharges",
+            f"{_rate(found.discharges_per_s)} 1/s in all",
+            *([_floor(share)] if (share := _floor_of_all(found)) > 0.0 else []),
+            f"{found.arc_power_mW:.3g} mW in arcs",
+        ),
         line("balance", f"energy {found.energy_residual:.1e}", f"charge {found.charge_residual:.1e}"),
         line("wall time", f"{found.wall_per_simulated_second:.2g} s per simulated second"),
     ]

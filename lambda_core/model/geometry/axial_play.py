@@ -12,7 +12,8 @@ from lambda_core.model.geometry.resolve_clearance import picked
 def axial_play(model: BearingModel, clearance: float) -> float:
     """Return how far the inner ring moves from the middle until its elements touch, without load [m].
 
-    A sin(alpha_0) with cos(alpha_0) = 1 - G_r/(2 A), A = r_i + r_o - D_w (Harris and Kotzalas 2006, eq. 2.9). Rollers
+    A (sin(alpha_0) - sin(alpha_s)) with cos(alpha_0) = cos(alpha_s) - G_r/(2 A), A = r_i + r_o - D_w, alpha_s the
+    resting angle of four-point contact, else 0 (Harris and Kotzalas 2006, eq. 2.9 and ch. 2). Of one row. Rollers
     between ribs have their end play; tapered ones touch where they are drawn.
 
     Parameters
@@ -24,8 +25,8 @@ def axial_play(model: BearingModel, clearance: float) -> float:
     if model.rollers is not None:
         return 0.0 if model.rollers.contact_angle else model.rollers.end_play
     distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
-    cosine = 1.0 - 0.5 * max(clearance, 0.0) / distance
-    return distance * math.sqrt(max(0.0, 1.0 - cosine**2))
+    cosine = math.cos(g.resting_angle) - 0.5 * max(clearance, 0.0) / distance
+    return distance * (math.sqrt(max(0.0, 1.0 - cosine**2)) - math.sin(g.resting_angle))
 
 
 def bought_clearance(given: Bearing, model: BearingModel) -> float:
