@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import docstrings
 import tables as md
 from pydantic import BaseModel
 
@@ -84,7 +85,7 @@ def _members(parent: type[BaseModel], name: str) -> list[type[BaseModel]]:
 
 def _section(path: str, table: type[BaseModel]) -> list[str]:
     level = "##" if "." not in path else "###"
-    said = [(table.__doc__ or "").strip().split("\n\n")[0].replace("\n    ", " "), _WHERE.get(table, "")]
+    said = [" ".join(docstrings.parsed(table).text.split()), _WHERE.get(table, "")]
     return [f"{level} `[{path}]`", "", " ".join(filter(None, said)), "", *_options(table, f"{path}.")]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import pkgutil
 
+import docstrings
 import tables as md
 from lambda_cli.main import INTERRUPTED
 
@@ -55,7 +56,7 @@ def errors() -> list[str]:
             md.code(error.__name__),
             md.code(error.__module__),
             str(error.exit_code),
-            md.cell((error.__doc__ or "").split("\n\n")[0]),
+            md.cell(" ".join(docstrings.parsed(error).text.split())),
         ]
         for error in error_classes()
     ]

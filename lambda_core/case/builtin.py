@@ -19,7 +19,10 @@ log = logging.getLogger("lambda_core")
 
 
 def builtin_cases() -> dict[str, str]:
-    """Return the names of the built-in cases and what each is."""
+    """Return the built-in cases with their descriptions.
+
+    The first item of each is its name.
+    """
     return {name: _description(file) for name, file in _files(switched_off()).items()}
 
 
@@ -39,7 +42,10 @@ def builtin_text(name: str) -> str:
 
 @lru_cache(maxsize=4)
 def _files(off: tuple[str, ...]) -> dict[str, Traversable]:
-    """Return the files of the built-in cases by name, sorted; of two with one name the first package's counts."""
+    """Return the files of the built-in cases.
+
+    By name, sorted; of two with one name the first package's file counts.
+    """
     found: dict[str, Traversable] = {}
     for source in installed(CASES):
         if source.project in off or source.name in off:
@@ -57,7 +63,10 @@ def _files(off: tuple[str, ...]) -> dict[str, Traversable]:
 
 
 def _description(file: Traversable) -> str:
-    """Return what a case says of itself; nothing where the file is no TOML, as opening it will tell."""
+    """Return the description in a case.
+
+    It is empty where the file is no TOML, since opening it reports the error.
+    """
     try:
         return str(tomllib.loads(file.read_text(encoding="utf-8")).get("description", ""))
     except ValueError:

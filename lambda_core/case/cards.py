@@ -38,7 +38,10 @@ class FieldCard(BaseModel):
 
 
 def field_card(model: type[BaseModel], name: str) -> FieldCard:
-    """Return the card of one field of a table or of a model's parameters."""
+    """Return the card of one field.
+
+    The field belongs to a table or to a model's parameters.
+    """
     info = model.model_fields[name]
     quantity = "" if _is_of_pairs(info.annotation) else quantity_of(model, name)
     choices = _choices(info.annotation)
@@ -67,7 +70,7 @@ def limits(info: FieldInfo, quantity: str) -> Iterator[str]:
 
 
 def written(value: Any, quantity: str) -> str:
-    """Write a default or a limit as a case file would."""
+    """Write a default or limit as in a case."""
     if value is PydanticUndefined or value is None or isinstance(value, dict):
         return ""
     if isinstance(value, list | tuple):
@@ -81,7 +84,10 @@ def written(value: Any, quantity: str) -> str:
 
 
 def _metadata(info: FieldInfo) -> list[Any]:
-    """Return the field's own metadata and that inside ``X | None``."""
+    """Return the metadata of a field.
+
+    This includes metadata inside ``X | None``.
+    """
     found = list(info.metadata)
     for member in get_args(info.annotation):
         found += getattr(member, "__metadata__", ())

@@ -19,7 +19,9 @@ from lambda_core.case.written import Written
 
 
 class Case(Written):
-    """What the case file of one bearing says; values in SI, written as unit strings.
+    """Case file of one bearing.
+
+    Values are in SI, written as unit strings.
 
     Build one with :func:`lambda_core.case.case_io.read_case`; change one with :meth:`with_`. Every field is declared
     once, with help and limits.

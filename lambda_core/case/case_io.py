@@ -33,7 +33,10 @@ _FILES = 8  # most names that an error lists
 
 
 class CaseWriter(Protocol):
-    """What writes a case: a case itself, or a machine built in Python."""
+    """Source that can write a case.
+
+    It is a case itself, or a machine built in Python.
+    """
 
     @property
     def name(self) -> str:
@@ -41,10 +44,16 @@ class CaseWriter(Protocol):
 
     @property
     def folder(self) -> Path | None:
-        """Folder that file names in the case are relative to; None is the working directory."""
+        """Folder of the file names in the case.
+
+        None is the working directory.
+        """
 
     def written(self) -> dict[str, Any]:
-        """Return what stands in the case's file: plain tables with unit strings."""
+        """Return the plain tables of the case's file.
+
+        They have unit strings.
+        """
 
 
 Source = str | Path | Mapping[str, Any] | CaseWriter  # a file, a built-in name, plain tables, a case, a machine
@@ -52,7 +61,7 @@ Source = str | Path | Mapping[str, Any] | CaseWriter  # a file, a built-in name,
 
 @dataclass(frozen=True)
 class Tables:
-    """What a source says, right or wrong.
+    """Tables of a source, valid or not.
 
     Attributes
     ----------
@@ -70,11 +79,17 @@ class Tables:
 
     @property
     def root(self) -> type[Case] | type[MachineCase]:
-        """Which kind of case it is: of one bearing, or a machine."""
+        """Class of the case.
+
+        It is a case of one bearing, or a machine.
+        """
         return MachineCase if is_machine_case(self.data) else Case
 
     def changed(self, overrides: Iterable[str]) -> Tables:
-        """Return the tables with ``path=value`` texts applied in order, as ``--set`` does; UsageError without ``=``."""
+        """Return the tables with ``path=value`` texts applied.
+
+        In order, as ``--set`` does; UsageError without ``=``.
+        """
         changes = listed(overrides, "overrides")
         if not changes:
             return self
@@ -117,7 +132,7 @@ def read_tables(source: Source, folder: Path | None = None) -> Tables:
 
 
 def _instead_of(path: Path) -> str:
-    """Say what there is in place of a file that is not there."""
+    """Name an alternative to a missing file."""
     names = list(builtin_cases())
     close = nearest(str(path), names)
     files = sorted(file.name for file in path.parent.glob("*.toml")) if path.suffix == ".toml" else []
@@ -136,7 +151,9 @@ def _instead_of(path: Path) -> str:
 
 
 def read_case(source: Source, overrides: Iterable[str] = (), folder: Path | None = None) -> Case | MachineCase:
-    """Read a case, of one bearing or of a machine, whichever the source is.
+    """Read a case from any source.
+
+    The source is a case of one bearing or of a machine.
 
     Parameters
     ----------
@@ -183,7 +200,10 @@ def _changed_name(name: str, changes: Sequence[str]) -> str:
 
 
 def case_text(path: Path) -> str:
-    """Return the text of a case file; CaseError where it is no text, UsageError where it cannot be read."""
+    """Return the text of a case file.
+
+    CaseError where it is no text, UsageError where it cannot be read.
+    """
     try:
         return read_text(path)
     except UnicodeDecodeError:
@@ -193,12 +213,18 @@ def case_text(path: Path) -> str:
 
 
 def parse_case(text: str, source: str = "case", folder: Path | None = None) -> Case:
-    """Read a case from TOML text; `folder` is where its file names are looked up."""
+    """Parse a case from TOML text.
+
+    `folder` is where its file names are looked up.
+    """
     return validate_case(toml_tables(text, source), source, folder)
 
 
 def toml_tables(text: str, source: str) -> dict[str, Any]:
-    """Return the plain tables of TOML text; CaseError with the line where it is none."""
+    """Return the plain tables of TOML text.
+
+    CaseError with the line where it is not TOML.
+    """
     try:
         return tomllib.loads(text)
     except ValueError as error:  # of TOML, or of a whole number that Python does not read
@@ -208,14 +234,19 @@ def toml_tables(text: str, source: str) -> dict[str, Any]:
 
 
 def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> Case:
-    """Check plain tables as the case of one bearing; CaseError with every problem at once."""
+    """Check plain tables as a case of one bearing.
+
+    CaseError with every problem at once.
+    """
     if is_machine_case(data):
         raise CaseError(source, [Problem("", "is a machine of several bearings; this command needs one bearing")])
     return validate(Case, data, source, folder)
 
 
 def is_machine(source: Any) -> bool:
-    """Tell whether a source is a machine of several bearings, not one bearing; False where nothing can be read.
+    """Tell whether a source is a machine.
+
+    A machine has several bearings; False where nothing can be read.
 
     Parameters
     ----------
@@ -240,18 +271,27 @@ def is_machine(source: Any) -> bool:
 
 
 def refuse_bearing(name: str | None) -> None:
-    """Refuse the name of a bearing where the case has one only; UsageError."""
+    """Refuse a bearing's name for a one-bearing case.
+
+    UsageError.
+    """
     if name is not None:
         raise UsageError(f'this case has one bearing: leave out --bearing "{name}"')
 
 
 def is_machine_case(data: Mapping[str, Any]) -> bool:
-    """Tell whether plain tables are those of a shaft in bearings, not of one bearing."""
+    """Tell whether plain tables are a machine.
+
+    A machine is a shaft in bearings, not one bearing.
+    """
     return "bearing" not in data and ("shaft" in data or "bearings" in data)
 
 
 def syntax_problem(message: str, text: str) -> Problem:
-    """Say what is wrong with the TOML itself, with its line and a fix for the usual slip."""
+    """Explain an error of the TOML syntax.
+
+    The text has the line and a fix for the usual slip.
+    """
     if "integer string conversion" in message:
         return Problem("", "holds a whole number of more digits than any number of a case has")
     location = _LOCATION.search(message)
@@ -269,7 +309,9 @@ def syntax_problem(message: str, text: str) -> Problem:
 
 
 def apply_overrides(case: C, overrides: Iterable[str]) -> C:
-    """Return the case with ``path=value`` texts applied in order, as ``--set`` does.
+    """Return the case with ``path=value`` texts applied.
+
+    In order, as ``--set`` does.
 
     Raises
     ------
@@ -285,7 +327,9 @@ def apply_overrides(case: C, overrides: Iterable[str]) -> C:
 
 
 def overridden(data: Mapping[str, Any], overrides: Iterable[str], root: type[BaseModel]) -> dict[str, Any]:
-    """Return plain tables with ``path=value`` texts applied in order; `root` says which options want text.
+    """Return plain tables with ``path=value`` texts applied.
+
+    In order; `root` says which options want text.
 
     Raises
     ------
@@ -308,7 +352,10 @@ def overridden(data: Mapping[str, Any], overrides: Iterable[str], root: type[Bas
 
 
 def _say_lost_classes(old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
-    """Warn of a clearance class that went with the designation it stood in."""
+    """Warn of a clearance class that was lost.
+
+    It was part of a designation that was replaced.
+    """
     before, after = _designations(old), _designations(new)
     for path, designation in after.items():
         lost = _CLEARANCE_CLASS.search(before.get(path, ""))
@@ -321,12 +368,18 @@ def _say_lost_classes(old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
 
 @cache
 def _warn_once(sentence: str) -> None:
-    """Warn; a command that reads its case several times says so once."""
+    """Warn once.
+
+    A command that reads its case several times repeats nothing.
+    """
     log.warning(sentence)
 
 
 def _designations(data: Mapping[str, Any]) -> dict[str, str]:
-    """Return the designations in plain tables by the path of their bearing."""
+    """Return the designations by path of the bearing.
+
+    They are those in plain tables.
+    """
     several = data.get("bearings")
     tables = {f"bearings.{name}": table for name, table in (several if isinstance(several, Mapping) else {}).items()}
     tables["bearing"] = data.get("bearing")
@@ -339,7 +392,10 @@ def _designations(data: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _value(path: str, text: str, root: type[BaseModel]) -> Any:
-    """Read the right-hand side of an override: TOML where the option wants it, else the text itself."""
+    """Read the right-hand side of an override.
+
+    It is TOML where the option wants it, else the text itself.
+    """
     try:
         parsed = tomllib.loads(f"value = {text}")["value"]
     except ValueError:

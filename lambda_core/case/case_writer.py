@@ -52,7 +52,10 @@ def case_toml(case: Written, original: str | None = None) -> str:
 
 
 def standalone_toml(case: Written) -> str:
-    """Write a case that needs no other file: CSV tables become points in the text."""
+    """Write a case that needs no other file.
+
+    CSV tables become points in the text.
+    """
     return _fresh(_inlined(case, case.written()))
 
 
@@ -63,7 +66,10 @@ def _fresh(tables: Mapping[str, Any]) -> str:
 
 
 def tables_toml(tables: Mapping[str, Any], original: str = "") -> str:
-    """Write plain tables, right or wrong, as TOML; what they have in common with `original` keeps its text."""
+    """Write plain tables as TOML, valid or not.
+
+    Common parts with `original` keep its text.
+    """
     original = _renamed(original, tables)
     document = tomlkit.parse(original)
     if original.strip():
@@ -74,7 +80,9 @@ def tables_toml(tables: Mapping[str, Any], original: str = "") -> str:
 
 
 def _renamed(original: str, tables: Mapping[str, Any]) -> str:
-    """Return a text whose named tables have their new names, so that their comments stay theirs.
+    """Return a text with new names of tables.
+
+    So the comments stay with their tables.
 
     A table is renamed where one of a section goes and one comes that says the same; of the others, where as many come
     as go, each in its turn: a new name stands where the old one stood.
@@ -99,7 +107,10 @@ def _renamed(original: str, tables: Mapping[str, Any]) -> str:
 
 
 def _with_name(text: str, section: str, old: str, new: str) -> str:
-    """Return a text with another name of one table of a section; as it was where that would change anything else."""
+    """Return a text with one table renamed.
+
+    The table is one of a section; the text stays as it was where this would change anything else.
+    """
     key = new if re.fullmatch(r"[\w-]+", new, re.ASCII) else json.dumps(new)
     one = rf"(\"?){re.escape(old)}\2"  # bare or quoted
     heads = rf"^(\s*\[+\s*{re.escape(section)}\s*\.\s*){one}(?=\s*[.\]])"
@@ -124,7 +135,9 @@ def _with_name(text: str, section: str, old: str, new: str) -> str:
 
 
 def save_case(case: Written, path: str | Path, original: str | None = None) -> None:
-    """Write a case to `path` in one step (a crash leaves the old file whole).
+    """Write a case to `path` in one step.
+
+    A crash leaves the old file complete.
 
     `original` defaults to the text that stands in `path`, so that saving keeps comments.
 
@@ -143,7 +156,9 @@ def save_case(case: Written, path: str | Path, original: str | None = None) -> N
 
 
 def save_text(text: str, target: Path) -> None:
-    """Write a file in one step: it holds the old text or the new one, never a part.
+    """Write a file in one step.
+
+    It holds the old text or the new one, never a part.
 
     Raises
     ------
@@ -165,7 +180,10 @@ def save_text(text: str, target: Path) -> None:
 
 
 def new_case(name: str, start: str, path: Path, overwrite: bool) -> Path:
-    """Write the case `start`, comments included, under another name; see :func:`lambda_core.api.init_case`."""
+    """Write the case `start` under another name.
+
+    The comments are included; see :func:`lambda_core.api.init_case`.
+    """
     original = builtin_text(start) if start in builtin_cases() else None
     source = read_case(start)
     try:
@@ -178,7 +196,9 @@ def new_case(name: str, start: str, path: Path, overwrite: bool) -> Path:
 
 
 def write_new(case: Written, original: str, path: Path, overwrite: bool) -> Path:
-    """Write a case with the comments of `original` to a file that does not exist yet.
+    """Write a case with comments to a new file.
+
+    The comments are those of `original`.
 
     Raises
     ------
@@ -190,7 +210,7 @@ def write_new(case: Written, original: str, path: Path, overwrite: bool) -> Path
 
 
 def _inlined(section: Any, written: Any) -> Any:
-    """Replace tables that name a CSV file by tables that carry its points."""
+    """Replace tables of CSV files by their points."""
     if isinstance(section, TimeTableFile | Series) and section.file is not None:
         return section.inlined()
     if isinstance(written, Mapping):
@@ -206,7 +226,10 @@ def _is_inline(value: Mapping[str, Any]) -> bool:
 
 
 def _item(value: Any, *, inside: bool = False) -> Any:
-    """Return a value for a document; `inside` an inline table every table is one."""
+    """Return a value for a document.
+
+    With `inside` every table is an inline table.
+    """
     if isinstance(value, Mapping):
         inside = inside or _is_inline(value)
         table: Any = tomlkit.inline_table() if inside else tomlkit.table(is_super_table=_only_tables(value))
@@ -221,7 +244,10 @@ def _item(value: Any, *, inside: bool = False) -> Any:
 
 
 class _List(Array):
-    """A list that is written at once: the library's own takes time with the square of its length."""
+    """List that is written at once.
+
+    The library's own takes time with the square of its length.
+    """
 
     def __init__(self, values: list[Any]) -> None:
         super().__init__([], Trivia())
@@ -248,12 +274,18 @@ def _only_tables(value: Mapping[str, Any]) -> bool:
 
 
 def _are_tables(value: Any) -> bool:
-    """Tell whether a value is a list of tables that are written one below the other."""
+    """Tell whether a value is a list of tables.
+
+    They are written one below the other.
+    """
     return isinstance(value, list) and bool(value) and all(isinstance(v, Mapping) and not _is_inline(v) for v in value)
 
 
 def _fill(container: Any, values: Mapping[str, Any], *, inside: bool = False) -> None:
-    """Add plain values first, then sub-tables: TOML reads that order without repeated headers."""
+    """Add plain values first, then sub-tables.
+
+    TOML reads that order without repeated headers.
+    """
     plain = [
         key for key, value in values.items()
         if not _are_tables(value) and (not isinstance(value, Mapping) or _is_inline(value))
@@ -265,7 +297,10 @@ def _fill(container: Any, values: Mapping[str, Any], *, inside: bool = False) ->
 
 
 def _update(container: Any, before: Mapping[str, Any], after: Mapping[str, Any]) -> None:
-    """Bring a parsed file from what it says (`before`) to `after`, touching only what differs."""
+    """Change a parsed file from `before` to `after`.
+
+    Only differences are written.
+    """
     for key in [key for key in container if key not in after]:
         del container[key]
     for key, value in after.items():
@@ -282,14 +317,20 @@ def _update(container: Any, before: Mapping[str, Any], after: Mapping[str, Any])
 
 
 def _apart(item: Any) -> Any:
-    """Return what comes into a file; a table stands apart from the one that follows."""
+    """Return a table separated from the next one.
+
+    The text comes into a file.
+    """
     if isinstance(item, Table) and not item.is_super_table():
         item.add(tomlkit.nl())
     return item
 
 
 def _update_tables(tables: AoT, before: list[Any], after: list[Any]) -> None:
-    """Bring the tables of a list from what they say to `after`; one that moves up or down keeps its text."""
+    """Change the tables of a list to `after`.
+
+    One that moves up or down keeps its text.
+    """
     steps = SequenceMatcher(None, list(map(str, before)), list(map(str, after)), autojunk=False)
     for what, begin, end, first, last in reversed(steps.get_opcodes()):
         if what == "equal":

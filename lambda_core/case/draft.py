@@ -38,7 +38,7 @@ _SEAL = _Change((), None, None)
 
 @dataclass
 class Draft:
-    """What an editor of a case holds.
+    """Contents of a case editor.
 
     Values are set one by one, may be wrong, can be undone, and are written to the file
     with everything else in it left as it was.
@@ -70,14 +70,19 @@ class Draft:
     # -- values --
 
     def get(self, *keys: str) -> Any:
-        """Return what is written at a place, None where nothing is."""
+        """Return the value at a place.
+
+        None where nothing is written.
+        """
         value: Any = self.tables
         for key in keys:
             value = _inner(_in_full(value), key) if self._is_dof(keys[:-1]) and key == keys[-1] else _inner(value, key)
         return value
 
     def set(self, *keys: str, value: Any) -> None:
-        """Write a value, or take it out with None; empty tables go with their last value.
+        """Write a value, or remove it with None.
+
+        Empty tables go with their last value.
 
         Changes of one place that follow each other are undone together. Tables of a list come and go with the list.
 
@@ -100,19 +105,28 @@ class Draft:
         self._undone.clear()
 
     def replace(self, tables: Mapping[str, Any]) -> None:
-        """Put other tables in the place of all; each is undone on its own."""
+        """Replace all tables.
+
+        Each replacement is undone separately.
+        """
         keys = dict.fromkeys((*self.tables, *tables))
         self.seal()
         for key in keys:
             self.set(key, value=tables.get(key))
 
     def seal(self) -> None:
-        """End a series of changes of one place: the next one is undone on its own."""
+        """End a series of changes of one place.
+
+        The next one is undone separately.
+        """
         if self._done and self._done[-1].keys:
             self._done.append(_SEAL)
 
     def undo(self) -> Keys | None:
-        """Take the last change back; return its place, None when there is none."""
+        """Undo the last change.
+
+        Return its place, None when there is none.
+        """
         while self._done and not self._done[-1].keys:
             self._done.pop()
         if not self._done:
@@ -123,7 +137,10 @@ class Draft:
         return change.keys
 
     def redo(self) -> Keys | None:
-        """Bring back what `undo` took; return its place, None when there is nothing."""
+        """Redo what `undo` reverted.
+
+        Return its place, None when there is nothing.
+        """
         if not self._undone:
             return None
         change = self._undone.pop()
@@ -152,27 +169,39 @@ class Draft:
                 table[key] = table[key][short.pop()]
 
     def _names_tables(self, section: str) -> bool:
-        """Tell whether a section has tables under names of its own, each of which says something even when empty."""
+        """Tell whether a section has named tables.
+
+        Each of them means something even when empty.
+        """
         info = self.root.model_fields.get(section)
         return info is not None and get_origin(info.annotation) is dict
 
     def _is_dof(self, keys: Keys) -> bool:
-        """Tell whether a degree of freedom stands at a place, which may be written short."""
+        """Tell whether a place holds a degree of freedom.
+
+        It may have the short form.
+        """
         return _stands_dof(self.root, keys)
 
     # -- what it means --
 
     @property
     def is_machine_case(self) -> bool:
-        """Whether it is the case of a machine."""
+        """True for the case of a machine."""
         return self.root is MachineCase
 
     def case(self) -> Case:
-        """Return the case of one bearing; CaseError with every mistake of the file itself."""
+        """Return the case of one bearing.
+
+        CaseError with every mistake of the file itself.
+        """
         return validate_case(self.tables, str(self.tables.get("name", "case")), self.folder)
 
     def is_changed(self, *keys: str) -> bool:
-        """Tell whether what stands at a place (everything without one) differs from the file."""
+        """Tell whether a place differs from the file.
+
+        Without a place: whether anything differs.
+        """
         saved: Any = self._saved
         for key in keys:
             saved = _inner(_in_full(saved) if self._is_dof(keys[:-1]) and key == keys[-1] else saved, key)
@@ -203,7 +232,10 @@ class Draft:
         return target
 
     def changed_on_disk(self) -> bool:
-        """Tell whether somebody else has written the file since it was read or saved here."""
+        """Tell whether somebody else has changed the file.
+
+        The change is later than the last reading or saving here.
+        """
         if self.path is None:
             return False
         try:
@@ -219,21 +251,29 @@ def _stands_dof(root: type[BaseModel], keys: Keys) -> bool:
 
 
 def _inner(value: Any, key: str) -> Any:
-    """Return what stands under a key of a table, or a number of a list; None where there is nothing."""
+    """Return the value of a table or list.
+
+    By a key of a table, or a number of a list; None where there is nothing.
+    """
     if isinstance(value, list):
         return value[int(key)] if key.isdecimal() and int(key) < len(value) else None
     return value.get(key) if isinstance(value, Mapping) else None
 
 
 def _in_full(value: Any) -> Any:
-    """Return the table of a degree of freedom that is written short: "free" for {mode = "free"}."""
+    """Return the full table of a degree of freedom.
+
+    {mode = "free"} for the short form "free".
+    """
     if not isinstance(value, str):
         return value
     return {_STIFFNESS if value[:1].isdigit() else _MODE: value}
 
 
 def new_draft(name: str = "untitled", *, shaft: bool = False) -> Draft:
-    """Return a draft with a name: the case of one bearing, or of a shaft in several.
+    """Return a draft with a name.
+
+    It is the case of one bearing, or of a shaft in several.
 
     The inner ring of one bearing does not tilt, as in every new case: a shaft on two bearings hardly does.
     """
@@ -244,7 +284,9 @@ def new_draft(name: str = "untitled", *, shaft: bool = False) -> Draft:
 
 
 def open_draft(source: str | Path) -> Draft:
-    """Open a case file, or a copy of a built-in case, for editing; it may hold mistakes.
+    """Open a case for editing.
+
+    A case file, or a copy of a built-in case; it may hold mistakes.
 
     Raises
     ------
@@ -263,7 +305,10 @@ def open_draft(source: str | Path) -> Draft:
 
 
 def draft_of(text: str, path: Path | None) -> Draft:
-    """Return the draft of a file's text; CaseError when it is not TOML."""
+    """Return the draft of a file's text.
+
+    CaseError when it is not TOML.
+    """
     try:
         tables = tomllib.loads(text)
     except ValueError as error:

@@ -8,7 +8,10 @@ from lambda_core.formulas.elastic.ring import MOST_ORDERS
 
 
 class BendingRing(Section):
-    """A ring that bends in its plane as waves round it, in a housing or on a shaft of a given stiffness."""
+    """Ring that bends in its plane.
+
+    It bends as waves round it, in a housing or on a shaft of a given stiffness.
+    """
 
     housing_stiffness: Stiffness = option(
         description="radial stiffness of what the ring lies in: force over the displacement of the undeformed ring, "
@@ -31,7 +34,10 @@ class BendingRing(Section):
 
 
 class BendingCage(Section):
-    """A cage that bends in its plane as waves round it, pushed by balls and guiding lands."""
+    """Cage that bends in its plane.
+
+    It bends as waves round it, pushed by balls and guiding lands.
+    """
 
     orders: int = option(4, "highest wave number round the cage in the model; an ellipse has 2", ge=2, le=MOST_ORDERS)
     damping_ratio: float = option(
@@ -53,7 +59,10 @@ class BendingCage(Section):
 
 
 class Elastic(Section):
-    """Which parts of the bearing are elastic; absent ones are rigid."""
+    """Elastic parts of the bearing.
+
+    Absent ones are rigid.
+    """
 
     inner_ring: BendingRing | None = option(None, "the inner ring bends; absent: it is rigid")
     outer_ring: BendingRing | None = option(None, "the outer ring bends; absent: it is rigid")

@@ -23,7 +23,10 @@ from lambda_core.domain.units import (
 
 
 class Inverter(Section):
-    """Common-mode voltage of a two-level inverter with three phases and sine-triangle modulation."""
+    """Common-mode voltage of a two-level inverter.
+
+    It has three phases and sine-triangle modulation.
+    """
 
     dc_link: Voltage = option("800 V", "voltage of the dc link", gt=0.0, le=1e6)
     switching_frequency: Frequency = option("10 kHz", "frequency of the triangle", gt=0.0)
@@ -55,7 +58,9 @@ class Step(Section):
 
 
 class Series(Section):
-    """Measured common-mode voltage: straight lines between pairs, held constant outside or repeated.
+    """Measured common-mode voltage.
+
+    Straight lines join the pairs; it is constant outside, or repeated.
 
     Where it is repeated the period is the last time less the first one where the last voltage equals the first;
     otherwise one median step more.
@@ -83,13 +88,19 @@ class Series(Section):
         return self._rows
 
     def inlined(self) -> dict[str, Any]:
-        """Return the series with its points written out, for a case that must stand alone."""
+        """Return the series with its points written out.
+
+        The case then needs no other file.
+        """
         repeat = {"repeat": True} if self.repeat else {}
         return {"points": [[show(t, "time"), show(v, "voltage")] for t, v in self.rows], **repeat}
 
 
 def check_series(pairs: Pairs) -> None:
-    """Refuse a measured series that is too short or has gaps; ValueError with the row."""
+    """Refuse a measured series with errors.
+
+    It is too short or has gaps; ValueError with the row.
+    """
     if len(pairs.points) < 3:
         raise ValueError(f"{pairs.name}: a series needs at least three rows")
     steps = [later[0] - earlier[0] for earlier, later in pairwise(pairs.points)]
@@ -138,7 +149,7 @@ class MachineCapacitances(Section):
 
 
 class Grounding(Section):
-    """What leads the current past the bearing, or keeps it away."""
+    """Parts that conduct the current or block it."""
 
     brush: Resistance | None = option(None, "resistance of a grounding brush on the shaft; absent: no brush", gt=0.0)
     insulation: Capacitance | None = option(
@@ -176,7 +187,10 @@ class Film(Section):
 
 
 class Cage(Section):
-    """A cage of metal as a conductor between the balls; absent: a cage of plastic, which is none."""
+    """Metal cage as a conductor between the balls.
+
+    Absent: a cage of plastic, which does not conduct.
+    """
 
     pocket: Capacitance = option(description="of one ball against the cage", gt=0.0)
     inner: Capacitance = option("0 pF", "of the cage against the inner ring", ge=0.0)
@@ -199,7 +213,10 @@ class Discharge(Section):
 
 
 class Electric(Section):
-    """The bearing in the circuit of an electric machine; absent: the circuit is not computed."""
+    """Bearing in the circuit of an electric machine.
+
+    Absent: the circuit is not computed.
+    """
 
     inverter: Inverter | None = option(None, "source: two-level inverter; without any source this with its defaults")
     sine: Sine | None = option(None, "source: sinusoidal common-mode voltage")
@@ -218,7 +235,7 @@ class Electric(Section):
 
     @property
     def source(self) -> Inverter | Sine | Step | Series:
-        """What feeds the circuit."""
+        """Voltage source of the circuit."""
         return self.sine or self.step or self.series or self.inverter or Inverter()
 
     @model_validator(mode="after")
@@ -229,14 +246,17 @@ class Electric(Section):
         return self
 
     def inlined(self) -> Electric:
-        """Return the same with a measured series written out, so that it stands alone."""
+        """Return the options with a series written out.
+
+        The series is a measured one; the case then needs no other file.
+        """
         if self.series is None or self.series.file is None:
             return self
         return self.model_copy(update={"series": Series.model_validate(self.series.inlined())})
 
 
 class BearingElectric(Section):
-    """What one bearing of a machine has of its own in the circuit."""
+    """Circuit options of one bearing of a machine."""
 
     insulation: Capacitance | None = option(
         None, "of a coating or sleeve on the outer ring; absent: the ring touches the frame", gt=0.0
@@ -255,7 +275,10 @@ class BearingElectric(Section):
 
 
 class MachineElectric(Electric):
-    """All bearings of a machine in one circuit; absent: the circuit is not computed."""
+    """All bearings of a machine in one circuit.
+
+    Absent: the circuit is not computed.
+    """
 
     bearings: dict[str, BearingElectric] = option({}, "insulation, films and cage of single bearings, by name")
 
@@ -267,7 +290,10 @@ class MachineElectric(Electric):
         return self
 
     def of_bearing(self, name: str) -> Electric:
-        """Return the circuit as one of the bearings has it, its own options in place of the common ones."""
+        """Return the circuit of one bearing.
+
+        Its own options replace the common ones.
+        """
         own = self.bearings.get(name, BearingElectric())
         grounding = {n: getattr(own, n) for n in ("insulation", "insulation_resistance", "shunt")}
         film = {n: getattr(own.film, n) for n in own.film.model_fields_set}

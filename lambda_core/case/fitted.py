@@ -11,7 +11,10 @@ from lambda_core.case.option import Section, option
 
 
 class FittedValue(Section):
-    """One value of a fit; one that the data do not determine has the spread of its range."""
+    """One value of a fit.
+
+    A value that the data do not determine has the spread of its range.
+    """
 
     path: str = option(description="option of the case")
     value: float = option(description="fitted value in `unit`")
@@ -21,7 +24,10 @@ class FittedValue(Section):
 
 
 class FitOrigin(Section):
-    """Where fitted values of a case come from; written by the command fit."""
+    """Origin of the fitted values of a case.
+
+    The command fit writes it.
+    """
 
     file: str = option(description="name of the file of measurements")
     sha256: str = option(description="hash of its content")
@@ -39,7 +45,9 @@ class FitOrigin(Section):
 
 
 def fit_of_part(fit: object, place: Callable[[str], str]) -> dict[str, Any]:
-    """Return the table `fit` with the values that a part of a machine has, nothing where it has none or `fit` is wrong.
+    """Return the table `fit` of a machine's part.
+
+    It has the values of this part; it is empty where the part has none or `fit` is wrong.
 
     Errors and correlations of these values are the same whatever the others are: a marginal distribution.
 

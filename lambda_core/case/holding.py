@@ -22,7 +22,10 @@ _NUMBER = "+-.0123456789"  # what a number begins with
 
 
 class Dof(Section):
-    """One degree of freedom: "free", "locked", a stiffness, or a table of stiffness and damping, or of a motion."""
+    """One degree of freedom.
+
+    "free", "locked", a stiffness, or a table of stiffness and damping, or of a motion.
+    """
 
     damps_what_is_locked: ClassVar[bool] = False
 
@@ -47,7 +50,10 @@ class Dof(Section):
 
     @classmethod
     def _stiffness(cls, text: str) -> dict[str, str]:
-        """Return the table of a stiffness, or say what else the text could be."""
+        """Return the table of a stiffness.
+
+        Or name the texts that are allowed.
+        """
         quantity = quantity_of(cls, "stiffness")
         names = ('"locked"', '"free"') if "locked" in get_args(cls.model_fields["mode"].annotation) else ('"free"',)
         try:
@@ -116,7 +122,10 @@ class Dof(Section):
 
     @property
     def hold(self) -> float:
-        """Stiffness of what holds it: inf where it is locked or prescribed, 0 where it is free [N/m, N m/rad]."""
+        """Stiffness of the constraint [N/m, N m/rad].
+
+        Inf where it is locked or prescribed, 0 where it is free.
+        """
         return float(getattr(self, "stiffness", 0.0)) if self.mode == "free" else inf
 
 
@@ -137,7 +146,10 @@ class Tilt(Dof):
 
 
 class Roll(Dof):
-    """Boundary condition of the rotation about x of a body that does not turn with the shaft."""
+    """Constraint of a body's rotation about x.
+
+    The body does not turn with the shaft.
+    """
 
     mode: Literal["free", "locked"] = option("free", "free or locked")
     stiffness: AngularStiffness = option("0 N m/rad", "elastic support to ground", ge=0.0, le=LARGEST)
@@ -152,26 +164,35 @@ class Spin(Dof):
 
 
 class InnerSpin(Dof):
-    """Rotation of the inner ring; its speed over time is operation.speed."""
+    """Rotation of the inner ring.
+
+    Its speed over time is operation.speed.
+    """
 
     damping: AngularDamping = option("0 N m s/rad", "resistance to the rotation", ge=0.0)
 
 
 class ShaftSpin(Dof):
-    """Resistance to the rotation of a shaft that a torque drives."""
+    """Resistance to the rotation of a driven shaft.
+
+    A torque drives the shaft.
+    """
 
     mode: Literal["free"] = option("free", "free; the speed or the torque of the shaft stands in [operation]")
     damping: AngularDamping = option("0 N m s/rad", "resistance to the rotation", ge=0.0, le=LARGEST)
 
 
 class SeatTranslation(Translation):
-    """How a seat holds a ring along one axis; damping of a locked one counts where its housing gives way."""
+    """Support of a ring along one axis.
+
+    The damping of a locked ring counts where its housing is elastic.
+    """
 
     damps_what_is_locked: ClassVar[bool] = True
 
 
 class SeatTilt(Tilt):
-    """How a seat holds a ring against a rotation about y or z."""
+    """Support of a ring about y or z."""
 
     damps_what_is_locked: ClassVar[bool] = True
 
@@ -185,7 +206,10 @@ class TranslationSpring(Dof):
 
 
 class RotationSpring(Dof):
-    """Spring and damper against the rotation about one axis; "free" is none."""
+    """Spring and damper of rotation about one axis.
+
+    "free" is none.
+    """
 
     mode: Literal["free"] = option("free", "free of both where neither is written")
     stiffness: AngularStiffness = option("0 N m/rad", "stiffness", ge=0.0, le=LARGEST)

@@ -79,7 +79,10 @@ _PIECES = [{"length": "1 m", "diameter": "40 mm"}]
 
 
 class ShaftSection(Section):
-    """A piece of the shaft of one diameter; pieces follow each other along +x."""
+    """Piece of the shaft of one diameter.
+
+    Pieces follow each other along +x.
+    """
 
     length: Length = option(description="length along the axis", gt=0.0)
     diameter: Length = option(description="outside diameter", gt=0.0)
@@ -93,7 +96,9 @@ class ShaftSection(Section):
 
 
 class Shaft(Section):
-    """The shaft: pieces of one diameter each, from its left end at x = 0, or a reduced model from outside.
+    """Shaft of pieces, or a reduced model.
+
+    Each piece has one diameter; they start at the left end, x = 0. A reduced model is imported.
 
     Without either it is rigid and has no mass but that of its discs; so can be the shaft of a single bearing.
     """
@@ -138,7 +143,7 @@ class Shaft(Section):
 
     @property
     def is_rigid(self) -> bool:
-        """Whether it is a rigid body at a single bearing."""
+        """True for a rigid shaft on one bearing."""
         return not self.sections and self.reduced is None
 
     @model_validator(mode="after")
@@ -149,7 +154,10 @@ class Shaft(Section):
 
 
 class Housing(Section):
-    """What holds the outer rings: its growth in length, and an elastic model of it where there is one."""
+    """Housing of the outer rings.
+
+    It has a thermal growth in length, and an elastic model if one is given.
+    """
 
     material: MaterialChoice = option("100Cr6", "catalogue name or a table of properties")
     temperature: Temperature = option("20 degC", "mean temperature")
@@ -162,7 +170,10 @@ class Housing(Section):
 
 
 class Support(Section):
-    """How the housing holds an outer ring: locked, free, by a spring, or moved, for each degree of freedom."""
+    """Support of an outer ring in the housing.
+
+    Each degree of freedom is locked, free, held by a spring, or moved.
+    """
 
     INSTEAD: ClassVar[Mapping[str, str]] = {
         f"{old}_{dof}": f"write {dof} = {{ {new} }}"
@@ -178,7 +189,10 @@ class Support(Section):
 
 
 class MachineBearing(Bearing, Placed):
-    """A bearing on the shaft: which one it is, as in the case of one bearing, and how it sits."""
+    """Bearing on the shaft and its mounting.
+
+    The bearing is described as in the case of one bearing.
+    """
 
     INSTEAD: ClassVar[Mapping[str, str]] = {
         **Placed.INSTEAD,
@@ -225,7 +239,7 @@ class MachineBearing(Bearing, Placed):
 
 
 class MachineOperation(Section):
-    """What turns the shaft."""
+    """Drive of the shaft."""
 
     speed: SpeedSignal = option(
         description="speed of the shaft over time (initial speed where a torque drives it); the equilibrium is that of "
@@ -240,7 +254,10 @@ class MachineOperation(Section):
 
 
 class MachineCase(Written):
-    """What the file of a shaft says; values in SI, written as unit strings."""
+    """Case file of a machine.
+
+    Values are in SI, written as unit strings.
+    """
 
     INSTEAD: ClassVar[Mapping[str, str]] = {
         **dict.fromkeys(("springs", "elements"), "write [connections.NAME]"),
@@ -285,7 +302,10 @@ class MachineCase(Written):
 
     @classmethod
     def own_problems(cls, data: Mapping[str, Any]) -> list[Problem]:
-        """Return what is wrong with names and with the shaft's shape in plain tables, each at its own path."""
+        """Return problems of names and of the shaft's shape.
+
+        Of plain tables, each at its own path.
+        """
         found = _shape_problems(data)
         for table in NAMED:
             parts = data.get(table)
@@ -300,7 +320,7 @@ class MachineCase(Written):
 
 
 def _shape_problems(data: Mapping[str, Any]) -> list[Problem]:
-    """Return that several bearings stand on a shaft without a shape, where they do."""
+    """Report several bearings on a shaft without shape."""
     bearings, shaft = data.get("bearings"), data.get("shaft", {})
     if not isinstance(bearings, Mapping) or len(bearings) < 2 or not isinstance(shaft, Mapping):
         return []
@@ -311,7 +331,10 @@ def _shape_problems(data: Mapping[str, Any]) -> list[Problem]:
 
 
 def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """Return the plain tables of the case of one of the bearings alone, right or wrong as those of the machine are."""
+    """Return the case tables of one bearing alone.
+
+    They are plain tables, as valid as those of the machine.
+    """
     given = tables["bearings"][name]
     operation = tables.get("operation")
     speed = operation.get("speed") if isinstance(operation, Mapping) else None
@@ -336,7 +359,10 @@ def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
 
 
 def _own_oil(tables: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the table of a bearing's oil where it says something of its own; another oil has its own properties."""
+    """Return the table of a bearing's own oil.
+
+    It exists where the bearing has options of its own; another oil has its own properties.
+    """
     shared, own = tables.get("lubricant", {}), given.get("lubricant")
     if not isinstance(shared, Mapping) or not isinstance(own, Mapping):
         return {}
@@ -346,7 +372,10 @@ def _own_oil(tables: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, A
 
 
 def _own_thermal(tables: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the thermal network of a bearing: what surrounds it, and its own oil and nodes; no housing, no shaft."""
+    """Return the thermal network of a bearing.
+
+    It has its surroundings, and its own oil and nodes; no housing, no shaft.
+    """
     shared, own = ({} if not isinstance(one, Mapping) else one for one in (tables.get("thermal"), given.get("thermal")))
     found = {key: value for key, value in shared.items() if key in _AROUND} | dict(own)
     if "oil_flow" not in found:
@@ -357,7 +386,10 @@ def _own_thermal(tables: Mapping[str, Any], given: Mapping[str, Any]) -> dict[st
 
 
 def place_in_machine(tables: Mapping[str, Any], name: str, where: str) -> str:
-    """Return where in the machine's file stands what stands at `where` in the tables of one of its bearings."""
+    """Return the place of a bearing's option in the machine.
+
+    `where` is the option's place in the tables of one bearing.
+    """
     own, (first, *rest) = tables["bearings"][name], where.split(".")
     if first == "bearing":
         return ".".join(("bearings", name, *rest))
@@ -369,7 +401,9 @@ def place_in_machine(tables: Mapping[str, Any], name: str, where: str) -> str:
 
 
 def _place_in_bearing(tables: Mapping[str, Any], name: str, path: str) -> str:
-    """Return where in the tables of a bearing stands what stands at `path` of the machine; empty where it is not there.
+    """Return the place of a machine's option in a bearing.
+
+    `path` is the option's place in the machine; empty where the bearing does not have it.
 
     What bearings have of their own takes the place of what they share.
     """

@@ -30,7 +30,7 @@ _AT = 'write at = "85 mm", a place along the shaft, or at = "NAME", a marker or 
 
 
 class Placed(Section):
-    """What stands at a place of the shaft or of a body."""
+    """Part at a place of the shaft or a body."""
 
     INSTEAD: ClassVar[Mapping[str, str]] = {"position": _AT, "marker": _AT}
 
@@ -51,7 +51,10 @@ class Placed(Section):
 
     @property
     def along(self) -> float | None:
-        """Place along the shaft [m]; None where it is a name, or none is given."""
+        """Place along the shaft [m].
+
+        None where it is a name, or none is given.
+        """
         return None if self.at is None else length_in(self.at)
 
     @property
@@ -67,7 +70,10 @@ class Placed(Section):
 
 
 def length_in(text: str) -> float | None:
-    """Return the length that a text says [m]; None where it is none."""
+    """Return the length in a text [m].
+
+    None where it is none.
+    """
     try:
         return parse(text, "length")
     except ValueError:
@@ -75,7 +81,10 @@ def length_in(text: str) -> float | None:
 
 
 class ShaftSupport(Placed):
-    """How the ground holds the shaft at one place, for each degree of freedom; its rotation is only damped."""
+    """Ground support of the shaft at one place.
+
+    It has every degree of freedom; the rotation about x is only damped.
+    """
 
     at: str | None = option(  # type: ignore[assignment]
         None,
@@ -92,7 +101,7 @@ class ShaftSupport(Placed):
 
     @property
     def is_used(self) -> bool:
-        """Whether it holds or damps the shaft."""
+        """True if it holds or damps the shaft."""
         return bool(self.spin.damping) or any(
             dof.mode != "free" or dof.stiffness or dof.damping
             for dof in (self.x, self.y, self.z, self.tilt_y, self.tilt_z)
@@ -100,7 +109,10 @@ class ShaftSupport(Placed):
 
 
 class BodySupport(Section):
-    """How the ground holds the centre of a body, for each degree of freedom."""
+    """Ground support of a body's centre.
+
+    It has every degree of freedom.
+    """
 
     x: Translation = option("free", 'axial: "free", "locked", a stiffness ("200 N/um") or a motion')
     y: Translation = option("free", "horizontal, likewise")
@@ -111,7 +123,10 @@ class BodySupport(Section):
 
 
 class MachineBody(Section):
-    """A rigid body such as a housing: mass and inertia, or a shape, and the supports of its centre of mass."""
+    """Rigid body such as a housing.
+
+    It has mass and inertia, or a shape, and the supports of its centre of mass.
+    """
 
     INSTEAD: ClassVar[Mapping[str, str]] = {
         **{f"hold_{dof}": f'write support.{dof} = "locked", "free" or a stiffness' for dof in _DOFS},
@@ -150,7 +165,10 @@ class MachineBody(Section):
 
 
 class ShaftDisc(Placed):
-    """A rigid wheel, rotor or coupling on the shaft: its mass and inertia, or its shape."""
+    """Rigid wheel, rotor or coupling on the shaft.
+
+    It has mass and inertia, or a shape.
+    """
 
     mass: Mass | None = option(None, "mass; absent: that of the shape", gt=0.0)
     polar_inertia: Inertia | None = option(None, "about the axis; absent: 0, or that of the shape", ge=0.0)
@@ -176,7 +194,9 @@ class ShaftDisc(Placed):
 
 
 class Connection(Placed):
-    """Force element between a place and the ground or another body: springs and dampers, or what a law says.
+    """Force element between a place and another body.
+
+    The other body may be the ground; springs and dampers, or a law, give the force.
 
     With six stiffnesses it is a bushing, without force where it is drawn; its axes are those of its marker, and it acts
     at its place. A law acts between two places, on the one of `at`, along the axes of the case.
@@ -211,19 +231,27 @@ class Connection(Placed):
 
     @property
     def is_by_law(self) -> bool:
-        """Whether a law with its parameters gives the force, in place of springs and dampers written here."""
+        """True if a law gives the force.
+
+        It replaces springs and dampers in the case.
+        """
         return self.law != BUSHING or "parameters" in self.model_fields_set
 
 
 class PointLoad(Placed, RadialLoad, Load):
-    """Force and moment on the shaft or another body at one place, over time; the equilibrium is that of t = 0.
+    """Force and moment at one place over time.
+
+    They act on the shaft or another body; the equilibrium is that of t = 0.
 
     Along the axes of its marker, where it has one.
     """
 
 
 class Gear(Placed):
-    """A spur or helical gear on the shaft: forces from what it transmits."""
+    """Spur or helical gear on the shaft.
+
+    Its forces follow from the transmitted power or torque.
+    """
 
     pitch_diameter: Length = option(description="working pitch diameter", gt=0.0)
     power: Power | None = option(None, "power through the mesh", gt=0.0)

@@ -18,7 +18,10 @@ from lambda_core.domain.units import Frequency, Time
 
 
 def _finite(given: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
-    """Refuse infinities and NaN: no law has use for them, and no file of a result can hold them."""
+    """Refuse infinities and NaN.
+
+    No law uses them, and no result file can hold them.
+    """
     for role, values in given.items():
         for name, value in values.items():
             if isinstance(value, float) and not math.isfinite(value):
@@ -38,7 +41,10 @@ def _help(role: Role) -> str:
 if TYPE_CHECKING:
 
     class Models(Section):
-        """Model by role; the fields are the roles of the domain."""
+        """Model by role.
+
+        The fields are the roles of the domain.
+        """
 
         def __getattr__(self, role: str) -> str | None: ...
 
@@ -53,7 +59,10 @@ else:
 
 
 class ForceElement(Section):
-    """Models and parameters of one force element, before those of the whole bearing."""
+    """Models and parameters of one force element.
+
+    They precede those of the whole bearing.
+    """
 
     models: Models = option({}, "models by role")
     parameters: Parameters = option({}, "parameters by role")
@@ -62,7 +71,10 @@ class ForceElement(Section):
 if TYPE_CHECKING:
 
     class Forces(Section):
-        """Force elements between the bodies; the fields are the elements of the domain."""
+        """Force elements between the bodies.
+
+        The fields are the elements of the domain.
+        """
 
 else:
     Forces = create_model(
@@ -75,7 +87,10 @@ else:
 
 
 class Depth(Section):
-    """Modelling depth: which parts move, and how finely a contact is divided."""
+    """Modelling depth.
+
+    It sets which parts move, and how finely a contact is divided.
+    """
 
     cage: bool = option(True, "the cage is a body; off: neighbouring balls touch each other instead")
     strips: int = option(31, "strips across the contact ellipse, along its major axis", ge=3, le=201)
@@ -110,7 +125,7 @@ class Solver(Section):
 
 
 class Output(Section):
-    """What is written."""
+    """Contents of the output."""
 
     interval: Time | None = option(None, "simulated time between samples; absent: 1/100 of a cage turn", gt=0.0)
     checkpoint_interval: Time = option("10 s", "wall time between checkpoints", gt=0.0)

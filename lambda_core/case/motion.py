@@ -48,7 +48,10 @@ class InnerRing(RingBody):
 
 
 class OuterRing(RingBody):
-    """The outer ring; fixed by default. Where it moves, its mass may include the housing's."""
+    """Outer ring, fixed by default.
+
+    Where it moves, its mass may include the housing's.
+    """
 
     x: Translation = option("locked", "axial")
     y: Translation = option("locked", "horizontal")
@@ -59,13 +62,19 @@ class OuterRing(RingBody):
 
 
 class TurningRing(RingBody):
-    """The outer ring of a bearing in a machine; its support holds it in the other directions."""
+    """Outer ring of a bearing in a machine.
+
+    Its support holds it in the other directions.
+    """
 
     spin: Spin = option("locked", "rotation about the axis")
 
 
 class CageBody(RingBody):
-    """The cage: its type from the catalogue, single values replaced here."""
+    """Cage by its type from the catalogue.
+
+    Single values replace those of the catalogue.
+    """
 
     type: str = option("steel-ribbon", "catalogue name of the cage type", min_length=1)
     guidance: Literal["ball", "inner ring", "outer ring"] | None = option(None, "what centres the cage")
@@ -90,7 +99,10 @@ class Bodies(Section):
 
 
 class Load(Section):
-    """External force and moment over time, in the inertial frame; the equilibrium is that of t = 0."""
+    """External force and moment over time.
+
+    In the inertial frame; the equilibrium is that of t = 0.
+    """
 
     force_x: ForceSignal = option("0 N", "force along the shaft")
     force_y: ForceSignal = option("0 N", "horizontal force")
@@ -101,7 +113,7 @@ class Load(Section):
 
 
 class RadialLoad(Section):
-    """A force across the shaft by its size and its direction."""
+    """Force across the shaft by size and direction."""
 
     radial: ForceSignal = option("0 N", "radial load")
     radial_direction: Angle = option("270 deg", "azimuth of the radial load, from +y to +z; 270 deg is down")
@@ -127,7 +139,7 @@ class Loads(RadialLoad):
 
 
 class Operation(Section):
-    """What drives the bearing."""
+    """Drive of the bearing."""
 
     speed: SpeedSignal = option(description="speed of the inner ring over time (initial speed where its spin is free)")
     torque: MomentSignal | None = option(None, "driving torque on the inner ring; needs bodies.inner_ring.spin free")
@@ -145,7 +157,9 @@ class Gravity(Section):
 
 
 class Marker(Section):
-    """A named point on a body, and the axes of loads and connections there; its motion is written to the result.
+    """Named point on a body, with axes.
+
+    Loads and connections there use the axes; its motion is written to the result.
 
     In the case of one bearing it stands in the body's frame, in that of a machine where it is drawn.
     """
@@ -165,7 +179,10 @@ class Marker(Section):
 
 
 class BetweenBodies(Section):
-    """A force element between two bodies, or a body and the ground, in addition to those of the bearing."""
+    """Force element between two bodies.
+
+    One may be the ground. The elements of the bearing act as well.
+    """
 
     law: str = option("bushing", "law of the role force_element", min_length=1)
     first: str = option("ground", 'body or marker at one end; "ground" is what stands still', min_length=1)

@@ -13,7 +13,10 @@ NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]*$"
 
 
 class Section(BaseModel):
-    """Base of every table of a case: no unknown keys, immutable, defaults checked like input."""
+    """Base of every table of a case.
+
+    It accepts no unknown keys, is immutable, and checks defaults like input.
+    """
 
     # what to write in place of a name that one would expect here
     INSTEAD: ClassVar[Mapping[str, str]] = {}
@@ -43,7 +46,10 @@ def option(default: Any = ..., description: str = "", *, reference: str = "", qu
 
 
 def quantity_of(model: type[BaseModel], name: str) -> str:
-    """Return the quantity of a plain dimensional field, "" for any other field."""
+    """Return the quantity of a plain dimensional field.
+
+    "" for any other field.
+    """
     info = model.model_fields.get(name)
     if info is None:
         return ""

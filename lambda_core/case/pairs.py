@@ -36,7 +36,7 @@ class Pairs:
 
 
 def given_pairs(points: Sequence[tuple[float, float]] | None, file: str | None, quantity: str, folder: Path) -> Pairs:
-    """Return the pairs that stand in a case or in the file that it names.
+    """Return the pairs of a case or its file.
 
     Parameters
     ----------
@@ -62,7 +62,10 @@ def given_pairs(points: Sequence[tuple[float, float]] | None, file: str | None, 
 
 
 def rising(pairs: Pairs, what: str) -> Pairs:
-    """Return pairs whose first column rises; ValueError with the first that does not."""
+    """Return pairs whose first column rises.
+
+    ValueError with the first that does not.
+    """
     for index, ((before, _), (after, _)) in enumerate(pairwise(pairs.points), 1):
         if after <= before:
             raise ValueError(f"{pairs.where(index)}: the {what} must increase")
@@ -70,7 +73,9 @@ def rising(pairs: Pairs, what: str) -> Pairs:
 
 
 def read_pairs(path: Path, quantity: str) -> Pairs:
-    """Read a CSV file of time and value; the header names both columns with their units in brackets.
+    """Read a CSV file of time and value.
+
+    The header names both columns with their units in brackets.
 
     Raises
     ------

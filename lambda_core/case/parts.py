@@ -36,7 +36,10 @@ CLEARANCE_PARTS = "LHMP"
 
 
 class InlineGeometry(Section):
-    """Inner geometry written in the case; with a designation it replaces single catalogue values."""
+    """Inner geometry written in the case.
+
+    With a designation it replaces single catalogue values.
+    """
 
     ball_count: int | None = option(None, "number of balls, of one row", ge=3, le=60)
     ball_diameter: Length | None = option(None, "ball diameter D_w", gt=0.0)
@@ -101,7 +104,10 @@ class Fits(Section):
 
 
 class PartTemperatures(Section):
-    """Temperatures in operation, for thermal expansion; absent parts have the oil's temperature."""
+    """Temperatures in operation, for thermal expansion.
+
+    Absent parts have the oil's temperature.
+    """
 
     reference: Temperature = option("20 degC", "temperature at which clearance and diameters were measured")
     inner_ring: Temperature | None = option(None, "inner ring")
@@ -112,7 +118,7 @@ class PartTemperatures(Section):
 
 
 class Bearing(Section):
-    """Which bearing it is, and its clearance."""
+    """Bearing and its clearance."""
 
     designation: str | None = option(
         None,
@@ -201,7 +207,10 @@ MaterialChoice = Annotated[
 
 
 class Materials(Section):
-    """Material of each part: a catalogue name or a table of properties."""
+    """Material of each part.
+
+    It is a catalogue name or a table of properties.
+    """
 
     inner: MaterialChoice = option("100Cr6", "inner ring")
     outer: MaterialChoice = option("100Cr6", "outer ring")
@@ -210,7 +219,10 @@ class Materials(Section):
 
 
 class InlineLubricant(Section):
-    """An oil written in the case: what every oil needs; its laws take parameters.<role>."""
+    """Oil written in the case.
+
+    It has what every oil needs; its laws take parameters.<role>.
+    """
 
     base_type: str = option("mineral", "kind of base oil", min_length=1)
     rheology: str = option(description="rheology model that the parameters are for", min_length=1)
@@ -222,7 +234,7 @@ class InlineLubricant(Section):
 
 
 class Lubricant(Section):
-    """The oil, or the grease, and how much of it there is."""
+    """Oil or grease, and its amount."""
 
     name: str = option(
         description='catalogue name, for example "FVA3A"; with properties: any name',
@@ -247,7 +259,10 @@ class Lubricant(Section):
 
 
 class OwnLubricant(Lubricant):
-    """The oil of one bearing of a machine; what is left out is that of [lubricant]."""
+    """Oil of one bearing of a machine.
+
+    Absent options are those of [lubricant].
+    """
 
     name: str | None = option(None, "catalogue name; absent: that of [lubricant]", min_length=1)  # type: ignore[assignment]
     temperature: Temperature | None = option(  # type: ignore[assignment]

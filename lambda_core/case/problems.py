@@ -62,12 +62,18 @@ def problems(error: ValidationError, model: type[BaseModel], data: Any, prefix: 
 
 
 def _path(location: Sequence[int | str]) -> list[int | str]:
-    """Drop the parts of pydantic's location that are no keys of the file (union tags)."""
+    """Drop union tags from pydantic's location.
+
+    They are no keys of the file.
+    """
     return [part for part in location if not is_tag(part)]
 
 
 def _parent(location: Sequence[int | str], model: type[BaseModel]) -> type[BaseModel] | None:
-    """Return the table that the last key of a location stands in; its tags say which of several it is."""
+    """Return the table of a location's last key.
+
+    Its tags say which of several it is.
+    """
     keys = list(location)
     while keys and is_tag(keys[-1]):
         keys.pop()
@@ -75,7 +81,10 @@ def _parent(location: Sequence[int | str], model: type[BaseModel]) -> type[BaseM
 
 
 def _written(data: Any, path: Sequence[int | str]) -> Any:
-    """Return what stands at a path of plain tables; None where nothing does."""
+    """Return the value at a path of plain tables.
+
+    None where there is none.
+    """
     for key in path:
         if isinstance(data, Mapping):
             data = data.get(key)
@@ -87,7 +96,10 @@ def _written(data: Any, path: Sequence[int | str]) -> Any:
 
 
 def _limit(value: float, quantity: str, written: Any) -> str:
-    """Write a limit in the unit that the value was written in, else in the first one of its quantity."""
+    """Write a limit in the unit of the value.
+
+    Else in the first one of its quantity.
+    """
     known = list(units_of(quantity))
     ends = [unit for unit in known if isinstance(written, str) and written.rstrip().endswith(unit)]
     unit = max(ends, key=len, default=known[0])
@@ -162,7 +174,10 @@ def _choices(parent: type[BaseModel] | None, name: str) -> list[str]:
 
 
 def _unknown_key(name: str, parent: type[BaseModel] | None, root: type[BaseModel]) -> str:
-    """Say what an unknown option might be: the same name in another table counts more than a like one here."""
+    """Suggest a name for an unknown option.
+
+    The same name in another table counts more than a similar one here.
+    """
     if parent is not None and issubclass(parent, Section) and name in parent.INSTEAD:
         return f"is not an option: {parent.INSTEAD[name]}"
     siblings = list(parent.model_fields) if parent else []

@@ -13,7 +13,7 @@ from lambda_core.formulas.life import CONTAMINATION_LEVELS
 
 
 class Life(Section):
-    """What modified rating lives need."""
+    """Inputs of modified rating lives."""
 
     contamination: float | str | None = option(
         None,
@@ -25,7 +25,10 @@ class Life(Section):
     @field_validator("contamination", mode="before")
     @classmethod
     def _is_read(cls, value: Any) -> Any:
-        """Read a number that comes as text, as from the command line."""
+        """Read a number that comes as text.
+
+        It may come from the command line.
+        """
         try:
             return value if isinstance(value, bool) else float(value)
         except (TypeError, ValueError):
@@ -42,7 +45,10 @@ class Life(Section):
 
 
 class Requirements(Section):
-    """What the bearing, or every bearing of a machine, has to reach; absent values are not required."""
+    """Requirements for every bearing.
+
+    Of the case of one bearing or of a machine; absent values are not required.
+    """
 
     life: Time | None = option(None, 'rating life that 90 % have to reach, such as "20000 h"', gt=0.0)
     static_safety: float | None = option(None, "least static safety C_0/P_0", gt=0.0, reference="ISO 76")

@@ -9,7 +9,10 @@ from lambda_core.domain.units import Angle, Length, SmallLength
 
 
 class InlineRollers(Section):
-    """Roller bearing: inner geometry; with a designation it replaces single catalogue values."""
+    """Inner geometry of a roller bearing.
+
+    With a designation it replaces single catalogue values.
+    """
 
     kind: Literal["NU", "NJ", "NUP", "N", "NCF", "needle", "tapered"] | None = option(
         None,

@@ -30,21 +30,27 @@ SHARED_STAND_INS: StandIns = {
 
 
 class InvalidCase(CaseError):
-    """A case with mistakes of its own; `remainder` is the case without them, if one is left."""
+    """Case with mistakes.
+
+    `remainder` is the case without them, if one is left.
+    """
 
     def __init__(self, source: str, problems: Sequence[Problem], remainder: Any) -> None:
         super().__init__(source, problems)
         self.remainder = remainder
 
     def joined(self, others: Sequence[Problem]) -> CaseError:
-        """Return one error with these problems and those of `others` that do not follow from them."""
+        """Return one error with these and other problems.
+
+        Problems of `others` that follow from these are left out.
+        """
         known = [problem.where for problem in self.problems]
         new = [other for other in others if not any(related(other.where, where) for where in known)]
         return CaseError(self.source, [*self.problems, *new])
 
 
 def related(one: str, other: str) -> bool:
-    """Tell whether one of two paths is the other one or a part of it."""
+    """Tell whether one path contains the other."""
     return f"{one}.".startswith(f"{other}.") or f"{other}.".startswith(f"{one}.")
 
 
@@ -56,7 +62,10 @@ def invalid_case(
     root: type[BaseModel],
     stand_ins: StandIns,
 ) -> InvalidCase:
-    """Return the error that names every mistake in `data`, with what is left of the case, of one bearing or a shaft."""
+    """Return the error of every mistake in `data`.
+
+    It has what is left of the case, of one bearing or a shaft.
+    """
     return InvalidCase(source, problems(error, root, data), _remainder(error, data, folder, root, stand_ins))
 
 

@@ -52,7 +52,9 @@ def expand(
     takes: Literal["+x", "-x"] | None = None,
     play: float = 0.0,
 ) -> LongForm:
-    """Write the case of one bearing as a machine: the bearing on a rigid shaft, its outer ring in the ground.
+    """Write the case of one bearing as a machine.
+
+    The bearing is on a rigid shaft, its outer ring in the ground.
 
     The bearing, its oil, laws, cage and elastic parts, the loads on its inner ring and the supports of both rings are
     the same. What holds the inner ring holds the shaft where the bearing is; the shaft has no sections, so that it is
@@ -114,7 +116,7 @@ def expand(
 
 
 def _electric(written: Mapping[str, Any], differences: list[str]) -> dict[str, Any]:
-    """Return the circuit, in which each bearing has its own insulation."""
+    """Return the circuit with insulation in each bearing."""
     found, grounding = dict(written), dict(written.get("grounding", {}))
     if "other_bearings" not in written.get("machine", {}):
         differences.append("electric.machine.other_bearings: absent, where the circuit has one more bearing like this")
@@ -125,7 +127,10 @@ def _electric(written: Mapping[str, Any], differences: list[str]) -> dict[str, A
 
 
 def _thermal(written: Mapping[str, Any], bearing: dict[str, Any]) -> dict[str, Any]:
-    """Return the thermal network, whose nodes of the bearing stand in the bearing's own table."""
+    """Return the thermal network for a machine.
+
+    The nodes of the bearing are in the bearing's own table.
+    """
     found = dict(written)
     nodes = found.pop("nodes", {})
     own = {name: node for name, node in nodes.items() if name in _OWN_NODES}
@@ -141,17 +146,23 @@ def _thermal(written: Mapping[str, Any], bearing: dict[str, Any]) -> dict[str, A
 
 
 def _node(name: str) -> str:
-    """Return the name in the machine of a node of the thermal network."""
+    """Return the machine's name of a thermal node."""
     return f"{NAME}.{name}" if name in (*_OWN_NODES, _SUPPLY) else name
 
 
 def _resistance(spin: Any) -> dict[str, Any]:
-    """Return what brakes the rotation of the shaft, as the case brakes that of the inner ring."""
+    """Return the resistance to the shaft's rotation.
+
+    It is the resistance to the inner ring's rotation in the case.
+    """
     return {"spin": {"damping": spin["damping"]}} if isinstance(spin, Mapping) and "damping" in spin else {}
 
 
 def _operation(written: Mapping[str, Any], spin: Any) -> dict[str, Any]:
-    """Return what turns the shaft: its speed, or where the inner ring turns freely a torque."""
+    """Return the drive of the shaft.
+
+    It is a speed, or a torque where the inner ring turns freely.
+    """
     mode = spin.get("mode", "free") if isinstance(spin, Mapping) else spin
     torque = {"torque": written.get("torque", "0 N m")} if mode == "free" else {}
     return {key: written[key] for key in ("speed", "temperatures") if key in written} | torque
@@ -172,7 +183,7 @@ def _loads(written: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _body(name: str) -> str:
-    """Return what carries a place of the bearing in the machine."""
+    """Return the machine's body of a bearing's place."""
     return f"{NAME}.{name}" if name in PARTS else "ground" if name == "ground" else "shaft"
 
 

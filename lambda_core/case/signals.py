@@ -65,7 +65,9 @@ class Harmonic(TimeTable, Generic[V]):
 
 
 class Table(TimeTable, Generic[V]):
-    """Values at points in time, joined by a smooth curve and held constant outside.
+    """Values at points in time.
+
+    A smooth curve joins them; they are constant outside.
 
     ``points`` stand in the case; ``file`` names a CSV file in its folder whose header is
     ``time [s],value [kN]`` (the units in brackets are those of the columns).
@@ -103,7 +105,10 @@ class Table(TimeTable, Generic[V]):
         return self._rows
 
     def inlined(self) -> dict[str, Any]:
-        """Return the table with its points written out, for a case that must stand alone."""
+        """Return the table with its points written out.
+
+        The case then needs no other file.
+        """
         from lambda_core.domain.units import show
 
         points = [[show(time, "time"), show(value, self.quantity)] for time, value in self.rows]
@@ -112,7 +117,10 @@ class Table(TimeTable, Generic[V]):
 
 
 class ByLaw(TimeTable, Generic[V]):
-    """amplitude * f(t), where f is a law of the role time_function: `chirp`, or what a plugin brings."""
+    """Time function by a law.
+
+    amplitude * f(t), where f is a law of the role time_function: `chirp`, or that of a plugin.
+    """
 
     kind: Literal["law"]
     law: str = option(description="law of the role time_function", min_length=1)
@@ -122,11 +130,17 @@ class ByLaw(TimeTable, Generic[V]):
 
     @property
     def course(self) -> Any:
-        """What the resolution of the case has found out about it (lambda_core.model.laws.time_laws), None before."""
+        """Course that the resolution of the case found.
+
+        lambda_core.model.laws.time_laws sets it; None before.
+        """
         return self._course
 
     def set_course(self, course: Any) -> None:
-        """Keep what the resolution has found out; for a copy of the case."""
+        """Keep what the resolution has found out.
+
+        It is for a copy of the case.
+        """
         self._course = course
 
 

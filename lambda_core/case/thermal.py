@@ -25,7 +25,10 @@ Conductances = Literal["harris", "palmgren", "iso-15312", "none"]
 
 
 class ThermalNode(Section):
-    """A node of the network: one of the bearing's own, or a further one."""
+    """Node of the thermal network.
+
+    It is one of the bearing's own, or a further one.
+    """
 
     heat_capacity: HeatCapacity | None = option(
         None, "heat capacity; absent: estimated for the bearing's own nodes, none for a further one", gt=0.0
@@ -36,7 +39,10 @@ class ThermalNode(Section):
 
 
 class ThermalLink(Section):
-    """A conductance between two nodes; it takes the place of the set's own between the same two."""
+    """Conductance between two nodes.
+
+    It takes the place of the set's own between the same two.
+    """
 
     between: list[str] = option(description="names of the two nodes", min_length=2, max_length=2)
     conductance: ThermalConductance = option(description="heat flow per difference of temperature", ge=0.0)
@@ -97,7 +103,10 @@ class MachineThermal(Thermal):
 
 
 class BearingThermal(Section):
-    """What one bearing of a machine has of its own in the thermal network; absent: as in [thermal]."""
+    """Thermal options of one bearing of a machine.
+
+    Absent: as in [thermal].
+    """
 
     inlet: Literal["oil", "surfaces"] | None = option(None, "temperature of the oil that enters its contacts")
     seat_conductance: HeatTransfer | None = option(None, "of its joints ring - shaft and ring - housing", gt=0.0)

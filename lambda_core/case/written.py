@@ -18,7 +18,10 @@ _LAWS_IN = ("models", "forces", "electric")  # where a program may hand over a l
 
 
 class Written(Section):
-    """The part that every case has: a name, a folder, and how it changes."""
+    """Part that every case has.
+
+    It has a name and a folder, and can be changed.
+    """
 
     name: str = option(description="short name, used for files", pattern=NAME_PATTERN)
     description: str = option("", "what this case is, for people")
@@ -34,7 +37,10 @@ class Written(Section):
 
     @property
     def folder(self) -> Path | None:
-        """Folder that file names in the case are relative to; None is the working directory."""
+        """Folder of the file names in the case.
+
+        None is the working directory.
+        """
         return self._folder
 
     def __eq__(self, other: object) -> bool:
@@ -43,7 +49,10 @@ class Written(Section):
     __hash__ = None  # type: ignore[assignment]
 
     def __getstate__(self) -> dict[Any, Any]:
-        """Return what is pickled: with the laws that were handed over as objects, which no other process knows."""
+        """Return the state for pickle.
+
+        It has the laws that were passed as objects, which no other process knows.
+        """
         return {**super().__getstate__(), "handed": packed()}
 
     def __setstate__(self, state: dict[Any, Any]) -> None:
@@ -52,16 +61,25 @@ class Written(Section):
         super().__setstate__(state)
 
     def __dir__(self) -> list[str]:
-        """Return the names that a notebook completes: sections, and what a case can do."""
+        """Return the names that a notebook completes.
+
+        They are sections, and the methods of a case.
+        """
         return sorted({*type(self).model_fields, "folder", "written", "with_"})
 
     @classmethod
     def own_problems(cls, data: Mapping[str, Any]) -> list[Problem]:
-        """Return what is wrong with the names of named parts in plain tables, each at its own path."""
+        """Return problems of the names of parts.
+
+        Of plain tables, each at its own path.
+        """
         return []
 
     def written(self) -> dict[str, Any]:
-        """Return what stands in the case's file: plain tables with unit strings, no defaults."""
+        """Return the plain tables of the case's file.
+
+        They have unit strings, and no defaults.
+        """
         return self.model_dump(mode="json", exclude_unset=True, exclude_none=True)
 
     def with_(self, **changes: Any) -> Self:
@@ -85,7 +103,10 @@ C = TypeVar("C", bound=Written)
 
 
 def validate(root: type[C], data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> C:
-    """Check plain tables as a case of a class; InvalidCase with every mistake at once, and what is left without."""
+    """Check plain tables as a case of a class.
+
+    InvalidCase with every mistake at once, and what is left without.
+    """
     if isinstance(data.get("parameters"), list) and "bearing" not in data:
         raise CaseError(source, [Problem("", f"is a study, not a case: lambda-bearing study run {source}")])
     if _is_deep(data):
@@ -103,7 +124,10 @@ def validate(root: type[C], data: Mapping[str, Any], source: str = "case", folde
 
 
 def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Merge tables key by key; None removes a key, a table with a ``kind`` replaces completely."""
+    """Merge tables key by key.
+
+    None removes a key, a table with a ``kind`` replaces completely.
+    """
     result = dict(base)
     for key, value in changes.items():
         old = result.get(key)
@@ -119,7 +143,10 @@ def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any
 
 
 def _is_deep(data: Any) -> bool:
-    """Tell whether tables and lists are nested beyond what any case needs, without a call for each level."""
+    """Tell whether tables are nested too deeply.
+
+    Beyond what any case needs; lists count. It makes no call for each level.
+    """
     level = [data]
     for _ in range(_DEEPEST):
         level = [

@@ -38,7 +38,9 @@ class Designation:
 
 
 def read_designation(text: str, known: list[str], suffixes: Sequence[Suffix]) -> Designation | None:
-    """Take a designation apart; None when no bearing of the catalogue stands in it.
+    """Parse a designation.
+
+    None when it contains no bearing of the catalogue.
 
     Parameters
     ----------
@@ -73,7 +75,9 @@ def read_designation(text: str, known: list[str], suffixes: Sequence[Suffix]) ->
 
 
 def designated(catalogue: Catalogue, text: str, maker: str | None = None) -> tuple[BearingRow, Designation]:
-    """Return the catalogue's row that a designation stands for, and the designation taken apart.
+    """Return the catalogue's row of a designation.
+
+    Also return the parsed designation.
 
     Raises
     ------
@@ -90,7 +94,10 @@ def designated(catalogue: Catalogue, text: str, maker: str | None = None) -> tup
 
 
 def without_suffixes(text: str, known: list[str], suffixes: Sequence[Suffix]) -> str:
-    """Return the words of a search with the suffixes behind a designation left out; all else stays as it is."""
+    """Return a search without suffixes of designations.
+
+    All other words stay as they are.
+    """
     names = {name.casefold(): name for name in known}
     kept: list[str] = []
     for word in text.split():
@@ -107,7 +114,10 @@ def without_suffixes(text: str, known: list[str], suffixes: Sequence[Suffix]) ->
 
 
 def _joined(words: list[str], names: dict[str, str]) -> list[str]:
-    """Join what makers write apart: "7208 B" is 7208B, where the catalogue has that and no 7208."""
+    """Join the parts of a maker's designation.
+
+    "7208 B" is 7208B, where the catalogue has that and no 7208.
+    """
     for index in range(len(words) - 1):
         pair = words[index] + words[index + 1]
         base = _base(pair, names)
@@ -117,7 +127,10 @@ def _joined(words: list[str], names: dict[str, str]) -> list[str]:
 
 
 def _base(word: str, names: dict[str, str]) -> str | None:
-    """Return the longest designation of the catalogue that `word` begins with; a digit behind it makes another."""
+    """Return the longest designation that begins `word`.
+
+    It is one of the catalogue; a digit behind it makes another.
+    """
     for end in range(len(word), 0, -1):
         if word[:end].casefold() in names and not word[end : end + 1].isdigit():
             return word[:end]
@@ -133,7 +146,10 @@ def _suffixes(text: str, base: str, known: Sequence[Suffix]) -> Iterator[tuple[s
 
 
 def _instead(part: str, known: Sequence[Suffix]) -> str:
-    """Say what might be meant by an unknown suffix: a number behind a C stands for a clearance class."""
+    """Suggest a name for an unknown suffix.
+
+    A number behind a C is a clearance class.
+    """
     if re.fullmatch(r"C\d+", part):
         return f"classes of clearance: {', '.join(CLEARANCE_CLASSES)}"
     close = nearest(part, [suffix.written for suffix in known])
@@ -141,7 +157,10 @@ def _instead(part: str, known: Sequence[Suffix]) -> str:
 
 
 def _split(part: str, known: Sequence[Suffix]) -> list[tuple[str, Suffix]] | None:
-    """Return the suffixes that are written together ("2RS1C3"), long ones first; None if something is left over."""
+    """Return suffixes that are written together.
+
+    Such as "2RS1C3", long ones first; None if something is left over.
+    """
     for end in range(min(len(part), _LONGEST), 0, -1):
         suffix = next((s for s in known if s.matches(part[:end])), None)
         rest = _split(part[end:], known) if suffix and end < len(part) else []

@@ -24,7 +24,10 @@ class Frozen(BaseModel):
 
 
 class Value(Frozen):
-    """One number with where it comes from. `value` is in SI units."""
+    """One number with its source.
+
+    `value` is in SI units.
+    """
 
     value: float
     source: str
@@ -33,7 +36,10 @@ class Value(Frozen):
 
 
 class Parameter(Frozen):
-    """One parameter of a lubricant for one model, in the unit it was published in."""
+    """Parameter of a lubricant for one model.
+
+    In the unit it was published in.
+    """
 
     value: float
     unit: str  # "" for a plain number
@@ -46,7 +52,7 @@ class Parameter(Frozen):
 
 
 class Design(Frozen):
-    """One candidate for an inner geometry that no catalogue prints (SI)."""
+    """Candidate for an unpublished inner geometry (SI)."""
 
     ball_count: int
     ball_diameter: float  # [m]
@@ -90,7 +96,10 @@ class BearingRow(Frozen):
 
 
 class RollerRow(Frozen):
-    """A roller bearing of one row: boundary dimensions, ratings and inner geometry (SI)."""
+    """Roller bearing of one row.
+
+    Boundary dimensions, ratings and inner geometry (SI).
+    """
 
     designation: str
     maker: str
@@ -116,7 +125,10 @@ class RollerRow(Frozen):
 
 
 class ClearanceRow(Frozen):
-    """Limits of the radial internal clearance of one class for one bore (ISO 5753-1), SI."""
+    """Limits of radial internal clearance, SI.
+
+    Of one class for one bore (ISO 5753-1).
+    """
 
     clearance_class: str
     minimum: float  # [m]
@@ -140,7 +152,10 @@ class MaterialRow(Frozen):
 
 
 class CageRow(Frozen):
-    """A cage type: guidance, clearances and the constants of its mass formula (SI)."""
+    """Cage type in SI.
+
+    Guidance, clearances and the constants of its mass formula.
+    """
 
     name: str
     suffix: str
@@ -158,7 +173,10 @@ class CageRow(Frozen):
 
 
 class LubricantRow(Frozen):
-    """A lubricant: general properties (SI) and the parameters of every model that knows it."""
+    """Lubricant with properties and model parameters.
+
+    General properties (SI) and the parameters of every model that knows it.
+    """
 
     name: str
     base_type: str
@@ -170,7 +188,10 @@ class LubricantRow(Frozen):
 
 
 class Shadow(Frozen):
-    """A row of a plugin, or the key of a source, that stands in front of another one."""
+    """Row of a plugin that replaces another one.
+
+    It may also be the key of a source.
+    """
 
     table: str  # "lubricant_parameter"
     key: tuple[str, ...]  # of the row, or of the group of rows that is replaced at once
@@ -182,19 +203,28 @@ class Shadow(Frozen):
 
 @runtime_checkable
 class Catalogue(Protocol):
-    """Look-ups that the core needs; an unknown name raises CatalogueError with the nearest ones."""
+    """Look-ups that the core needs.
+
+    An unknown name raises CatalogueError with the nearest ones.
+    """
 
     def bearing(self, designation: str, maker: str | None = None) -> BearingRow:
-        """Return one bearing; several makers and none given is an error that lists them."""
+        """Return one bearing.
+
+        Several makers and none given is an error that lists them.
+        """
 
     def bearings(self, text: str = "", limit: int = 50) -> list[BearingRow]:
-        """Return the rows that match `text` (designation, bore, series, maker), best first."""
+        """Return the bearings that match `text`.
+
+        By designation, bore, series or maker, best first.
+        """
 
     def rollers(self) -> list[RollerRow]:
         """Return every roller bearing, by designation and maker."""
 
     def lubricant(self, name: str) -> LubricantRow:
-        """Return one lubricant by its name or one of its aliases."""
+        """Return one lubricant by name or alias."""
 
     def lubricants(self, text: str = "", limit: int = 50) -> list[LubricantRow]:
         """Return the lubricants that match `text`."""
@@ -206,7 +236,10 @@ class Catalogue(Protocol):
         """Return one cage type."""
 
     def clearance(self, bore_diameter: float, clearance_class: str) -> ClearanceRow:
-        """Return the limits for a bore [m] and a class such as "CN"."""
+        """Return the limits for bore [m] and class.
+
+        A class is for example "CN".
+        """
 
     def suffixes(self) -> tuple[Suffix, ...]:
         """Return every suffix that may stand behind a designation."""
@@ -215,7 +248,7 @@ class Catalogue(Protocol):
         """Return every valid name of one kind."""
 
     def shadows(self) -> tuple[Shadow, ...]:
-        """Return the rows of plugins that stand in front of others."""
+        """Return the plugin rows that replace others."""
 
     def close(self) -> None:
         """Release the files behind the catalogue."""

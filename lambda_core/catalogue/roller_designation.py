@@ -15,7 +15,10 @@ _CLEARANCE = re.compile(r"C[N2-5]")
 
 @dataclass(frozen=True)
 class RollerDesignation:
-    """A roller bearing of the catalogue and what its suffixes decide."""
+    """Roller bearing of the catalogue with its suffixes.
+
+    Also what the suffixes decide.
+    """
 
     row: RollerRow
     text: str
@@ -23,7 +26,9 @@ class RollerDesignation:
 
 
 def roller_designation(catalogue: Catalogue, text: str, maker: str | None = None) -> RollerDesignation | None:
-    """Return the roller bearing that a designation stands for; None where it stands for none.
+    """Return the roller bearing of a designation.
+
+    None where there is none.
 
     Raises
     ------
@@ -47,7 +52,10 @@ def roller_designation(catalogue: Catalogue, text: str, maker: str | None = None
 
 
 def _clearance(behind: str, row: RollerRow) -> str | None:
-    """Return the clearance class among the suffixes; refuse a suffix that is unknown."""
+    """Return the clearance class among the suffixes.
+
+    Refuse a suffix that is unknown.
+    """
     found = None
     for part in filter(None, re.split(r"[-/., ]+", behind)):
         taken = _taken(part)
@@ -60,7 +68,10 @@ def _clearance(behind: str, row: RollerRow) -> str | None:
 
 
 def _taken(part: str) -> list[str] | None:
-    """Return suffixes written together, longest first; None if something is left over."""
+    """Return suffixes that are written together.
+
+    Longest first; None if something is left over.
+    """
     if not part:
         return []
     for end in range(len(part), 0, -1):

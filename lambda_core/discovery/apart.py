@@ -28,7 +28,9 @@ def check_apart(
     limit: float = LIMIT,
     announce: Callable[[str], None] | None = None,
 ) -> Iterator[CheckCard]:
-    """Try models out as :func:`survey.check_installed` does, each within a limit of time.
+    """Test models in separate processes.
+
+    As :func:`survey.check_installed` does, each within a limit of time.
 
     Parameters
     ----------
@@ -53,7 +55,9 @@ def check_apart(
 def tried_apart(
     registry: Registry, labels: Sequence[str], module: str, limit: float, announce: Callable[[str], None] | None = None
 ) -> Iterator[CheckCard]:
-    """Have a module try things out in a process of its own, each within a limit of time.
+    """Have a module test things in its process.
+
+    It is a separate process, each test within a limit of time.
 
     Parameters
     ----------
@@ -122,7 +126,10 @@ class _Trials:
             self._lines.put(line)
 
     def next(self, limit: float) -> CheckCard | str | None:
-        """Return what came out of the next model, or a sentence of what it did instead; None after `limit` [s]."""
+        """Return the result of the next model.
+
+        Or a sentence about its failure; None after `limit` [s].
+        """
         try:
             line = self._lines.get(timeout=limit)
         except Empty:
@@ -135,7 +142,10 @@ class _Trials:
 
 
 def answer(trials: Callable[[Registry, Sequence[str]], Iterator[CheckCard]], labels: Sequence[str]) -> None:
-    """Try things out and write a line for each; whatever plugins print goes to stderr."""
+    """Test things and write a line for each.
+
+    Prints of plugins go to stderr.
+    """
     from lambda_core.discovery.manager import as_guests_of, registry
 
     as_guests_of(sys.stdin.buffer.read())

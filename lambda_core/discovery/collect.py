@@ -47,7 +47,9 @@ class Entry:
 
 @dataclass
 class Collection:
-    """Everything registered, by kind; `take` is all or nothing for one plugin.
+    """Everything registered, by kind.
+
+    `take` is all or nothing for one plugin.
 
     A law is known by its package and its name, "carreau-traction:carreau": no package can take a name from another.
     Of methods and views of one name the first keeps it, the others are called by the qualified one.
@@ -61,7 +63,10 @@ class Collection:
     notes: list[PluginFault] = field(default_factory=list)  # what people should know of plugins in use
 
     def take(self, entries: Sequence[Entry]) -> str:
-        """Add one plugin's entries, or return the sentence that says why none of them."""
+        """Add one plugin's entries.
+
+        Or return the sentence that explains why none was added.
+        """
         claimed: set[tuple[str, str]] = set()
         for entry in entries:
             message = _fault(entry)
@@ -98,7 +103,10 @@ class Collection:
         self.origins[key] = entry.distribution
 
     def _named(self, entry: Entry) -> tuple[str, str]:
-        """Add a method or a view under its name, or under the qualified one where its name is taken."""
+        """Add a method or a view under its name.
+
+        Or under the qualified one where its name is taken.
+        """
         kind, full = _key(entry)
         name, item = entry.item.name, with_distribution(entry.item, entry.distribution)
         if owner := self.origins.get((kind, name)):
@@ -113,7 +121,10 @@ class Collection:
         return kind, name
 
     def _same_kernel(self, law: Law) -> str:
-        """Return the qualified name under which a kernel is known already: a program handed over what a package has."""
+        """Return the qualified name of a known kernel.
+
+        A program passed a law that a package has.
+        """
         target = f"{getattr(law.kernel, '__module__', '')}:{getattr(law.kernel, '__qualname__', '')}"
         for (role, full), known in self.models.items():
             if (role, _short(full)) == (law.role, law.name) and (
@@ -134,7 +145,10 @@ def is_own(distribution: str) -> bool:
 
 
 def with_distribution(item: Any, distribution: str) -> Any:
-    """Return a copy of a dataclass that knows where it comes from, other objects unchanged."""
+    """Return a copy with its distribution.
+
+    Of a dataclass that has the field; other objects are unchanged.
+    """
     if is_dataclass(item) and not isinstance(item, type) and hasattr(item, "distribution"):
         return replace(item, distribution=distribution)
     return item

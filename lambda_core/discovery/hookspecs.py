@@ -28,7 +28,9 @@ hookimpl = pluggy.HookimplMarker(PROJECT)
 
 @hookspec
 def lambda_laws(register: Callable[[Callable[..., int] | LazyLaw], None]) -> None:
-    """Register laws of other modules than the entry point's: ``register(function)``, with ``@law(...)`` above it.
+    """Register laws of other modules.
+
+    ``register(function)``, with ``@law(...)`` above it; those of the entry point's module need no call.
 
     A package with many laws registers ``LazyLaw("traction", "my-law", "package.module:function")``
     instead, which imports the module when the law is chosen.
@@ -47,12 +49,18 @@ def lambda_views(register: Callable[[View], None]) -> None:
 
 @hookspec
 def lambda_observers(register: Callable[[Observer], None]) -> None:
-    """Register observers, channels of their own in a run's result: ``register(Observer("wear", ...))``."""
+    """Register observers.
+
+    They write their own channels into a run's result: ``register(Observer("wear", ...))``.
+    """
 
 
 @hookspec
 def lambda_events(register: Callable[[Event], None]) -> None:
-    """Register events, which a run records or ends at: ``register(Event("cage-instability", ...))``."""
+    """Register events.
+
+    A run records them or ends at them: ``register(Event("cage-instability", ...))``.
+    """
 
 
 @hookspec
@@ -62,17 +70,25 @@ def lambda_sections(register: Callable[[Section], None]) -> None:
 
 @hookspec(firstresult=True)
 def lambda_figure(data: ViewData) -> Figure | None:
-    """Draw the data of a view that brings no drawing of its own."""
+    """Draw the data of a view without drawing.
+
+    Views with a drawing of their own do not call it.
+    """
 
 
 @hookspec(firstresult=True)
 def lambda_frames(scene: Scene) -> Iterator[NDArray[np.uint8]] | None:
-    """Draw the frames of an animation, one after the other: RGB, shape (height, width, 3), all of one even size."""
+    """Draw the frames of an animation in order.
+
+    RGB, shape (height, width, 3), all of one even size.
+    """
 
 
 @hookspec
 def lambda_data(register: Callable[[Any], None]) -> None:
-    """Register catalogue rows: ``register(path)`` with a folder of seed files of this package.
+    """Register catalogue rows.
+
+    ``register(path)`` with a folder of seed files of this package.
 
     A folder ``measured`` in it holds measured series: for each a TOML file that describes it, and a CSV file of the
     same name with its points.
@@ -81,4 +97,7 @@ def lambda_data(register: Callable[[Any], None]) -> None:
 
 @hookspec(firstresult=True)
 def lambda_catalogue(seed_folders: list[Any]) -> Catalogue | None:
-    """Open the catalogue over the built-in seeds and the folders that plugins bring."""
+    """Open the catalogue.
+
+    It has the built-in seeds and the folders that plugins bring.
+    """

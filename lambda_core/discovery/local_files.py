@@ -24,14 +24,20 @@ _texts: dict[Path, bytes] = {}  # of each file as it was first read: all of a pr
 
 
 def user_folder() -> Path:
-    """Return the folder whose files are in use without being named: ``plugins`` with the user's settings."""
+    """Return the folder of automatic plugins.
+
+    It is ``plugins`` in the user's settings; its files are in use without being named.
+    """
     import platformdirs
 
     return Path(platformdirs.user_config_dir("lambda-bearing")) / "plugins"
 
 
 def file_sources() -> list[Source]:
-    """Return every plugin file that somebody named, none executed; what cannot be read says so when it is loaded."""
+    """Return every plugin file that somebody named.
+
+    None is executed; an unreadable one is reported when it is loaded.
+    """
     found: dict[str, Source] = {}
     for path in dict.fromkeys([*_named(), *_texts]):
         source = _source(path)
@@ -43,7 +49,9 @@ def file_sources() -> list[Source]:
 
 
 def add_file(path: Path) -> Source:
-    """Name one more file for this process and those that it starts; it is read now.
+    """Name one more plugin file.
+
+    For this process and those that it starts; it is read now.
 
     Returns
     -------
@@ -59,7 +67,10 @@ def add_file(path: Path) -> Source:
 
 
 def guests() -> bytes:
-    """Return the files and laws that another process needs to have the same plugins as this one, to be pickled."""
+    """Return the files and laws for another process.
+
+    It then has the same plugins as this one; they can be pickled.
+    """
     for path in _named():
         _source(path)
     laws = packed()
@@ -67,7 +78,10 @@ def guests() -> bytes:
 
 
 def take_guests(data: bytes) -> bool:
-    """Take what :func:`guests` of another process returned; tell whether there are files among it that are new."""
+    """Take what :func:`guests` of another process returned.
+
+    Tell whether there are files among it that are new.
+    """
     texts, laws = pickle.loads(data) if data else ({}, b"")
     new = any(_texts.get(path) != text for path, text in texts.items())
     _texts.update(texts)
@@ -86,7 +100,10 @@ def _named() -> Iterator[Path]:
 
 
 def _source(path: Path) -> Source:
-    """Return one file as a plugin, called by its name and the digest of its text."""
+    """Return one file as a plugin.
+
+    It is called by its name and the digest of its text.
+    """
     refuse = partial(Source, path.name, "", str(path), target=str(path))
     if path not in _texts:
         if not path.is_absolute():
@@ -110,7 +127,10 @@ def _refusal(sentence: str) -> Callable[[], object]:
 
 
 def _load(path: Path, text: bytes, digest: str) -> ModuleType:
-    """Execute a file as a module of a name that nothing else can have."""
+    """Execute a file as a module.
+
+    The module's name is unique.
+    """
     name = f"lambda_file_{re.sub(r'[^0-9A-Za-z_]', '_', path.stem)}_{digest}"
     if name in sys.modules:
         return sys.modules[name]

@@ -49,7 +49,9 @@ log = logging.getLogger("lambda_core")
 
 
 def switch_off(names: Iterable[str]) -> None:
-    """Switch plugins off for this process and those it starts (``--no-plugin NAME``).
+    """Switch plugins off (``--no-plugin NAME``).
+
+    For this process and those it starts.
 
     Parameters
     ----------
@@ -108,7 +110,10 @@ def as_guests_of(data: bytes) -> None:
 
 @lru_cache(maxsize=1)
 def registry() -> Registry:
-    """Return the registry of this process, discovered at the first call; broken plugins are logged."""
+    """Return the registry of this process.
+
+    The first call discovers it; broken plugins are logged.
+    """
     handed = [Source(law.project, law.digest, law.label, partial(_hooks_of, law)) for law in inline_laws()]
     found = discover([*installed(PLUGINS), *file_sources(), *handed], off=switched_off())
     for fault in found.faults:
@@ -124,7 +129,9 @@ when_changed(registry.cache_clear)
 
 
 def built_in(label: str) -> Law:
-    """Return a law of the program itself, for a plugin that builds on it.
+    """Return a law of the program itself.
+
+    A plugin may build on it.
 
     Parameters
     ----------
@@ -148,12 +155,15 @@ def built_in(label: str) -> Law:
 
 @lru_cache(maxsize=1)
 def _own_laws_alone() -> Registry:
-    """Return a registry of what the program itself brings: a plugin asks while the whole one is being made."""
+    """Return a registry of the program's own laws.
+
+    A plugin asks for it while the complete registry is being made.
+    """
     return discover([source for source in installed(PLUGINS) if source.project == OWN])
 
 
 def _hooks_of(handed: InlineLaw) -> ModuleType:
-    """Return a module that brings one law that was handed over."""
+    """Return a module with one law object."""
 
     def register_law(register: Callable[[Any], None]) -> None:
         register(handed.item)
@@ -164,7 +174,9 @@ def _hooks_of(handed: InlineLaw) -> ModuleType:
 
 
 def discover(sources: Sequence[Source], off: Iterable[str] = ()) -> Registry:
-    """Load every plugin of `sources` in its own try and freeze what they register.
+    """Load plugins and freeze what they register.
+
+    Every plugin of `sources` has its own try.
 
     Parameters
     ----------
@@ -202,7 +214,10 @@ def _did_you_mean(name: str, known: Iterable[str]) -> str:
 
 
 def _add(manager: pluggy.PluginManager, source: Source, collection: Collection) -> str:
-    """Load one plugin and take what it registers; return why not, or nothing."""
+    """Load one plugin and take what it registers.
+
+    Return why not, or nothing.
+    """
     begun = time.perf_counter()
     try:
         with contextlib.redirect_stdout(sys.stderr):  # stdout is for data
@@ -235,7 +250,10 @@ def _forget(manager: pluggy.PluginManager, name: str) -> None:
 
 
 def _misspelled(manager: pluggy.PluginManager, plugin: object) -> str:
-    """Say which hook of `plugin` does not exist (pluggy alone would ignore it)."""
+    """Report a hook of `plugin` that does not exist.
+
+    Pluggy alone would ignore it.
+    """
     known = [name for name in vars(hookspecs) if name.startswith("lambda_")]
     mine = manager.get_hookcallers(plugin) or []
     for hook in mine:
@@ -250,13 +268,19 @@ def _misspelled(manager: pluggy.PluginManager, plugin: object) -> str:
 
 
 def _own_laws(plugin: object) -> list[Any]:
-    """Return the functions with ``@law(...)`` above them that the entry point's module defines."""
+    """Return the laws of an entry point's module.
+
+    They are its functions with ``@law(...)`` above them.
+    """
     own = [each for each in vars(plugin).values() if law_of(each)] if isinstance(plugin, ModuleType) else []
     return [each for each in own if getattr(each, "__module__", "") == getattr(plugin, "__name__", None)]
 
 
 def _collect(manager: pluggy.PluginManager, plugin: object, source: Source, collection: Collection) -> str:
-    """Call the registering hooks of one plugin; all of it is taken, or nothing."""
+    """Call the registering hooks of one plugin.
+
+    All of it is taken, or nothing.
+    """
     others = [other for other in manager.get_plugins() if other is not plugin]
     entries: list[Entry] = []
     for hook_name in _REGISTERING_HOOKS:

@@ -45,7 +45,9 @@ def watchers(kind: Literal["observer", "event"]) -> list[WatcherCard]:
 
 
 def plugin_model(label: str) -> ModelCard:
-    """Return everything about one model: parameters with units, limits and sources, validity, reference.
+    """Return everything about one model.
+
+    Parameters with units, limits and sources, validity, reference.
 
     Parameters
     ----------

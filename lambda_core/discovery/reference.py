@@ -39,13 +39,19 @@ def _role(role: Role) -> str:
 
 
 def quantities_markdown() -> str:
-    """Return the names of all quantities with their units, as :class:`lambda_core.plugins.Quantity` takes them."""
+    """Return the names and units of all quantities.
+
+    :class:`lambda_core.plugins.Quantity` takes these names.
+    """
     lines = [f"| `{name}` | {', '.join(units)} |" for name, units in UNITS.items()]
     return "\n".join(["| quantity | units |", "|---|---|", *lines, ""])
 
 
 def renewed(page: str) -> str:
-    """Return a page with the generated parts between its marks renewed."""
+    """Return a page with renewed generated parts.
+
+    They are between its marks.
+    """
     for mark, made in (("roles", roles_markdown), ("quantities", quantities_markdown)):
         begin, end = f"<!-- {mark}:begin -->\n", f"<!-- {mark}:end -->\n"
         if begin in page:

@@ -39,7 +39,9 @@ log = logging.getLogger("lambda_core")
 
 
 class Registry:
-    """What the installed plugins offer; does not change after discovery.
+    """Registry of installed plugins.
+
+    It does not change after discovery.
 
     Attributes
     ----------
@@ -97,7 +99,9 @@ class Registry:
         }  # fmt: skip
 
     def names(self, role: str) -> tuple[str, ...]:
-        """Return the names of the models for `role`, built-in ones first; imports nothing.
+        """Return the names of the models for `role`.
+
+        Built-in ones first; imports nothing.
 
         A name that several packages have stands here with the package before it.
         """
@@ -107,7 +111,10 @@ class Registry:
         return tuple(short if len(self._short[role, short]) == 1 else full for full, short in shorts)
 
     def origin(self, kind: str, name: str) -> str:
-        """Return the distribution ("my-traction 0.1") of a model (by its role), method or view."""
+        """Return the distribution of a plugin's entry.
+
+        Such as "my-traction 0.1", of a model (by its role), method or view.
+        """
         return self._origins[kind, self._full(kind, name) if kind in ROLES else name]
 
     def model(self, role: str, name: str) -> Law:
@@ -146,11 +153,17 @@ class Registry:
         return found[0]
 
     def models(self, role: str) -> dict[str, Law]:
-        """Return every model for `role` by name; one that cannot be imported is an error."""
+        """Return every model for `role` by name.
+
+        One that cannot be imported is an error.
+        """
         return {name: self.model(role, name) for name in self.names(role)}
 
     def method(self, name: str) -> Method:
-        """Return one comparison method; PluginError with the nearest names when unknown."""
+        """Return one comparison method.
+
+        PluginError with the nearest names when unknown.
+        """
         found: Method = self._named("method", name, self.methods)
         return found
 
@@ -170,7 +183,9 @@ class Registry:
         return found
 
     def figure(self, view: View | None, data: ViewData) -> Figure:
-        """Draw the data of a view: its own drawing, or that of the house; data of no view (None) by the house.
+        """Draw the data of a view.
+
+        By its own drawing, or the program's; the program draws data of no view (None).
 
         Raises
         ------
@@ -203,7 +218,9 @@ class Registry:
         return _watched(found, "lambda_frames")
 
     def catalogue(self) -> Catalogue:
-        """Open the catalogue over the built-in rows and the folders that plugins bring.
+        """Open the catalogue.
+
+        It has the built-in rows and the folders that plugins bring.
 
         The caller closes it. A folder with bad rows is left out, with every one of them named.
 
@@ -263,7 +280,10 @@ class Registry:
         return None
 
     def _set_aside(self, hook: str, failure: str) -> None:
-        """Say once that a plugin's hook failed and another one answered."""
+        """Report once that a plugin's hook failed.
+
+        Another one answered.
+        """
         if failure not in self.set_aside.setdefault(hook, []):
             self.set_aside[hook].append(failure)
             log.warning("went on without a plugin: %s", failure)
@@ -275,7 +295,10 @@ class Registry:
         return known[name]
 
     def _unknown(self, role: str, name: str) -> str:
-        """Say that `role` has no model `name`: nearest names, everything there is, and what is missing."""
+        """Report that `role` has no model `name`.
+
+        With the nearest names, all names, and what is missing.
+        """
         names = self.names(role)
         package, _, short = name.rpartition(":")
         if package and (role, short) in self._short:
@@ -288,7 +311,10 @@ class Registry:
         return text + (self._absent(package) or self._not_loaded())
 
     def _absent(self, package: str) -> str:
-        """Say why nothing of a package is in use, "" without a package."""
+        """Explain why a package is not in use.
+
+        "" without a package.
+        """
         for fault in self.faults:
             if package and project_of(fault.distribution) == package:
                 return f"; not in use: {fault.distribution}: {fault.message}"

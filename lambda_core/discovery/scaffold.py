@@ -61,7 +61,10 @@ def new_plugin(name: str, parent: Path) -> list[Path]:
 
 
 def _law_called(name: str) -> str:
-    """Return "role/name" of an installed law of this name, or nothing."""
+    """Return "role/name" of an installed law.
+
+    By its name, or nothing.
+    """
     from lambda_core.discovery.manager import registry
     from lambda_core.domain.roles import ROLES
 

@@ -34,7 +34,7 @@ class ParameterCard(FieldCard):
 
 
 class ModelCard(BaseModel):
-    """One model: what it is, where it comes from, and what can be set."""
+    """One model with its origin and parameters."""
 
     version: int = 1  # of this form
     role: str  # stage of the pipeline
@@ -53,7 +53,7 @@ class ModelCard(BaseModel):
 
 
 class WatcherCard(BaseModel):
-    """One observer or event: what it is and what can be set."""
+    """One observer or event and its parameters."""
 
     version: int = 1  # of this form
     name: str
@@ -74,7 +74,10 @@ class Item(BaseModel):
 
 
 class FaultCard(BaseModel):
-    """A plugin, or one of its models, that cannot be used."""
+    """Plugin, or one of its models, with a fault.
+
+    It cannot be used.
+    """
 
     distribution: str
     entry_point: str  # name of the entry point, or "role/name" of the model
@@ -83,7 +86,10 @@ class FaultCard(BaseModel):
 
 
 class NoteCard(BaseModel):
-    """Something to know of a plugin that is in use: another name, a slow import."""
+    """Note about a plugin that is in use.
+
+    Such as another name, or a slow import.
+    """
 
     distribution: str
     message: str
@@ -99,7 +105,7 @@ class Inventory(BaseModel):
 
 
 class CheckCard(BaseModel):
-    """What came out of trying one model."""
+    """Result of a test of one model."""
 
     role: str  # stage of the pipeline
     name: str
@@ -112,7 +118,7 @@ class CheckCard(BaseModel):
 
 
 class Verdict(BaseModel):
-    """What came out of trying models, and the plugins that could not be loaded at all."""
+    """Results of model tests, and unloadable plugins."""
 
     version: int = 1  # of this form
     models: list[CheckCard]
@@ -120,7 +126,10 @@ class Verdict(BaseModel):
 
 
 def inventory(registry: Registry) -> Inventory:
-    """List every model, method, view and data folder, and every plugin that is not in use."""
+    """List everything that plugins offer.
+
+    Every model, method, view and data folder, and every plugin that is not in use.
+    """
     items, faults = [], [FaultCard(**vars(fault)) for fault in registry.faults]
     for role in ROLES:
         for name in registry.names(role):
@@ -158,7 +167,9 @@ def watcher_cards(registry: Registry, kind: Literal["observer", "event"]) -> lis
 
 
 def model_card(registry: Registry, label: str) -> ModelCard:
-    """Return everything about one model, named "role/name", or by its name where one role alone has it.
+    """Return everything about one model.
+
+    It is named "role/name", or by its name where one role alone has it.
 
     Raises
     ------
@@ -187,7 +198,10 @@ def model_card(registry: Registry, label: str) -> ModelCard:
 
 
 def _label_of(registry: Registry, name: str) -> str:
-    """Return "role/name" of the one model that has a name; UsageError when none or several have it."""
+    """Return "role/name" of a unique name.
+
+    UsageError when no model or several have it.
+    """
     labels = [f"{role}/{known}" for role in ROLES for known in registry.names(role)]
     found = [label for label in labels if label.partition("/")[2] == name]
     if len(found) > 1:
@@ -203,7 +217,10 @@ def _label_of(registry: Registry, name: str) -> str:
 
 
 def split_label(label: str) -> tuple[str, str]:
-    """Split "role/name"; UsageError when it is not of that form or the role does not exist."""
+    """Split "role/name".
+
+    UsageError when it is not of that form or the role does not exist.
+    """
     role, slash, name = label.partition("/")
     if not slash:
         raise UsageError(f'"{label}" is not of the form ROLE/NAME, for example traction/ree-eyring')
@@ -213,7 +230,9 @@ def split_label(label: str) -> tuple[str, str]:
 
 
 def check_installed(registry: Registry, wanted: Sequence[str] = ()) -> Iterator[CheckCard]:
-    """Try models out one after the other (compiling takes a moment each).
+    """Test models one after the other.
+
+    Compiling takes a moment each.
 
     Parameters
     ----------
@@ -249,7 +268,10 @@ def check_installed(registry: Registry, wanted: Sequence[str] = ()) -> Iterator[
 
 
 def broken(registry: Registry, wanted: Sequence[str] = ()) -> list[FaultCard]:
-    """Return what of the distributions `wanted` (all when empty) could not be taken into use, rows included."""
+    """Return what could not be taken into use.
+
+    Of the distributions `wanted` (all when empty), rows included.
+    """
     rows = []
     if any(not wanted or project_of(distribution) in wanted for distribution, _ in registry.data_folders):
         registry.catalogue().close()
@@ -265,17 +287,26 @@ def broken(registry: Registry, wanted: Sequence[str] = ()) -> list[FaultCard]:
 
 
 def chosen(registry: Registry, wanted: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """Return role and name of the models of distributions, roles or "role/name"; UsageError for anything else."""
+    """Return role and name of the chosen models.
+
+    By distributions, roles or "role/name"; UsageError for anything else.
+    """
     return (pair for pair in _chosen(registry, wanted) if pair[0] in ROLES)
 
 
 def chosen_others(registry: Registry, wanted: Sequence[str]) -> list[tuple[str, str]]:
-    """Return kind and name of the methods, views, observers, events and sections that are wanted likewise."""
+    """Return kind and name of other chosen entries.
+
+    They are methods, views, observers, events and sections.
+    """
     return [pair for pair in _chosen(registry, wanted) if pair[0] not in ROLES]
 
 
 def _chosen(registry: Registry, wanted: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """Return role or kind and name of everything that distributions, roles, kinds or "role/name" choose."""
+    """Return role or kind and name of everything chosen.
+
+    By distributions, roles, kinds or "role/name".
+    """
     every = [(role, name) for role in ROLES for name in registry.names(role)]
     every += [(kind, name) for kind, named in registry.by_kind().items() for name in named]
     known: dict[str, list[tuple[str, str]]] = {kind: [] for kind in registry.by_kind()}
@@ -292,7 +323,10 @@ def _chosen(registry: Registry, wanted: Sequence[str]) -> Iterator[tuple[str, st
 
 
 def _absent(role: str, name: str, registry: Registry) -> Law:
-    """Return a stand-in that names a model which could not be imported."""
+    """Return a stand-in for a failed model.
+
+    It names a model which could not be imported.
+    """
 
     def kernel() -> int:
         return 0
@@ -301,7 +335,10 @@ def _absent(role: str, name: str, registry: Registry) -> Law:
 
 
 def _lubricant_parameters(registry: Registry) -> dict[tuple[str, str], dict[str, Any]]:
-    """Return the parameters of the first lubricant for each (role, model), as a case would write them."""
+    """Return the first lubricant's parameters by (role, model).
+
+    As a case would write them.
+    """
     found: dict[tuple[str, str], dict[str, Any]] = {}
     catalogue = registry.catalogue()
     try:
@@ -315,7 +352,10 @@ def _lubricant_parameters(registry: Registry) -> dict[tuple[str, str], dict[str,
 
 
 def _unknown_states(registry: Registry, law: Law) -> list[str]:
-    """Say which states a law reads that no installed law keeps."""
+    """Report states that no installed law keeps.
+
+    A law reads them.
+    """
     if not law.reads:
         return []
     kept: list[str] = []

@@ -23,34 +23,49 @@ Count = Annotated[int, Field(ge=1)]
 
 
 def adapter(text: str, module: ModuleType) -> TypeAdapter[Any] | None:
-    """Return what checks values of a type that is written in a module; None where everything goes."""
+    """Return a checker of a type's values.
+
+    The type is written in a module; None where every value is allowed.
+    """
     kind = eval(text, {}, _Names(module))
     config = ConfigDict(arbitrary_types_allowed=True, allow_inf_nan=False)
     return None if kind is Any else TypeAdapter(kind, config=config)
 
 
 def plain_number(value: Any) -> Any:
-    """Return a number of numpy as one of Python, anything else as it is."""
+    """Return a number of numpy as one of Python.
+
+    Anything else stays as it is.
+    """
     numpy = sys.modules.get("numpy")
     return value.item() if numpy is not None and isinstance(value, numpy.generic) else value
 
 
 class _Listed:
-    """Stand for ``Sequence`` and ``Iterable``: whatever can be gone through, as a list, but no text and no table."""
+    """Replacement of ``Sequence`` and ``Iterable``.
+
+    It turns any iterable into a list, but no text and no table.
+    """
 
     def __class_getitem__(cls, item: Any) -> Any:
         return Annotated[list[item], BeforeValidator(_listed)]
 
 
 class _PathLike:
-    """Stand for ``os.PathLike``: any object of that protocol, as it is."""
+    """Replacement of ``os.PathLike``.
+
+    It leaves any object of that protocol as it is.
+    """
 
     def __class_getitem__(cls, item: Any) -> Any:
         return _instances(PathLike)
 
 
 def _instances(cls: type) -> Any:
-    """Return the type of the objects of a class; pydantic alone would make one of a table, too."""
+    """Return the type of a class's objects.
+
+    Pydantic alone would make an object of a table, too.
+    """
 
     def checked(value: Any) -> Any:
         if not isinstance(value, cls):
@@ -61,14 +76,20 @@ def _instances(cls: type) -> Any:
 
 
 def _listed(value: Any) -> Any:
-    """Return a list of whatever can be gone through; what cannot, a text or a table stays and is refused."""
+    """Return a list of any iterable.
+
+    A text, a table and any other value stay, and are refused.
+    """
     if isinstance(value, str | bytes | Mapping) or not isinstance(value, Iterable):
         return value
     return [plain_number(item) for item in value]
 
 
 class _Names(dict[str, Any]):
-    """Names in the signatures of a module, with those that only type checkers import."""
+    """Names in the signatures of a module.
+
+    They include those that only type checkers import.
+    """
 
     def __init__(self, module: ModuleType) -> None:
         super().__init__(vars(builtins) | globals() | vars(module))

@@ -15,7 +15,10 @@ Mistakes = list[tuple[int, str]]  # number of the line, what is wrong
 
 
 def csv_rows(text: str) -> tuple[Rows, Mistakes]:
-    """Return the cells of every line, and the lines that cannot be read."""
+    """Return the cells of every line.
+
+    Also return the lines that cannot be read.
+    """
     rows: Rows = []
     mistakes: Mistakes = []
     delimiter = ""

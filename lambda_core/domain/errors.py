@@ -12,7 +12,10 @@ _SHOWN = 24  # of the names that are there, where none is near
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong with an input: where it stands and what to do about it."""
+    """One problem of an input.
+
+    It has a place and a remedy.
+    """
 
     where: str
     message: str
@@ -37,7 +40,10 @@ class UsageError(LambdaError):
 
 
 class BearingNeededError(UsageError):
-    """A question concerns one bearing of a machine, and none was named."""
+    """Question about a bearing without its name.
+
+    It concerns one bearing of a machine, and none was named.
+    """
 
 
 class CaseError(LambdaError):
@@ -58,7 +64,10 @@ class CaseError(LambdaError):
 
 
 class CatalogueError(CaseError):
-    """A catalogue request cannot be answered; exits like an invalid case."""
+    """Catalogue request that cannot be answered.
+
+    It exits like an invalid case.
+    """
 
 
 class SolverError(LambdaError):
@@ -68,7 +77,10 @@ class SolverError(LambdaError):
 
 
 class EquilibriumError(SolverError):
-    """There is no equilibrium within the iterations allowed; `step` is the last one over the states' scales."""
+    """Equilibrium not found within the allowed iterations.
+
+    `step` is the last one over the states' scales.
+    """
 
     def __init__(self, sentence: str, step: float) -> None:
         super().__init__(sentence)
@@ -76,13 +88,19 @@ class EquilibriumError(SolverError):
 
 
 class PartialResultError(LambdaError):
-    """A run ended before it met the definition of converged; the file is kept."""
+    """Run that ended before it converged.
+
+    The file is kept.
+    """
 
     exit_code = 5
 
 
 def nearest(name: str, choices: Iterable[str], count: int = 3) -> list[str]:
-    """Return the `count` choices that read most like `name` (case ignored); two neighbours swapped come first."""
+    """Return the `count` choices closest to `name`.
+
+    Case is ignored; two swapped neighbours come first.
+    """
     by_folded = {choice.casefold(): choice for choice in choices}
     text = name.casefold()
     swapped = [text[:i] + text[i + 1] + text[i] + text[i + 2 :] for i in range(len(text) - 1)]
@@ -92,7 +110,10 @@ def nearest(name: str, choices: Iterable[str], count: int = 3) -> list[str]:
 
 
 def unknown_name(kind: str, name: str, choices: Iterable[str]) -> str:
-    """Say that `name` is not a known `kind`, with the nearest valid names or the whole list."""
+    """Report an unknown `name` of a `kind`.
+
+    The text has the nearest valid names or the full list.
+    """
     known = sorted(set(choices))
     close = nearest(name, known)
     if close:

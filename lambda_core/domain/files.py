@@ -29,7 +29,10 @@ _KINDS = (
 
 
 def system_refusal(error: OSError) -> str:
-    """Say what the system refused: a file of somebody's, or room; "" for a mistake of the program."""
+    """Return what the system refused.
+
+    It is a file of somebody's, or room; "" for a mistake of the program.
+    """
     if error.errno in _NO_ROOM:
         return f"the system refuses: {os.strerror(error.errno)}"
     name = os.fsdecode(error.filename) if isinstance(error.filename, str | bytes) else ""
@@ -39,7 +42,10 @@ def system_refusal(error: OSError) -> str:
 
 
 def kind_of(path: Path) -> str:
-    """Return what stands at a path that is no regular file ("a folder", "a pipe"); "" for a regular one or none."""
+    """Return the kind of an irregular file.
+
+    Such as "a folder" or "a pipe"; "" for a regular file or none.
+    """
     try:
         mode = path.stat().st_mode
     except OSError:
@@ -48,7 +54,9 @@ def kind_of(path: Path) -> str:
 
 
 def check_target(path: Path) -> Path:
-    """Return a path that may be written to: free, or a regular file.
+    """Return a path that may be written to.
+
+    It is free, or a regular file.
 
     Raises
     ------
@@ -66,7 +74,10 @@ def check_target(path: Path) -> Path:
 
 
 def taken(path: Path) -> UsageError:
-    """Return the refusal to write where a file stands, for those who were not asked to overwrite it."""
+    """Return the refusal to overwrite a file.
+
+    It is for callers without permission to overwrite.
+    """
     return UsageError(f"{path} exists: choose another name (--out), or overwrite it (--force; overwrite=True)")
 
 
@@ -84,7 +95,9 @@ def check_new(path: Path, overwrite: bool) -> Path:
 
 
 def check_folder(folder: Path, target: Path | None = None, *, made: bool = False) -> Path:
-    """Return a folder that takes files, tried with one that goes again: before the work whose result it is to hold.
+    """Return a folder that accepts files.
+
+    A temporary file tests it, before the work whose result it is to hold.
 
     Parameters
     ----------
@@ -137,12 +150,18 @@ def read_bytes(path: Path, largest: int = LARGEST_TEXT) -> bytes:
 
 
 def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
-    """Return the text of a regular file in UTF-8, without a byte order mark; errors as :func:`read_bytes`."""
+    """Return the text of a regular UTF-8 file.
+
+    It has no byte order mark; errors as :func:`read_bytes`.
+    """
     return read_bytes(path, largest).decode("utf-8-sig")
 
 
 def user_data_folder() -> Path:
-    """Return the folder of the user's own data: ``LAMBDA_BEARING_DATA`` or the one that the system has for it."""
+    """Return the folder of the user's own data.
+
+    ``LAMBDA_BEARING_DATA`` or the one that the system has for it.
+    """
     import platformdirs
 
     given = os.environ.get("LAMBDA_BEARING_DATA")

@@ -39,7 +39,10 @@ _listeners: list[Callable[[], None]] = []
 
 
 def when_changed(listener: Callable[[], None]) -> None:
-    """Have a function called whenever a law is handed over that was not known before."""
+    """Call a function for every new inline law.
+
+    A law is new that was not passed before.
+    """
     _listeners.append(listener)
 
 
@@ -58,7 +61,10 @@ def take_laws(laws: tuple[InlineLaw, ...]) -> None:
 
 
 def packed() -> bytes:
-    """Return every law that was handed over as bytes, functions by their code; empty without one."""
+    """Return every inline law as bytes.
+
+    Functions are packed by their code; empty without a law.
+    """
     if not _laws:
         return b""
     from numba import cloudpickle
@@ -68,20 +74,29 @@ def packed() -> bytes:
 
 
 def unpack(data: bytes) -> None:
-    """Take the laws that :func:`packed` of another process returned, but for those that are known."""
+    """Take the inline laws of another process.
+
+    :func:`packed` returned them; known ones are left out.
+    """
     laws: tuple[InlineLaw, ...] = pickle.loads(data) if data else ()
     known = {(law.role, law.label): law.digest for law in _laws.values()}
     take_laws(tuple(law for law in laws if known.get((law.role, law.label)) != law.digest))
 
 
 def is_law(item: object) -> bool:
-    """Tell whether an object is a law, or a function with ``@law(...)`` above it."""
+    """Tell whether an object is a law.
+
+    A function with ``@law(...)`` above it is one.
+    """
     law = getattr(item, MARK, item)
     return all(hasattr(law, name) for name in ("role", "name", "kernel", "parameters"))
 
 
 def name_of(item: Any) -> str:
-    """Return the name by which a case chooses a law that is handed over, and keep the law for this process."""
+    """Return the name of an inline law.
+
+    A case chooses the law by it; this process keeps the law.
+    """
     law = getattr(item, MARK, item)
     project, digest = _origin(law.kernel)
     handed = InlineLaw(project, digest, law.role, law.name, item)
@@ -91,7 +106,10 @@ def name_of(item: Any) -> str:
 
 
 def named(value: Any) -> Any:
-    """Return the tables of a case, or lists of values, with every law in them replaced by its name."""
+    """Return tables with every law as its name.
+
+    They are the tables of a case, or lists of values.
+    """
     if isinstance(value, Mapping):
         return {key: named(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
@@ -100,7 +118,10 @@ def named(value: Any) -> Any:
 
 
 def _origin(kernel: Any) -> tuple[str, str]:
-    """Return the script that a kernel stands in and the digest of its text; of a notebook, of the function's text."""
+    """Return the script of a kernel and digest.
+
+    The digest is that of the script's text; of a notebook, of the function's text.
+    """
     code = getattr(kernel, "__code__", None)
     path = Path(code.co_filename if code is not None else "")
     if path.suffix == ".py" and path.is_file() and "ipykernel" not in str(path):
@@ -114,5 +135,8 @@ def _origin(kernel: Any) -> tuple[str, str]:
 
 
 def digest_of(text: bytes) -> str:
-    """Return the first 12 digits of the SHA-256 of a text."""
+    """Return 12 digits of a text's SHA-256.
+
+    They are the first ones.
+    """
     return hashlib.sha256(text).hexdigest()[:12]

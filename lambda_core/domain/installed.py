@@ -20,7 +20,10 @@ OWN = "lambda-bearing"  # the distribution of the built-in plugins
 
 @dataclass(frozen=True)
 class Source:
-    """One plugin to load: where it comes from and how to get it."""
+    """One plugin to load.
+
+    It has its origin and its loader.
+    """
 
     project: str  # name of the distribution
     version: str
@@ -35,7 +38,10 @@ class Source:
 
 
 def project_of(distribution: str) -> str:
-    """Return the name in "name version"; names of files may hold blanks."""
+    """Return the name in "name version".
+
+    Names of files may hold blanks.
+    """
     return distribution.rpartition(" ")[0] or distribution
 
 
@@ -47,7 +53,10 @@ def _source(point: EntryPoint) -> Source:
 
 
 def installed(group: str) -> list[Source]:
-    """Return the installed plugins of `group`, our own first, none imported."""
+    """Return the installed plugins of `group`.
+
+    The program's own first, none imported.
+    """
     sources = {(s.project, s.name): s for s in map(_source, entry_points(group=group))}
     return sorted(sources.values(), key=lambda s: (s.project != OWN, s.project, s.name))
 
@@ -58,14 +67,20 @@ def switched_off() -> tuple[str, ...]:
 
 
 def in_use(group: str) -> list[Source]:
-    """Return what is installed of `group` without what is switched off: by name and, of one name, ours first."""
+    """Return the active plugins of `group`.
+
+    By name, without what is switched off; of one name the program's own comes first.
+    """
     off = set(switched_off())
     found = [source for source in installed(group) if not off & {source.project, source.name}]
     return sorted(found, key=lambda source: (source.name, source.project != OWN, source.project))
 
 
 def first_line(target: str) -> str:
-    """Return the first line of what the module of an entry point says of itself, without importing it."""
+    """Return the summary of an entry point's module.
+
+    It is the first line of its docstring; nothing is imported.
+    """
     top, *rest = target.partition(":")[0].split(".")
     spec = find_spec(top)
     for folder in (spec.submodule_search_locations or ()) if spec is not None else ():

@@ -11,29 +11,44 @@ _LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
 
 
 def number(value: float | None, digits: int = 1) -> str:
-    """Write a number with `digits` decimals and groups of three; a dash for none."""
+    """Write a number with `digits` decimals.
+
+    It has groups of three; a dash for none.
+    """
     if value is None or not math.isfinite(value):
         return NONE
     return f"{round(value, digits) + 0.0:,.{digits}f}".replace(",", " ")  # + 0.0 turns -0.0 into 0.0
 
 
 def counted(count: int, thing: str) -> str:
-    """Write how many things there are; their plural ends with s."""
+    """Write a count with its noun.
+
+    The plural ends with s.
+    """
     return f"{count} {thing}{'' if count == 1 else 's'}"
 
 
 def hours(life: float) -> str:
-    """Write a rating life to two digits: its scatter is a decade."""
+    """Write a rating life to two digits.
+
+    Its scatter is a decade.
+    """
     return f"{number(float(f'{life:.2g}'), 0)} h" if life < _LONG_LIFE else f"above {number(_LONG_LIFE, 0)} h"
 
 
 def hours_alone(life: float | None) -> str:
-    """Write a rating life in a column that has the unit in its head; a dash for none."""
+    """Write a rating life without its unit.
+
+    The head of the column has the unit; a dash for none.
+    """
     return NONE if life is None else hours(life).removesuffix(" h")
 
 
 def plus_minus(value: float | None, half_width: float | None) -> str:
-    """Write a mean with its confidence, to two digits of the latter."""
+    """Write a mean with its confidence.
+
+    It has two digits of the latter.
+    """
     if value is None or half_width is None or half_width <= 0.0:
         return number(value)
     digits = max(0, 1 - math.floor(math.log10(half_width)))
@@ -48,13 +63,19 @@ def interval(values: Sequence[float], digits: int) -> str:
 
 
 def digits_of_band(half_width: float, value: float) -> int:
-    """Return the decimals of a number that its band leaves a meaning: two digits of the half-width, four in all."""
+    """Return the meaningful decimals of a number.
+
+    Its band leaves two digits of the half-width, four in all.
+    """
     if not half_width > 0.0 or not math.isfinite(half_width):
         return 3
     return 1 - math.floor(math.log10(max(half_width, _LEAST_BAND * abs(value))))
 
 
 def rounded(value: float, half_width: float) -> str:
-    """Write a number to the digits that its band leaves a meaning."""
+    """Write a number to its meaningful digits.
+
+    Its band decides them.
+    """
     digits = digits_of_band(half_width, value)
     return number(round(value, digits), max(digits, 0))

@@ -14,7 +14,10 @@ _TAG = "kind:"
 
 
 def members(annotation: Any) -> Iterator[type[BaseModel]]:
-    """Yield the tables that a field's annotation allows (through unions, Annotated and dict values)."""
+    """Yield the tables that a field allows.
+
+    Its annotation may have unions, Annotated and dict values.
+    """
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         yield annotation
         return
@@ -29,12 +32,17 @@ def members(annotation: Any) -> Iterator[type[BaseModel]]:
 
 
 def is_tag(part: object) -> bool:
-    """Tell whether a part of a path is the tag of a union, which is no key of a file."""
+    """Tell whether a path's part is a union tag.
+
+    A tag is no key of a file.
+    """
     return isinstance(part, str) and part.startswith(_TAG)
 
 
 def model_at(root: type[BaseModel], path: Sequence[int | str]) -> type[BaseModel] | None:
-    """Return the table's class at `path`, None where the path leaves the declared tables.
+    """Return the table's class at `path`.
+
+    None where the path leaves the declared tables.
 
     A tag behind a key ("kind:ramp") says which of its tables is meant; without one it is the first.
     """
@@ -54,13 +62,16 @@ def model_at(root: type[BaseModel], path: Sequence[int | str]) -> type[BaseModel
 
 
 def _kinds(table: type[BaseModel]) -> tuple[Any, ...]:
-    """Return what may stand as the kind of a time function."""
+    """Return the possible kinds of a time function."""
     kind = table.model_fields.get("kind")
     return get_args(kind.annotation) if kind else ()
 
 
 def field_at(root: type[BaseModel], path: str) -> FieldInfo | None:
-    """Return the declaration of the option at a dotted path, None if there is none."""
+    """Return the option's declaration at a dotted path.
+
+    None if there is none.
+    """
     *parents, name = path.split(".")
     parent = model_at(root, parents)
     return parent.model_fields.get(name) if parent else None
@@ -68,7 +79,10 @@ def field_at(root: type[BaseModel], path: str) -> FieldInfo | None:
 
 @lru_cache(maxsize=4)
 def option_paths(root: type[BaseModel]) -> tuple[str, ...]:
-    """Return the dotted path of every declared option (time functions count as one option)."""
+    """Return the dotted paths of all options.
+
+    A time function counts as one option.
+    """
     paths: list[str] = []
 
     def walk(model: type[BaseModel], prefix: str) -> None:

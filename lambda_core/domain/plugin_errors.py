@@ -18,14 +18,19 @@ _LIBRARIES = {"pydantic", "numpy", "numba", "scipy", "importlib"}
 
 
 class PluginError(LambdaError):
-    """A plugin, or a model that it brings, cannot be used; exits like an invalid case."""
+    """Plugin or model that cannot be used.
+
+    It exits like an invalid case.
+    """
 
     exit_code = 3
 
 
 @dataclass(frozen=True)
 class PluginFault:
-    """A plugin that is not in use although it is installed, and why.
+    """Installed plugin that is not in use.
+
+    It has the reason.
 
     `is_broken` is False for one that was switched off on purpose.
     """
@@ -41,7 +46,9 @@ class PluginFault:
 
 @contextmanager
 def blamed(what: str, but: tuple[type[Exception], ...] = ()) -> Iterator[None]:
-    """Turn what a plugin's own code raises into a sentence that names the plugin.
+    """Turn a plugin's error into a sentence.
+
+    The sentence names the plugin.
 
     Parameters
     ----------
@@ -70,17 +77,25 @@ _failures: list[str] = []  # of plugins, in this process, after which the rest w
 
 
 def went_on_without(failure: str) -> None:
-    """Remember that something of a plugin failed and that the rest went on without it: the exit code tells it."""
+    """Record a failure of a plugin.
+
+    The rest went on without it; the exit code shows it.
+    """
     _failures.append(failure)
 
 
 def failures_so_far() -> tuple[str, ...]:
-    """Return what failed in this process while the rest went on."""
+    """Return the recorded failures of this process.
+
+    The rest went on without what failed.
+    """
     return tuple(_failures)
 
 
 def describe(error: BaseException) -> str:
-    """Return type, message and place of an exception raised inside a plugin.
+    """Describe an exception that a plugin raised.
+
+    Return type, message and place.
 
     The place is the innermost one that lies in no library.
     """

@@ -12,12 +12,18 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")  # how a cell begins that a spreadsh
 
 
 def printable(text: str) -> str:
-    """Return a text with its control characters, and bytes that are no text, written out."""
+    """Return a text with its control characters escaped.
+
+    Bytes that are no text are escaped, too.
+    """
     return text.translate(_CONTROLS)
 
 
 def cell_text(text: str) -> str:
-    """Return a text that a spreadsheet takes for text: behind an apostrophe where it would compute it."""
+    """Return a text that a spreadsheet does not compute.
+
+    It gets an apostrophe where a spreadsheet would compute it.
+    """
     return f"'{text}" if text.startswith(_FORMULA) and not _is_number(text) else text
 
 

@@ -23,7 +23,10 @@ STOP_SIGNALS: tuple[int, ...] = tuple(
 
 
 def started(pid: int) -> str:
-    """Return when a process started, in the system's own count; "" where there is none."""
+    """Return the start of a process.
+
+    In the system's own count; "" where there is none.
+    """
     import psutil
 
     try:
@@ -37,7 +40,10 @@ def started(pid: int) -> str:
 
 
 def exists(pid: int) -> bool:
-    """Tell whether a process runs on this host; one that has ended does not, though nobody may have waited for it."""
+    """Tell whether a process runs on this host.
+
+    A process that has ended does not, though nobody may have waited for it.
+    """
     import psutil
 
     try:
@@ -49,12 +55,18 @@ def exists(pid: int) -> bool:
 
 
 def ask_to_stop(pid: int) -> None:
-    """Ask a process that :data:`APART` started to stop at a good point; OSError when that cannot be done."""
+    """Ask a separate process to stop.
+
+    :data:`APART` started it; it stops at a good point; OSError when that cannot be done.
+    """
     os.kill(pid, getattr(signal, "CTRL_BREAK_EVENT", signal.SIGINT) if ON_WINDOWS else signal.SIGINT)
 
 
 def command_line(words: Sequence[str]) -> str:
-    """Write a command as one line for the shell of this system."""
+    """Write a command for this system's shell.
+
+    It is one line.
+    """
     import shlex
 
     return subprocess.list2cmdline(words) if ON_WINDOWS else shlex.join(words)
@@ -62,7 +74,9 @@ def command_line(words: Sequence[str]) -> str:
 
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Hold a lock that one process of this host has at a time; the file stays, empty.
+    """Hold a lock of this host.
+
+    One process has it at a time; the file stays, empty.
 
     Where no lock can be made (a folder that takes no file), the work goes on without it.
     """

@@ -34,7 +34,9 @@ _KINDS = {"float": "a number", "int": "a whole number", "str": "a text", "bool":
 
 
 def public(function: Callable[P, R], home: str) -> Callable[P, R]:
-    """Let a function of the API refuse arguments of other types than its signature has.
+    """Let an API function check its arguments.
+
+    It refuses arguments of other types than its signature has.
 
     Parameters
     ----------
@@ -61,7 +63,10 @@ def public(function: Callable[P, R], home: str) -> Callable[P, R]:
 
 
 def _bound(function: Callable[..., Any], args: Any, options: Mapping[str, Any]) -> inspect.BoundArguments:
-    """Return the arguments by name; UsageError where there are too many, too few or unknown ones."""
+    """Return the arguments by name.
+
+    UsageError where there are too many, too few or unknown ones.
+    """
     form = inspect.signature(function)
     try:
         return form.bind(*args, **options)
@@ -74,7 +79,10 @@ def _bound(function: Callable[..., Any], args: Any, options: Mapping[str, Any]) 
 
 
 def _checked(function: Callable[..., Any], name: str, value: Any) -> Any:
-    """Return an argument: what can be gone through as a list, a number of numpy as one of Python, else as it is."""
+    """Return an argument as its signature expects.
+
+    An iterable becomes a list, a number of numpy one of Python; others stay as they are.
+    """
     if isinstance(value, str | PathLike) and "\0" in str(value):
         raise UsageError(f"{function.__name__}: {name} holds a NUL character: no name and no unit has one")
     wanted = _adapter(function, name)
@@ -93,7 +101,10 @@ def _checked(function: Callable[..., Any], name: str, value: Any) -> Any:
 
 
 def _sentence(function: Callable[..., Any], name: str, value: Any, error: ValidationError) -> str:
-    """Say which argument is wrong and what is allowed; UsageError about a text in place of a list."""
+    """Explain which argument is wrong.
+
+    The text has the allowed values; UsageError about a text in place of a list.
+    """
     fault = min(error.errors(include_url=False), key=lambda each: each["type"] not in _WORDS)
     if fault["type"] == "list_type":
         listed(fault["input"], f"{function.__name__}: {'.'.join(map(str, (name, *fault['loc'])))}")
@@ -121,7 +132,10 @@ def _adapter(function: Callable[..., Any], name: str) -> TypeAdapter[Any] | None
 
 
 def _described(function: Callable[..., Any], name: str) -> tuple[str, str]:
-    """Return type and meaning of an argument as the docstring has them."""
+    """Return type and meaning of an argument.
+
+    They come from the docstring.
+    """
     text = inspect.getdoc(function) or ""
     block = text.partition("\nParameters\n----------\n")[2].partition("\n\n")[0]
     for names, kind, body in re.findall(r"^(\w[\w, ]*?)(?: : (.*))?\n((?:[ ]{4}.*(?:\n|$))*)", block, re.MULTILINE):

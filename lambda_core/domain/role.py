@@ -19,7 +19,10 @@ class Argument:
 
 @dataclass(frozen=True)
 class Role:
-    """A stage of the pipeline that exactly one model fills per force element."""
+    """Stage of the pipeline for one model.
+
+    Exactly one model fills it per force element.
+    """
 
     name: str
     summary: str
@@ -41,7 +44,10 @@ class Role:
 
     @property
     def batched(self) -> bool:
-        """Whether one call of the compiled law is for all contacts of a raceway, its kernel called for each in turn."""
+        """True for one call per raceway.
+
+        One call of the compiled law is for all contacts of a raceway, its kernel called for each in turn.
+        """
         return any(argument.each for argument in self.arguments)
 
 

@@ -56,21 +56,27 @@ class UnitSystem:
     shown: Mapping[str, tuple[str, float, float]] = field(default_factory=dict)
 
     def unit(self, unit: str) -> str:
-        """Return the unit in which a number in `unit` is shown."""
+        """Return the displayed unit of a number in `unit`."""
         return self.shown.get(unit, (unit,))[0]
 
     def scale(self, unit: str) -> tuple[float, float]:
-        """Return what a number in `unit` is multiplied with, and what is then added."""
+        """Return factor and offset of a number in `unit`.
+
+        The number is multiplied first.
+        """
         _, factor, offset = self.shown.get(unit, (unit, 1.0, 0.0))
         return factor, offset
 
     def value(self, value: float, unit: str) -> float:
-        """Return a number in `unit` in the unit in which it is shown."""
+        """Return a number in `unit` in displayed units."""
         factor, offset = self.scale(unit)
         return value * factor + offset
 
     def number(self, value: float | None, unit: str, digits: int = 1) -> str:
-        """Write a number in `unit` without it, about as fine as `digits` decimals of it; a dash for none."""
+        """Write a number in `unit` without it.
+
+        About as fine as `digits` decimals of it; a dash for none.
+        """
         return number(None if value is None else self.value(value, unit), self._digits(unit, digits))
 
     def text(self, value: float | None, unit: str, digits: int = 1) -> str:
@@ -90,7 +96,10 @@ class UnitSystem:
         return f"{plus_minus(mean, None if half_width is None else factor * half_width)} {self.unit(unit)}"
 
     def sentence(self, text: str) -> str:
-        """Return a sentence with the numbers that have a unit in other units: "2.5 kN", "15 to 33 um"."""
+        """Return a sentence with its numbers in other units.
+
+        Only numbers with a unit change: "2.5 kN", "15 to 33 um".
+        """
         if not self.shown:
             return text
         units = "|".join(map(re.escape, sorted(self.shown, key=len, reverse=True)))
@@ -104,7 +113,10 @@ class UnitSystem:
         return f"{self._plain(first, unit)}{joint or ''}{half_width} {self.unit(unit)}"
 
     def _plain(self, written: str, unit: str) -> str:
-        """Convert a number as it is written, to as many digits as it has, at least three."""
+        """Convert a written number.
+
+        It keeps its number of digits, at least three.
+        """
         plain = written.replace(" ", "")
         digits = max(3, len(plain.lstrip("+-").replace(".", "").lstrip("0")))
         value = self.value(float(plain), unit)

@@ -114,14 +114,19 @@ _ALSO_WRITTEN = {
 
 @lru_cache(maxsize=256)
 def _spelling(unit: str) -> str:
-    """Fold the spellings people use for one unit (micro sign, dots, superscripts, spaces)."""
+    """Fold the common spellings of one unit.
+
+    Micro sign, dots, superscripts, spaces.
+    """
     table = str.maketrans({"µ": "u", "μ": "u", "·": " ", "*": " ", "²": "2", "³": "3", "°": "deg"})
     folded = re.sub(r"\s+", " ", unit.translate(table)).strip().replace("^", "")
     return _ALSO_WRITTEN.get(folded, folded)
 
 
 def misread(text: str, unit: str = "") -> str:
-    """Say what to write in place of a number with a comma or with grouped digits; "" when there is neither.
+    """Correct a number with commas.
+
+    A comma, or grouped digits; "" when there is neither.
 
     Where two readings are possible ("6,000 rpm") both are named and none is advised. `unit` stands where `text` has
     none.
@@ -145,7 +150,10 @@ _EVERYDAY = (1e-3, 1e5)  # sizes of numbers that people write in the first unit 
 
 
 def _unit_meant(value: float, units: Mapping[str, float]) -> str:
-    """Return the unit to propose for a number without one: of a very large or small number the SI unit."""
+    """Return the unit to propose for a bare number.
+
+    For a very large or small number it is the SI unit.
+    """
     first = next(iter(units))
     if value == 0.0 or _EVERYDAY[0] <= abs(value) < _EVERYDAY[1]:
         return first
@@ -205,7 +213,10 @@ def parse(text: object, quantity: str) -> float:
 
 @cache
 def units_of(quantity: str) -> dict[str, float]:
-    """Return every unit that a value may be written in, those of :data:`UNITS` first, with its factor to SI."""
+    """Return every unit of a value.
+
+    Those of :data:`UNITS` first, each with its factor to SI.
+    """
     return UNITS[quantity] | CUSTOMARY.get(quantity, {})
 
 
@@ -215,7 +226,10 @@ def _factor(quantity: str, unit: str) -> Decimal:
 
 
 def _to_si(number: str, quantity: str, unit: str) -> float:
-    """Convert the digits of a number; Decimal arithmetic rounds once: "0.1 um" is 1e-07, not 9.999999999999999e-08."""
+    """Convert the digits of a number.
+
+    Decimal arithmetic rounds once: "0.1 um" is 1e-07, not 9.999999999999999e-08.
+    """
     try:
         if quantity == "temperature" and unit == "degF":
             return float((Decimal(number) + _FAHRENHEIT) * 5 / 9)
@@ -226,7 +240,10 @@ def _to_si(number: str, quantity: str, unit: str) -> float:
 
 
 def from_si(value: float, quantity: str, unit: str | None = None) -> float:
-    """Convert an SI float to `unit` (default: the first of the quantity)."""
+    """Convert an SI float to `unit`.
+
+    The default is the first unit of the quantity.
+    """
     unit = unit or next(iter(UNITS[quantity]))
     exact = Decimal(repr(float(value)))
     if quantity == "temperature" and unit == "degC":
@@ -240,12 +257,18 @@ _FEW_DIGITS = 8
 
 
 def _digits(number: str) -> int:
-    """Return how many digits of a number people read: zeros before and behind do not count."""
+    """Return the count of a number's significant digits.
+
+    Zeros before and behind do not count.
+    """
     return len(number.partition("e")[0].replace(".", "").strip("-0"))
 
 
 def _decades_off(number: float) -> float:
-    """Return how many decades, begun ones counted, a number lies outside 0.1 to 1000."""
+    """Return the decades outside 0.1 to 1000.
+
+    Begun ones count.
+    """
     if number == 0.0 or 0.1 <= abs(number) < 1000.0:
         return 0.0
     decades = math.log10(abs(number))
@@ -253,7 +276,9 @@ def _decades_off(number: float) -> float:
 
 
 def show(value: float, quantity: str, digits: int | None = None) -> str:
-    """Write an SI float as a unit string; exact (reads back equal) unless `digits` is given.
+    """Write an SI float as a unit string.
+
+    It is exact (reads back equal) unless `digits` is given.
 
     The exact spelling takes the first unit of the quantity in which the number has few digits and lies between 0.1 and
     1000, or comes nearest to that.
@@ -280,7 +305,10 @@ _ONE_UNIT = ("temperature", "rotational_speed", "angle")
 
 
 def _rounded(value: float, quantity: str, digits: int) -> str:
-    """Write a number for people: the first unit in which it lies between 0.1 and 1000."""
+    """Write a rounded number with its unit.
+
+    The unit is the first one in which the number lies between 0.1 and 1000.
+    """
     units = list(UNITS[quantity])
     handy = [u for u in units if 0.1 <= abs(from_si(value, quantity, u)) < 1000.0]
     unit = units[0] if quantity in _ONE_UNIT or not handy else handy[0]

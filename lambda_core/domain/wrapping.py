@@ -11,7 +11,10 @@ _INDENT = 9  # the same of lines without a head
 
 
 def wrapped(lines: Sequence[str], width: int | None) -> list[str]:
-    """Return lines no longer than `width`: parts stay whole where they fit, and go on below the first."""
+    """Return lines no longer than `width`.
+
+    Parts stay together where they fit, and go on below the first.
+    """
     if width is None:
         return list(lines)
     found: list[str] = []

@@ -19,7 +19,10 @@ Value = bool | int | float | str
 
 @dataclass(frozen=True)
 class Scale:
-    """How the values of one parameter are read as numbers: all in one unit."""
+    """Common scale of one parameter's values.
+
+    All are read as numbers in one unit.
+    """
 
     unit: str  # "" for plain numbers
 
@@ -30,7 +33,10 @@ class Scale:
 
 
 def quantities(text: str) -> set[str]:
-    """Return the quantities of which `text` is a value with a unit."""
+    """Return the possible quantities of `text`.
+
+    `text` is a value with a unit.
+    """
     found = set()
     for quantity in UNITS:
         try:
@@ -42,7 +48,9 @@ def quantities(text: str) -> set[str]:
 
 
 def scale_of(values: Sequence[Value]) -> tuple[Scale, tuple[float, ...]] | None:
-    """Return the common unit of values and the values in it; None when they are names.
+    """Return the values in their common unit.
+
+    Return the unit, too; None when they are names.
 
     The unit is that of the first value; others are converted.
 
@@ -81,20 +89,26 @@ def scale_of(values: Sequence[Value]) -> tuple[Scale, tuple[float, ...]] | None:
 
 
 def _mistake(text: str) -> str:
-    """Say why a value is no number with a unit, although others are."""
+    """Explain why a value is no number.
+
+    It has no unit, although others have.
+    """
     if text.strip().lower().lstrip("+-").startswith(("nan", "inf")):
         return " is not a finite number"
     return " has no unit, others have" if _NUMBER.fullmatch(text) else " is not a number with a unit, others are"
 
 
 def _known_unit(unit: str, quantity: str) -> str:
-    """Return the spelling of a unit that the table of units has."""
+    """Return the known spelling of a unit.
+
+    The table of units has it.
+    """
     one = parse(f"1 {unit}", quantity)
     return next(name for name in units_of(quantity) if parse(f"1 {name}", quantity) == one)
 
 
 def written(value: Value) -> str:
-    """Return a value of a list as it is written into a case."""
+    """Return a list's value as a case has it."""
     if isinstance(value, bool):
         return str(value).lower()
     return value if isinstance(value, str) else f"{value:.{DIGITS}g}" if isinstance(value, float) else str(value)

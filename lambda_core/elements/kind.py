@@ -9,7 +9,7 @@ from typing import Generic, TypeVar
 
 @dataclass(frozen=True)
 class ContactKind:
-    """How an element touches a ring.
+    """Contact of an element with a ring.
 
     Attributes
     ----------

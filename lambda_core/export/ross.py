@@ -82,7 +82,10 @@ def ross_rotor(model: MachineModel, state: ShaftState | None = None, announce: A
 
 
 def _piece(ross: Any, body: ElasticBody, node: int) -> Any:
-    """Return the shaft between a node and the next one as an element of theirs."""
+    """Return a piece of shaft as ROSS element.
+
+    It is between a node and the next one.
+    """
     section = body.elements[node // (NODES - 1)]
     own = section.material
     material = ross.Material(name="shaft", rho=own.density, E=own.youngs_modulus, G_s=own.shear_modulus)
@@ -91,7 +94,10 @@ def _piece(ross: Any, body: ElasticBody, node: int) -> Any:
 
 
 def _stiffness(stiffness: FloatArray) -> FloatArray:
-    """Return the matrix of a bearing in their order, shape (6, 6)."""
+    """Return the matrix of a bearing for ROSS.
+
+    In their order, shape (6, 6).
+    """
     matrix = np.zeros((NODE, NODE))
     matrix[np.ix_(_THEIRS, _THEIRS)] = 0.5 * (stiffness + stiffness.T)
     return matrix

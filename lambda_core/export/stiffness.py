@@ -83,7 +83,9 @@ def write_stiffness(found: MachineModes, path: str | Path) -> Path:
 
 
 def stiffness_target(path: str | Path) -> tuple[Path, str]:
-    """Return where a stiffness is written, and as what; tried before the work whose result it is to hold.
+    """Return the place and format of a stiffness.
+
+    The place is tested before the work whose result it is to hold.
 
     Parameters
     ----------

@@ -39,7 +39,7 @@ _CONDITIONS = ("speed", "radial load", "axial load", "moment y", "moment z")  # 
 
 @dataclass(frozen=True)
 class Place:
-    """Where values are predicted.
+    """Place of a predicted value.
 
     Attributes
     ----------
@@ -63,7 +63,9 @@ class Place:
 
 
 def coordinates(conditions: Sequence[Mapping[str, float]]) -> FloatArray:
-    """Return the conditions that a discrepancy changes with, shape (n, d): logarithms of speeds and loads.
+    """Return the conditions of a discrepancy.
+
+    It changes with them; shape (n, d): logarithms of speeds and loads.
 
     A load that is zero somewhere counts in units of the largest one. Over other conditions the discrepancy is constant.
     """
@@ -80,7 +82,9 @@ def coordinates(conditions: Sequence[Mapping[str, float]]) -> FloatArray:
 
 @dataclass(frozen=True)
 class Prediction:
-    """Values predicted with discrepancy: a mixture of normal distributions, one for each size and reach.
+    """Values predicted with discrepancy.
+
+    A mixture of normal distributions, one for each size and reach.
 
     Attributes
     ----------
@@ -99,7 +103,10 @@ class Prediction:
         return found
 
     def band(self, coverage: float = 0.95) -> FloatArray:
-        """Return the ends between which each value lies, shape (n, 2)."""
+        """Return both ends of each value's band.
+
+        Shape (n, 2).
+        """
         tail = 0.5 * (1.0 - coverage)
         return np.column_stack([self._quantile(tail), self._quantile(1.0 - tail)])
 
@@ -126,7 +133,9 @@ def predict(
     asked: Place,
     asked_errors: FloatArray | float = 0.0,
 ) -> Prediction:
-    """Predict values with the errors of the parameters and of the laws.
+    """Predict values with their errors.
+
+    They are errors of the parameters and of the laws.
 
     Parameters
     ----------
@@ -171,7 +180,10 @@ def predict(
 
 
 def _known_before(parameters: Sequence[Parameter]) -> tuple[FloatArray, FloatArray]:
-    """Return means and standard deviations of the parameters before the measurements."""
+    """Return the prior of the parameters.
+
+    Means and standard deviations before the measurements.
+    """
     means = [
         0.5 * (p.low + p.high) if math.isfinite(p.high - p.low) and not p.is_prior else p.start for p in parameters
     ]
@@ -189,7 +201,9 @@ def _joined(one: Place, other: Place) -> Place:
 
 
 def _beyond(measured: FloatArray, asked: FloatArray) -> NDArray[np.bool_]:
-    """Tell of which pairs one lies outside the range of measured conditions and the other was measured, shape (n, n).
+    """Mark the pairs that extrapolate.
+
+    One lies outside the range of measured conditions and the other was measured, shape (n, n).
 
     Outside, what residuals say of the laws' errors is no evidence: there the discrepancy is as unknown as before.
     """
@@ -201,7 +215,10 @@ def _beyond(measured: FloatArray, asked: FloatArray) -> NDArray[np.bool_]:
 
 
 def _grid(dimensions: int) -> list[tuple[float, FloatArray]]:
-    """Return sizes over those known beforehand, and a reach for each condition: errors of different laws have both."""
+    """Return sizes and reaches of the discrepancy.
+
+    Sizes over those known beforehand, and a reach for each condition: errors of different laws have both.
+    """
     from scipy.special import ndtri
 
     middles = (np.arange(_PARTS) + 0.5) / _PARTS
@@ -210,7 +227,10 @@ def _grid(dimensions: int) -> list[tuple[float, FloatArray]]:
 
 
 def _kernel(place: Place, reaches: FloatArray) -> FloatArray:
-    """Return the correlations of the discrepancy, squared exponential; 0 between different quantities."""
+    """Return the correlations of the discrepancy.
+
+    Squared exponential; 0 between different quantities.
+    """
     apart = (place.coordinates[:, None, :] - place.coordinates[None, :, :]) / reaches
     same = np.array([[one == other for other in place.kinds] for one in place.kinds])
     found: FloatArray = np.where(same, np.exp(-0.5 * np.sum(apart**2, axis=-1)), 0.0)
@@ -220,7 +240,9 @@ def _kernel(place: Place, reaches: FloatArray) -> FloatArray:
 def sizes_known_before(
     effects_at: Callable[[int], Mapping[str, float]], predicted: FloatArray, kinds: Sequence[str]
 ) -> dict[str, float]:
-    """Return the relative size of the discrepancy of each quantity: that of the middle one of its values.
+    """Return the prior size of each quantity's discrepancy.
+
+    It is relative, that of the middle one of its values.
 
     Parameters
     ----------

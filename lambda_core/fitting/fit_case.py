@@ -95,7 +95,10 @@ def fit_report(
 
 
 def _reporting(problem: CaseProblem, progress: Progress) -> Model:
-    """Return what predicts the measured values and reports points solved and the error of the best values [%]."""
+    """Return a predictor that reports its progress.
+
+    It reports points solved and the error of the best values [%].
+    """
     measured, best = problem.data.values, math.inf
 
     def predict(values: FloatArray) -> FloatArray:
@@ -109,7 +112,7 @@ def _reporting(problem: CaseProblem, progress: Progress) -> Model:
 
 
 def _posterior(problem: CaseProblem, found: Fit, count: int) -> SampledPosterior:
-    """Return samples of the posterior with what they say about each parameter."""
+    """Return posterior samples with their parameters' statistics."""
     drawn = sample_posterior(problem.predict, found, count)
     ends = np.quantile(drawn.samples, [0.025, 0.5, 0.975], axis=0)
     return SampledPosterior(
@@ -132,7 +135,10 @@ def _posterior(problem: CaseProblem, found: Fit, count: int) -> SampledPosterior
 def _unseen(
     subject: Subject, problem: CaseProblem, found: Fit, sizes: dict[str, float], source: str | Path | Measurements
 ) -> list[PredictedPoint]:
-    """Return measured points that the fit has not seen with their predictions."""
+    """Return unseen measured points with predictions.
+
+    The fit has not used them.
+    """
     data = source if isinstance(source, Measurements) else read_measurements(source, subject.words)
     asked = problem.elsewhere(data)
     values, _, new = predicted(problem, found, sizes, asked)
@@ -160,7 +166,10 @@ def _where(subject: Subject, data: Measurements, entry: Entry) -> dict[str, Any]
 
 
 def _suggestion(problem: CaseProblem, found: Fit) -> SuggestedPoint | None:
-    """Return the operating point that would tell most; None where no candidate has a solution."""
+    """Return the most informative operating point.
+
+    None where no candidate has a solution.
+    """
     points = problem.candidates()
     table = problem.candidate_slopes(found.values, points)
     solved = np.flatnonzero(np.isfinite(table).all(axis=1))

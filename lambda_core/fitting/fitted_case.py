@@ -46,7 +46,9 @@ def write_fitted(
 
 
 def with_fit(case: C, report: FitReport) -> C:
-    """Return the case with the fitted values, an assumption for each, and the section `fit`.
+    """Return the case with the fitted values.
+
+    It has an assumption for each, and the section `fit`.
 
     A parameter that the data do not determine keeps its value; the section has its range as a standard deviation, and
     how the fitted values go with it.

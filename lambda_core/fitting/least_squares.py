@@ -63,7 +63,7 @@ class Data:
 
 @dataclass(frozen=True)
 class Fit:
-    """What a fit found.
+    """Result of a fit.
 
     Attributes
     ----------
@@ -142,7 +142,7 @@ class Fit:
 
     @property
     def leverages(self) -> FloatArray:
-        """How much each point pulls the fit towards itself."""
+        """Leverage of each point on the fit."""
         if not self.free:
             return np.zeros(self.data.values.size)
         weighted = self.jacobian[:, self.free] / self.errors[:, None]
@@ -156,18 +156,27 @@ class Fit:
 
     @property
     def left_out(self) -> FloatArray:
-        """Error of the prediction of each point from all others: predicted less measured values."""
+        """Error of each point's prediction from the others.
+
+        Predicted less measured values.
+        """
         return U.left_out_residuals(self.predicted - self.data.values, self.leverages)
 
     def quantile(self, confidence: float = CONFIDENCE) -> float:
-        """Return the two-sided quantile of Student's distribution for the degrees of freedom."""
+        """Return the two-sided quantile of Student's distribution.
+
+        For the degrees of freedom.
+        """
         from scipy.stats import t
 
         return float(t.ppf(0.5 + 0.5 * confidence, max(self.degrees, 1)))
 
     @property
     def posterior(self) -> FloatArray:
-        """Covariance of all parameters: held ones have their spread before the fit, which widens the others."""
+        """Covariance of all parameters.
+
+        Held ones have their spread before the fit, which widens the others.
+        """
         if not self.held:
             return self.covariance
         spread = spreads(self.parameters)
@@ -179,13 +188,19 @@ class Fit:
         return found
 
     def prediction_deviation(self, gradients: FloatArray, errors: FloatArray | float = 0.0) -> FloatArray:
-        """Return the standard deviation of predicted values, with those of new measurements where given."""
+        """Return the standard deviation of predicted values.
+
+        Those of new measurements are included where given.
+        """
         variance = U.prediction_variance(gradients, self.posterior)
         found: FloatArray = np.sqrt(variance + (np.asarray(errors) * self.scale) ** 2)
         return found
 
     def contains(self, truth: FloatArray, confidence: float = CONFIDENCE) -> bool:
-        """Tell whether values of the fitted parameters lie in their joint confidence region."""
+        """Tell whether values lie in the confidence region.
+
+        It is the joint region of the fitted parameters.
+        """
         from scipy.stats import f
 
         free = self.free
@@ -277,7 +292,10 @@ class _Search:
         self._interrupted = False
 
     def run(self, held: list[int]) -> None:
-        """Minimise over the parameters that are not held, until weights and values settle."""
+        """Minimise over the free parameters.
+
+        It ends when weights and values settle; held parameters stay.
+        """
         self._held = held
         self._point = np.where(np.isin(np.arange(self._point.size), held), starts(self._parameters), self._point)
         if len(held) == len(self._parameters):
@@ -295,7 +313,10 @@ class _Search:
                 break
 
     def _needs_rounds(self) -> bool:
-        """Tell whether errors, scatter or an updated Jacobian depend on the solution."""
+        """Tell whether the search needs further rounds.
+
+        Errors, scatter or an updated Jacobian may depend on the solution.
+        """
         data = self._data
         return not data.is_error_known or bool(data.input_errors.size) or data.is_proportional or self._costly
 
@@ -359,7 +380,10 @@ class _Search:
         return found
 
     def _effective(self) -> FloatArray:
-        """Return errors of measured values with those of the operating conditions."""
+        """Return errors that include the operating conditions'.
+
+        They are errors of measured values.
+        """
         data = self._data
         if self._input_slopes is None or not data.input_errors.size:
             return data.absolute(self._predicted())
@@ -368,7 +392,10 @@ class _Search:
         return found
 
     def _scatter(self) -> float:
-        """Return the scatter of the residuals over their errors, 1 where the errors are known."""
+        """Return the residuals' scatter over their errors.
+
+        1 where the errors are known.
+        """
         if self._data.is_error_known:
             return 1.0
         residuals, free = self._standardised(), len(self._parameters) - len(self._held)
@@ -378,7 +405,10 @@ class _Search:
         return max(_NORMAL_MAD * float(np.median(np.abs(residuals))) * math.sqrt(ratio), 1e-12)
 
     def _factor(self) -> float:
-        """Return the factor on (J^T J)^-1; residuals larger than their known errors widen it (Birge 1932)."""
+        """Return the factor on (J^T J)^-1.
+
+        Residuals larger than their known errors widen it (Birge 1932).
+        """
         residuals, free = self._standardised() / self._scale, len(self._parameters) - len(self._held)
         if math.isinf(self._limit):
             own = float(np.sum(residuals**2)) / (residuals.size - free)

@@ -113,7 +113,10 @@ class MachineSubject:
         return self._option(name.strip(), equals, ends, refused)
 
     def _place(self, path: str, bearing: str | None) -> str:
-        """Return where in the machine's case stands what stands at `path` in that of a bearing."""
+        """Return the machine's place of a bearing's option.
+
+        `path` is its place in the case of the bearing.
+        """
         first, _, rest = path.partition(".")
         if first in ("loads", "operation"):
             raise UsageError(f'--vary: a machine has no {path}: name an option such as "loads.NAME.force_z"')
@@ -125,7 +128,10 @@ class MachineSubject:
         return path
 
     def _option(self, path: str, equals: str, ends: str, refused: UsageError | None) -> Graded:
-        """Return an option of the machine that stands in its case as a number."""
+        """Return an option of the machine as number.
+
+        It is in the machine's case.
+        """
         value: Any = self._tables
         for part in path.split("."):
             value = value.get(part) if isinstance(value, Mapping) else None
@@ -145,7 +151,10 @@ class MachineSubject:
     def values(
         self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
     ) -> FloatArray:
-        """Return predicted quantities, one row: balls stand as in the machine's equilibrium."""
+        """Return predicted quantities in one row.
+
+        The balls are as in the machine's equilibrium.
+        """
         del one
         moved = [change for graded, number in parameters for change in graded.changes(number)]
         point = _solved(self._machine.case_toml, (*changes, *moved))
@@ -159,7 +168,9 @@ class MachineSubject:
         return number
 
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
-        """Return the relative standard deviation of each quantity that the laws of the bearings decide.
+        """Return each quantity's relative standard deviation.
+
+        The laws of the bearings decide it.
 
         Torques and losses of all bearings err together, as those of their laws do; how stiff and how loaded the machine
         is counts as known.
@@ -193,7 +204,10 @@ _BANDED = ("friction torque", "power loss", "minimum film", "capacitance")
 
 
 def _readers(names: Sequence[str], bearing: str | None) -> dict[str, tuple[str, Measured]]:
-    """Return owner and meaning of each measured quantity; the owner of one of the machine is empty."""
+    """Return owner and meaning of each measured quantity.
+
+    The owner of one of the machine is empty.
+    """
     found: dict[str, tuple[str, Measured]] = {}
     for name in names:
         found |= {f"{name.casefold()} {quantity}": (name, one) for quantity, one in _OF_BEARING.items()}
@@ -202,7 +216,10 @@ def _readers(names: Sequence[str], bearing: str | None) -> dict[str, tuple[str, 
 
 
 def _conditions(names: Sequence[str], bearing: str | None) -> dict[str, Condition]:
-    """Return what columns set: for all bearings, and with its name before it for one."""
+    """Return the conditions of the columns.
+
+    For all bearings, and with its name before it for one.
+    """
     found = {name: CONDITIONS[name] for name in _SHARED}
     for name in names:
         for quantity, place in _PLACES.items():
@@ -227,7 +244,10 @@ def _values(tables: Mapping[str, Any], path: Sequence[str]) -> Mapping[str, Any]
 
 @lru_cache(maxsize=4)
 def _solved(case_toml: str, changes: tuple[str, ...]) -> MachinePoint:
-    """Solve a machine; the last points are kept, as several quantities are read from one."""
+    """Solve a machine.
+
+    The last points are kept, as several quantities are read from one.
+    """
     from lambda_core.studies.job import shared_kernels
     from lambda_core.studies.machine_responses import machine_point
 
@@ -236,7 +256,10 @@ def _solved(case_toml: str, changes: tuple[str, ...]) -> MachinePoint:
 
 
 def _temperature(point: MachinePoint, bearing: str, column: str) -> float:
-    """Return a temperature that was found, which the case of the point has [degC]."""
+    """Return a computed temperature [degC].
+
+    The case of the point has it.
+    """
     from lambda_core.case.case_io import toml_tables
 
     place = next(place for quantity, place in _PLACES.items() if column.endswith(quantity))
@@ -245,7 +268,10 @@ def _temperature(point: MachinePoint, bearing: str, column: str) -> float:
 
 
 def _number(point: MachinePoint, bearing: str, response: str) -> float | None:
-    """Return a number of a machine, or of one of its bearings."""
+    """Return a number of a machine.
+
+    Or of one of its bearings.
+    """
     from lambda_core.studies.responses import responses_of
 
     kind, _, which = response.partition(".")

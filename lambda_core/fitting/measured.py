@@ -32,7 +32,10 @@ _FOLDER = "measured_data"
 
 
 class MeasuredSeries(Record):
-    """One measured series: where it comes from and what it is compared with."""
+    """One measured series.
+
+    It has its source and its comparison.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -84,7 +87,10 @@ class MeasuredComparison(Record):
     compared: list[ComparedSeries] = Field(description="in the order asked for")
 
     def text(self) -> str:
-        """Return one line per series, and one per point of those computed."""
+        """Return the lines of the comparison.
+
+        One per series, and one per point of those computed.
+        """
         lines: list[str] = []
         for one in self.compared:
             lines += [f"{one.series.name}: {one.series.title}", f"  {one.series.source}; {one.series.uncertainty}"]
@@ -113,7 +119,10 @@ def _errors(one: ComparedSeries) -> str:
 
 
 def all_series() -> list[MeasuredSeries]:
-    """Return the measured series of the program, of plugins and of the user."""
+    """Return all measured series.
+
+    Of the program, of plugins and of the user.
+    """
     found: dict[str, MeasuredSeries] = {}
     for folder in _folders():
         entries = folder.iterdir() if folder.is_dir() else ()
@@ -124,7 +133,9 @@ def all_series() -> list[MeasuredSeries]:
 
 
 def _folders() -> list[Traversable]:
-    """Return the folders of series: those of the program, of plugins, and that of the user.
+    """Return the folders of series.
+
+    Those of the program, of plugins, and that of the user.
 
     A plugin has them in the folder ``measured`` of the catalogue rows that it brings (hook `lambda_data`).
     """
@@ -263,6 +274,9 @@ def _points(one: _Loaded, band: bool) -> list[ComparedPoint]:
 
 
 def _bands(case: Case, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
-    """Return both ends of the model band of each quantity that has one."""
+    """Return both ends of each quantity's model band.
+
+    Only quantities with a band have them.
+    """
     found = band_alone(ready_model(case, changes, is_static=True), names)
     return {one.quantity: [one.low, one.high] for one in found.bands}

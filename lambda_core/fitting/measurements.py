@@ -66,7 +66,10 @@ class Measurements:
 
 @dataclass(frozen=True)
 class _Column:
-    """One column: what it holds, of which name, in which unit."""
+    """One column with name and unit.
+
+    It holds a condition or a quantity.
+    """
 
     kind: str  # "condition", "condition error", "measured", "error", "share", "label"
     name: str
@@ -213,7 +216,10 @@ def _values(
 
 
 def _value(where: str, cell: str, column: _Column, problems: list[Problem], words: Vocabulary) -> float | str:
-    """Return one value: a condition in SI, a measured quantity in the unit in which it is fitted."""
+    """Return one value in its unit.
+
+    A condition in SI, a measured quantity in the unit in which it is fitted.
+    """
     if column.kind == "label":
         return cell
     if not cell:

@@ -14,7 +14,9 @@ _UPDATED = 0.3  # of a change, by which an updated Jacobian may miss it before i
 
 
 class ModelCalls:
-    """A model that remembers its answers, and the best point so far.
+    """Model that remembers its answers.
+
+    It also keeps the best point so far.
 
     Parameters
     ----------
@@ -49,7 +51,10 @@ class ModelCalls:
         return self._slopes[key]
 
     def near_slopes(self, point: FloatArray, spread: FloatArray) -> FloatArray:
-        """Return the derivatives at a point by an update of the last ones (Broyden 1965, Math. Comp. 19, 577)."""
+        """Return the derivatives by an update.
+
+        Of the last ones, at a point (Broyden 1965, Math. Comp. 19, 577).
+        """
         if self._last is None or point.tobytes() in self._slopes:
             return self.slopes(point)
         before, slopes = self._last
@@ -63,7 +68,10 @@ class ModelCalls:
         return updated
 
     def last_slopes(self, point: FloatArray, count: int) -> FloatArray:
-        """Return the derivatives at a point, or the last ones there are, without a call of the model."""
+        """Return derivatives without a call of the model.
+
+        At a point, or the last ones there are.
+        """
         found = self._slopes.get(point.tobytes())
         if found is None:
             found = next(reversed(self._slopes.values()), np.zeros((count, point.size)))

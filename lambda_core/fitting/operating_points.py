@@ -28,13 +28,18 @@ _KEPT = 256  # points
 
 
 def condition_change(condition: Condition, value: float) -> str:
-    """Return the change of the case that sets an operating condition, from SI."""
+    """Return the change that sets an operating condition.
+
+    It changes the case; the condition is in SI.
+    """
     unit = next(iter(UNITS[condition.quantity]))
     return f"{condition.path}={from_si(value, condition.quantity, unit):.{DIGITS}g} {unit}"
 
 
 def point_values(case_toml: str, changes: Sequence[str], names: Sequence[str], *, one: bool = False) -> FloatArray:
-    """Return measured quantities as a case predicts them at several positions of the balls.
+    """Return measured quantities as predicted.
+
+    A case predicts them at several positions of the balls.
 
     Parameters
     ----------
@@ -57,7 +62,9 @@ def point_values(case_toml: str, changes: Sequence[str], names: Sequence[str], *
 
 
 class OperatingPoints:
-    """Predictions of a case whose parameters of laws move: the rest of each operating point is resolved once.
+    """Predictions with changing parameters of laws.
+
+    They are those of a case; the rest of each operating point is resolved once.
 
     Each prediction is searched from the equilibrium of the case's own laws at its point, never from that of the
     prediction before: equal parameters have equal predictions.
@@ -75,7 +82,10 @@ class OperatingPoints:
     def values(
         self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
     ) -> FloatArray:
-        """Return measured quantities under changes of the case and other parameters; see :func:`point_values`."""
+        """Return measured quantities under changes.
+
+        Of the case and of other parameters; see :func:`point_values`.
+        """
         options = [
             change for graded, number in parameters if not is_of_laws(graded) for change in graded.changes(number)
         ]
@@ -90,7 +100,10 @@ class OperatingPoints:
         return point.values(names, model, one=one)
 
     def _point(self, changes: tuple[str, ...]) -> _Point | None:
-        """Return the point with the case's own laws; None where their parameters decide its temperatures."""
+        """Return the point with the case's own laws.
+
+        None where their parameters decide its temperatures.
+        """
         if changes not in self._points:
             model = resolve_point(self._toml, changes)
             if model.thermal is not None:
@@ -103,14 +116,20 @@ class OperatingPoints:
 
 
 class _Point:
-    """An operating point: its model, and the equilibria of that found so far."""
+    """Operating point with its model and equilibria.
+
+    They are the equilibria found so far.
+    """
 
     def __init__(self, model: BearingModel) -> None:
         self.model = model
         self._solved: dict[float, Equilibrium] = {}
 
     def values(self, names: Sequence[str], moved: BearingModel | None = None, *, one: bool) -> FloatArray:
-        """Return measured quantities as the model, or one that differs in parameters of laws only, predicts them."""
+        """Return measured quantities as predicted.
+
+        By the model, or one that differs in parameters of laws only.
+        """
         model = self.model if moved is None else moved
         kernels = kernels_of(model)
 
@@ -127,7 +146,10 @@ ROLLER_QUANTITIES = ("friction torque", "power loss", *(f"displacement {axis}" f
 
 
 def roller_values(model: RollerModel, names: Sequence[str]) -> FloatArray:
-    """Return measured quantities as a roller bearing predicts them; UsageError for one that it does not have."""
+    """Return measured quantities of a roller bearing.
+
+    As it predicts them; UsageError for one that it does not have.
+    """
     from lambda_core.results.roller_quasistatic import roller_quasistatic
 
     found = roller_quasistatic(model)
@@ -143,7 +165,10 @@ def roller_values(model: RollerModel, names: Sequence[str]) -> FloatArray:
 
 
 def at_line(error: LambdaError, file: str, line: int) -> LambdaError:
-    """Return an error of one operating point with the line of the file it belongs to."""
+    """Return an error with its file's line.
+
+    It is an error of one operating point.
+    """
     message = f"{file} line {line}: {error}"
     if isinstance(error, CaseError):
         return CaseError(f"{file} line {line}: {error.source}", error.problems)

@@ -21,7 +21,10 @@ _BAND = "± one standard deviation"
 
 
 def overlaid(pictures: Sequence[ViewData], measured: str | Path) -> list[ViewData]:
-    """Add a measured series to every picture that has axes for it."""
+    """Add a measured series to pictures.
+
+    Every picture that has axes for it gets it.
+    """
     panels = [panel for picture in pictures for panel in picture.panels if isinstance(panel, Panel)]
     words = _vocabulary(panels)
     data = read_measurements(measured, words)
@@ -60,7 +63,10 @@ def _vocabulary(panels: Iterable[Panel]) -> Vocabulary:
 
 
 def _physical(axis: Axis) -> tuple[str, str] | None:
-    """Return quantity and unit of an axis; None for one of names or of a unit that no file has."""
+    """Return quantity and unit of an axis.
+
+    None for one of names or of a unit that no file has.
+    """
     if axis.categories or not axis.label:
         return None
     if not axis.unit:
@@ -70,20 +76,26 @@ def _physical(axis: Axis) -> tuple[str, str] | None:
 
 
 def _across(panel: Panel) -> list[str]:
-    """Return the names of the horizontal axis: its label, and for an option of a case what it is called in a fit."""
+    """Return the names of the horizontal axis.
+
+    Its label, and for an option of a case its name in a fit.
+    """
     label = panel.x.label.casefold()
     return [*(name for name, one in CONDITIONS.items() if one.path == label), label]
 
 
 def _up(panel: Panel) -> dict[str, str]:
-    """Return the names of the vertical axis, and for each the line that it is about."""
+    """Return the names of the vertical axis.
+
+    For each the line that it belongs to.
+    """
     label = panel.y.label.casefold()
     lines = {f"{one.name.casefold()} {label}": one.name for one in panel.series if one.name and not one.unlisted}
     return {label: "", **lines}
 
 
 def _drawn(panel: Panel, data: Measurements) -> Panel:
-    """Return a panel with the measured points that belong into it."""
+    """Return a panel with its measured points."""
     x, y = _physical(panel.x), _physical(panel.y)
     if x is None or y is None:
         return panel

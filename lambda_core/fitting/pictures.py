@@ -19,7 +19,10 @@ _UNITS = {"speed": "1/min", "radial load": "kN", "axial load": "kN"}
 
 
 def fit_pictures(report: FitReport) -> list[ViewData]:
-    """Return a picture of the values, one panel per quantity, and one of the residuals, one panel per condition."""
+    """Return a picture of values and of residuals.
+
+    Values have one panel per quantity, residuals one panel per condition.
+    """
     quantities = list(dict.fromkeys(point.quantity for point in report.points))
     values = tuple(_values(report, quantity) for quantity in quantities)
     names = [name for name in report.points[0].conditions if _moves(report, name)]
@@ -34,7 +37,10 @@ def fit_pictures(report: FitReport) -> list[ViewData]:
 
 
 def _values(report: FitReport, quantity: str) -> Panel:
-    """Return measured and predicted values over the first condition that varies, a line per set of the others."""
+    """Return measured and predicted values.
+
+    Over the first condition that varies, a line per set of the others.
+    """
     points = [point for point in report.points if point.quantity == quantity]
     names = [name for name in points[0].conditions if _moves(report, name)]
     first = names[0] if names else ""

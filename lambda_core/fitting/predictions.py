@@ -12,7 +12,9 @@ from lambda_core.fitting.problem import CaseProblem
 
 
 def discrepancy_sizes(problem: CaseProblem, found: Fit) -> dict[str, float]:
-    """Return how large the relative error of the laws may be, by quantity: the model band of all that is not fitted.
+    """Return the possible relative errors of laws.
+
+    By quantity: the model band of all that is not fitted.
 
     0 where nothing that has a range changes the quantity.
     """

@@ -26,14 +26,19 @@ _WARMER = 10.0  # beyond the temperatures measured [K]
 
 @dataclass(frozen=True)
 class Entry:
-    """One measured value: row of the measurements and name of the quantity."""
+    """One measured value.
+
+    Row of the measurements and name of the quantity.
+    """
 
     row: int
     quantity: str
 
 
 class CaseProblem:
-    """Predicted values of measured operating points over the parameters of a fit.
+    """Predicted values over the parameters of a fit.
+
+    They belong to measured operating points.
 
     Parameters
     ----------
@@ -116,7 +121,10 @@ class CaseProblem:
         return np.column_stack(columns)
 
     def input_slopes(self, values: FloatArray) -> FloatArray:
-        """Return their derivatives by the conditions that have errors, shape (n, k)."""
+        """Return the derivatives by uncertain conditions.
+
+        Shape (n, k).
+        """
         base, columns = self._stacked(values, self._conditions, one=True), []
         for name, errors in self._measurements.condition_errors.items():
             moved = [
@@ -128,7 +136,10 @@ class CaseProblem:
         return np.column_stack(columns)
 
     def input_deviations(self, values: FloatArray) -> FloatArray:
-        """Return the standard deviations of the predicted values by the errors of the conditions, shape (n,)."""
+        """Return the predictions' deviations by conditions.
+
+        Standard deviations by the errors of the conditions, shape (n,).
+        """
         data = self.data
         if not data.input_errors.size:
             return np.zeros(len(self.entries))
@@ -141,7 +152,9 @@ class CaseProblem:
         return [self._conditions[entry.row] for entry in self.entries]
 
     def law_deviations(self, row: int, values: FloatArray) -> dict[str, float]:
-        """Return how far laws and ranges that are not fitted may move each quantity at the point of a value.
+        """Return the deviation by what is not fitted.
+
+        Laws and ranges may move each quantity so far at the point of a value.
 
         Relative standard deviations; a quantity that they do not move is left out.
         """
@@ -158,7 +171,10 @@ class CaseProblem:
         return CaseProblem(self._subject, measurements, self.varied)
 
     def candidates(self) -> list[dict[str, float]]:
-        """Return operating points that could be measured next: corners of and beyond what was measured."""
+        """Return operating points for the next measurement.
+
+        They are corners of and beyond what was measured.
+        """
         levels = {}
         for name, column in list(self._measurements.conditions.items())[:_MOST_CONDITIONS]:
             low, high = float(column.min()), float(column.max())
@@ -170,7 +186,10 @@ class CaseProblem:
         return [{**middle, **dict(zip(levels, corner, strict=True))} for corner in itertools.product(*levels.values())]
 
     def candidate_slopes(self, values: FloatArray, points: Sequence[dict[str, float]]) -> FloatArray:
-        """Return the first quantity and its derivatives at candidates, shape (m, 1 + p); NaN without a solution."""
+        """Return the quantity and derivatives at candidates.
+
+        The first quantity, shape (m, 1 + p); NaN without a solution.
+        """
         quantity, found = self.entries[0].quantity, np.full((len(points), 1 + len(self.parameters)), math.nan)
         for row, conditions in enumerate(points):
             try:
@@ -197,13 +216,19 @@ class CaseProblem:
         return np.array([answers[entry.row][entry.quantity] for entry in self.entries])
 
     def _changes(self, conditions: dict[str, float]) -> tuple[str, ...]:
-        """Return what the case is changed by at one operating point."""
+        """Return the changes at one operating point.
+
+        They change the case.
+        """
         return tuple(condition_change(self._measurements.set_by[name], value) for name, value in conditions.items())
 
     def _value(
         self, values: FloatArray, conditions: dict[str, float], names: tuple[str, ...], *, one: bool
     ) -> FloatArray:
-        """Return the quantities at one operating point; equal ones are computed once."""
+        """Return the quantities at one operating point.
+
+        Equal ones are computed once.
+        """
         changes, numbers = self._changes(conditions), values.tolist()
         key = (*changes, *numbers, *names)
         for kind in ("all", "one") if one else ("all",):
@@ -219,7 +244,10 @@ class CaseProblem:
 
 
 def _refuse_twice(varied: Sequence[Graded], measurements: Measurements) -> None:
-    """Refuse a parameter that is named twice, or that a column sets."""
+    """Refuse a parameter that is set twice.
+
+    It is named twice, or a column sets it.
+    """
     columns = {condition.path: name for name, condition in measurements.set_by.items()}
     for index, graded in enumerate(varied):
         if graded.path in columns:

@@ -52,7 +52,7 @@ class FittedPoint(Record):
 
 
 class PredictedPoint(Record):
-    """A measured value that the fit has not seen, and its prediction."""
+    """Unseen measured value with its prediction."""
 
     line: int = Field(description="of its file")
     label: str
@@ -66,7 +66,10 @@ class PredictedPoint(Record):
 
 
 class ParameterCombination(Record):
-    """A combination of parameters and how well the data determine it."""
+    """Combination of parameters with its uncertainty.
+
+    It shows how well the data determine it.
+    """
 
     weights: dict[str, float]
     spread: float | None = Field(description="standard deviation over that before the fit; null without information")
@@ -83,7 +86,7 @@ class PatternTest(Record):
 
 
 class SuggestedPoint(Record):
-    """The further operating point that would tell most about the parameters."""
+    """Most informative further operating point."""
 
     conditions: dict[str, str]
     combination: dict[str, float] = Field(description="the combination that is determined worst")
@@ -92,7 +95,7 @@ class SuggestedPoint(Record):
 
 
 class SampledParameter(Record):
-    """What samples of the posterior say about one parameter."""
+    """Posterior samples of one parameter."""
 
     path: str
     name: str
@@ -103,7 +106,10 @@ class SampledParameter(Record):
 
 
 class SampledPosterior(Record):
-    """Samples of the posterior: the range of each parameter before the fit, and the measured values."""
+    """Samples of the posterior.
+
+    The range of each parameter before the fit, and the measured values.
+    """
 
     parameters: list[SampledParameter] = Field(description="all, those that the data do not determine included")
     effective: float = Field(description="number of independent samples that they are worth")
@@ -113,7 +119,7 @@ class SampledPosterior(Record):
 
 
 class FitReport(Record):
-    """What a fit of a case to measurements found."""
+    """Result of a fit to measurements."""
 
     interface: int = INTERFACE
     case: str
@@ -159,5 +165,8 @@ class FitReport(Record):
 
 
 def known(value: float) -> float | None:
-    """Return a number for JSON, None for what is not finite."""
+    """Return a number for JSON.
+
+    None for what is not finite.
+    """
     return value if math.isfinite(value) else None

@@ -18,7 +18,10 @@ _MOST_POINTS = 30
 
 
 def report_text(report: FitReport, width: int | None, units: UnitSystem) -> str:
-    """Return the sentence, the table of parameters, and what to know about them."""
+    """Return the text of a fit.
+
+    The sentence, the table of parameters, and notes on them.
+    """
     lines = [report.title, report.sentence, *report.warnings, ""]
     lines += _table([_HEAD, *(_row(parameter) for parameter in report.parameters)])
     lines += _correlations(report)
@@ -47,7 +50,10 @@ def _row(parameter: FittedParameter) -> tuple[str, ...]:
 
 
 def compact(value: float, error: float) -> str:
-    """Write a value with its standard error to two digits of the latter, small ones with a power of ten."""
+    """Write a value with its standard error.
+
+    To two digits of the latter, small ones with a power of ten.
+    """
     if not error > 0.0 or not math.isfinite(error):
         return f"{value:.4g}"
     power = math.floor(math.log10(max(abs(value), error)))

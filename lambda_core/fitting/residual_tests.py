@@ -38,7 +38,9 @@ class ResidualTest:
 
 
 def runs_test(residuals: FloatArray) -> float:
-    """Return the p-value of too few changes of sign along ordered residuals.
+    """Return the p-value of too few sign changes.
+
+    Along ordered residuals.
 
     References
     ----------
@@ -54,7 +56,7 @@ def runs_test(residuals: FloatArray) -> float:
 
 
 def _ways(runs: int, above: int, below: int) -> int:
-    """Return how many orders of the signs have a number of runs."""
+    """Count the sign orders with so many runs."""
     half, odd = divmod(runs, 2)
     if not odd:
         return 2 * math.comb(above - 1, half - 1) * math.comb(below - 1, half - 1)
@@ -64,7 +66,9 @@ def _ways(runs: int, above: int, below: int) -> int:
 
 
 def trend_test(residuals: FloatArray, jacobian: FloatArray, column: FloatArray, *, is_error_known: bool) -> float:
-    """Return the p-value of a constant, linear and quadratic part of the residuals over a column.
+    """Return the p-value of a residual trend.
+
+    A constant, linear and quadratic part over a column.
 
     Parameters
     ----------
@@ -106,7 +110,10 @@ def trend_test(residuals: FloatArray, jacobian: FloatArray, column: FloatArray, 
 
 
 def scatter_test(residuals: FloatArray, count: int) -> float:
-    """Return the p-value of residuals larger than their stated errors: chi-square with n - p degrees of freedom."""
+    """Return the p-value of the residuals' scatter.
+
+    They may be larger than their stated errors; chi-square with n - p degrees of freedom.
+    """
     from scipy.stats import chi2
 
     free = residuals.size - count

@@ -53,7 +53,10 @@ class Posterior:
 
 
 def sampler_package() -> Any:
-    """Return the package that samples; UsageError with what to install where it is missing."""
+    """Return the package that samples.
+
+    UsageError with what to install where it is missing.
+    """
     try:
         import emcee
     except ImportError:
@@ -64,14 +67,19 @@ def sampler_package() -> Any:
 
 
 def check_count(count: int) -> None:
-    """Refuse a number of samples that is too small or too large; UsageError."""
+    """Refuse a wrong number of samples.
+
+    Too small or too large; UsageError.
+    """
     if not 1 <= count <= MOST:
         raise UsageError(f"sample = {count}: must be a number from 1 to {MOST}")
     sampler_package()
 
 
 def sample(model: Model, found: Fit, count: int) -> Posterior:
-    """Sample the posterior of all parameters, those that the data do not determine included.
+    """Sample the posterior of all parameters.
+
+    Those that the data do not determine are included.
 
     Before the measurements each parameter is uniform over its range. Residuals count as in the fit: by Huber's loss,
     over the same errors, and wider by the same factor where they are larger than these.
@@ -110,7 +118,10 @@ def sample(model: Model, found: Fit, count: int) -> Posterior:
 
 
 def _region(found: Fit) -> tuple[FloatArray, FloatArray]:
-    """Return the ends between which samples lie: the range, and not too far from the fitted value."""
+    """Return the limits of the samples.
+
+    They are the range, and not too far from the fitted value.
+    """
     low, high = bounds(found.parameters)
     reach = _REGION * np.sqrt(np.diag(found.posterior))
     return np.maximum(low, found.values - reach), np.minimum(high, found.values + reach)
@@ -119,7 +130,10 @@ def _region(found: Fit) -> tuple[FloatArray, FloatArray]:
 def _interpolation(
     model: Model, found: Fit, low: FloatArray, high: FloatArray
 ) -> tuple[Callable[[FloatArray], FloatArray], float]:
-    """Return an interpolation of the model in the region, and its largest error over those of the measured values."""
+    """Return an interpolation of the model.
+
+    In the region, and its largest error over those of the measured values.
+    """
     from scipy.interpolate import RBFInterpolator
     from scipy.stats import qmc
 

@@ -9,7 +9,9 @@ from lambda_core.results.model_band import COVERAGE
 
 
 def interval_score(low: FloatArray, high: FloatArray, measured: FloatArray, coverage: float = COVERAGE) -> FloatArray:
-    """Return the interval score of each band: its width, more for each measured value outside; small is good.
+    """Return the interval score of each band.
+
+    Its width, more for each measured value outside; small is good.
 
     References
     ----------

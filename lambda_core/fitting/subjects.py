@@ -45,19 +45,31 @@ class Subject(Protocol):
     words: Vocabulary
 
     def varied(self, specification: str) -> Graded:
-        """Return the parameter that ``PATH`` or ``PATH=LOW..HIGH`` names; UsageError where there is none."""
+        """Return the named parameter.
+
+        By ``PATH`` or ``PATH=LOW..HIGH``; UsageError where there is none.
+        """
 
     def values(
         self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
     ) -> FloatArray:
-        """Return predicted quantities of the changed case, shape (positions of the balls, names)."""
+        """Return predicted quantities of the changed case.
+
+        Shape (positions of the balls, names).
+        """
 
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
-        """Return the relative standard deviation of each quantity by the ranges of all that is not fitted."""
+        """Return each quantity's relative standard deviation.
+
+        By the ranges of all that is not fitted.
+        """
 
 
 def subject_of(source: Source, overrides: Iterable[str] = (), bearing: str | None = None) -> Subject:
-    """Return what a case is to a fit; UsageError where there is no such bearing."""
+    """Return the subject of a fit.
+
+    It is made of a case; UsageError where there is no such bearing.
+    """
     from lambda_core.case.case_io import apply_overrides, is_machine, refuse_bearing
     from lambda_core.model.api import case_of
 
@@ -119,7 +131,10 @@ class RollerSubject(BearingSubject):
     def values(
         self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
     ) -> FloatArray:
-        """Return predicted quantities, one row: there is one position of the rollers."""
+        """Return predicted quantities in one row.
+
+        There is one position of the rollers.
+        """
         from lambda_core.case.case_io import apply_overrides
         from lambda_core.model.roller_case import roller_model
 
@@ -131,7 +146,10 @@ class RollerSubject(BearingSubject):
         return roller_values(model, names)[np.newaxis]
 
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
-        """Return the relative standard deviation of each quantity that the ranges move."""
+        """Return each quantity's relative standard deviation.
+
+        Of those that the ranges move.
+        """
         from lambda_core.analysis.band.roller_band import RollerEffects
         from lambda_core.case.case_io import apply_overrides
         from lambda_core.model.checking import resolve
@@ -171,7 +189,10 @@ def vocabulary(
 
 
 def option_condition(root: type[BaseModel], path: str, unit: str) -> Condition | None:
-    """Return the condition of a column that is named by the path of an option; None where there is no such option."""
+    """Return the condition of an option's column.
+
+    The path of an option names it; None where there is no such option.
+    """
     from lambda_core.case.option import quantity_of
     from lambda_core.domain.option_tree import field_at, model_at
 

@@ -127,7 +127,10 @@ def traction_of(
     parameters: Mapping[str, Any] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> TractionCurve:
-    """Return the traction of an oil over slide-roll ratio by every law."""
+    """Return the traction over slide-roll ratio.
+
+    Of an oil, by every law.
+    """
     points = None if measured is None else _measured(read_measurements(measured, COLUMNS))
     contact_pressure, inlet = _read("pressure", pressure, "pressure"), _read("temperature", temperature, "temperature")
     mean_speed = _read("speed", speed, "velocity")
@@ -208,7 +211,10 @@ def _laws() -> Sequence[str]:
 
 
 def _model(oil: str, temperature: float, law: str, parameters: Mapping[str, Any]) -> BearingModel:
-    """Return a bearing with this oil and traction law: what the context of a law needs."""
+    """Return a bearing with this oil and law.
+
+    The traction law needs this context.
+    """
     from lambda_core.discovery.manager import registry
     from lambda_core.model.api import case_of
     from lambda_core.model.checking import resolve
@@ -234,7 +240,9 @@ def _fields(law: Any) -> Mapping[str, Any]:
 
 @dataclass(frozen=True)
 class _Contact:
-    """A ball on a disc, with the compiled laws of one oil.
+    """Ball on a disc with compiled laws.
+
+    They are the laws of one oil.
 
     Attributes
     ----------
@@ -255,7 +263,10 @@ class _Contact:
 
     @staticmethod
     def of(model: BearingModel, pressure: float, speed: float, announce: Callable[[str], None] | None) -> _Contact:
-        """Return the contact of a pressure with the laws of a model."""
+        """Return the contact of a pressure.
+
+        With the laws of a model.
+        """
         from lambda_core.model.laws.law_context import ContactFrame, build_context, effective_modulus, prepare
         from lambda_core.solver.drivers.compiled_laws import Kernels, check_laws, derive_oils
 
@@ -289,7 +300,7 @@ class _Contact:
         return _Contact(load, radius, speed, pressure * np.sqrt(1.0 - squares), 0.5 * shares, call, oils[0], modulus)
 
     def film(self, slide: float) -> float:
-        """Return the central film with the heating of its inlet [m]."""
+        """Return the central film with inlet heating [m]."""
         r, oil = 0.5 * BALL, self.oil
         thickness = self.law(
             "film_thickness", self.speed, 1.0, self.load, r, r, self.modulus, oil.viscosity, oil.alpha_p

@@ -21,7 +21,9 @@ _LARGEST_LEVERAGE = 0.999
 
 @dataclass(frozen=True)
 class Direction:
-    """A combination of parameters, in units of their spreads before the fit.
+    """Combination of parameters in prior spreads.
+
+    The spreads are those before the fit.
 
     Attributes
     ----------
@@ -36,7 +38,7 @@ class Direction:
 
     @property
     def is_determined(self) -> bool:
-        """Tell whether the data say more about the combination than was known before."""
+        """True if the data improve on the prior."""
         return self.spread < 1.0
 
     def text(self) -> str:
@@ -46,7 +48,10 @@ class Direction:
 
 
 def huber_weights(standardised: FloatArray, limit: float = HUBER) -> FloatArray:
-    """Return the weights psi(z)/z of residuals in units of their error (Huber 1964)."""
+    """Return the weights psi(z)/z of residuals.
+
+    In units of their error (Huber 1964).
+    """
     weights: FloatArray = np.minimum(1.0, limit / np.maximum(np.abs(standardised), 1e-300))
     return weights
 
@@ -75,7 +80,9 @@ def robust_factor(standardised: FloatArray, count: int, limit: float = HUBER) ->
 
 
 def covariance(jacobian: FloatArray, factor: float) -> FloatArray:
-    """Return the covariance of the parameters; infinite along directions without information.
+    """Return the covariance of the parameters.
+
+    Infinite along directions without information.
 
     Parameters
     ----------
@@ -98,7 +105,9 @@ def correlations(matrix: FloatArray) -> FloatArray:
 
 
 def directions(jacobian: FloatArray, names: Sequence[str], spread: FloatArray, factor: float) -> list[Direction]:
-    """Return the principal combinations of the parameters, the best determined first.
+    """Return the principal combinations of parameters.
+
+    The best determined first.
 
     Parameters
     ----------
@@ -123,7 +132,9 @@ def directions(jacobian: FloatArray, names: Sequence[str], spread: FloatArray, f
 
 
 def separable(jacobian: FloatArray, spread: FloatArray, factor: float) -> list[int]:
-    """Return the parameters that the data can determine together, in their order.
+    """Return the parameters that data can separate.
+
+    In their order.
 
     References
     ----------
@@ -141,20 +152,28 @@ def separable(jacobian: FloatArray, spread: FloatArray, factor: float) -> list[i
 
 
 def prediction_variance(gradients: FloatArray, matrix: FloatArray) -> FloatArray:
-    """Return the variance of predicted values, shape (m,), from their gradients, shape (m, p)."""
+    """Return the variance of predicted values.
+
+    Shape (m,), from their gradients, shape (m, p).
+    """
     found: FloatArray = np.einsum("ij,jk,ik->i", gradients, matrix, gradients)
     return found
 
 
 def leverages(jacobian: FloatArray, weights: FloatArray) -> FloatArray:
-    """Return how much each point pulls the fit towards itself, 0 to 1 (diagonal of the hat matrix)."""
+    """Return the leverages of the points.
+
+    How much each pulls the fit towards itself, 0 to 1 (diagonal of the hat matrix).
+    """
     basis, _ = np.linalg.qr(jacobian * np.sqrt(weights)[:, None])
     found: FloatArray = np.minimum(np.sum(basis**2, axis=1), _LARGEST_LEVERAGE)
     return found
 
 
 def left_out_residuals(residuals: FloatArray, leverage: FloatArray) -> FloatArray:
-    """Return the residual that each point would have were it left out of the fit, linearised.
+    """Return the leave-one-out residuals, linearised.
+
+    Each point would have it were it left out of the fit.
 
     References
     ----------

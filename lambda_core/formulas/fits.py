@@ -27,7 +27,10 @@ SMOOTHING = {"none": 0.0, "ground": 2.0, "turned": 3.0}
 
 @dataclass(frozen=True)
 class Solid:
-    """Elastic and thermal properties of a ring, shaft, housing or ball."""
+    """Elastic and thermal properties of a solid.
+
+    A ring, shaft, housing or ball.
+    """
 
     youngs_modulus: float = 210e9  # [Pa]
     poisson_ratio: float = 0.3
@@ -39,7 +42,7 @@ STEEL = Solid()
 
 @dataclass(frozen=True)
 class Rings:
-    """What of the bearing enters: diameters [m] and materials."""
+    """Diameters [m] and materials of the rings."""
 
     bore_diameter: float
     outside_diameter: float
@@ -57,7 +60,9 @@ class Rings:
 
 @dataclass(frozen=True)
 class Seat:
-    """The shaft under the inner ring or the housing around the outer ring.
+    """Seat of a ring.
+
+    The shaft under the inner ring or the housing around the outer ring.
 
     Attributes
     ----------
@@ -78,7 +83,10 @@ class Seat:
 
 @dataclass(frozen=True)
 class Temperatures:
-    """Mean temperatures of the parts, and the one at which the dimensions hold [K]."""
+    """Temperatures of the parts [K].
+
+    Their means, and the one at which the dimensions hold.
+    """
 
     inner_ring: float = REFERENCE_TEMPERATURE
     outer_ring: float = REFERENCE_TEMPERATURE
@@ -88,14 +96,20 @@ class Temperatures:
     reference: float = REFERENCE_TEMPERATURE
 
     def rises(self) -> dict[str, float]:
-        """Temperature rise of each part above the reference [K]."""
+        """Return the temperature rise of each part [K].
+
+        It counts from the reference.
+        """
         parts = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
         return {part: getattr(self, part) - self.reference for part in parts}
 
 
 @dataclass(frozen=True)
 class Step:
-    """One step: what it adds to the clearance [m] (or what it is), by its limits and its middle."""
+    """One step of the clearance [m].
+
+    Its addition (or value), by its limits and its middle.
+    """
 
     name: str
     limits: Limits
@@ -122,13 +136,19 @@ class OperatingClearance:
 
 
 def shaft_interference(bore_diameter: float, tolerance_class: str) -> Limits:
-    """Interference [m] of a shaft class with a bearing bore of ISO 492 normal class; positive is tight."""
+    """Return the interference of a shaft class [m].
+
+    With a bearing bore of ISO 492 normal class; positive is tight.
+    """
     shaft, bore = shaft_deviations(bore_diameter, tolerance_class), bore_deviations(bore_diameter)
     return Limits(shaft.minimum - bore.maximum, shaft.maximum - bore.minimum)
 
 
 def housing_interference(outside_diameter: float, tolerance_class: str) -> Limits:
-    """Interference [m] of a housing class with a bearing's outside of ISO 492 normal class; positive is tight."""
+    """Return the interference of a housing class [m].
+
+    With a bearing's outside of ISO 492 normal class; positive is tight.
+    """
     hole, ring = housing_deviations(outside_diameter, tolerance_class), outside_deviations(outside_diameter)
     return Limits(ring.minimum - hole.maximum, ring.maximum - hole.minimum)
 
@@ -136,7 +156,9 @@ def housing_interference(outside_diameter: float, tolerance_class: str) -> Limit
 def inner_ring_expansion(
     interference: float, bore: float, race: float, ring: Solid, shaft: Solid, hollow: float
 ) -> float:
-    """Growth [m] of the inner raceway's diameter under an effective interference [m]; zero for a loose fit.
+    """Return the growth of the inner raceway [m].
+
+    Of its diameter under an effective interference [m]; zero for a loose fit.
 
     Pressure of two thick rings (Lame; Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 2, ch. 3):
     p = (I/d) / {[(k^2 + 1)/(k^2 - 1) + nu]/E_ring + [(1 + q^2)/(1 - q^2) - nu_s]/E_shaft}, k = d_race/d,
@@ -156,7 +178,9 @@ def inner_ring_expansion(
 def outer_ring_contraction(
     interference: float, outside: float, race: float, ring: Solid, housing: Solid, housing_diameter: float
 ) -> float:
-    """Shrinkage [m] of the outer raceway's diameter under an effective interference [m]; zero for a loose fit.
+    """Return the shrinkage of the outer raceway [m].
+
+    Of its diameter under an effective interference [m]; zero for a loose fit.
 
     Thick rings as in :func:`inner_ring_expansion`, h = d_race/D, q = D/D_housing:
     p = (I/D) / {[(1 + h^2)/(1 - h^2) - nu]/E_ring + [(1 + q^2)/(1 - q^2) + nu_h]/E_housing}; shrinkage at the
@@ -176,7 +200,10 @@ def outer_ring_contraction(
 
 
 def _effective(seat: Seat, diameter: float) -> Limits:
-    """Interference left when the seat's asperities are flattened: d/(d + s), d and s in mm."""
+    """Return the interference after flattening of asperities.
+
+    d/(d + s) of it remains on the seat, d and s in mm.
+    """
     if seat.finish not in SMOOTHING:
         raise ValueError(f'"{seat.finish}" is not a finish of a seat; known: {", ".join(SMOOTHING)}')
     factor = diameter * 1e3 / (diameter * 1e3 + SMOOTHING[seat.finish])
@@ -194,7 +221,7 @@ def operating_clearance(
     housing: Seat | None = None,
     temperatures: Temperatures | None = None,
 ) -> OperatingClearance:
-    """Radial internal clearance in operation.
+    """Return the steps to the operating radial clearance.
 
     Parameters
     ----------
@@ -236,7 +263,9 @@ def operating_clearance(
 
 @dataclass(frozen=True)
 class Mounting:
-    """Everything that the clearance in operation follows from but the temperatures of the parts.
+    """Data of the operating clearance.
+
+    The temperatures of the parts are not among them.
 
     Attributes
     ----------
@@ -256,7 +285,10 @@ class Mounting:
     reference: float = REFERENCE_TEMPERATURE
 
     def clearance(self, inner_ring: float, outer_ring: float, balls: float, shaft: float, housing: float) -> float:
-        """Return the radial internal clearance at temperatures of the parts [K], in m."""
+        """Return the radial internal clearance [m].
+
+        At temperatures of the parts [K].
+        """
         warm = Temperatures(inner_ring, outer_ring, balls, shaft, housing, self.reference)
         limits = operating_clearance(self.rings, self.bought, self.shaft, self.housing, warm).limits
         return {"minimum": limits.minimum, "middle": limits.middle, "maximum": limits.maximum}[self.pick]

@@ -11,7 +11,9 @@ VACUUM_PERMITTIVITY = 8.8541878128e-12  # [F/m], CODATA 2018
 
 
 def gap_capacitance(gap: float, radius_x: float, radius_y: float, ball_radius: float) -> float:
-    """Return the capacitance [F] of a ball and a raceway that stand `gap` [m] apart, in vacuum.
+    """Return the capacitance [F] of ball and raceway.
+
+    They are `gap` [m] apart, in vacuum.
 
     Plates in each element (Derjaguin 1934): dA/(h + x^2/(2 R_x) + y^2/(2 R_y)) over the ball's projection, in closed
     form 4 pi sqrt(R_x R_y) ln{[sqrt(h_x/R_y) + sqrt(h_y/R_x)]/[sqrt(h/R_y) + sqrt(h/R_x)]}, h_x = h + R_b^2/(2 R_x).

@@ -12,7 +12,10 @@ from typing import Literal
 
 @dataclass(frozen=True)
 class GearForces:
-    """What a mesh does to the shaft, in the frame of the case, about the shaft's axis at the gear's middle."""
+    """Forces of a mesh on the shaft.
+
+    In the frame of the case, about the shaft's axis at the gear's middle.
+    """
 
     force: tuple[float, float, float]  # [N]
     moment: tuple[float, float, float]  # of the force at the pitch circle about the axis [N m]

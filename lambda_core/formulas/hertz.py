@@ -17,7 +17,9 @@ _NEAR = 1e-9  # a secant step of this length ends within rounding
 
 @dataclass(frozen=True)
 class HertzShape:
-    """Constants of one geometry: they do not depend on the load.
+    """Constants of one geometry.
+
+    They do not depend on the load.
 
     Attributes
     ----------
@@ -49,14 +51,19 @@ class HertzContact:
 
 
 def reduced_modulus(youngs_1: float, poisson_1: float, youngs_2: float, poisson_2: float) -> float:
-    """Return E' [Pa] of two solids, 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2."""
+    """Return the modulus E' [Pa] of two solids.
+
+    2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2.
+    """
     return 2.0 / ((1.0 - poisson_1**2) / youngs_1 + (1.0 - poisson_2**2) / youngs_2)
 
 
 def ball_raceway_radii(
     ball_diameter: float, pitch_diameter: float, groove_radius: float, contact_angle: float, *, inner: bool
 ) -> tuple[float, float]:
-    """Reduced radii (R_x along rolling, R_y across) of a ball in a raceway groove [m].
+    """Return the reduced radii of a ball contact [m].
+
+    R_x along rolling, R_y across, of a ball in a raceway groove.
 
     1/R_x = 2/D_w +- 2 gamma / (D_w (1 -+ gamma)), gamma = D_w cos(alpha)/d_m, upper signs for the inner
     ring; 1/R_y = 2/D_w - 1/r_g (Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 1, ch. 2).
@@ -99,7 +106,10 @@ def hertz_shape(radius_x: float, radius_y: float) -> HertzShape:
 
 
 def _log_axis_ratio(log_target: float) -> float:
-    """Return ln(kappa) of ln(R_major/R_minor) by the secant method: both grow together, almost in proportion."""
+    """Return ln(kappa) of ln(R_major/R_minor).
+
+    By the secant method; both grow together, almost in proportion.
+    """
 
     def residual(log_kappa: float) -> float:
         # (kappa^2 E - K)/(K - E) = kappa^2 (K - D)/D with D = (K - E)/m: no cancellation near the circle
@@ -116,7 +126,9 @@ def _log_axis_ratio(log_target: float) -> float:
 
 
 def _integrals(log_kappa: float) -> tuple[float, float]:
-    """Return K(m) and (K - E)/(m K) at m = 1 - exp(-2 log_kappa).
+    """Return both elliptic integrals of an axis ratio.
+
+    K(m) and (K - E)/(m K) at m = 1 - exp(-2 log_kappa).
 
     By the arithmetic-geometric mean, K = pi/(2 agm(1, k')) and (K - E)/K = sum of 2^(n-1) c_n^2 with c_0^2 = m,
     c_(n+1) = c_n^2/(4 a_(n+1)) (Abramowitz and Stegun 1964, 17.6): every term is positive.
@@ -134,7 +146,9 @@ def _integrals(log_kappa: float) -> tuple[float, float]:
 
 
 def hertz_contact(load: float, radius_x: float, radius_y: float, e_eff: float) -> HertzContact:
-    """Ellipse, pressure and approach of an elliptic contact under `load` [N] (Johnson 1985, eq. 4.26).
+    """Return ellipse, pressure and approach of a contact.
+
+    Elliptic, under `load` [N] (Johnson 1985, eq. 4.26).
 
     semi_minor^3 = 6 Q R' E(m)/(pi kappa E'), p_max = 3 Q/(2 pi a b), approach = 3 Q K(m)/(pi semi_major E'),
     1/R' = 1/R_x + 1/R_y.
@@ -155,11 +169,17 @@ def _contact(load: float, radius_x: float, radius_y: float, e_eff: float, shape:
 
 
 def load_at_pressure(p_max: float, radius_x: float, radius_y: float, e_eff: float) -> float:
-    """Return the load [N] at which the contact's maximum pressure is `p_max` [Pa]; p_max grows with Q^(1/3)."""
+    """Return the load [N] at a maximum pressure.
+
+    The pressure is `p_max` [Pa]; it grows with Q^(1/3).
+    """
     unit = hertz_contact(1.0, radius_x, radius_y, e_eff)
     return (p_max / unit.p_max) ** 3
 
 
 def stiffness_constant(radius_x: float, radius_y: float, e_eff: float) -> float:
-    """Return K [N/m^1.5] of Q = K delta^1.5 for one contact."""
+    """Return the stiffness constant K of one contact.
+
+    K [N/m^1.5] of Q = K delta^1.5.
+    """
     return float(hertz_contact(1.0, radius_x, radius_y, e_eff).approach ** -1.5)

@@ -16,7 +16,10 @@ from lambda_core.domain.arrays import FloatArray
 
 @dataclass(frozen=True)
 class FrequencyOrders:
-    """Characteristic frequencies per revolution of the inner ring, outer ring fixed."""
+    """Characteristic frequencies per inner ring revolution.
+
+    The outer ring is fixed.
+    """
 
     cage: float  # FTF
     outer_pass: float  # BPFO
@@ -31,14 +34,19 @@ def diameter_ratio(ball_diameter: float, pitch_diameter: float, contact_angle: f
 
 
 def cage_speed(inner_speed: float, outer_speed: float, gamma: float) -> float:
-    """Orbital speed of balls and cage [rad/s]: [omega_i (1 - gamma) + omega_o (1 + gamma)]/2 (Harris ch. 10)."""
+    """Return the orbital speed of balls [rad/s].
+
+    It is that of the cage: [omega_i (1 - gamma) + omega_o (1 + gamma)]/2 (Harris ch. 10).
+    """
     return 0.5 * (inner_speed * (1.0 - gamma) + outer_speed * (1.0 + gamma))
 
 
 def rolling_ratio(
     load: FloatArray, angle: FloatArray, radius: FloatArray, spin: FloatArray, orbit: FloatArray, ball_diameter: float
 ) -> float:
-    """Cage speed over inner ring speed of balls that roll at both raceways, both against the outer ring.
+    """Return the cage speed over inner ring speed.
+
+    For balls that roll at both raceways, both speeds against the outer ring.
 
     A ball whose own axis leans by b against the shaft rolls where R omega_b cos(a - b) is the speed of the raceway
     past it: omega_c/omega = r_i cos(a_o - b)/[r_i cos(a_o - b) + r_o cos(a_i - b)], r_i = r - R cos(a_i),
@@ -76,7 +84,9 @@ def rolling_ratio(
 def ball_speed(
     inner_speed: float, outer_speed: float, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
 ) -> float:
-    """Speed of a ball about its own axis relative to the cage [rad/s], positive like a forward-turning inner ring's.
+    """Return the spin of a ball [rad/s].
+
+    About its own axis relative to the cage, positive like a forward-turning inner ring's.
 
     -(d_m/(2 D_w)) (1 - gamma^2) (omega_i - omega_o) (Harris ch. 10, with the sign: an inner ring that turns
     forward turns the balls backward).
@@ -88,7 +98,9 @@ def ball_speed(
 def entrainment_speed(
     inner_speed: float, outer_speed: float, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
 ) -> float:
-    """Mean surface speed (u_1 + u_2)/2 in the contact's frame [m/s], the same at both raceways.
+    """Return the mean surface speed of a contact [m/s].
+
+    (u_1 + u_2)/2 in the contact's frame, the same at both raceways.
 
     (d_m/4) (1 - gamma^2) |omega_i - omega_o|: the "hydrodynamic speed" from geometry alone (Barz 1996, as used
     in Syla et al. 2026, section 4.3).
@@ -100,7 +112,9 @@ def entrainment_speed(
 def frequency_orders(
     ball_count: int, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
 ) -> FrequencyOrders:
-    """Orders of the characteristic frequencies: multiply by (omega_i - omega_o)/(2 pi) for Hz.
+    """Return the orders of the characteristic frequencies.
+
+    Multiply by (omega_i - omega_o)/(2 pi) for Hz.
 
     The cage order is relative to a fixed outer ring.
     """

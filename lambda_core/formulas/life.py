@@ -77,7 +77,7 @@ class EquivalentLoad:
 
 
 def _interpolate(x: float, xs: Sequence[float], ys: Sequence[float]) -> float:
-    """Linear between the table's points, constant outside."""
+    """Interpolate between the table's points, constant outside."""
     if x <= xs[0]:
         return ys[0]
     if x >= xs[-1]:
@@ -97,7 +97,9 @@ def dynamic_equivalent_load(
     *,
     on_sphere: bool = False,
 ) -> EquivalentLoad:
-    """Dynamic equivalent radial load P (ISO 281:2007, 5.3 and table 3).
+    """Return the dynamic equivalent radial load P.
+
+    ISO 281:2007, 5.3 and table 3.
 
     P = F_r for F_a/F_r <= e, else X F_r + Y F_a, with e and Y of radial contact (X = 0.56) and of 15 degrees
     interpolated in f_0 F_a/C_0r (outside the table its first or last column, as the standard allows no extrapolation).
@@ -128,7 +130,10 @@ def dynamic_equivalent_load(
 
 
 def _factors(relative: float, angle: float) -> tuple[float, float, float]:
-    """Return e, X and Y of single-row ball bearings of a contact angle [deg]."""
+    """Return e, X and Y of one row.
+
+    Single-row ball bearings of a contact angle [deg].
+    """
     radial = (
         _interpolate(relative, _RELATIVE_AXIAL, _LIMIT),
         _RADIAL_FACTOR,
@@ -146,7 +151,10 @@ def _factors(relative: float, angle: float) -> tuple[float, float, float]:
 
 
 def _two_rows(limit: float, radial_factor: float, axial_factor: float, angle: float) -> tuple[float, float, float]:
-    """Return Y up to e, and X and Y above, of two rows from e, X and Y of one of that angle [deg]."""
+    """Return the factors Y, X, Y of two rows.
+
+    Y up to e, and X and Y above, from e, X and Y of one row of that angle [deg].
+    """
     if angle < _TWO_ROWS[0][0]:
         return 0.625 / limit, 1.625 * radial_factor, 1.625 * axial_factor
     angles = [row[0] for row in _TWO_ROWS]
@@ -157,7 +165,9 @@ def _two_rows(limit: float, radial_factor: float, axial_factor: float, angle: fl
 def static_equivalent_load(
     radial_load: float, axial_load: float, contact_angle: float = 0.0, rows: int = 1, *, on_sphere: bool = False
 ) -> float:
-    """Static equivalent radial load P_0 = max(X_0 F_r + Y_0 F_a, F_r) [N] (ISO 76:2006, table 2).
+    """Return the static equivalent radial load P_0 [N].
+
+    max(X_0 F_r + Y_0 F_a, F_r) (ISO 76:2006, table 2).
 
     0.6 and 0.5 for radial contact; X_0 = 0.5 and Y_0 by the angle from 15 degrees on, where smaller angles count as 15;
     of two rows X_0 = 1 and twice that Y_0; of self-aligning bearings F_r + 0.44 cot(alpha) F_a.
@@ -172,7 +182,9 @@ def static_equivalent_load(
 
 
 def system_life(lives: Sequence[float], exponent: float = 10.0 / 9.0) -> float:
-    """Life that 90 % of sets of bearings reach: (sum L_i^-e)^(-1/e), in the unit of `lives`.
+    """Return the life of a set of bearings.
+
+    90 % of sets reach it: (sum L_i^-e)^(-1/e), in the unit of `lives`.
 
     The product of their Weibull survivals; e = 10/9 for balls (Lundberg and Palmgren 1947; Harris and Kotzalas 2006).
     """
@@ -181,21 +193,29 @@ def system_life(lives: Sequence[float], exponent: float = 10.0 / 9.0) -> float:
 
 
 def basic_rating_life(dynamic_rating: float, equivalent_load: float) -> float:
-    """L_10 = (C/P)^3 [1e6 revolutions] (ISO 281:2007, eq. for ball bearings)."""
+    """Return the rating life L_10 [1e6 revolutions].
+
+    (C/P)^3 (ISO 281:2007, eq. for ball bearings).
+    """
     if equivalent_load <= 0.0:
         return math.inf
     return (dynamic_rating / equivalent_load) ** 3
 
 
 def life_hours(million_revolutions: float, speed: float) -> float:
-    """Life in hours at the relative speed of the rings [rad/s]; infinite at rest."""
+    """Return a life in hours.
+
+    At the relative speed of the rings [rad/s]; infinite at rest.
+    """
     if speed == 0.0:
         return math.inf
     return million_revolutions * 1e6 * 2.0 * math.pi / abs(speed) / 3600.0
 
 
 def contamination_range(level: str, pitch_diameter: float) -> tuple[float, float]:
-    """Lowest and highest e_C of a contamination level (ISO 281:2007, table 13).
+    """Return lowest and highest e_C of a contamination.
+
+    Of its level (ISO 281:2007, table 13).
 
     Raises
     ------
@@ -210,7 +230,9 @@ def contamination_range(level: str, pitch_diameter: float) -> tuple[float, float
 
 
 def reference_viscosity(speed: float, pitch_diameter: float) -> float:
-    """Reference kinematic viscosity nu_1 [m2/s] (ISO 281:2007, 9.3.3.2).
+    """Return the reference kinematic viscosity nu_1 [m2/s].
+
+    ISO 281:2007, 9.3.3.2.
 
     45000 n^-0.83 D_pw^-0.5 below 1000 1/min, 4500 n^-0.5 D_pw^-0.5 above (mm2/s, 1/min, mm).
 
@@ -229,7 +251,10 @@ def reference_viscosity(speed: float, pitch_diameter: float) -> float:
 
 
 class LifeFactorNumbers(NamedTuple):
-    """Numbers of the factor a_ISO for one kind of bearing, in the formula of :func:`life_modification_factor`."""
+    """Numbers of the factor a_ISO.
+
+    For one kind of bearing, in the formula of :func:`life_modification_factor`.
+    """
 
     level: float
     film: float
@@ -291,7 +316,10 @@ def life_modification_factor(
 
 @dataclass(frozen=True)
 class ReferenceLife:
-    """Basic reference rating life of ISO/TS 16281 with what it was made of."""
+    """Basic reference rating life of ISO/TS 16281.
+
+    It has its inputs, too.
+    """
 
     life: float  # L_10r [1e6 revolutions]
     equivalent_load: float  # P_ref,r [N]: the radial load of equal basic rating life
@@ -310,7 +338,9 @@ def ball_capacities(
     nominal_angle: float = 0.0,
     rows: int = 1,
 ) -> tuple[float, float]:
-    """Rolling element loads (Q_ci, Q_ce) for the basic dynamic load rating [N] (ISO/TS 16281:2008, eq. 19-20).
+    """Return the rolling element loads (Q_ci, Q_ce).
+
+    For the basic dynamic load rating [N] (ISO/TS 16281:2008, eq. 19-20).
 
     Q_ci = C/(0.407 Z cos(alpha) i^0.7) (1 + t^(10/3))^0.3 and Q_ce = C/(0.389 Z cos(alpha) i^0.7)
     (1 + t^(-10/3))^0.3, t = 1.044 [(1-g)/(1+g)]^1.72 [(r_i/r_e)(2 r_e - D_w)/(2 r_i - D_w)]^0.41. The numbers
@@ -335,7 +365,9 @@ def reference_rating_life(
     nominal_angle: float = 0.0,
     rows: int = 1,
 ) -> ReferenceLife:
-    """Basic reference rating life L_10r from the load of every ball (ISO/TS 16281:2008, eq. 21-29).
+    """Return the basic reference rating life L_10r.
+
+    From the load of every ball (ISO/TS 16281:2008, eq. 21-29).
 
     L_10r = [(Q_ci/Q_ei)^(-10/3) + (Q_ce/Q_ee)^(-10/3)]^(-9/10). On the ring that rotates relative to the load the
     mean has the exponent 3, on the other 10/3.

@@ -13,7 +13,10 @@ CARRYING = 0.01
 
 
 def carries(inner: ArrayLike) -> NDArray[np.bool_]:
-    """Mark the balls that carry load between the rings: see :func:`loaded_balls`."""
+    """Mark the balls that carry load.
+
+    Between the rings; see :func:`loaded_balls`.
+    """
     load = np.asarray(inner, float)
     return np.asarray(load > CARRYING * load.max(initial=0.0))
 
@@ -35,7 +38,9 @@ def loaded_balls(inner: ArrayLike) -> int:
 
 
 def largest_contact(load: ArrayLike) -> tuple[float, Ring]:
-    """Return the largest contact load Q_max [N] and the ring that it stands at.
+    """Return Q_max [N] and its ring.
+
+    It is the largest contact load.
 
     Parameters
     ----------

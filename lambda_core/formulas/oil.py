@@ -17,13 +17,18 @@ _WALTHER_SHIFT = 0.7  # [mm2/s], ASTM D341 above 2 mm2/s
 
 @dataclass(frozen=True)
 class Walther:
-    """Kinematic viscosity over temperature, log10 log10(nu + 0.7) = a - b log10(T), nu in mm2/s, T in K."""
+    """Kinematic viscosity over temperature after Walther.
+
+    log10 log10(nu + 0.7) = a - b log10(T), nu in mm2/s, T in K.
+    """
 
     a: float
     b: float
 
     def kinematic_viscosity(self, temperature: float) -> float:
-        """Kinematic viscosity [m2/s] at a temperature [K].
+        """Return the kinematic viscosity [m2/s].
+
+        At a temperature [K].
 
         Raises
         ------
@@ -39,7 +44,10 @@ class Walther:
         return float(nu * 1e-6)
 
     def log_slope(self, temperature: float) -> float:
-        """-d ln(nu)/dT [1/K] at a temperature [K]."""
+        """Return -d ln(nu)/dT [1/K].
+
+        At a temperature [K].
+        """
         shifted = self.kinematic_viscosity(temperature) * 1e6 + _WALTHER_SHIFT
         nu = shifted - _WALTHER_SHIFT
         return self.b / temperature * math.log(shifted) * shifted / nu
@@ -73,12 +81,18 @@ def walther(temperature_1: float, viscosity_1: float, temperature_2: float, visc
 
 
 def density(temperature: float, density_15: float, slope: float) -> float:
-    """Density at ambient pressure [kg/m3]: rho_15 + slope (T - 15 degC), slope in kg/(m3 K), negative."""
+    """Return the density at ambient pressure [kg/m3].
+
+    rho_15 + slope (T - 15 degC), slope in kg/(m3 K), negative.
+    """
     return density_15 + slope * (temperature - (_ZERO_CELSIUS + 15.0))
 
 
 def viscosity_grade_midpoint(grade: int) -> float:
-    """Kinematic viscosity [m2/s] at 40 degC of an ISO viscosity grade: its number in mm2/s (ISO 3448)."""
+    """Return the viscosity of an ISO grade [m2/s].
+
+    Kinematic, at 40 degC: its number in mm2/s (ISO 3448).
+    """
     return grade * 1e-6
 
 
@@ -92,7 +106,9 @@ GOLD: dict[str, tuple[float, float]] = {
 
 
 def gold_alpha(kinematic_viscosity: float, s: float, t: float) -> float:
-    """Pressure-viscosity coefficient [1/Pa] after Gold et al. 2001: s nu^t (1/GPa, nu in mm2/s).
+    """Return the pressure-viscosity coefficient after Gold [1/Pa].
+
+    Gold et al. 2001: s nu^t (1/GPa, nu in mm2/s).
 
     A secant coefficient, ln(eta(p)/eta_0)/p over 0 to 0.2 GPa, at the temperature of `kinematic_viscosity` [m2/s].
     """
@@ -103,18 +119,26 @@ LogViscosity = Callable[[float], float]
 
 
 def alpha_tangent(log_viscosity: LogViscosity, step: float = 1e5) -> float:
-    """alpha_0 = d ln(eta)/dp at p = 0 [1/Pa]; forward difference of second order over `step` [Pa]."""
+    """Return the tangent coefficient alpha_0 [1/Pa].
+
+    d ln(eta)/dp at p = 0, by a forward difference of second order over `step` [Pa].
+    """
     f0, f1, f2 = (log_viscosity(p) for p in (0.0, step, 2.0 * step))
     return (-3.0 * f0 + 4.0 * f1 - f2) / (2.0 * step)
 
 
 def alpha_secant(log_viscosity: LogViscosity, pressure: float = 0.2e9) -> float:
-    """Secant coefficient ln(eta(p)/eta_0)/p [1/Pa], by custom at 0.2 GPa (Gold's definition)."""
+    """Return the secant coefficient [1/Pa].
+
+    ln(eta(p)/eta_0)/p, by custom at 0.2 GPa (Gold's definition).
+    """
     return (log_viscosity(pressure) - log_viscosity(0.0)) / pressure
 
 
 def alpha_reciprocal(log_viscosity: LogViscosity, highest: float = 3e9) -> float:
-    """Reciprocal asymptotic isoviscous pressure coefficient [1/Pa]: 1 / int_0^inf eta_0/eta dp (Blok 1963).
+    """Return the reciprocal pressure coefficient [1/Pa].
+
+    Asymptotic isoviscous: 1 / int_0^inf eta_0/eta dp (Blok 1963).
 
     Integrated to `highest` [Pa]; the tail beyond is added as an exponential with the last slope.
     """

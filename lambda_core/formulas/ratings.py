@@ -25,14 +25,19 @@ SELF_ALIGNING_REDUCTION, SELF_ALIGNING_CONFORMITY = 1.0, 0.53
 
 
 def sphere_conformity(gamma: float) -> float:
-    """Radius of the spherical outer raceway over the ball diameter, (1 + 1/gamma)/2, gamma = D_w cos(alpha)/D_pw."""
+    """Return the relative radius of a spherical raceway.
+
+    Outer raceway over the ball diameter, (1 + 1/gamma)/2, gamma = D_w cos(alpha)/D_pw.
+    """
     return 0.5 * (1.0 + 1.0 / gamma)
 
 
 def conformity_term(
     gamma: float, inner_conformity: float, outer_conformity: float, *, coefficient: float = 1.04
 ) -> float:
-    """Ratio of the raceways' capacities, Q_ci/Q_ce (ISO/TR 1281-1; ISO/TS 16281 writes the coefficient 1.044).
+    """Return the ratio of the raceways' capacities.
+
+    Q_ci/Q_ce (ISO/TR 1281-1; ISO/TS 16281 writes the coefficient 1.044).
 
     1.04 [(1-g)/(1+g)]^1.72 [(r_i/r_e) (2 r_e - D_w)/(2 r_i - D_w)]^0.41 with conformities f = r/D_w.
     """
@@ -46,7 +51,9 @@ def dynamic_factor(
     outer_conformity: float = 0.52,
     reduction: float = REDUCTION_FACTOR,
 ) -> float:
-    """Factor f_c of ISO 281 (N, mm; without b_m) in closed form (Lundberg and Palmgren 1947; ISO/TR 1281-1).
+    """Return the factor f_c of ISO 281.
+
+    N, mm, without b_m, in closed form (Lundberg and Palmgren 1947; ISO/TR 1281-1).
 
     f_c = 0.41 * 98.0665 lambda {1 + [Q_ci/Q_ce]^(10/3)}^-0.3 g^0.3 (1-g)^1.39/(1+g)^(1/3)
     [2 r_i/(2 r_i - D_w)]^0.41
@@ -76,7 +83,10 @@ def dynamic_factor(
 
 
 def sphere_factor(gamma: float) -> float:
-    """Factor f_c of ISO 281 for self-aligning ball bearings (N, mm; without b_m); see :func:`dynamic_factor`."""
+    """Return f_c of self-aligning ball bearings.
+
+    ISO 281 (N, mm; without b_m); see :func:`dynamic_factor`.
+    """
     return dynamic_factor(gamma, SELF_ALIGNING_CONFORMITY, sphere_conformity(gamma), SELF_ALIGNING_REDUCTION)
 
 
@@ -92,7 +102,9 @@ def dynamic_rating(
     rows: int = 1,
     on_sphere: bool = False,
 ) -> float:
-    """Basic dynamic radial load rating C_r [N] (ISO 281, eq. for radial ball bearings).
+    """Return the dynamic load rating C_r [N].
+
+    Basic radial rating (ISO 281, eq. for radial ball bearings).
 
     C_r = b_m f_c (i cos alpha)^0.7 Z^(2/3) D_w^1.8, with 3.647 D_w^1.4 in place of D_w^1.8 above 25.4 mm (mm, N);
     Z balls in each of i rows. Makers rate four-point contact as two rows. Of self-aligning bearings conformities follow
@@ -110,7 +122,9 @@ def dynamic_rating(
 def static_factor(
     gamma: float, inner_conformity: float = 0.52, outer_conformity: float = 0.53, *, on_sphere: bool = False
 ) -> float:
-    """Factor f_0 of ISO 76 (N, mm) from Hertz theory (ISO/TR 10657).
+    """Return the factor f_0 of ISO 76.
+
+    N, mm, from Hertz theory (ISO/TR 10657).
 
     The ball load Q at which the more heavily loaded raceway reaches 4200 MPa (E = 207 GPa, nu = 0.3), and
     Stribeck's Q_max = 5 F_r/(Z cos alpha): f_0 = Q/(5 D_w^2). Reproduces the standard's table within 0.053. Of
@@ -142,14 +156,19 @@ def static_rating(
     rows: int = 1,
     on_sphere: bool = False,
 ) -> float:
-    """Basic static radial load rating C_0r = f_0 i Z D_w^2 cos(alpha) [N] of i rows (ISO 76)."""
+    """Return the static load rating C_0r [N].
+
+    Basic radial rating f_0 i Z D_w^2 cos(alpha) of i rows (ISO 76).
+    """
     gamma = ball_diameter * math.cos(contact_angle) / pitch_diameter
     factor = static_factor(gamma, inner_conformity, outer_conformity, on_sphere=on_sphere) * rows
     return factor * ball_count * (ball_diameter * 1e3) ** 2 * math.cos(contact_angle)
 
 
 def fatigue_load_limit(static_load_rating: float, pitch_diameter: float) -> float:
-    """Fatigue load limit C_u [N] of a ball bearing, simplified method of ISO 281:2007, B.3.2.
+    """Return the fatigue load limit C_u [N].
+
+    Of a ball bearing, simplified method of ISO 281:2007, B.3.2.
 
     C_0/22 up to D_pw = 100 mm, C_0/22 (100 mm/D_pw)^0.5 above.
     """

@@ -135,7 +135,9 @@ def _split(tolerance_class: str, known: tuple[str, ...], what: str) -> tuple[str
 
 
 def shaft_deviations(diameter: float, tolerance_class: str) -> Limits:
-    """Return the limit deviations (ei, es) [m] of a shaft of `diameter` [m], for example ``"k5"`` (ISO 286-1).
+    """Return the limit deviations of a shaft [m].
+
+    (ei, es) of a shaft of `diameter` [m], for example ``"k5"`` (ISO 286-1).
 
     Raises
     ------
@@ -153,7 +155,9 @@ def shaft_deviations(diameter: float, tolerance_class: str) -> Limits:
 
 
 def housing_deviations(diameter: float, tolerance_class: str) -> Limits:
-    """Return the limit deviations (EI, ES) [m] of a housing bore of `diameter` [m], for example ``"H7"`` (ISO 286-1).
+    """Return the limit deviations of a housing [m].
+
+    (EI, ES) of a bore of `diameter` [m], for example ``"H7"`` (ISO 286-1).
 
     Raises
     ------
@@ -173,7 +177,10 @@ def housing_deviations(diameter: float, tolerance_class: str) -> Limits:
 
 
 def _upper_of_tight_hole(letter: str, grade: int, step: int) -> int:
-    """ES of holes K to P [um]: -ei + IT_n - IT_(n-1); up to 3 mm -ei; M6 of 250 to 315 mm is -9 by exception."""
+    """Return ES of holes K to P [um].
+
+    -ei + IT_n - IT_(n-1); up to 3 mm -ei; M6 of 250 to 315 mm is -9 by exception.
+    """
     if letter == "M" and grade == 6 and _STEPS[step] == 315:
         return -9
     delta = 0 if step == 0 else _IT[grade][step] - _IT[grade - 1][step]
@@ -191,10 +198,16 @@ def _normal_class(diameter: float, table: tuple[tuple[int, int], ...], what: str
 
 
 def bore_deviations(bore_diameter: float) -> Limits:
-    """Limit deviations of a bearing's mean bore [m], ISO 492 normal class."""
+    """Return the limit deviations of a bore [m].
+
+    A bearing's mean bore, ISO 492 normal class.
+    """
     return _normal_class(bore_diameter, _BORE, "bore")
 
 
 def outside_deviations(outside_diameter: float) -> Limits:
-    """Limit deviations of a bearing's mean outside diameter [m], ISO 492 normal class."""
+    """Return the deviations of an outside diameter [m].
+
+    Limits of a bearing's mean outside diameter, ISO 492 normal class.
+    """
     return _normal_class(outside_diameter, _OUTSIDE, "outside diameter")

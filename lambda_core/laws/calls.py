@@ -30,7 +30,10 @@ class _EndlessError(Exception):
 
 @contextmanager
 def _ending(most: int) -> Iterator[None]:
-    """Count the lines that Python executes within, and end what takes more than `most`; not with a debugger."""
+    """Limit the lines that Python executes within.
+
+    More than `most` lines end the code; a debugger prevents this.
+    """
     before = sys.gettrace()
     if before is not None:
         yield
@@ -54,7 +57,10 @@ def _ending(most: int) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Status and outputs of one call, or the end of a sentence about what it did wrong."""
+    """Status and outputs of one call.
+
+    Or the end of a sentence about its fault.
+    """
 
     status: int = 0
     outputs: tuple[FloatArray, ...] = ()
@@ -63,7 +69,10 @@ class Outcome:
 
 
 def plain_call(kernel: Callable[..., int], role: Role, arguments: list[Any]) -> Outcome:
-    """Call the kernel in plain Python on copies whose inputs cannot be written."""
+    """Call the kernel in plain Python.
+
+    It gets copies whose inputs cannot be written.
+    """
     copies = [np.array(value) if isinstance(value, np.ndarray) else value for value in arguments]
     for argument, value in zip(role.arguments, copies, strict=True):
         if isinstance(value, np.ndarray) and not argument.output:
@@ -97,13 +106,18 @@ def plain_call(kernel: Callable[..., int], role: Role, arguments: list[Any]) -> 
 
 
 def handed_over(role: Role, arguments: list[Any]) -> list[Any]:
-    """Return arguments of one contact as compiled laws take them: numbers in which contacts differ as arrays of one."""
+    """Return the arguments of one contact.
+
+    As compiled laws take them: numbers in which contacts differ are arrays of one.
+    """
     pairs = zip(role.arguments, arguments, strict=True)
     return [np.array([value]) if argument.each else value for argument, value in pairs]
 
 
 def compiled_call(dispatcher: Callable[..., int], role: Role, arguments: list[Any]) -> Outcome:
-    """Call the compiled kernel twice on arrays that stand between guard cells.
+    """Call the compiled kernel twice.
+
+    Its arrays are between guard cells.
 
     The outputs are filled with NaN the first time and with a number the second: a kernel
     that reads its outputs, or keeps a state, answers differently.
@@ -133,7 +147,10 @@ def compiled_call(dispatcher: Callable[..., int], role: Role, arguments: list[An
 
 
 def relative_difference(found: tuple[FloatArray, ...], expected: tuple[FloatArray, ...]) -> float:
-    """Return the largest difference relative to the larger magnitude (NaN equals NaN)."""
+    """Return the largest relative difference.
+
+    Relative to the larger magnitude (NaN equals NaN).
+    """
     worst = 0.0
     for one, other in zip(found, expected, strict=True):
         scale = np.maximum(np.abs(one), np.abs(other))

@@ -46,7 +46,7 @@ SLOW_CELL = 1e-6  # per cell of an elementwise role [s]
 
 @dataclass(frozen=True)
 class ModelReport:
-    """What came out of trying one model.
+    """Result of a model's test.
 
     Attributes
     ----------
@@ -70,12 +70,14 @@ class ModelReport:
 
     @property
     def ok(self) -> bool:
-        """Whether the model may be used."""
+        """True if the model may be used."""
         return not self.faults
 
 
 def check_choice(model: Law, par: FloatArray, compiled: CompiledKernel | None = None, samples: int = 12) -> None:
-    """Check a chosen model with the `par` of the run; a few milliseconds.
+    """Check a model with the run's `par`.
+
+    It takes a few milliseconds.
 
     Raises
     ------
@@ -131,7 +133,9 @@ def check_model(
 
 
 def parameters_of(model: Law, parameters: BaseModel | Mapping[str, Any] | None) -> BaseModel:
-    """Return validated parameters from an instance, what a case file would say, or the defaults.
+    """Return validated parameters of a law.
+
+    From an instance, values of a case file, or the defaults.
 
     Raises
     ------
@@ -148,7 +152,10 @@ def parameters_of(model: Law, parameters: BaseModel | Mapping[str, Any] | None) 
 
 
 def _faults(model: Law, par: FloatArray, compiled: CompiledKernel | None, samples: int) -> Iterator[str]:
-    """Yield every fault that can be reported safely; those that make machine code unsafe end the search."""
+    """Yield every fault that can be reported safely.
+
+    Faults that make machine code unsafe end the search.
+    """
     role = ROLES[model.role]
     for code in kernel_reach(model).codes:
         if raises(code):
@@ -196,7 +203,10 @@ def _faults(model: Law, par: FloatArray, compiled: CompiledKernel | None, sample
 
 
 def _fault_of(model: Law, role: Role, arguments: list[Any], expected: Outcome, found: Outcome) -> str:
-    """Say what is wrong with one outcome in machine code, or nothing."""
+    """Report the fault of one machine code result.
+
+    Or nothing.
+    """
     if found.error:
         return found.error
     if found.status != 1 and found.status not in model.errors:
@@ -217,7 +227,10 @@ def _fault_of(model: Law, role: Role, arguments: list[Any], expected: Outcome, f
 
 
 def _value_fault(model: Law, role: Role, arguments: list[Any], found: Outcome) -> str:
-    """Say which output is not finite, out of its bounds or of the wrong sign."""
+    """Report an output with a wrong value.
+
+    It is not finite, out of its bounds or of the wrong sign.
+    """
     names = [argument.name for argument in role.arguments]
     for index, values in _by_meaning(role, found.outputs):
         meaning = role.outputs[min(index, len(role.outputs) - 1)]
@@ -272,7 +285,10 @@ def _cell_faults(model: Law, role: Role, kernel: Callable[..., int], trials: lis
 
 
 def _rest_faults(model: Law, role: Role, machine: CompiledKernel, arguments: list[Any]) -> Iterator[str]:
-    """Check that an elementwise output vanishes at rest where it must."""
+    """Check that an elementwise output vanishes at rest.
+
+    Only where it must.
+    """
     name = role.vanishes_with
     if name:
         still = [
@@ -287,7 +303,10 @@ def _rest_faults(model: Law, role: Role, machine: CompiledKernel, arguments: lis
 def _slope_faults(
     model: Law, role: Role, machine: CompiledKernel, trials: list[list[Any]], slope: tuple[int, int, str]
 ) -> Iterator[str]:
-    """Compare an output with the central differences of another; where two steps disagree there is a bend: left out."""
+    """Compare an output with another one's differences.
+
+    They are central; where two steps disagree there is a bend, which is left out.
+    """
     index, of, name = slope
     place = [argument.name for argument in role.arguments].index(name)
 
@@ -311,7 +330,10 @@ def _slope_faults(
 
 
 def _where(model: Law, role: Role, arguments: list[Any]) -> str:
-    """Write the inputs of a call: scalars, the ends of arrays, and the states of the contact."""
+    """Write the inputs of a call.
+
+    Scalars, the ends of arrays, and the states of the contact.
+    """
     words = []
     for argument, value in zip(role.arguments, arguments, strict=True):
         if argument.output:
@@ -327,7 +349,10 @@ def _where(model: Law, role: Role, arguments: list[Any]) -> str:
 
 
 def time_per_call(model: Law, par: FloatArray) -> float:
-    """Return the time of one call, or per cell of an elementwise role, best of several [s]."""
+    """Return the time of one call [s].
+
+    Or per cell of an elementwise role, best of several.
+    """
     role = ROLES[model.role]
     cells = 512 if role.elementwise else 1
     arguments = handed_over(role, draw(role, par, cells, np.random.default_rng(1), len(model.states)))

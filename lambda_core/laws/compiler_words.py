@@ -13,7 +13,10 @@ _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
 def gist(error: Exception) -> str:
-    """Return what a Numba error says about the plugin's own code: the innermost function's fault and its place."""
+    """Return a Numba error's report on plugin code.
+
+    It has the innermost function's fault and its place.
+    """
     lines = [line.strip() for line in _COLOUR.sub("", str(error)).splitlines()]
     start = max((n for n, line in enumerate(lines) if line.startswith("Rejected as")), default=-1)
     places = [line for line in lines[start + 1 :] + lines[start::-1] if line.startswith("File ")]

@@ -41,7 +41,9 @@ class Oil:
 
 @dataclass(frozen=True)
 class Context:
-    """Everything a law's `prepare` may look at: frozen geometry, materials and oil, SI.
+    """Set-up for a law's `prepare`.
+
+    Frozen geometry, materials and oil, SI.
 
     Lengths that a force element does not have are NaN (a cage contact has no groove).
     """

@@ -35,7 +35,10 @@ Announce = Callable[[str], None]
 
 
 def cache_folder() -> Path:
-    """Return the folder of all compiled code: ``LAMBDA_BEARING_CACHE`` or the user's cache."""
+    """Return the folder of all compiled code.
+
+    ``LAMBDA_BEARING_CACHE`` or the user's cache.
+    """
     if base := os.environ.get("LAMBDA_BEARING_CACHE"):
         return Path(base).expanduser() / "kernels"
     import platformdirs
@@ -44,7 +47,10 @@ def cache_folder() -> Path:
 
 
 def _without_indices(hook: Callable[[Any], object]) -> Callable[[Any], object]:
-    """Return a hook without the words of a checked index: the solver names the law that raised it."""
+    """Return a hook without a checked index.
+
+    The solver names the law that raised it.
+    """
     return hook if getattr(hook, "is_quiet", False) else _QuietHook(hook)
 
 
@@ -88,7 +94,10 @@ class CompiledKernel:
 
 
 def signature(role: str) -> Any:
-    """Return the Numba signature of the kernels of `role`: ``int64(float64 or float64[::1], ...)``."""
+    """Return the Numba signature of `role`.
+
+    Of its kernels: ``int64(float64 or float64[::1], ...)``.
+    """
     if role not in ROLES:
         raise PluginError(unknown_name("role", role, ROLES))
     from lambda_core.laws.jit.machine_code import role_signature
@@ -113,7 +122,10 @@ def kernel_reach(model: Law) -> Reach:
 
 
 def plain_function(model: Law) -> FunctionType:
-    """Return a law's kernel; PluginError when it is no plain Python function."""
+    """Return a law's kernel.
+
+    PluginError when it is no plain Python function.
+    """
     if not isinstance(model.kernel, FunctionType):
         raise PluginError(
             f"{model.label}: the kernel is a {type(model.kernel).__name__}: write a plain Python function "
@@ -123,7 +135,9 @@ def plain_function(model: Law) -> FunctionType:
 
 
 def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKernel:
-    """Compile a model's kernel, or load it from disk; that of a built-in law may be in the pack of the installation.
+    """Compile a model's kernel or load it.
+
+    A built-in law may be in the pack of the installation.
 
     Parameters
     ----------
@@ -176,7 +190,10 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
 
 
 def _packed(model: Law, key: str, start: float) -> CompiledKernel | None:
-    """Return a law out of the pack of the installation, None where it is to be compiled."""
+    """Return a law from the installation's pack.
+
+    None where it is to be compiled.
+    """
     from lambda_core.laws.pack import pack
 
     found = pack()
@@ -192,7 +209,10 @@ def argument_names(role: str) -> tuple[str, ...]:
 
 
 def _check_arguments(model: Law, kernel: FunctionType) -> None:
-    """Compare names and order with the role: two swapped arrays would compile without a word."""
+    """Compare names and order with the role.
+
+    Without this two swapped arrays would compile without an error.
+    """
     if model.role not in ROLES:
         raise PluginError(unknown_name("role", model.role, ROLES))
     taken, every = inspect.signature(kernel), ROLES[model.role].arguments
@@ -212,7 +232,10 @@ _in_memory: dict[Path, CompiledKernel] = {}
 
 
 def _check_alone(model: Law, kernel: FunctionType, wanted: Any) -> None:
-    """Refuse a kernel that returns anything but a status, where the loop over contacts cannot be compiled for it."""
+    """Refuse a kernel without status.
+
+    The loop over contacts could not be compiled for it.
+    """
     from lambda_core.laws.jit import machine_code
 
     role = ROLES[model.role]
@@ -256,7 +279,10 @@ class CompiledHost:
 
 
 def sources_key(*places: Path) -> str:
-    """Return a hash (hex) of every ``*.py`` among and below `places`, names included."""
+    """Return the hash of all sources.
+
+    Hex, of every ``*.py`` among and below `places`, names included.
+    """
     digest = hashlib.sha256()
     for place in places:
         for path in [place] if place.is_file() else sorted(place.rglob("*.py")):
@@ -267,24 +293,35 @@ def sources_key(*places: Path) -> str:
 
 @cache
 def _host_content(function: Callable[..., Any], sources: tuple[Path, ...]) -> tuple[str, str]:
-    """Return the hashes of the sources and of what the entry point reaches, found once per process."""
+    """Return the hashes of the entry point's content.
+
+    Of the sources and of what it reaches, computed once per process.
+    """
     return sources_key(*sources), reach(function, lenient=True).key
 
 
 def host_key(function: Callable[..., Any], sources: tuple[Path, ...], **options: Any) -> str:
-    """Return the hash of all that :func:`compile_host` would compile for this entry point."""
+    """Return the hash of an entry point.
+
+    It covers all that :func:`compile_host` would compile.
+    """
     words = (*_host_content(function, sources), repr(sorted(options.items())))
     return hashlib.sha256("\n".join(words).encode()).hexdigest()
 
 
 def host_folder(key: str) -> Path:
-    """Return where the code of an entry point with this key is kept; exists once it was compiled."""
+    """Return the code folder of a key.
+
+    The entry point has this key; the folder exists once it was compiled.
+    """
     return cache_folder() / f"host-{key[:24]}-{environment()}"
 
 
 @contextmanager
 def _one_at_a_time(folder: Path) -> Iterator[None]:
-    """Let one process compile into an empty folder while others wait and then load what it left.
+    """Let one process compile at a time.
+
+    It compiles into an empty folder; others wait and then load the result.
 
     Without a lock (a cache that cannot be written) each compiles for itself, which is only slower.
     """
@@ -302,7 +339,9 @@ def compile_host(
     announce: Announce | None = None,
     **options: Any,
 ) -> CompiledHost:
-    """Compile one entry point of the core for one signature, or load it from disk.
+    """Compile one entry point or load it.
+
+    It belongs to the core and has one signature.
 
     The cache folder is named by the hash of all sources in `sources`, of everything
     that `function` reaches (constants imported from elsewhere included) and of the
@@ -352,7 +391,10 @@ def compile_host(
 
 @cache
 def environment() -> str:
-    """Return the hash of what compiled code depends on beyond its sources, found once per process."""
+    """Return the hash of the environment.
+
+    Compiled code depends on it beyond its sources; computed once per process.
+    """
     from lambda_core.laws.jit.machine_code import environment_key
 
     return environment_key()

@@ -90,7 +90,10 @@ class Law:
     distribution: str = ""
 
     def __post_init__(self) -> None:
-        """Take the summary from the kernel, and keep errors and states from being changed."""
+        """Take the summary from the kernel.
+
+        Errors and states become read-only.
+        """
         doc = (self.kernel.__doc__ or "").strip().splitlines()
         object.__setattr__(self, "summary", self.summary or (doc[0] if doc else ""))
         object.__setattr__(self, "errors", MappingProxyType(dict(self.errors)))
@@ -103,14 +106,19 @@ class Law:
 
     @property
     def qualified(self) -> str:
-        """The name with its package before it, "carreau-traction:carreau", which no other package can take."""
+        """Name with its package before it.
+
+        Such as "carreau-traction:carreau", which no other package can take.
+        """
         project = project_of(self.distribution)
         return f"{project}:{self.name}" if project and project != OWN else self.name
 
 
 @dataclass(frozen=True)
 class LazyLaw:
-    """A law that is named now and imported when somebody chooses it.
+    """Law that is imported when chosen.
+
+    Its name is known before.
 
     A package with many laws registers these, so that starting the program, or running
     a case that uses other laws, does not import its modules.
@@ -363,6 +371,9 @@ def law(
 
 
 def law_of(item: object) -> Law | None:
-    """Return the law that an object is, or is the kernel of; None for any other object."""
+    """Return the law of an object.
+
+    The object is a law, or the kernel of one; None for any other object.
+    """
     found = item if isinstance(item, Law) else getattr(item, MARK, None)
     return found if isinstance(found, Law) else None

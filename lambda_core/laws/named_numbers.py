@@ -22,12 +22,18 @@ _NUMBERS = (float, int, bool)
 
 
 class RecordError(ValueError):
-    """A class or value that cannot travel as a record of numbers; the message is the end of a sentence."""
+    """Class or value that is no record.
+
+    It cannot become a record of numbers; the message is the end of a sentence.
+    """
 
 
 @dataclass(frozen=True)
 class Member:
-    """One name of a record: a number ("float", "int", "bool"), an "array", or a record of its own."""
+    """One member of a record.
+
+    A number ("float", "int", "bool"), an "array", or a record.
+    """
 
     name: str
     kind: str | Layout
@@ -65,7 +71,10 @@ def layout_of(record: type) -> Layout:
 
 
 def is_record(candidate: Any) -> bool:
-    """Tell whether a type has named members: a pydantic model, a NamedTuple or a dataclass."""
+    """Tell whether a type has named members.
+
+    A pydantic model, a NamedTuple or a dataclass.
+    """
     if not isinstance(candidate, type):
         return False
     return issubclass(candidate, BaseModel) or is_dataclass(candidate) or hasattr(candidate, "_fields")

@@ -20,7 +20,10 @@ _SINCE_2 = {
 
 
 def new_form(item: Law) -> str:
-    """Say how a law of an earlier version is written now."""
+    """Explain the present form of an old law.
+
+    The law was written for an earlier version.
+    """
     if item.role_api == 2:
         change = _SINCE_2.get(item.role)
         return f"{change}, and write role_api=3" if change else "its kernel stays as it is, write role_api=3"
@@ -32,7 +35,10 @@ def new_form(item: Law) -> str:
 
 
 def __getattr__(name: str) -> Any:
-    """Tell a plugin of version 1, which imports `model`, what to write; other names do not exist."""
+    """Explain the new form to old plugins.
+
+    A plugin of version 1 imports `model`; other names do not exist.
+    """
     if name in _GONE:
         raise PluginError(
             f"{name} belongs to version 1 of the role interface: "

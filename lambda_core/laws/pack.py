@@ -44,7 +44,10 @@ _WORDS = Array(np.dtype(np.float64))
 
 
 class _UnusableError(Exception):
-    """There is a pack that cannot be used; `is_fault` tells whether people should know."""
+    """Pack that cannot be used.
+
+    `is_fault` tells whether the user should know.
+    """
 
     def __init__(self, why: str, *, is_fault: bool = False) -> None:
         super().__init__(why)
@@ -52,7 +55,9 @@ class _UnusableError(Exception):
 
 
 class Function:
-    """A compiled function in a library: called with Python's values, and a pointer for other compiled code.
+    """Compiled function in a library.
+
+    It takes Python's values, and is a pointer for other compiled code.
 
     Parameters
     ----------
@@ -75,7 +80,9 @@ class Function:
 
 
 def kind_from(written: Any) -> Any:
-    """Return the kind of an argument from its form in a manifest.
+    """Return the kind of an argument.
+
+    From its form in a manifest.
 
     "float", "int", "function"; the attribute that has the address of a tuple; [itemsize or name of a type, dimensions]
     of an array; {"tuple": kinds}.
@@ -91,7 +98,10 @@ def kind_from(written: Any) -> Any:
 
 
 def _types(kind: Any) -> Iterator[Any]:
-    """Yield the types of the words that an argument is handed over as: arrays and tuples field by field."""
+    """Yield the word types of an argument.
+
+    Arrays and tuples go field by field.
+    """
     if isinstance(kind, tuple):
         for each in kind:
             yield from _types(each)
@@ -141,7 +151,10 @@ class Pack:
         return self._function(name, [kind_from(each) for each in self._functions[name]["kinds"]])
 
     def law(self, model: Law) -> Function | None:
-        """Return the kernel of a built-in law, None for a law that is not in the library."""
+        """Return a built-in law's kernel.
+
+        None for a law that is not in the library.
+        """
         name, kernel = law_name(model), model.kernel
         if project_of(model.distribution) != OWN or name not in self._functions:
             return None
@@ -158,7 +171,10 @@ class Pack:
 
 
 def law_name(model: Law) -> str:
-    """Return the name of a law's kernel among the functions of a pack."""
+    """Return a kernel's name in a pack.
+
+    It is the kernel of a law.
+    """
     return f"{model.role}/{model.name}"
 
 
@@ -167,7 +183,10 @@ _native: list[bool] = []  # as many as callers that want code to be compiled her
 
 @contextlib.contextmanager
 def compiled_here() -> Iterator[None]:
-    """Leave the pack out: for what needs more of the code than to be called."""
+    """Leave the pack out.
+
+    It is for callers that need more of the code than its calls.
+    """
     _native.append(True)
     try:
         yield
@@ -176,7 +195,9 @@ def compiled_here() -> Iterator[None]:
 
 
 def pack() -> Pack | None:
-    """Return the pack of this installation, None where code is compiled here.
+    """Return the pack of this installation.
+
+    None where code is compiled here.
 
     Raises
     ------
@@ -203,7 +224,9 @@ def code() -> str:
 
 
 def other_code(before: str) -> str:
-    """Return why what one code began does not go on with that of this process, and what to do; "" where it does.
+    """Explain why other code cannot go on.
+
+    One code began, and that of this process differs; the text has a remedy; "" where it can.
 
     Parameters
     ----------
@@ -221,7 +244,10 @@ def other_code(before: str) -> str:
 
 @cache
 def _opened() -> Pack | str:
-    """Return the pack, or why it cannot be used; each fault is reported once."""
+    """Return the pack or its fault.
+
+    Each fault is reported once.
+    """
     try:
         return _open(FOLDER)
     except _UnusableError as error:
@@ -282,13 +308,16 @@ def _manifest(file: Path) -> Any:
 
 
 def seal(content: Any) -> str:
-    """Return the hash by which a manifest is known to be undamaged."""
+    """Return the hash of an undamaged manifest."""
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
 @cache
 def sources() -> str:
-    """Return the hash of the sources of the packages that a pack is made from."""
+    """Return the hash of a pack's sources.
+
+    They are those of the packages that the pack is made from.
+    """
     from lambda_core.laws.kernels import sources_key
 
     found = [find_spec(home) for home in HOMES]

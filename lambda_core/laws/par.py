@@ -53,7 +53,9 @@ def par_layout(law: Law) -> Layout:
 
 
 def number_in(law: Law, par: FloatArray, name: str, otherwise: float) -> float:
-    """Return the number of a name in what :func:`make_par` returned, `otherwise` where the law has none of that name.
+    """Return a named number of :func:`make_par`'s array.
+
+    `otherwise` where the law has none of that name.
 
     It is looked for among the numbers before the first array or record.
     """
@@ -66,7 +68,9 @@ def number_in(law: Law, par: FloatArray, name: str, otherwise: float) -> float:
 
 
 def make_par(law: Law, parameters: BaseModel, context: Context) -> FloatArray:
-    """Return the flat array that stands for ``par`` in the solver, for one run and force element.
+    """Return the flat array of ``par``.
+
+    The solver uses it, for one run and force element.
 
     Parameters
     ----------
@@ -110,7 +114,9 @@ def make_par(law: Law, parameters: BaseModel, context: Context) -> FloatArray:
 
 
 def flat_kernel(law: Law, *, strict: bool = False) -> Callable[..., int]:
-    """Return a law's kernel for one contact, in plain Python, with the flat array of :func:`make_par`.
+    """Return a law's kernel for one contact.
+
+    In plain Python, with the flat array of :func:`make_par`.
 
     Parameters
     ----------
@@ -123,12 +129,18 @@ def flat_kernel(law: Law, *, strict: bool = False) -> Callable[..., int]:
 
 
 def batched_kernel(law: Law) -> Callable[..., int]:
-    """Return a law's kernel as the solver calls it, for all contacts of a raceway, in plain Python."""
+    """Return a law's kernel for all contacts.
+
+    As the solver calls it for a raceway, in plain Python.
+    """
     return bound(law.kernel, ROLES[law.role], par_layout(law))
 
 
 def _record_type(law: Law) -> type:
-    """Return the type of the record: what `prepare` is annotated with, or the parameters themselves."""
+    """Return the type of the record.
+
+    It is the annotation of `prepare`, or that of the parameters themselves.
+    """
     if law.prepare is None:
         return law.parameters
     try:
@@ -139,7 +151,10 @@ def _record_type(law: Law) -> type:
 
 @cache
 def _annotated(prepare: Callable[..., Any]) -> type:
-    """Return the type that `prepare` is annotated with; RecordError, the end of a sentence, where it is no record."""
+    """Return the annotated type of `prepare`.
+
+    RecordError, the end of a sentence, where it is no record.
+    """
     said = getattr(prepare, "__annotations__", {}).get("return", inspect.Parameter.empty)
     if isinstance(said, str):
         try:

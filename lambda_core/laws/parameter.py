@@ -13,7 +13,10 @@ Bound = float | str
 
 
 class Parameters(BaseModel):
-    """Base of a law's parameters: no unknown fields, frozen, defaults checked like input."""
+    """Base of a law's parameters.
+
+    No unknown fields, frozen, defaults checked like input.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
 
@@ -71,7 +74,10 @@ def parameter(
 
 
 def kind_defaults(parameters: type[BaseModel], kind: str) -> dict[str, Bound]:
-    """Return the defaults of a law's parameters that a kind of bearings has instead of the declared ones."""
+    """Return a kind's defaults of parameters.
+
+    A kind of bearings has them instead of the declared ones of a law.
+    """
     found = {}
     for name, info in parameters.model_fields.items():
         extra = info.json_schema_extra
@@ -82,7 +88,10 @@ def kind_defaults(parameters: type[BaseModel], kind: str) -> dict[str, Bound]:
 
 
 def _fault_of_default(name: str, error: Any) -> str:
-    """Say what is wrong with a default; of a text with a unit how a parameter with a unit is declared."""
+    """Report a wrong default.
+
+    For a text with a unit it explains the declaration of such a parameter.
+    """
     text = error.get("input")
     if error["type"] == "float_parsing" and isinstance(text, str):
         quantities = [key for key, units in UNITS.items() if text.strip().split(" ", 1)[-1] in units]
@@ -95,7 +104,10 @@ def _fault_of_default(name: str, error: Any) -> str:
 
 
 def default_fault(parameters: type[BaseModel]) -> str:
-    """Say which default is not valid, or is a text that would reach the kernel unread; nothing when all are."""
+    """Report a default that is not valid.
+
+    Or a text that would reach the kernel unread; nothing when all are valid.
+    """
     try:
         parameters.model_validate({})
     except ValidationError as error:

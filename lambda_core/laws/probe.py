@@ -21,7 +21,10 @@ from lambda_core.laws.state import ROLE as STATES
 
 @dataclass(frozen=True)
 class Range:
-    """Where an argument is drawn from, SI; `log` draws evenly per decade, `zero` adds the exact 0."""
+    """Range of an argument, SI.
+
+    `log` draws evenly per decade, `zero` adds the exact 0.
+    """
 
     low: float
     high: float
@@ -29,7 +32,10 @@ class Range:
     zero: bool = False
 
     def at(self, share: FloatArray) -> FloatArray:
-        """Return the values at `share` (0..1) of the range, any shape."""
+        """Return the values at a share of the range.
+
+        `share` is 0..1, of any shape.
+        """
         if self.log:
             drawn = np.exp(math.log(self.low) + share * math.log(self.high / self.low))
         else:
@@ -102,7 +108,10 @@ WRENCHES = ("cage_contact", "force_element")  # roles whose output is two vector
 
 
 def output_size(role: Role, cells: int, states: int = 0) -> int:
-    """Return the length of each output array; of a law that keeps states as many as these."""
+    """Return the length of each output array.
+
+    A law with states has as many more.
+    """
     if role.elementwise:
         return cells
     if role.name == STATES:
@@ -111,7 +120,9 @@ def output_size(role: Role, cells: int, states: int = 0) -> int:
 
 
 def draw(role: Role, par: FloatArray, cells: int, generator: Generator, states: int = 0) -> list[Any]:
-    """Draw one set of arguments for a kernel of `role`, of a law that keeps so many states.
+    """Draw one set of arguments for a kernel.
+
+    The kernel belongs to `role`, to a law with so many states.
 
     Returns
     -------
@@ -134,7 +145,10 @@ def draw(role: Role, par: FloatArray, cells: int, generator: Generator, states: 
 
 
 def open_contact(role: Role, drawn: list[Any]) -> list[Any]:
-    """Return drawn arguments as they are while ball and raceway do not touch."""
+    """Return drawn arguments without contact.
+
+    Ball and raceway do not touch.
+    """
     return [
         np.float64(0.0) if argument.kind == "f" and argument.name not in _EVEN_OPEN else value
         for argument, value in zip(role.arguments, drawn, strict=True)
@@ -146,7 +160,9 @@ _OIL = Oil("trial oil", "mineral", 313.15, 0.135, 2000.0, 0.0976, 870.0, 20.4e-9
 
 
 def trial_context(element: str, oil: Oil = _OIL) -> Context:
-    """Return the set-up of a 6208 deep-groove ball bearing at 40 degC for trying a model out.
+    """Return the context of a test bearing.
+
+    A 6208 deep-groove ball bearing at 40 degC.
 
     Nine balls of 11.906 mm on a pitch circle of 60 mm, steel, conformity 0.52, 2750 1/min.
     """

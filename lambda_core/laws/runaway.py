@@ -19,7 +19,9 @@ _SMALL = 1e-6  # of the scale: step of the difference that tells how a rate chan
 
 
 def runaways(law: Law, machine: CompiledKernel, trials: list[list[Any]]) -> Iterator[str]:
-    """Yield the first state of a law that runs away in a contact that is held as it is drawn.
+    """Yield the first state that runs away.
+
+    The contact of the law is constant, as it is drawn.
 
     Each state is followed on its own by the exponential Euler step, dS = r (exp(J h) - 1)/J, J = dr/dS, over steps that
     grow from a microsecond: exact where the rate is linear, so that no stiff decay looks like growth.
@@ -42,7 +44,10 @@ def runaways(law: Law, machine: CompiledKernel, trials: list[list[Any]]) -> Iter
 def _followed(
     law: Law, machine: CompiledKernel, arguments: list[Any], place: int, names: list[str]
 ) -> tuple[float, float] | None:
-    """Return when a state is beyond all bounds and how far [s, its unit], None where it stays."""
+    """Return when and how far a state runs away.
+
+    [s, its unit], None where it stays.
+    """
     par = arguments[names.index("par")].copy()
     at = par.size - len(law.states) + place
     size, scale = output_size(ROLES[ROLE], 1, len(law.states)), law.states[place].scale

@@ -18,7 +18,9 @@ _PRESSURE, _TEMPERATURE, _FILM, _LN_VISCOSITY = 1.5e9, 333.15, 0.5e-6, 15.0  # P
 
 
 def stress_ratio(law: Law, par: FloatArray) -> float:
-    """Return the largest shear stress over pressure in a loaded contact, slip of 1 mm/s to 10 m/s; 0 where refused.
+    """Return the largest shear stress over pressure.
+
+    In a loaded contact, slip of 1 mm/s to 10 m/s; 0 where refused.
 
     Pressure 1.5 GPa, ln(eta) 15 (3 kPa s), film 0.5 um: usual contacts of loaded ball bearings.
     """
@@ -32,7 +34,10 @@ def stress_ratio(law: Law, par: FloatArray) -> float:
 
 
 def limitless_sentence(ratio: float) -> str:
-    """Say what is wrong with a law whose shear stress is so many times the pressure, and what to do."""
+    """Report a law without a stress limit.
+
+    Its shear stress is so many times the pressure; the text has a remedy.
+    """
     return (
         f"gives shear stresses of up to {ratio:.3g} times the pressure, oils 0.03 to 0.12: hold them at a limiting "
         "stress, as tau = newtonian limit/(newtonian + limit) does, limit = 0.07 p"

@@ -25,7 +25,9 @@ _NAME = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 
 @dataclass(frozen=True)
 class State:
-    """One number that every raceway contact keeps: a temperature, a wear depth, a layer of oil.
+    """State that every raceway contact keeps.
+
+    One number: a temperature, a wear depth, a layer of oil.
 
     Attributes
     ----------
@@ -52,7 +54,7 @@ class State:
 
     @property
     def channel(self) -> Channel:
-        """What the result gets."""
+        """Channel in the result."""
         return Channel(self.name, ("ball", "ring"), self.unit, self.meaning)
 
     def at_start(self, parameters: Any, context: Context) -> float:
@@ -61,17 +63,26 @@ class State:
 
 
 def names_behind(law: Law) -> tuple[str, ...]:
-    """Return the states that stand behind a law's own parameters: those that it reads, then those that it keeps."""
+    """Return the states behind a law's parameters.
+
+    Those that it reads, then those that it keeps.
+    """
     return (*law.reads, *(state.name for state in law.states))
 
 
 def values_behind(law: Law, parameters: Any, context: Context) -> list[float]:
-    """Return the numbers that stand there until the solver knows better: of a trial, and at the start."""
+    """Return the initial values of the states.
+
+    They hold until the solver computes others: of a trial, and at the start.
+    """
     return [*map(float, law.reads.values()), *(state.at_start(parameters, context) for state in law.states)]
 
 
 def state_fault(law: Law) -> str:
-    """Say what is wrong with the states that a law keeps or reads, or nothing."""
+    """Report a wrong state of a law.
+
+    The law keeps or reads it; nothing if all are right.
+    """
     if law.role == ROLE and not law.states and law.name != "none":
         return "keeps no state: name what every contact keeps, states=(State(name, unit, meaning, scale),)"
     if law.states and law.role != ROLE:
@@ -98,7 +109,10 @@ def state_fault(law: Law) -> str:
 
 
 def _unit_fault(unit: str) -> str:
-    """Say what is wrong with a unit, or nothing: its symbols, powers and strokes aside, are those of the units."""
+    """Report a wrong unit.
+
+    Nothing if it is right; apart from powers and strokes its symbols are those of the units.
+    """
     if unit == "-":
         return ""
     known = {symbol for units in UNITS.values() for each in units for symbol in _symbols(each)}

@@ -30,7 +30,10 @@ _REPEATED = 2  # calls for each value, with other draws of the rest
 
 
 def numbers_of(codes: Iterable[CodeType], par: FloatArray) -> list[float]:
-    """Return the numbers that stand in the code of a kernel and its helpers, and its parameters."""
+    """Return the numbers in a kernel's code.
+
+    Also those of its helpers, and its parameters.
+    """
     found: dict[float, None] = {}
     for code in codes:
         for constant in _flat(code.co_consts):
@@ -43,7 +46,10 @@ def numbers_of(codes: Iterable[CodeType], par: FloatArray) -> list[float]:
 def trials_at_thresholds(
     role: Role, codes: Iterable[CodeType], par: FloatArray, generator: Generator, states: int = 0
 ) -> Iterator[list[Any]]:
-    """Yield arguments of a kernel in which one of them stands at a number of its code, the others as they are drawn."""
+    """Yield arguments at the numbers of the code.
+
+    One of them is at a number of the kernel, the others as they are drawn.
+    """
     numbers = numbers_of(codes, par)
     if role.elementwise:
         counts = {int(n) + more for n in numbers if n.is_integer() and 2.0 <= n <= _LONGEST for more in (0, 1)}
@@ -74,7 +80,10 @@ def _flat(constants: Iterable[Any]) -> Iterator[float]:
 
 
 def _values(numbers: list[float], low: float, high: float, most: int) -> list[float]:
-    """Return the numbers within a range, their neighbours on either side, and the middle between each two."""
+    """Return the numbers within a range.
+
+    With their neighbours on either side, and the middle between each two.
+    """
     few = numbers[:_SCALED]
     scaled = [a * b for a in few for b in few] + [a / b for a in few for b in few]
     known = sorted({v for n in (*numbers, *scaled) for v in (n, -n) if low <= v <= high})

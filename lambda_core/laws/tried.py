@@ -30,7 +30,9 @@ class Choice:
 
 
 def try_out(choices: Sequence[Choice]) -> None:
-    """Check chosen laws with the `par` of the run, together once for all processes.
+    """Check chosen laws with the run's `par`.
+
+    Together, once for all processes.
 
     Trials are drawn alike every time, so what they found holds as long as code, parameters, the trials themselves and
     the machine are the same. Their hash names an empty folder; only laws without a fault leave one.
@@ -52,7 +54,10 @@ def try_out(choices: Sequence[Choice]) -> None:
 
 
 def _folder(choices: Sequence[Choice]) -> Path:
-    """Return what stands in the cache where these were found in order, named by all that their trials depend on."""
+    """Return the cache entry of good laws.
+
+    Its name has all that their trials depend on.
+    """
     digest = hashlib.sha256(_trials_key().encode())
     for choice in choices:
         law = choice.model
@@ -64,5 +69,8 @@ def _folder(choices: Sequence[Choice]) -> Path:
 
 @cache
 def _trials_key() -> str:
-    """Return the hash of the code that tries laws out, and of what roles ask of them."""
+    """Return the hash of the trial code.
+
+    It covers the code that tests laws, and the requirements of roles.
+    """
     return sources_key(Path(__file__).parent, Path(role.__file__), Path(roles.__file__))

@@ -46,7 +46,10 @@ def exp(x: float) -> float:
 
 
 def _octave(x: float) -> int:
-    """Return k such that x / 2^k lies between sqrt(1/2) and sqrt(2)."""
+    """Return the octave k of x.
+
+    x / 2^k lies between sqrt(1/2) and sqrt(2).
+    """
     bits = np.float64(x).view(np.int64)
     return np.int64((bits - _SQRT_HALF_BITS) >> 52)  # type: ignore[return-value]
 
@@ -58,7 +61,10 @@ def _mantissa(x: float, k: int) -> float:
 
 
 def _log(z: float, k: int) -> float:
-    """Return k ln 2 + 2 artanh(z) by its series, |z| <= 0.172, remainder 1e-17."""
+    """Return k ln 2 + 2 artanh(z).
+
+    By its series, |z| <= 0.172, remainder 1e-17.
+    """
     q = z * z
     q2 = q * q
     tail = (1 / 9 + q * (1 / 11)) + q2 * ((1 / 13 + q * (1 / 15)) + q2 * (1 / 17 + q * (1 / 19)))
@@ -68,7 +74,9 @@ def _log(z: float, k: int) -> float:
 
 
 def log(x: float) -> float:
-    """Return ln x for 1e-300 < x < 1e300, NaN for what has no logarithm.
+    """Return ln x for 1e-300 < x < 1e300.
+
+    NaN for what has no logarithm.
 
     Parameters
     ----------
@@ -87,7 +95,9 @@ def log(x: float) -> float:
 
 
 def power(x: float, y: float) -> float:
-    """Return x^y for 1e-300 < x < 1e300 and |y ln x| < 700; relative error about |y ln x| times that of exp.
+    """Return x^y.
+
+    For 1e-300 < x < 1e300 and |y ln x| < 700; relative error about |y ln x| times that of exp.
 
     Parameters
     ----------
@@ -122,7 +132,9 @@ def log1p(d: float) -> float:
 
 
 def asinh_quotient(y: float) -> tuple[float, float, int]:
-    """Return (above, below, k) such that asinh(y) is :func:`asinh_of` above/below; 0 <= y < 1e150, 1 < below.
+    """Return (above, below, k) of an asinh.
+
+    asinh(y) is :func:`asinh_of` above/below; 0 <= y < 1e150, 1 < below.
 
     Parameters
     ----------
@@ -143,7 +155,9 @@ def asinh_quotient(y: float) -> tuple[float, float, int]:
 
 
 def asinh_of(quotient: float, k: int, y: float) -> float:
-    """Return asinh(y) from the quotient of :func:`asinh_quotient`, NaN where y is not finite.
+    """Return asinh(y) from its quotient.
+
+    The quotient is that of :func:`asinh_quotient`; NaN where y is not finite.
 
     Parameters
     ----------
@@ -162,7 +176,9 @@ def asinh_of(quotient: float, k: int, y: float) -> float:
 
 
 def asinh(y: float) -> float:
-    """Return asinh(y) for 0 <= y < 1e150: ln(1 + d), d = y + y^2/(1 + sqrt(1 + y^2)), with one division for both.
+    """Return asinh(y) for 0 <= y < 1e150.
+
+    ln(1 + d), d = y + y^2/(1 + sqrt(1 + y^2)), with one division for both.
 
     Parameters
     ----------

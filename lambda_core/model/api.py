@@ -256,7 +256,10 @@ _IS_MACHINE = "the case to start from is a machine already: leave out the option
 
 
 def _new_machine(case: Case | MachineCase, name: str, target: Path, overwrite: bool) -> Path:
-    """Write the case of one bearing as a machine called `name`, with a comment about what to add."""
+    """Write the case of one bearing as a machine.
+
+    It is called `name`, with a comment about what to add.
+    """
     from lambda_core.case.case import Case
     from lambda_core.case.case_writer import save_text, tables_toml
     from lambda_core.domain.files import check_new
@@ -277,7 +280,10 @@ def _new_machine(case: Case | MachineCase, name: str, target: Path, overwrite: b
 
 
 def _given_radial(changes: Sequence[str]) -> float | None:
-    """Return the radial load [N] among changes; None where there is none, or no load, which is refused later."""
+    """Return the radial load [N] among changes.
+
+    None where there is none, or no load, which is refused later.
+    """
     from lambda_core.domain.units import parse
 
     given = dict(change.partition("=")[::2] for change in changes)
@@ -288,7 +294,10 @@ def _given_radial(changes: Sequence[str]) -> float | None:
 
 
 def _template_text(name: str, template: str | None, bearing: str | None, radial: float | None = None) -> str:
-    """Return the commented case of a template, or of a bearing in any machine, under a radial load [N]."""
+    """Return the commented case of a template.
+
+    Or of a bearing in any machine, under a radial load [N].
+    """
     from contextlib import closing
 
     from lambda_core.catalogue.designation import designated

@@ -45,14 +45,20 @@ class Term:
 
 @dataclass(frozen=True)
 class TableTerm(Term):
-    """Points of a table, and the curve that joins them (lambda_core.model.laws.interpolation)."""
+    """Points of a table and their curve.
+
+    lambda_core.model.laws.interpolation joins them.
+    """
 
     interpolation: Literal["monotone", "spline"] = "monotone"
 
 
 @dataclass(frozen=True)
 class LawTerm(Term):
-    """amplitude * f(t) with f by a law: values (amplitude, f at t = 0, largest |f|, its highest frequency [Hz])."""
+    """Time function by a law.
+
+    amplitude * f(t), values (amplitude, f at t = 0, largest |f|, its highest frequency [Hz]).
+    """
 
     law: str = ""  # the element of it among the laws of a model, "time.loads.radial"
 
@@ -75,7 +81,7 @@ USUAL_RESOLVE = 2000.0  # [Hz]; modes of a ring between the raceways of bearings
 
 @dataclass(frozen=True)
 class DofState:
-    """How one degree of freedom of a body moves."""
+    """State of one degree of freedom of a body."""
 
     mode: Literal["free", "locked", "prescribed"]
     # prescribed: position [m] or angle [rad] over time; for spin: angular speed [rad/s] over time. A free spin:
@@ -87,7 +93,10 @@ class DofState:
 
 @dataclass(frozen=True)
 class Body:
-    """A rigid, axisymmetric body: inner ring with shaft, outer ring with housing, or cage."""
+    """Rigid, axisymmetric body.
+
+    Inner ring with shaft, outer ring with housing, or cage.
+    """
 
     mass: float  # [kg]
     transverse_inertia: float  # about a diameter [kg m2]
@@ -99,7 +108,10 @@ class Body:
     unbalance: float = 0.0  # mass times eccentricity [kg m]
 
     def freed(self, names: Iterable[str]) -> Body:
-        """Return the body free in some directions, its spin with the speed planned for it: laws are set up for that."""
+        """Return the body free in some directions.
+
+        Its spin has the speed planned for it: laws are set up for that.
+        """
         free = {name: DofState("free", self.dofs[name].motion if name == SPIN else ZERO) for name in names}
         return replace(self, dofs={**self.dofs, **free})
 
@@ -118,7 +130,10 @@ class Cage:
 
 @dataclass(frozen=True)
 class ChosenLaw:
-    """The model chosen for one role of one force element, with validated parameters."""
+    """Chosen model of one role.
+
+    It belongs to one force element and has validated parameters.
+    """
 
     model: Law
     parameters: BaseModel  # instance of model.parameters, SI
@@ -127,7 +142,10 @@ class ChosenLaw:
 
 @dataclass(frozen=True)
 class ElectricModel:
-    """The electric circuit that the bearing stands in, and the laws of its films."""
+    """Electric circuit of the bearing.
+
+    It has the laws of its films.
+    """
 
     options: Electric  # the section of the case
     laws: Mapping[str, ChosenLaw]  # role -> law
@@ -143,7 +161,10 @@ class ChosenObserver:
 
 @dataclass(frozen=True)
 class ChosenEvent:
-    """An event of a plugin, with validated parameters, and what the run does at it."""
+    """Event of a plugin with the run's reaction.
+
+    It has validated parameters.
+    """
 
     item: Event
     parameters: BaseModel  # instance of item.parameters, SI
@@ -152,7 +173,10 @@ class ChosenEvent:
 
 @dataclass(frozen=True)
 class Depth:
-    """Modelling depth: which parts and how finely a contact is divided."""
+    """Modelling depth.
+
+    It sets which parts move, and how finely a contact is divided.
+    """
 
     cage: bool
     strips: int  # strips across the ellipse (along the major axis)
@@ -175,7 +199,7 @@ class Solver:
 
 @dataclass(frozen=True)
 class Output:
-    """What is written, how often."""
+    """Contents and intervals of the output."""
 
     interval: float  # simulated time between samples; 0 means 1/100 of a cage revolution [s]
     checkpoint_interval: float  # wall time between checkpoints [s]
@@ -183,7 +207,10 @@ class Output:
 
 @dataclass(frozen=True)
 class ResolvedValue:
-    """One frozen number with its origin: what a result needs to be re-run and believed."""
+    """One frozen number with its origin.
+
+    A result needs it to be run again and to be believed.
+    """
 
     path: str  # e.g. "bearing.ball_diameter"
     value: float | str
@@ -195,7 +222,10 @@ class ResolvedValue:
 
 @dataclass(frozen=True)
 class Marker:
-    """A named point on a body whose motion is written to the result."""
+    """Named point on a body.
+
+    Its motion is written to the result.
+    """
 
     body: BodyName
     position: tuple[float, float, float]  # in the body's frame, that of the inertial axes at t = 0 [m]
@@ -207,7 +237,10 @@ ELEMENT_PREFIX = "elements."  # of force elements between bodies, where the laws
 
 @dataclass(frozen=True)
 class Link:
-    """A force element between two points on two bodies; its law stands among the model's laws as "elements.NAME"."""
+    """Force element between points on two bodies.
+
+    Its law is among the model's laws as "elements.NAME".
+    """
 
     first: BodyName | None  # None: the ground
     first_place: tuple[float, float, float]  # in the body's frame, that of the inertial axes at t = 0 [m]
@@ -294,5 +327,5 @@ class BearingModel:
 
     @property
     def elements(self) -> str:
-        """What its rolling elements are called."""
+        """Name of the rolling elements."""
         return "balls" if self.rollers is None else "rollers"

@@ -25,7 +25,10 @@ def check_bearing(
     catalogue: Catalogue | None = None,
     is_static: bool = False,
 ) -> BearingModel:
-    """Read and resolve the case of one bearing; as :func:`lambda_core.api.check`, which takes machines, too."""
+    """Read and resolve the case of one bearing.
+
+    As :func:`lambda_core.api.check`, which takes machines, too.
+    """
     from lambda_core.case.case_io import load_case
     from lambda_core.case.salvage import InvalidCase
 
@@ -48,7 +51,9 @@ def resolve(
     is_static: bool = False,
     place: Callable[[str], str] = str,
 ) -> BearingModel:
-    """Freeze a case into the model of a run: every value in SI with its origin.
+    """Freeze a case into the model of a run.
+
+    Every value is in SI with its origin.
 
     Parameters
     ----------
@@ -89,7 +94,10 @@ def model_of(
     *,
     is_static: bool = False,
 ) -> BearingModel:
-    """Return the resolved model of whatever a function of this package takes as the case of one bearing."""
+    """Return the resolved model of one bearing.
+
+    The argument is whatever a function of this package takes as a case.
+    """
     from lambda_core.model.bearing_model import BearingModel
 
     if not isinstance(source, BearingModel):

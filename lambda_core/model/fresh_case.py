@@ -50,7 +50,9 @@ def fresh_case(
     machine: MachineTemplate = GENERAL,
     given: float | None = None,
 ) -> str:
-    """Write the text of a case for a bearing in a machine: loads by its rating, everything else default.
+    """Write the case of a bearing in a machine.
+
+    Loads follow from its rating, everything else is default.
 
     Suffixes of the designation stay in it and decide what they stand for. A `given` radial load [N] takes the place of
     that by the rating, and the axial load follows from it.
@@ -79,7 +81,10 @@ def fresh_case(
 
 
 def _clearance(machine: MachineTemplate, bearing: BearingRow, read: Designation) -> str:
-    """Return the lines that say the clearance, or the contact angle that it follows from."""
+    """Return the lines of clearance or contact angle.
+
+    The clearance may follow from the contact angle.
+    """
     classes = [written for written, suffix in read.suffixes if suffix.kind == "clearance"]
     axial = kinds()[bearing.kind].axial_clearance
     if axial and not classes:
@@ -95,7 +100,10 @@ def _clearance(machine: MachineTemplate, bearing: BearingRow, read: Designation)
 
 
 def _thrust(machine: MachineTemplate, bearing: BearingRow) -> tuple[float, str]:
-    """Return axial over radial load, and the comment on it; angular contact needs enough to be held together."""
+    """Return axial over radial load, with comment.
+
+    Angular contact needs enough axial load to be held together.
+    """
     least = kinds()[bearing.kind].least_thrust
     if least > 0.0:
         return max(machine.thrust, least), f"along the shaft: {least:g} of the radial load at least, SKF"
@@ -115,6 +123,9 @@ def _newton(load: float) -> str:
 
 
 def _speed(machine: MachineTemplate, bearing: BearingRow) -> float:
-    """Return the speed to start with [rpm], well below the limit of the bearing where the catalogue has one."""
+    """Return the initial speed [rpm].
+
+    Well below the limit of the bearing where the catalogue has one.
+    """
     limit = bearing.limiting_speed
     return min(machine.speed, _MOST_SPEED * limit.value * 30.0 / math.pi) if limit else machine.speed

@@ -39,7 +39,9 @@ _HALF_LOADED = 1.3
 
 
 def fresh_roller_case(name: str, found: RollerDesignation, given: float | None = None) -> str:
-    """Return the text of a case for a roller bearing: loads by its rating, everything else default.
+    """Return the case of a roller bearing.
+
+    Loads follow from its rating, everything else is default.
 
     A `given` radial load [N] takes the place of that by the rating, and the axial load follows from it.
     """

@@ -17,7 +17,10 @@ Status = Literal["given", "published", "derived", "assumed", "default"]
 
 @dataclass
 class Ledger:
-    """Collects what a resolution finds, so that nothing is lost and all errors come at once."""
+    """Ledger of a resolution.
+
+    It collects everything so that all errors come at once.
+    """
 
     values: list[ResolvedValue] = field(default_factory=list)
     assumptions: list[str] = field(default_factory=list)
@@ -36,7 +39,10 @@ class Ledger:
         self.record(path, value, quantity, "case", "given")
 
     def row(self, path: str, value: Value, quantity: str = "", *, silent: bool = False) -> float:
-        """Freeze a catalogue value; one that the catalogue assumed becomes an assumption of the run."""
+        """Freeze a catalogue value.
+
+        One that the catalogue assumed becomes an assumption of the run.
+        """
         self.record(path, value.value, quantity, value.source, value.status, value.grade)
         if value.status == "assumed" and not silent:
             shown = show(value.value, quantity, 4) if quantity else f"{value.value:.4g}"
@@ -49,17 +55,25 @@ class Ledger:
             self.assumptions.append(sentence)
 
     def contradict(self, sentence: str) -> None:
-        """Note that the case says two things, and which of them counts; a warning of `check` and of every result."""
+        """Note a contradiction in the case.
+
+        And which value counts; a warning of `check` and of every result.
+        """
         self.contradictions.append(sentence)
 
     def problem(self, where: str, message: str) -> None:
-        """Note one thing that is wrong; the resolution goes on to find the others."""
+        """Note one problem.
+
+        The resolution goes on to find the others.
+        """
         entry = Problem(where, message)
         if entry not in self.problems:
             self.problems.append(entry)
 
     def ask(self, where: str, question: Callable[[], T]) -> T | None:
-        """Ask the catalogue or registry; its error becomes a problem at `where`, the answer None.
+        """Ask the catalogue or registry.
+
+        Its error becomes a problem at `where`, the answer None.
 
         A `where` that ends in a dot is a section: the option in it is the one that the error names.
         """
@@ -73,6 +87,9 @@ class Ledger:
         return None
 
     def check(self, source: str) -> None:
-        """Raise one CaseError with everything that is wrong, if anything is."""
+        """Raise one CaseError with all problems.
+
+        Only if there are any.
+        """
         if self.problems:
             raise CaseError(source, [Problem(self.place(one.where), one.message) for one in self.problems])

@@ -17,7 +17,9 @@ from lambda_core.model.ledger import Ledger
 
 
 def long_form(source: Source, overrides: Iterable[str] = ()) -> LongForm:
-    """Write the case of one bearing as a machine with this bearing on a rigid shaft, to go on from.
+    """Write the case of one bearing as a machine.
+
+    This bearing is on a rigid shaft, to go on from.
 
     Parameters
     ----------
@@ -47,7 +49,10 @@ def long_form(source: Source, overrides: Iterable[str] = ()) -> LongForm:
 
 
 def _takes(model: BearingModel) -> Literal["+x", "-x"] | None:
-    """Return the axial force on the shaft that an angular contact bearing takes: that of its axial load."""
+    """Return the thrust that a bearing takes.
+
+    Axial force on the shaft; an angular contact bearing takes that of its axial load.
+    """
     if not model.geometry.contact_angle or model.geometry.rated_rows > 1:
         return None
     return "-x" if initial(model.inner_ring.force[0]) < 0.0 else "+x"

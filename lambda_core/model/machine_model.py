@@ -21,7 +21,9 @@ GROUND, SHAFT = -1, 0  # numbers of bodies; the others follow
 
 @dataclass(frozen=True)
 class Seating:
-    """How an outer ring sits in the housing, in the order of POSE.
+    """Seat of an outer ring in the housing.
+
+    In the order of POSE.
 
     Attributes
     ----------
@@ -61,7 +63,7 @@ class MountedBearing:
 
     @property
     def is_locked_along(self) -> bool:
-        """Whether its seat holds the outer ring along the shaft."""
+        """True if its seat holds the ring axially."""
         return self.seating.stiffness[0] >= LOCKED
 
 
@@ -75,7 +77,10 @@ class Unbalance:
 
 
 class BearingPart(NamedTuple):
-    """An outer ring or a cage of a bearing, as a body that carries a place."""
+    """Ring or cage as a body.
+
+    An outer ring or a cage of a bearing that carries a place.
+    """
 
     bearing: str
     part: Literal["outer_ring", "cage"]
@@ -94,13 +99,19 @@ class Place:
 
 
 def is_on_cage(place: Place) -> bool:
-    """Tell whether a place is on a cage, which the equilibrium of a shaft does not know."""
+    """Tell whether a place is on a cage.
+
+    The equilibrium of a shaft has no cages.
+    """
     return isinstance(place.body, BearingPart) and place.body.part == "cage"
 
 
 @dataclass(frozen=True)
 class MachineSpring:
-    """Spring and damper between two bodies, or a body and the ground, at one point."""
+    """Spring and damper between two bodies.
+
+    One may be the ground; they act at one point.
+    """
 
     name: str
     place: Place  # of the one body
@@ -111,7 +122,10 @@ class MachineSpring:
 
 @dataclass(frozen=True)
 class MachineLink:
-    """A connection between two places whose force a law gives; it acts on the second one."""
+    """Connection between two places by a law.
+
+    The law's force acts on the second one.
+    """
 
     name: str
     element: str  # its law among those of the first bearing
@@ -121,7 +135,7 @@ class MachineLink:
 
 @dataclass(frozen=True)
 class ShaftHold:
-    """Where the ground holds the shaft without giving way."""
+    """Rigid ground constraint of the shaft."""
 
     position: float  # [m]
     prescribed: tuple[TimeFunction | None, ...]  # in the order of POSE [m, rad]; None where it does not hold
@@ -133,12 +147,18 @@ class ShaftHold:
 
     @property
     def shift(self) -> tuple[float, ...]:
-        """Where it is held at t = 0, 0 where it is free [m, rad]."""
+        """Displacement of the constraint at t = 0.
+
+        0 where it is free [m, rad].
+        """
         return tuple(0.0 if lead is None else initial(lead) for lead in self.prescribed)
 
 
 class Resistance(NamedTuple):
-    """A load that brakes the shaft in proportion to its speed."""
+    """Load that brakes the shaft.
+
+    In proportion to its speed.
+    """
 
     position: float  # [m]
     damping: float  # [N m s]
@@ -259,12 +279,18 @@ class MachineModel:
 
     @property
     def solver(self) -> Solver:
-        """Settings of the integrator, but for those that each bearing has of its own: longest step and time."""
+        """Common settings of the integrator.
+
+        Each bearing has its own longest step and time.
+        """
         return self.bearings[0].model.solver
 
     @property
     def held_places(self) -> tuple[float, ...]:
-        """Where springs, connections, supports and a driving torque act on the shaft [m]."""
+        """Places of springs and drive on the shaft [m].
+
+        Springs, connections, supports and a driving torque act there.
+        """
         springs = [s.place.point[0] for s in self.springs if SHAFT in (s.place.body, s.to)]
         ends = [end.point[0] for link in self.links for end in (link.first, link.second) if end.body == SHAFT]
         drive = [] if self.torque is None else [float(self.body.positions[self.drive // 6])]
@@ -273,15 +299,18 @@ class MachineModel:
 
     @property
     def has_changing_torque(self) -> bool:
-        """Whether torques on the shaft change over time."""
+        """True if torques on the shaft change over time."""
         return any(row < 6 * self.body.positions.size and row % 6 == 3 for row, _ in self.varying)
 
     def index(self, part: BearingPart) -> int:
-        """Return the number of the bearing that a part belongs to."""
+        """Return the bearing's number of a part."""
         return next(i for i, bearing in enumerate(self.bearings) if bearing.name == part.bearing)
 
     def load_on(self, part: BearingPart) -> tuple[TimeFunction, ...]:
-        """Return force and moment on an outer ring or a cage [N, N m]."""
+        """Return force and moment on a part.
+
+        An outer ring or a cage [N, N m].
+        """
         return self.part_loads.get(part, (ZERO,) * 6)
 
     @property

@@ -74,7 +74,7 @@ from lambda_core.views.observer import Event, Observer
 
 
 class PluginSource(ModelSource, WatchSource, Protocol):
-    """What the resolution needs of the registry."""
+    """Registry functions that the resolution needs."""
 
 
 def resolve(
@@ -221,7 +221,10 @@ def _laws_of_ribs(
     defaults: Mapping[str, str],
     place: Callable[[str], str],
 ) -> Mapping[str, Mapping[str, ChosenLaw]]:
-    """Return the laws of the points at ribs by element, from a case with those of ribs at its raceways."""
+    """Return the laws at ribs by element.
+
+    From a case with those of ribs at its raceways.
+    """
 
     def renamed(text: str) -> str:
         text = text.replace("ball_inner", "rib_inner").replace("ball_outer", "rib_outer")
@@ -238,7 +241,10 @@ def _laws_of_ribs(
 def _distributions(
     laws: Mapping[str, Mapping[str, ChosenLaw]], watching: Iterable[ChosenObserver | ChosenEvent]
 ) -> tuple[str, ...]:
-    """Return "distribution version" of every plugin that a chosen law, observer or event comes from."""
+    """Return the distribution and version of used plugins.
+
+    A chosen law, observer or event comes from the plugin.
+    """
     found = {law.model.distribution for roles in laws.values() for law in roles.values()}
     found |= {chosen.item.distribution for chosen in watching}
     return tuple(sorted(found - {""}))
@@ -252,13 +258,16 @@ def _title(case: Case, row: BearingRow | None, designation: str) -> str:
 
 
 def _possible(case: Case, ledger: Ledger) -> None:
-    """Raise what is wrong so far when the bearing is impossible: what follows computes with its dimensions."""
+    """Raise the problems of an impossible bearing.
+
+    The next stages compute with its dimensions.
+    """
     if any(problem.where.startswith("bearing.") for problem in ledger.problems):
         ledger.check(case.name)
 
 
 def _check_temperature(case: Case, cage: CageRow, ledger: Ledger) -> None:
-    """Say when the oil is hotter than the cage is made for."""
+    """Report an oil too hot for the cage."""
     limit, oil = cage.maximum_temperature, case.lubricant.temperature
     if case.depth.cage and limit is not None and oil > limit.value:
         hot, rated = show(oil, "temperature", 4), show(limit.value, "temperature", 4)
@@ -268,7 +277,10 @@ def _check_temperature(case: Case, cage: CageRow, ledger: Ledger) -> None:
 def _inertias(
     case: Case, geometry: Geometry, materials: Mapping[str, Material], cage: Inertia, ledger: Ledger
 ) -> dict[str, Inertia]:
-    """Return mass and inertia of rings and cage, the shaft counted to the inner ring."""
+    """Return mass and inertia of rings and cage.
+
+    The shaft counts to the inner ring.
+    """
     bodies = case.bodies
     rings = {ring: ring_inertia(geometry, ring, materials[ring].density) for ring in ("inner", "outer")}
     inner = resolve_inertia("inner_ring", bodies.inner_ring, rings["inner"], ledger)
@@ -303,7 +315,9 @@ def _settings(case: Case, ledger: Ledger) -> None:
 
 
 def case_hash(model: BearingModel) -> str:
-    """Return a hash of all that decides the numbers of a run, equal in every process.
+    """Return the hash of a run's inputs.
+
+    It covers all that decides the numbers, and is equal in every process.
 
     The laws count with everything their kernels reach: an edited law has another hash. Name,
     title, sources and assumptions are left out: two cases that mean the same run share one.
@@ -328,7 +342,10 @@ def case_hash(model: BearingModel) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """Return `value` as JSON data; floats keep 13 digits, so that 0.1 um and 100 nm are one."""
+    """Return `value` as JSON data.
+
+    Floats keep 13 digits, so that 0.1 um and 100 nm are one.
+    """
     if isinstance(value, Law):
         laws = [function for function in (value.kernel, value.prepare) if function is not None]
         kept = [_plain(state) for state in value.states]  # none: as before there were any

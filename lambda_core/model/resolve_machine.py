@@ -72,7 +72,9 @@ def resolve_machine(
     folder: Path | None = None,
     catalogue: Catalogue | None = None,
 ) -> MachineModel:
-    """Read and resolve the case of a machine without solving it.
+    """Read and resolve the case of a machine.
+
+    It does not solve it.
 
     Parameters
     ----------
@@ -138,7 +140,7 @@ def _anywhere(tables: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
 def _bearings(
     tables: Mapping[str, Any], folder: Path | None, catalogue: Catalogue, found: list[Problem]
 ) -> dict[str, BearingModel]:
-    """Return the model of every bearing that can be resolved; what is wrong with the others comes into `found`."""
+    """Return the models of all bearings that can be resolved."""
     given, models = tables.get("bearings"), {}
     tables_of = given if isinstance(given, Mapping) else {}
     for name in (key for key, value in tables_of.items() if isinstance(value, Mapping)):
@@ -163,7 +165,7 @@ def _shaft(
     ledger: Ledger,
     found: Sequence[Problem],
 ) -> MachineModel | None:
-    """Return the machine; None where something is wrong, here or as `found` before."""
+    """Return the machine, None after a problem."""
     from lambda_core.discovery.manager import registry
 
     folder, outside, shape_known = case.folder or Path(), None, is_shape_known(found)
@@ -282,19 +284,19 @@ def _shaft(
 
 
 def _unbalances(case: MachineCase, bearings: Iterable[MountedBearing]) -> tuple[Unbalance, ...]:
-    """Return what is unbalanced on the shaft: discs and inner rings."""
+    """Return the unbalances of discs and inner rings."""
     discs = [Unbalance(disc.place, disc.unbalance, disc.unbalance_angle) for disc in case.discs.values()]
     rings = [Unbalance(one.position, one.model.inner_ring.unbalance, 0.0) for one in bearings]
     return tuple(found for found in (*discs, *rings) if found.amount)
 
 
 def _with_laws(mounted: MountedBearing, laws: Mapping[str, Mapping[str, ChosenLaw]]) -> MountedBearing:
-    """Return a bearing that also has the laws of what is no part of a bearing: of connections, of loads over time."""
+    """Return a bearing with laws of connections and loads."""
     return replace(mounted, model=replace(mounted.model, laws={**mounted.model.laws, **laws})) if laws else mounted
 
 
 def _rigid(case: MachineCase, stand: Places) -> ElasticBody | None:
-    """Return a rigid shaft, whose node is at its bearing; None where nobody knows where that is."""
+    """Return a rigid shaft with its node at its bearing."""
     at = [place.point[0] for where, place in stand.of.items() if where.startswith("bearings.")]
     return rigid_body(at[0]) if len(case.bearings) == len(at) == 1 else None
 
@@ -310,7 +312,7 @@ def _in_place(case: MachineCase, stand: Places) -> MachineCase:
 
 
 def _check_on_shaft(case: MachineCase, stand: Places, outside: ElasticBody | None, ledger: Ledger) -> None:
-    """Note everything that stands beyond the ends of the shaft, or off the nodes of one from outside."""
+    """Note everything off the shaft or its nodes."""
     laws = {f"connections.{name}" for name, one in case.connections.items() if one.is_by_law and case.shaft.is_rigid}
     on_shaft = {path: place for path, place in stand.of.items() if place.body == SHAFT and path not in laws}
     parts = {f"{path}.at": place.point[0] for path, place in on_shaft.items()}
@@ -352,7 +354,7 @@ def _check_one_place(case: MachineCase, stand: Places, ledger: Ledger) -> None:
 
 
 def _check_cells(bearings: Sequence[MountedBearing], ledger: Ledger) -> None:
-    """Note bearings whose contacts are divided otherwise than those of the first: compiled code has one grid."""
+    """Note bearings with another contact grid than the first."""
     for other in bearings[1:]:
         one, two = bearings[0].model.depth, other.model.depth
         for option in ("strips", "rows"):
@@ -365,7 +367,10 @@ def _check_cells(bearings: Sequence[MountedBearing], ledger: Ledger) -> None:
 
 
 def _check_tilts(case: MachineCase, bearings: Sequence[MountedBearing], ledger: Ledger) -> None:
-    """Note tilts of a rigid shaft that nothing holds: a self-aligning bearing takes any without resistance."""
+    """Note free tilts of a rigid shaft.
+
+    A self-aligning bearing takes any without resistance.
+    """
     if not (case.shaft.is_rigid and any(one.model.geometry.kind.on_sphere for one in bearings)):
         return
     for dof in ("tilt_y", "tilt_z"):
@@ -389,7 +394,7 @@ def _check_torque(case: MachineCase, ledger: Ledger) -> None:
 
 
 def _gears(case: MachineCase, ledger: Ledger) -> dict[str, GearForces]:
-    """Return the forces of every gear; a power needs a speed."""
+    """Return the forces of every gear at its speed."""
     found = {}
     for name, gear in case.gears.items():
         over_time = time_function(case.operation.speed)
@@ -414,7 +419,7 @@ def _outline(case: MachineCase) -> tuple[tuple[float, float, float, float], ...]
 
 
 def _discs(case: MachineCase, catalogue: Catalogue, ledger: Ledger) -> list[Disc]:
-    """Return the rigid bodies on the shaft, their masses given or from their shapes."""
+    """Return the rigid bodies on the shaft with their masses."""
     found = []
     for name, given in case.discs.items():
         mass, polar, transverse = given.mass or 0.0, 0.0, 0.0
@@ -433,7 +438,9 @@ def _discs(case: MachineCase, catalogue: Catalogue, ledger: Ledger) -> list[Disc
 
 
 def _drawn(body: ElasticBody, bearings: Iterable[MountedBearing]) -> tuple[tuple[float, float, float, float], ...]:
-    """Return one piece to draw in place of a shaft without sections: as thick as its smallest bearing's bore.
+    """Return one piece for a shaft without sections.
+
+    It is for drawings, as thick as its smallest bearing's bore.
 
     One of a single node is as wide as its bearing.
     """
@@ -446,7 +453,10 @@ def _body(
     case: MachineCase, stand: Places, material: BodyMaterial, links: Sequence[MachineLink], discs: list[Disc],
     ledger: Ledger,
 ) -> ElasticBody | None:  # fmt: skip
-    """Return the shaft as a beam; None where its mesh would be too large, which the ledger says then."""
+    """Return the shaft as a beam.
+
+    None where its mesh would be too large, which the ledger reports then.
+    """
     given = [(s.length, RoundSection(s.diameter, s.bore, material)) for s in case.shaft.sections]
     held = [place.point[0] for place in stand.of.values() if place.body == SHAFT]
     held += [place.point[0] for place in stand.markers.values() if place.body == SHAFT]
@@ -471,7 +481,7 @@ def _body(
 
 
 def _growth(case: MachineCase, body: ElasticBody, material: BodyMaterial) -> FloatArray:
-    """Return the nodal forces that stretch the shaft as its temperature does: those that would hold it stretched."""
+    """Return the nodal forces of the shaft's thermal growth."""
     stretched = np.zeros(body.mass.shape[0])
     along = case.shaft.temperatures
     if along:

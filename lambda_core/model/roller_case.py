@@ -107,11 +107,17 @@ class RollerModel:
 
     @property
     def warnings(self) -> list[str]:
-        """What is beyond a limit of the catalogue before anything is solved."""
+        """Warnings of the catalogue's limits.
+
+        They are known before anything is solved.
+        """
         return list(speed_warning(abs(self.speeds[0] - self.speeds[1]), self.bearing.limiting_speed))
 
     def text(self) -> str:
-        """Return what the bearing is made of, warnings, where every value comes from, and what is assumed."""
+        """Return the text of the bearing.
+
+        Its parts, warnings, the origin of every value, and assumptions.
+        """
         lines = [self.title, *(f"WARNING  {sentence}" for sentence in self.warnings), "", "values"]
         for value in self.values:
             number = value.value
@@ -123,7 +129,9 @@ class RollerModel:
 
 
 def roller_model(source: Source, overrides: Iterable[str] = ()) -> RollerModel | None:
-    """Return the roller bearing of a case; None where the case is about balls or cannot be read as one bearing.
+    """Return the roller bearing of a case.
+
+    None where the case is about balls or cannot be read as one bearing.
 
     Parameters
     ----------
@@ -201,7 +209,10 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
 def friction_parameters(
     rollers: RollerBearing, roughness: float, lubrication: Lubrication, level: float
 ) -> FrictionParameters:
-    """Return surfaces and supply; the oil stands at `level` above the lowest point of the pitch circle [m]."""
+    """Return surfaces and supply.
+
+    The oil is at `level` above the lowest point of the pitch circle [m].
+    """
     return FrictionParameters(
         raceway_roughness=roughness,
         rib_roughness=rollers.rib_roughness,
@@ -218,7 +229,10 @@ def roller_title(case: Case, found: RollerDesignation | None, geometry: RollerBe
 
 
 def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger) -> RollerBearing | None:
-    """Return the geometry: the case's values first, then the catalogue's; None after a problem."""
+    """Return the geometry.
+
+    The case's values first, then the catalogue's; None after a problem.
+    """
     rollers, row = case.bearing.rollers or InlineRollers(), found.row if found else None
     boundary = _boundary(case, row, ledger)
     values = {name: _pick(rollers, row, name, ledger) for name in (*_NEEDED[1:], "roller_length", "contact_angle")}
@@ -276,7 +290,10 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
 
 
 def _pick(rollers: InlineRollers, row: RollerRow | None, name: str, ledger: Ledger) -> float | None:
-    """Return a value of the case, else of the catalogue; assumed and derived ones are reported."""
+    """Return a value of case or catalogue.
+
+    Assumed and derived ones are reported.
+    """
     written: float | None = getattr(rollers, name)
     if written is not None:
         ledger.given(f"bearing.rollers.{name}", written, _QUANTITIES.get(name, "length"))
@@ -291,7 +308,10 @@ def _pick(rollers: InlineRollers, row: RollerRow | None, name: str, ledger: Ledg
 
 
 def _boundary(case: Case, row: RollerRow | None, ledger: Ledger) -> tuple[float, float, float] | None:
-    """Return bore, outside diameter and width [m]; None after a problem."""
+    """Return bore, outside diameter and width [m].
+
+    None after a problem.
+    """
     inline, found = case.bearing.geometry, []
     for name in _BOUNDARY:
         value = getattr(inline, name, None) or (getattr(row, name).value if row else None)
@@ -303,7 +323,10 @@ def _boundary(case: Case, row: RollerRow | None, ledger: Ledger) -> tuple[float,
 
 
 def _ratings(case: Case, row: RollerRow | None, shape: dict[str, Any], ledger: Ledger) -> tuple[float, float, float]:
-    """Return C, C_0 and C_u [N]: the case's, the catalogue's, or those of ISO 281 and ISO 76 for the geometry."""
+    """Return C, C_0 and C_u [N].
+
+    The case's, the catalogue's, or those of ISO 281 and ISO 76 for the geometry.
+    """
     inline = case.bearing.geometry
     dynamic = getattr(inline, "dynamic_rating", None) or (row.dynamic_rating.value if row else None)
     static = getattr(inline, "static_rating", None) or (row.static_rating.value if row else None)
@@ -319,7 +342,10 @@ def _ratings(case: Case, row: RollerRow | None, shape: dict[str, Any], ledger: L
 
 
 def _profile(rollers: InlineRollers, row: RollerRow | None, diameter: float, ledger: Ledger) -> dict[str, Any]:
-    """Return the profile's options: the case's, the catalogue's, else ISO 16281."""
+    """Return the profile's options.
+
+    The case's, the catalogue's, else ISO 16281.
+    """
     scale = rollers.profile_scale or (row.profile_scale.value if row and row.profile_scale else None)
     length = rollers.profile_length or (row.profile_length.value if row and row.profile_length else None)
     name = rollers.profile or ("logarithmic" if scale and length else "iso")
@@ -334,7 +360,10 @@ def _profile(rollers: InlineRollers, row: RollerRow | None, diameter: float, led
 
 
 def _clearance(case: Case, found: RollerDesignation | None, bore: float, ledger: Ledger) -> float:
-    """Return the radial clearance [m]: a value, or of a class its value as picked."""
+    """Return the radial clearance [m].
+
+    A value, or of a class its value as picked.
+    """
     text = case.bearing.clearance or (found.clearance if found else None) or "CN"
     if case.bearing.clearance is None and (found is None or found.clearance is None):
         ledger.assume("radial clearance class CN")
@@ -358,7 +387,10 @@ def _limits(bore: float, text: str) -> tuple[float, float]:
 
 
 def _loads(case: Case) -> FloatArray:
-    """Return the loads on the inner ring at t = 0, (5,)."""
+    """Return the loads at t = 0, (5,).
+
+    They act on the inner ring.
+    """
     loads = case.loads
     numbers = {
         name: initial(time_function(getattr(loads, name))) for name in ("radial", "axial", "moment_y", "moment_z")
@@ -380,7 +412,10 @@ def _loads(case: Case) -> FloatArray:
 
 
 def _held(case: Case, ledger: Ledger) -> tuple[bool, bool, bool, bool, bool]:
-    """Return which displacements of the inner ring are locked; tilts that the case leaves open are."""
+    """Return the locked displacements of the inner ring.
+
+    Tilts that the case leaves open are locked.
+    """
     ring, found = case.bodies.inner_ring, []
     for name in ("x", "y", "z", "tilt_y", "tilt_z"):
         holding = getattr(ring, name)

@@ -43,7 +43,9 @@ _SHAPED = {"cage_contact": "roller-pocket", "fluid_drag": "none"}
 def rollers_of(
     case: Case, catalogue: Catalogue, place: Callable[[str], str] = str
 ) -> tuple[RollerBearing, str, tuple[str, ...]] | None:
-    """Return the rollers of a case, their title and what is assumed; None of a case with balls.
+    """Return the rollers of a case.
+
+    With their title and assumptions; None of a case with balls.
 
     Parameters
     ----------
@@ -88,7 +90,10 @@ def rollers_of(
 
 
 def _refuse_thrust(case: Case, rollers: RollerBearing, ledger: Ledger) -> None:
-    """Refuse thrust that no rib takes, and tapered rollers that nothing presses together."""
+    """Refuse thrust that nothing carries.
+
+    No rib takes it, or nothing presses tapered rollers together.
+    """
     thrust, along = initial(time_function(case.loads.axial)), case.bodies.inner_ring.x
     if getattr(along, "mode", along) != "free":
         return
@@ -98,7 +103,10 @@ def _refuse_thrust(case: Case, rollers: RollerBearing, ledger: Ledger) -> None:
 
 
 def _refuse_parameters(case: Case, ledger: Ledger) -> None:
-    """Refuse parameters and laws of single contacts that would have no effect."""
+    """Refuse parameters and laws without effect.
+
+    They are those of single contacts.
+    """
     fixed = (*DEFAULT_LINE_MODELS, *_SHAPED)
     written = {f"parameters.{role}": role for role in case.parameters if role not in DEFAULT_LINE_MODELS}
     forces = {name: getattr(case.forces, name) for name in case.forces.model_fields_set}
@@ -112,7 +120,10 @@ def _refuse_parameters(case: Case, ledger: Ledger) -> None:
 
 
 def check_roller_fit(case: Case, model: BearingModel) -> None:
-    """Refuse fitted values at paths that neither the model in motion nor the quasi-static answer has; CaseError."""
+    """Refuse fitted values at unknown paths.
+
+    Neither the model in motion nor the quasi-static answer has them; CaseError.
+    """
     if case.fit is None:
         return
     rollers = roller_model(case)
@@ -122,7 +133,9 @@ def check_roller_fit(case: Case, model: BearingModel) -> None:
 
 
 def as_balls(case: Case, rollers: RollerBearing) -> Case:
-    """Return the case of a bearing with as many balls of the same diameter.
+    """Return the case with balls for rollers.
+
+    As many balls of the same diameter.
 
     The shaft holds the inner ring straight, and along its axis where nothing presses rollers on ribs.
     """
@@ -150,7 +163,10 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
 
 
 def with_ribs(balls: Case, case: Case) -> Case:
-    """Return the case of :func:`as_balls` with the laws that a case gives to ribs at the raceways."""
+    """Return the case with ribs' laws at raceways.
+
+    It is the case of :func:`as_balls`; the laws are those that a case gives to ribs.
+    """
     ribs = {element: getattr(case.forces, rib) for element, rib in zip(_ELEMENTS, RIBS, strict=True)}
     return balls.model_copy(update={"forces": balls.forces.model_copy(update=ribs)})
 
@@ -164,7 +180,9 @@ def with_rollers(
     points: Mapping[str, Mapping[str, ChosenLaw]],
     law: Callable[[str, str], Law],
 ) -> BearingModel:
-    """Return the model with rollers in the place of its balls.
+    """Return the model with rollers for balls.
+
+    They take the place of its balls.
 
     Parameters
     ----------
@@ -233,7 +251,10 @@ def with_rollers(
 def _of_laws(
     model: BearingModel, laws: Mapping[str, Mapping[str, ChosenLaw]], case: Case
 ) -> tuple[tuple[ResolvedValue, ...], tuple[str, ...]]:
-    """Return values and assumptions of the model with those of the rollers' laws; grooves of balls are left out."""
+    """Return the model's values with rollers' laws.
+
+    Values and assumptions; grooves of balls are left out.
+    """
     ledger, changed = Ledger(), set()
     for element, role in ((e, r) for e, roles in laws.items() for r in roles):
         if laws[element][role] is not model.laws.get(element, {}).get(role):
@@ -253,7 +274,10 @@ def _of_laws(
 
 
 def facing(model: BearingModel, rollers: RollerBearing, side: int) -> BearingModel:
-    """Return a model whose rollers take thrust on the shaft along x, or against it where `side` is -1."""
+    """Return a model with thrust on one side.
+
+    Its rollers take thrust on the shaft along x, or against it where `side` is -1.
+    """
     turned = replace(rollers, faces=side)
     return replace(model, rollers=turned, geometry=replace(model.geometry, ribs=_ribs(turned)))
 
@@ -263,12 +287,18 @@ def _ribs(rollers: RollerBearing) -> str:
 
 
 def with_clearance(rollers: RollerBearing, clearance: float) -> RollerBearing:
-    """Return rollers with another radial clearance [m]; that of cones counts across the raceway."""
+    """Return rollers with another radial clearance [m].
+
+    That of cones counts across the raceway.
+    """
     return replace(rollers, clearance=clearance * math.cos(rollers.contact_angle))
 
 
 def _of_ribs(law: ChosenLaw) -> ChosenLaw:
-    """Return a law of asperities with the constants of ribs, where it has them and the case does not."""
+    """Return a law of asperities for ribs.
+
+    It has the constants of ribs, where it has them and the case does not.
+    """
     names = [name for name in ("B", "C") if law.origins.get(name) == "default"]
     if law.model.name != DEFAULT_ROLLER_MODELS["asperity_load"] or not names:
         return law
@@ -278,7 +308,10 @@ def _of_ribs(law: ChosenLaw) -> ChosenLaw:
 
 
 def _with_constants(law: ChosenLaw, rollers: RollerBearing) -> ChosenLaw:
-    """Return a law with SKF's geometry constants K_L and K_Z of these rollers, where it has them."""
+    """Return a law with K_L and K_Z.
+
+    SKF's geometry constants of these rollers, where it has them.
+    """
     known = dict(zip(("k_l", "k_z"), SKF_CONSTANTS[skf_kind(rollers)], strict=True))
     values = {name: value for name, value in known.items() if name in type(law.parameters).model_fields}
     if not values:

@@ -30,12 +30,17 @@ _RESULT = ".h5"
 
 
 class Answer(Record):
-    """Base of answers about a case: they answer the same question for a changed case."""
+    """Base of answers about a case.
+
+    They answer the same question for a changed case.
+    """
 
     _again: Callable[[Mapping[str, Any]], Any] | None = PrivateAttr(default=None)
 
     def with_(self, **changes: Any) -> Self:
-        """Answer the same question for the case with changes, section by section.
+        """Answer the same question for a changed case.
+
+        The changes are given section by section.
 
         Returns
         -------
@@ -61,7 +66,10 @@ class Answer(Record):
 
 
 def answers(question: Callable[P, R]) -> Callable[P, R]:
-    """Let what a question answers remember question and case: its first argument, changed by `overrides`."""
+    """Let answers remember question and case.
+
+    The case is the question's first argument, changed by `overrides`.
+    """
     form = signature(question)
     first = next(iter(form.parameters))
 
@@ -80,7 +88,10 @@ def answers(question: Callable[P, R]) -> Callable[P, R]:
 
 
 def _case_of(source: Any, overrides: Sequence[str]) -> Tables | None:
-    """Return what a case says, now; None where the question was about a run."""
+    """Return the present content of a case.
+
+    None where the question was about a run.
+    """
     from lambda_core.case.case_io import Tables, read_tables, toml_tables  # `show` starts without cases
 
     toml = getattr(source, "case_toml", None)
@@ -102,7 +113,9 @@ def _ask_again(
 
 
 def drawn(model: Any, equilibrium: Any, modes: Any, name: str, options: Mapping[str, Any]) -> Any:
-    """Return a view of a machine or a bearing at its operating point as a matplotlib figure.
+    """Return a view as a matplotlib figure.
+
+    It shows a machine or a bearing at its operating point.
 
     Raises
     ------
@@ -129,7 +142,9 @@ def dataset(data: Mapping[str, Any], labels: Mapping[str, Any], facts: Mapping[s
 
 
 def declared_numbers(records: Mapping[str, Record], dim: str) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return variables and labels of the declared numbers of records of one class, along a dimension of their names.
+    """Return declared numbers as variables with labels.
+
+    They belong to records of one class, along a dimension of their names.
 
     Vectors have a dimension named after their axes; lists of a smallest and a largest value are left out.
     """

@@ -33,7 +33,10 @@ INTEGRALS: tuple[Channel, ...] = (
 
 
 def _keys() -> tuple[str, ...]:
-    """Return the engine's names of the flat columns, in the order of INTEGRALS."""
+    """Return the engine's names of the flat columns.
+
+    In the order of INTEGRALS.
+    """
     labels = {"loss": [f"loss.{name}" for name in LOSSES], "position": list(DIMENSIONS["axis"])}
     return tuple(key for channel in INTEGRALS for key in labels.get(channel.name, [channel.name]))
 
@@ -45,7 +48,10 @@ _ANGLE = _INDEX["cage_angle"]
 
 
 def widths() -> tuple[int, ...]:
-    """Return the number of columns that each entry of INTEGRALS takes."""
+    """Return the number of columns per integral.
+
+    For each entry of INTEGRALS.
+    """
     return tuple(math.prod(len(DIMENSIONS[dim]) for dim in channel.dims) for channel in INTEGRALS)
 
 
@@ -56,12 +62,17 @@ def spans() -> dict[str, slice]:
 
 
 def row(time: float, integrals: Mapping[str, float]) -> FloatArray:
-    """Return one row of running integrals, shape (len(COLUMNS),), at `time` [s]."""
+    """Return one row of running integrals.
+
+    Shape (len(COLUMNS),), at `time` [s].
+    """
     return np.array([time if key == "time" else integrals[key] for key in COLUMNS], dtype=np.float64)
 
 
 def boundaries(before: FloatArray, after: FloatArray, completed: int) -> list[FloatArray]:
-    """Return the integrals at the whole cage revolutions between two rows.
+    """Return the integrals at whole cage revolutions.
+
+    They are between two rows.
 
     Parameters
     ----------
@@ -90,7 +101,10 @@ def boundaries(before: FloatArray, after: FloatArray, completed: int) -> list[Fl
 
 @dataclass(frozen=True)
 class Interval:
-    """Means over the interval between two rows of running integrals, SI."""
+    """Means over an interval, SI.
+
+    It is between two rows of running integrals.
+    """
 
     first: FloatArray
     last: FloatArray
@@ -100,17 +114,26 @@ class Interval:
         return float(self.last[_INDEX[key]] - self.first[_INDEX[key]])
 
     def ratio(self, numerator: str, denominator: str) -> float:
-        """Return the quotient of two growths; NaN when the denominator did not grow."""
+        """Return the quotient of two growths.
+
+        NaN when the denominator did not grow.
+        """
         below = self.change(denominator)
         return self.change(numerator) / below if below != 0.0 else math.nan
 
     def torque(self) -> float:
-        """Return the friction torque: dissipated energy over the relative angle of the rings [N m]."""
+        """Return the friction torque [N m].
+
+        Dissipated energy over the relative angle of the rings.
+        """
         angle = self.change("relative_angle")
         return float((self.last - self.first)[_LOSS].sum()) / angle if angle > 0.0 else math.nan
 
     def breakdown(self) -> dict[str, float]:
-        """Return the share of each mechanism in the friction torque [N m]."""
+        """Return each mechanism's share of the torque [N m].
+
+        It is the friction torque.
+        """
         return {name: self.ratio(f"loss.{name}", "relative_angle") for name in LOSSES}
 
     def position(self) -> tuple[float, float, float]:
@@ -118,7 +141,10 @@ class Interval:
         return (self.ratio("x", "time"), self.ratio("y", "time"), self.ratio("z", "time"))
 
     def energy_residual(self) -> float:
-        """Return (input - dissipated - stored) / integral of |input power|; 0 when nothing flowed."""
+        """Return the relative energy residual.
+
+        (input - dissipated - stored) / integral of |input power|; 0 when nothing flowed.
+        """
         dissipated = float((self.last - self.first)[_LOSS].sum()) + self.change("support")
         missing = self.change("input") - dissipated - self.change("stored")
         flow = self.change("input_abs")
@@ -129,7 +155,10 @@ class Interval:
 
 @dataclass(frozen=True)
 class Estimate:
-    """A mean with its 95 % confidence half-width (NaN from fewer than two values)."""
+    """Mean with its 95 % confidence half-width.
+
+    NaN from fewer than two values.
+    """
 
     mean: float
     half_width: float
@@ -137,7 +166,9 @@ class Estimate:
 
 
 def estimate(values: FloatArray) -> Estimate:
-    """Return mean and 95 % confidence half-width of a stationary series of batch means.
+    """Return mean and half-width of batch means.
+
+    95 % confidence; the series is stationary.
 
     Student's t over the batches; where neighbouring batches correlate positively
     (lag-1 coefficient r), the variance of the mean is multiplied by (1 + r)/(1 - r), as
@@ -160,7 +191,10 @@ def estimate(values: FloatArray) -> Estimate:
 
 
 def torque_by_revolution(rows: FloatArray) -> FloatArray:
-    """Return the friction torque of each interval between rows (n + 1, len(COLUMNS)), shape (n,) [N m]."""
+    """Return the friction torque of each interval [N m].
+
+    Between rows (n + 1, len(COLUMNS)), shape (n,).
+    """
     growth = np.diff(rows, axis=0)
     with np.errstate(invalid="ignore", divide="ignore"):
         torque: FloatArray = growth[:, _LOSS].sum(axis=1) / growth[:, _INDEX["relative_angle"]]
@@ -168,5 +202,8 @@ def torque_by_revolution(rows: FloatArray) -> FloatArray:
 
 
 def finite(value: float) -> float | None:
-    """Return the number, None when there is none: JSON has no NaN and no infinity."""
+    """Return the number, None when not finite.
+
+    JSON has no NaN and no infinity.
+    """
     return float(value) if math.isfinite(value) else None

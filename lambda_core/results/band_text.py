@@ -10,7 +10,10 @@ from lambda_core.results.model_band import LEAST_SHARE, NARROW, ModelBand
 
 
 def banded(value: float | None, ends: Sequence[float], unit: str, plain: str, units: UnitSystem = SI) -> str:
-    """Return a number with its model band, rounded to what the band leaves a meaning; `plain` without a band."""
+    """Return a number with its model band.
+
+    It is rounded to the meaningful digits; `plain` without a band.
+    """
     if value is None or not ends:
         return plain
     if is_narrow(ends):
@@ -22,13 +25,18 @@ def banded(value: float | None, ends: Sequence[float], unit: str, plain: str, un
 
 
 def is_narrow(found: Sequence[float]) -> bool:
-    """Tell whether a band is too narrow for its ends and causes to matter."""
+    """Tell whether a band is narrow.
+
+    Its ends and causes then do not matter.
+    """
     low, high = found
     return 100.0 * abs(high - low) < LEAST_SHARE * abs(low + high)
 
 
 def ends(found: Sequence[float], unit: str, units: UnitSystem = SI, *, named: bool = False) -> str:
-    """Return the ends of a model band, rounded to what it leaves a meaning; a dash for none.
+    """Return the ends of a model band.
+
+    Rounded to the meaningful digits; a dash for none.
 
     The unit follows where it is to be `named` and the ends are numbers.
     """
@@ -43,7 +51,10 @@ def ends(found: Sequence[float], unit: str, units: UnitSystem = SI, *, named: bo
 
 
 def named_sources(bands: Mapping[str, ModelBand | None]) -> list[str]:
-    """Return what the bands of a machine's bearings come from, the torque's alone."""
+    """Return the sources of a machine's bands.
+
+    Those of the torque only.
+    """
     found = []
     for name, band in bands.items():
         torque = [one for one in band.bands if one.quantity == "friction torque"] if band is not None else []
@@ -52,7 +63,10 @@ def named_sources(bands: Mapping[str, ModelBand | None]) -> list[str]:
 
 
 def source_lines(band: ModelBand | None) -> list[str]:
-    """Return what the bands come from, once for those of one origin, and what was left out."""
+    """Return the sources of the bands.
+
+    Once for those of one origin, and what was left out.
+    """
     if band is None:
         return []
     if not band.bands:

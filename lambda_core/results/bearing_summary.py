@@ -17,7 +17,7 @@ from lambda_core.results.verdict import Verdict
 
 
 class Contact(Record):
-    """One ball - raceway contact at the end of the run."""
+    """Ball-raceway contact at the end of the run."""
 
     ball: int = Field(description="number of the ball, from 1")
     ring: Ring
@@ -52,7 +52,9 @@ class Equilibrium(Record):
 
 
 class BearingSummary(Banded):
-    """Averages of one bearing over whole cage revolutions, and its end state.
+    """Averages of one bearing and its end state.
+
+    The averages cover whole cage revolutions.
 
     A number that does not exist yet (an average before the first whole cage revolution) is null.
     """

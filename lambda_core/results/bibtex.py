@@ -40,7 +40,7 @@ class Entry:
 
     @property
     def work(self) -> tuple[str, ...]:
-        """What makes two references the same publication."""
+        """Key of the same publication."""
         return tuple(self.fields.get(name, "") for name in ("author", "year", "title", "journal", "howpublished"))
 
     def text(self, key: str) -> str:
@@ -51,7 +51,9 @@ class Entry:
 
 
 def bibtex(citation: Citation) -> str:
-    """Return the program, the method, and every publication behind the laws and the data of a result as BibTeX.
+    """Return the references of a result as BibTeX.
+
+    The program, the method, and every publication behind its laws and data.
 
     A law that brings entries of its own is cited by these. What has no year, such as a handbook's value, is no
     publication and stands as a comment.
@@ -79,7 +81,10 @@ def bibtex(citation: Citation) -> str:
 
 
 def read(reference: str) -> Entry | None:
-    """Read one reference; None where it has no author and year."""
+    """Read one reference.
+
+    None where it has no author and year.
+    """
     book = _BOOK.match(reference.strip())
     if book:
         return Entry("book", {"author": book["authors"], "title": book["title"], "year": book["year"]})
@@ -113,7 +118,10 @@ def _program(text: str) -> Entry:
 
 
 def _method(text: str) -> Entry:
-    """Read the publication of the complete model: authors and year, title, journal, DOI."""
+    """Read the publication of the complete model.
+
+    Authors and year, title, journal, DOI.
+    """
     found = re.fullmatch(
         r"(?P<authors>.+?) (?P<year>\d{4}), (?P<title>.+), (?P<journal>\w+) (?P<volume>\d+)\((?P<number>\d+)\), "
         r"(?P<pages>\d+), https://doi\.org/(?P<doi>\S+)",
@@ -125,7 +133,10 @@ def _method(text: str) -> Entry:
 
 
 def _same(one: Entry, other: Entry) -> bool:
-    """Tell whether two references are of one work: "Syla et al. 2026, eq. 31" names no journal."""
+    """Tell whether two references are of one work.
+
+    "Syla et al. 2026, eq. 31" names no journal.
+    """
     if (one.fields.get("author"), one.fields.get("year")) != (other.fields.get("author"), other.fields.get("year")):
         return False
     journals = one.fields.get("journal"), other.fields.get("journal")

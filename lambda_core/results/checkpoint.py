@@ -25,7 +25,7 @@ _MAGIC = b"LBCHECK1"
 
 @dataclass(frozen=True)
 class Position:
-    """Where in the file and in the run a checkpoint stands."""
+    """Place of a checkpoint in file and run."""
 
     sequence: int  # counts checkpoints
     rows: Rows  # of the file up to here
@@ -52,7 +52,10 @@ class Checkpoint:
 
 
 def latest(slots: Iterable[bytes]) -> Checkpoint | None:
-    """Return the newest whole checkpoint of `slots`, None when no slot holds one."""
+    """Return the newest complete checkpoint of `slots`.
+
+    None when no slot holds one.
+    """
     intact = [_read(body) for body in map(_body, slots) if body is not None]
     return max(intact, key=lambda checkpoint: checkpoint.position.sequence, default=None)
 
@@ -67,7 +70,10 @@ def _read(body: bytes) -> Checkpoint:
 
 
 def _body(slot: bytes) -> bytes | None:
-    """Return the body of a slot, None when it is empty or torn."""
+    """Return the body of a slot.
+
+    None when it is empty or torn.
+    """
     if len(slot) < _HEADER.size:
         return None
     magic, length, checksum = _HEADER.unpack_from(slot)

@@ -40,7 +40,10 @@ DISCHARGES: tuple[Channel, ...] = (
 
 
 def circuit_channels(bearings: int) -> tuple[Channel, ...]:
-    """Return what a run writes of its circuit between samples; several bearings stand along a dimension."""
+    """Return the circuit's channels of a run.
+
+    It writes them between samples; several bearings are along a dimension.
+    """
     if bearings == 1:
         return CIRCUIT
     time, *each = CIRCUIT
@@ -52,7 +55,10 @@ def circuit_channels(bearings: int) -> tuple[Channel, ...]:
 
 
 def discharge_channels(bearings: int) -> tuple[Channel, ...]:
-    """Return what a run writes of every film that broke down; of several bearings also in which one."""
+    """Return the channels of every breakdown.
+
+    Of several bearings also in which one.
+    """
     own = (Channel("bearing", (), "", "number of the bearing in the file, from 0"),) if bearings > 1 else ()
     return (*DISCHARGES, *own)
 

@@ -96,7 +96,10 @@ def citation(result: Result) -> Citation:
 
 
 def _laws(rows: Iterable[dict[str, str]]) -> tuple[list[LawReference], list[str]]:
-    """Return one entry per law, its force elements gathered, and the laws that name no source."""
+    """Return one entry per law, and unsourced laws.
+
+    The force elements of a law are gathered.
+    """
     found: dict[str, LawReference] = {}
     without: list[str] = []
     for row in rows:

@@ -74,17 +74,22 @@ def settings_of(result: Result) -> Solver:
 
 
 def window_of(result: Result) -> Window:
-    """Return the revolutions that the averages of a result are taken over."""
+    """Return the revolutions of a result's averages."""
     return window(settings_of(result), result.revolutions(), result.integrals()[-1])
 
 
 def _allowed(chosen: Window, together: float) -> float:
-    """Return the largest half-width that a bearing's torque may have, one of several or alone [N m]."""
+    """Return the largest allowed half-width [N m].
+
+    Of a bearing's torque, one of several or alone.
+    """
     return TORQUE_TOLERANCE * max(abs(chosen.interval.torque()), NEGLIGIBLE * abs(together))
 
 
 def shortfalls(solver: Solver, chosen: Window, residual: float, together: float = 0.0) -> list[str]:
-    """Return a sentence for each condition of convergence, but the end, that is not met.
+    """Return the unmet conditions of convergence.
+
+    A sentence for each, without that of the end.
 
     Parameters
     ----------
@@ -119,13 +124,18 @@ def shortfalls(solver: Solver, chosen: Window, residual: float, together: float 
 
 
 def _beyond(value: float, limit: float) -> str:
-    """Write a value in as many digits as show that it is beyond its limit, two at least."""
+    """Write a value beyond its limit.
+
+    It has enough digits to show this, two at least.
+    """
     texts = (f"{value:.{digits}g}" for digits in range(2, 17))
     return next((text for text in texts if abs(float(text)) > limit), f"{value:g}")
 
 
 def shortfalls_together(windows: Sequence[Window]) -> list[str]:
-    """Return a sentence where the torque of several bearings together is not known.
+    """Return the unmet condition of the total torque.
+
+    A sentence where the torque of several bearings together is not known.
 
     Their half-widths are added up, not their squares: bearings on one shaft swing together, and how much so is not
     known (JCGM 100:2008, 5.2.2, note 1, for inputs that are correlated altogether).
@@ -142,7 +152,9 @@ def shortfalls_together(windows: Sequence[Window]) -> list[str]:
 
 
 def revolutions_wanted(solver: Solver, chosen: Window, together: float = 0.0) -> int:
-    """Return how many whole cage revolutions the run will take in all, as far as one can tell now.
+    """Return the expected whole cage revolutions.
+
+    Of the complete run, as far as can be known now.
 
     The half-width falls with the root of the number of revolutions. `together` is that of :func:`shortfalls`.
     """
@@ -160,7 +172,10 @@ def torque_together(windows: Sequence[Window]) -> float:
 
 
 def half_width_together(windows: Sequence[Window]) -> float:
-    """Return the half-width of the torque of all bearings together [N m], added up as :func:`shortfalls_together`."""
+    """Return the total torque's half-width [N m].
+
+    Of all bearings, added up as :func:`shortfalls_together`.
+    """
     return sum(chosen.torque.half_width for chosen in windows)
 
 
@@ -170,7 +185,10 @@ def are_converged(
     known: Sequence[Sequence[FloatArray]],
     last: Sequence[FloatArray],
 ) -> bool:
-    """Tell whether nothing is short of what options want of the bearings of a machine, each in its window."""
+    """Tell whether all bearings are converged.
+
+    They meet the options of a machine, each in its window.
+    """
     together = torque_together(windows) if len(windows) > 1 else 0.0
     return not shortfalls_together(windows) and not any(
         shortfalls(solver, chosen, Interval(rows[0], now).energy_residual(), together)
@@ -181,7 +199,10 @@ def are_converged(
 def are_converged_by(
     solvers: Sequence[Solver], known: Sequence[Sequence[FloatArray]], last: Sequence[FloatArray]
 ) -> bool:
-    """Tell the same from the integrals kept and the last ones alone."""
+    """Tell whether all bearings are converged, from integrals.
+
+    From the integrals kept and the last ones alone.
+    """
     each = zip(solvers, known, last, strict=True)
     windows = [window(solver, np.stack(rows), now) for solver, rows, now in each]
     return are_converged(solvers, windows, known, last)

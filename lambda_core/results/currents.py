@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 
 
 class Currents(Record):
-    """Voltages and discharges from where averages begin; spans are 10, 50 and 90 %."""
+    """Voltages and discharges of the averages' span.
+
+    Spans are 10, 50 and 90 %.
+    """
 
     seconds: float = Field(description="that are counted [s]")
     bearing_voltage_V: list[float] = quantity(
@@ -47,7 +50,10 @@ class Currents(Record):
 
 
 def currents_of(result: Result, start: float) -> Currents | None:
-    """Return what a run wrote of its circuit from a time on [s]; None where it has none, or nothing yet."""
+    """Return the circuit's results from a time [s].
+
+    A run wrote them; None where it has none, or nothing yet.
+    """
     circuit, events = result.circuit(), result.discharges()
     later = circuit["time"][circuit["time"] >= start] if circuit else np.zeros(0)
     if later.size < 2:

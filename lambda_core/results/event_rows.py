@@ -45,7 +45,7 @@ class EventSeen(Record):
 
 
 class NumberWritten(Record):
-    """How a number of an observer is made, as it stands in the result."""
+    """Construction of an observer's number in the result."""
 
     name: str
     channel: str
@@ -54,7 +54,10 @@ class NumberWritten(Record):
 
 
 def observer_rows(model: BearingModel, keys: Mapping[str, str]) -> list[dict[str, str]]:
-    """Return one row per observer of a run; `keys` are hashes of their code by "observer/NAME"."""
+    """Return one row per observer of a run.
+
+    `keys` are hashes of their code by "observer/NAME".
+    """
     return [
         _about(name, chosen, keys.get(f"observer/{name}", ""))
         | {"numbers": json.dumps([vars(number) for number in chosen.item.numbers])}
@@ -63,7 +66,10 @@ def observer_rows(model: BearingModel, keys: Mapping[str, str]) -> list[dict[str
 
 
 def event_rows(model: BearingModel, keys: Mapping[str, str]) -> list[dict[str, str]]:
-    """Return one row per event that a run looks out for; `keys` are hashes of their code by "event/NAME"."""
+    """Return one row per event of a run.
+
+    `keys` are hashes of their code by "event/NAME".
+    """
     return [
         _about(name, chosen, keys.get(f"event/{name}", "")) | {"action": chosen.action}
         for name, chosen in model.events.items()

@@ -79,7 +79,10 @@ TABLES = {  # of a bearing's inputs, and their columns
 
 
 def create(file: h5py.File, provenance: Provenance, channels: RunChannels) -> None:
-    """Create every object and attribute of a result in an empty file."""
+    """Create all objects of a result.
+
+    Every object and attribute, in an empty file.
+    """
     from lambda_core.model.checks.describe import headline
 
     machine = provenance.machine
@@ -120,7 +123,10 @@ def create(file: h5py.File, provenance: Provenance, channels: RunChannels) -> No
 
 
 def _machine(group: h5py.Group, origin: MachineOrigin, channels: Sequence[Channel]) -> None:
-    """Create what shaft and bodies of a machine write, and where they come from."""
+    """Create the machine's objects of a result.
+
+    What shaft and bodies of a machine write, and their origin.
+    """
     for dim, labels in origin.labels.items():
         _scale(group, dim, labels)
     _series(group, [c for c in channels if all(dim not in origin.labels or len(origin.labels[dim]) for dim in c.dims)])
@@ -150,7 +156,10 @@ def _bearing(group: h5py.Group, origin: BearingOrigin, channels: Sequence[Channe
 
 
 def bearing_names(file: h5py.File) -> tuple[str, ...]:
-    """Return the bearings of a result, in the order of the machine; KeyError where one is missing."""
+    """Return the bearings of a result.
+
+    In the order of the machine; KeyError where one is missing.
+    """
     names = tuple(str(name) for name in file.attrs[BEARINGS])
     if set(names) != set(file[BEARINGS]) or not names:
         raise KeyError("the list of its bearings is not that of its groups")
@@ -158,7 +167,10 @@ def bearing_names(file: h5py.File) -> tuple[str, ...]:
 
 
 def _linked(file: h5py.File) -> set[str]:
-    """Return the paths at the root that are the objects of the only bearing by another name."""
+    """Return the root paths of the only bearing.
+
+    They are its objects by another name.
+    """
     groups = list(file.get(BEARINGS, ()))
     if len(groups) != 1:
         return set()
@@ -168,7 +180,7 @@ def _linked(file: h5py.File) -> set[str]:
 
 
 def _link_alone(file: h5py.File) -> None:
-    """Make everything of the only bearing reachable at the root, too."""
+    """Link everything of the only bearing at root."""
     for path in _linked(file):
         file[path] = file[f"{BEARINGS}/{next(iter(file[BEARINGS]))}/{path}"]
 
@@ -189,7 +201,10 @@ def _scale(group: h5py.Group, name: str, labels: Sequence[str] | NDArray[Any]) -
 
 
 def _series(group: h5py.Group, channels: Sequence[Channel], along: str = "") -> None:
-    """Create one growing dataset per channel; `along` is the growing dimension, without one the samples' time."""
+    """Create one growing dataset per channel.
+
+    `along` is the growing dimension, without one the samples' time.
+    """
     root = group.file
     first = None if along else root["time"]
     dims = {dim: _nearest(group, dim) for c in channels for dim in c.dims}
@@ -209,7 +224,10 @@ def _series(group: h5py.Group, channels: Sequence[Channel], along: str = "") -> 
 
 
 def _nearest(group: h5py.Group, dim: str) -> h5py.Dataset:
-    """Return the labels of a dimension of this group, or of the nearest one above that has them."""
+    """Return the labels of a dimension.
+
+    Of this group, or of the nearest one above that has them.
+    """
     while not isinstance(group.get(dim), h5py.Dataset) and group.name != "/":  # a bearing may have the name of one
         group = group.parent
     return group[dim]
@@ -246,7 +264,10 @@ def _pairs(group: h5py.Group, name: str, pairs: Mapping[str, str]) -> None:
 
 
 def _table(group: h5py.Group, name: str, columns: Sequence[str], rows: Sequence[dict[str, str]]) -> None:
-    """Create a group with one text dataset per column, along the first column."""
+    """Create a group of text datasets.
+
+    One per column, along the first column.
+    """
     table = group.create_group(name)
     index = table.create_dataset("row", data=np.arange(len(rows)))
     index.make_scale("row")
@@ -262,7 +283,10 @@ def read_table(group: h5py.Group) -> list[dict[str, str]]:
 
 
 def rows_of(path: str, rows: Rows) -> int:
-    """Return how many rows of a growing dataset (its path in the file, as of :func:`objects`) count."""
+    """Return the valid rows of a growing dataset.
+
+    The dataset is given by its path in the file, as of :func:`objects`.
+    """
     place = path.strip("/").rpartition("/")[0]
     counts = {CIRCUIT_GROUP: rows.circuit, DISCHARGES_GROUP: rows.discharges}
     if not place.startswith(f"{BEARINGS}/"):
@@ -275,7 +299,10 @@ def rows_of(path: str, rows: Rows) -> int:
 
 
 def grows(item: object) -> bool:
-    """Tell whether an object of a file is a dataset that a run appends to."""
+    """Tell whether a run appends to an object.
+
+    It is then a growing dataset of the file.
+    """
     return isinstance(item, h5py.Dataset) and bool(item.maxshape) and item.maxshape[0] is None
 
 
@@ -285,7 +312,10 @@ def chunk_bytes(item: h5py.Dataset) -> int:
 
 
 def size(source: h5py.File, rows: Rows) -> int:
-    """Return an upper bound of the bytes that a copy with the first `rows` rows takes, metadata aside."""
+    """Return the size limit of a copy [bytes].
+
+    An upper bound with the first `rows` rows, metadata aside.
+    """
     total = 0
     for name, item in objects(source).items():
         if grows(item):
@@ -296,7 +326,10 @@ def size(source: h5py.File, rows: Rows) -> int:
 
 
 def objects(file: h5py.File) -> dict[str, Any]:
-    """Return every group and dataset of a file by its path; what stands at the root by another name, once."""
+    """Return every group and dataset by path.
+
+    An object that the root has by another name counts once.
+    """
     linked, found = _linked(file), dict[str, Any]()
     seen = {h5py.h5o.get_info(file["/"].id).addr}  # a damaged file may have a group that contains itself
 
@@ -324,13 +357,18 @@ def never() -> bool:
 
 
 def soon() -> Stop:
-    """Stop after a while: packing takes long after a long run, and is not for whoever waits for the end."""
+    """Stop after a while.
+
+    Packing takes long after a long run, and nobody should wait for it at the end.
+    """
     until = time.process_time() + PACKING
     return lambda: time.process_time() > until
 
 
 def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool, stop: Stop = never) -> None:
-    """Copy a result with the first `rows` rows of its growing datasets.
+    """Copy a result with its first rows.
+
+    The first `rows` rows of its growing datasets.
 
     Parameters
     ----------

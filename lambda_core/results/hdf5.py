@@ -23,7 +23,10 @@ METADATA = 1 << 20  # more than HDF5 needs for indexes and headers at a time [by
 
 
 def open_for_reading(path: Path) -> h5py.File:
-    """Open a result that is finished, being written, or left behind by a killed process."""
+    """Open a result for reading.
+
+    It is finished, being written, or left behind by a killed process.
+    """
     try:
         return h5py.File(path, "r")
     except (OSError, RuntimeError):
@@ -37,7 +40,9 @@ def open_for_reading(path: Path) -> h5py.File:
 
 
 def _look_again(access: h5py.h5p.PropFAID, times: int) -> None:
-    """Limit how often HDF5 reads what another process may just be writing.
+    """Limit the repeated reads of HDF5.
+
+    Another process may be writing what it reads.
 
     Its own hundred times, with a pause that doubles, take longer than anybody lives when the place is damaged. h5py
     has no call for it, so the library behind h5py is asked; where it cannot be, as on Windows, the hundred stay.
@@ -49,7 +54,9 @@ def _look_again(access: h5py.h5p.PropFAID, times: int) -> None:
 
 
 def reserve(file: h5py.File, growth: int) -> None:
-    """Take `growth` bytes on disk for what will be written next.
+    """Take `growth` bytes on disk.
+
+    They are for the next writes.
 
     HDF5 crashes the process when a write fails that it had put off. So the disk is asked
     first, and a full one is found while everything in memory is still in order.
@@ -67,13 +74,19 @@ def reserve(file: h5py.File, growth: int) -> None:
 
 
 def sibling_path(path: Path) -> Path:
-    """Return a hidden name in the same folder, of this process; sweep away those of dead ones."""
+    """Return a hidden name in the same folder.
+
+    It belongs to this process; those of dead ones are removed.
+    """
     sweep(path.absolute().parent, glob.escape(path.name))
     return path.with_name(f".{path.name}.{os.getpid()}")
 
 
 def sweep(folder: Path, name: str = "*.h5") -> None:
-    """Remove what killed processes left half made in a folder: the names of :func:`sibling_path`, and no others."""
+    """Remove half-made files of killed processes.
+
+    Only names of :func:`sibling_path` in a folder.
+    """
     for old in folder.glob(f".{name}.*"):
         number = old.name.rpartition(".")[2]
         if number.isdecimal() and not exists(int(number)) and not old.is_dir():
@@ -81,13 +94,18 @@ def sweep(folder: Path, name: str = "*.h5") -> None:
 
 
 def trim(path: Path, size: int) -> None:
-    """Give back what was reserved past the end of a closed file."""
+    """Release the reserved space of a file.
+
+    It is past the end; the file is closed.
+    """
     if path.stat().st_size > size:
         os.truncate(path, size)
 
 
 def copy(path: Path, rows: Rows, *, compress: bool, stop: layout.Stop = layout.never) -> Path:
-    """Copy a result with the first `rows` rows into its own folder; return where. `stop` is asked on the way.
+    """Copy a result into its own folder.
+
+    The copy has the first `rows` rows; return its path. `stop` is asked on the way.
 
     Raises
     ------
@@ -114,7 +132,10 @@ def copy(path: Path, rows: Rows, *, compress: bool, stop: layout.Stop = layout.n
 
 
 def reason(error: Exception) -> str:
-    """Return the system's words for what went wrong ("No space left on device")."""
+    """Return the system's words for an error.
+
+    Such as "No space left on device".
+    """
     while isinstance(error, SystemError) and isinstance(error.__cause__, Exception):
         error = error.__cause__  # what h5py meant to raise
     code = error.errno if isinstance(error, OSError) else None

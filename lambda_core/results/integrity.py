@@ -31,7 +31,10 @@ _LOOKED_AT = 64 << 20  # [byte] from the beginning: a run writes its texts befor
 
 
 def heaps_are_intact(path: Path) -> bool:
-    """Tell whether each heap of texts near the beginning of a file can be stepped through to its end."""
+    """Tell whether the text heaps are intact.
+
+    Each heap near the beginning of a file can be stepped through to its end.
+    """
     with path.open("rb") as stream:
         if not stream.seek(0, 2):
             return True
@@ -46,7 +49,10 @@ def heaps_are_intact(path: Path) -> bool:
 
 
 def _ends(data: mmap.mmap, start: int) -> bool:
-    """Step through one heap: True when each step goes on and none leaves the heap."""
+    """Step through one heap.
+
+    True when each step goes on and none leaves the heap.
+    """
     place = start + len(_SIGNATURE)
     if place + _SIZE.size > len(data):
         return False
@@ -64,7 +70,9 @@ def _ends(data: mmap.mmap, start: int) -> bool:
 
 
 def is_cut(path: Path) -> bool:
-    """Tell whether a file is shorter than the end that stands in its superblock.
+    """Tell whether a file was cut.
+
+    It is shorter than the end in its superblock.
 
     What is behind the end of a file HDF5 reads as zeros where another process might still be writing. Whoever flushes
     makes the file as long before the superblock says so (HDF5 File Format Specification, II.A).
@@ -79,7 +87,10 @@ def is_cut(path: Path) -> bool:
 
 
 def check_model(model: Any) -> None:
-    """Raise ValueError where a model, read back as plain data, lacks what every use of a result asks it for."""
+    """Refuse an incomplete model with ValueError.
+
+    It was read back as plain data, and every use of a result needs these values.
+    """
     if not isinstance(model, dict):
         raise ValueError("its model is not a table")
     for part, kind in (("geometry", Geometry), ("solver", Solver)):
@@ -95,7 +106,10 @@ def check_model(model: Any) -> None:
 
 
 def check_machine(name: str, found: Mapping[str, Any]) -> None:
-    """Raise ValueError where the model of a machine, or a number of it, lacks what a summary asks it for."""
+    """Refuse an incomplete machine with ValueError.
+
+    Its model or a number lacks what a summary needs.
+    """
     needed = {"model_json": ("speed",), "numbers_json": ("drive_torque",)}[name]
     if not all(_is_number(found.get(key)) for key in needed):
         raise ValueError(f"its machine has no number {needed[0]}")
@@ -107,7 +121,10 @@ def check_machine(name: str, found: Mapping[str, Any]) -> None:
 
 
 def _is_number(value: object) -> bool:
-    """Tell whether `float` reads it: what is endless is written as a word."""
+    """Tell whether `float` reads a text.
+
+    An infinite number is a word in it.
+    """
     try:
         float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):

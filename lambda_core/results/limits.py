@@ -33,7 +33,10 @@ COARSEST_TOLERANCE = 1e-3
 
 
 class Shoulder(Record):
-    """How near the contact ellipses on one ring come to the edge of its shoulder, at worst."""
+    """Smallest distance of contact ellipses to the shoulder.
+
+    On one ring, to the edge of its shoulder.
+    """
 
     ring: Ring
     ball: int = Field(description="number of the ball, from 1")
@@ -45,7 +48,10 @@ class Shoulder(Record):
     ridge: bool = Field(default=False, description="whether it is the edge between the arcs of four-point contact")
 
     def warning(self) -> list[str]:
-        """Return a sentence where the ellipse runs over the edge, else nothing."""
+        """Return a warning of an ellipse over the edge.
+
+        Or nothing.
+        """
         if self.margin_um >= 0.0:
             return []
         if self.ridge:
@@ -68,7 +74,10 @@ class Shoulder(Record):
 
 @dataclass(frozen=True)
 class Grooves:
-    """Groove radius and angle of the shoulder's edge, inner then outer; of angular contact that of the high one."""
+    """Groove radius and shoulder angles of both rings.
+
+    Inner then outer; of angular contact that of the high one.
+    """
 
     radius: FloatArray  # (2,) [m]
     edge: FloatArray  # (2,) [rad]
@@ -78,7 +87,9 @@ class Grooves:
 
     @property
     def least_share(self) -> float:
-        """Share of the largest load from which on a contact counts at the high edges.
+        """Least share of the largest load.
+
+        From it on a contact counts at the high edges.
 
         A ball of the row that a thrust unloads leans far to the side under its weight alone.
         """
@@ -86,7 +97,10 @@ class Grooves:
 
     @staticmethod
     def of(geometry: Mapping[str, Any]) -> Grooves:
-        """Take them from the geometry: cos(theta) = 1 - |d_shoulder - d_race|/(2 r_groove)."""
+        """Take the grooves from the geometry.
+
+        cos(theta) = 1 - |d_shoulder - d_race|/(2 r_groove).
+        """
         radius = np.array([float(geometry[f"groove_radius_{ring}"]) for ring in get_args(Ring)])
         height = np.array(
             [
@@ -134,7 +148,10 @@ def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: 
 def _nearest(
     counted: NDArray[np.bool_], angle: FloatArray, end: FloatArray, edge: FloatArray, radius: FloatArray
 ) -> list[Shoulder]:
-    """Return the contact on each ring whose ellipse's end is nearest to an edge, or farthest beyond it."""
+    """Return the nearest contact to an edge.
+
+    On each ring, by its ellipse's end; or the one farthest beyond it.
+    """
     margin = np.where(counted, (edge - end) * radius, np.inf)
     found = []
     for i, ring in enumerate(get_args(Ring)):
@@ -160,7 +177,10 @@ def worst(found: list[Shoulder]) -> list[Shoulder]:
 
 
 def tolerance_warning(tolerance: float) -> list[str]:
-    """Return a sentence where `solver.tolerance` is coarser than what averages can be trusted with, else nothing."""
+    """Return a warning of a coarse tolerance.
+
+    `solver.tolerance` is too coarse for reliable averages; or nothing.
+    """
     if tolerance <= COARSEST_TOLERANCE:
         return []
     return [
@@ -170,14 +190,19 @@ def tolerance_warning(tolerance: float) -> list[str]:
 
 
 def highest_pressure(kind: str) -> float:
-    """Return the contact pressure from which on steel yields, of a kind of bearing by its name [Pa]."""
+    """Return the pressure at which steel yields [Pa].
+
+    Of a contact, by the name of a kind of bearing.
+    """
     return _HIGHEST_PRESSURE_ALIGNING if kinds()[kind].on_sphere else _HIGHEST_PRESSURE
 
 
 def warnings(
     pressure: float, edges: list[Shoulder], tilt: float, kind: str = "deep groove", *, on_shaft: bool = False
 ) -> list[str]:
-    """Return a sentence for everything in a solution that lies beyond what the laws are made for.
+    """Return warnings of exceeded limits of laws.
+
+    A sentence for everything in a solution beyond their range.
 
     Parameters
     ----------

@@ -28,7 +28,10 @@ class Swing(Record):
 
 
 class ElementForce(Record):
-    """What a force element, or a connection by a law, does over time."""
+    """Force element's results over time.
+
+    Or those of a connection by a law.
+    """
 
     force_N: list[float] = Field(description="mean force x, y, z on the second of its bodies")
     force_swing_N: list[float] = Field(description="half of what lies between the smallest and largest value: x, y, z")
@@ -42,7 +45,10 @@ def total(values: Iterable[float | None]) -> float | None:
 
 
 def said_once(reasons: Mapping[str, list[str]]) -> list[str]:
-    """Return sentences with the name of their bearing, but once and without it what holds for every one."""
+    """Return sentences, common ones once.
+
+    Those of one bearing have its name; those that hold for all have none.
+    """
     plain = [text for own in reasons.values() for text in own]
     named = [(name, text) for name, own in reasons.items() for text in own]
     said = (text if plain.count(text) == len(reasons) else f"{name}: {text}" for name, text in named)
@@ -50,13 +56,19 @@ def said_once(reasons: Mapping[str, list[str]]) -> list[str]:
 
 
 def machine_warnings(result: Result, bearings: Mapping[str, BearingSummary]) -> list[str]:
-    """Return what holds for the machine as it is drawn, then for its bearings."""
+    """Return the machine's warnings.
+
+    Those of the machine as it is drawn, then those of its bearings.
+    """
     own = {name: one.warnings for name, one in bearings.items()}
     return [*result.of_machine().case_warnings, *said_once(own)]
 
 
 def machine_numbers(result: Result, bearings: Mapping[str, BearingSummary], start: float) -> dict[str, Any]:
-    """Return the numbers of shaft and bodies of a machine, averaged from time `start` [s]."""
+    """Return the numbers of shaft and bodies.
+
+    Of a machine, averaged from time `start` [s].
+    """
     machine, numbers = result.of_machine(), result.machine_numbers
     friction = total(one.friction_torque_Nmm for one in bearings.values())
     speed = float(result.machine["speed"])
@@ -82,7 +94,10 @@ _PLACES = ("shaft_position", "body_position", "marker_position")
 
 
 def _swings(machine: Result, name: str, start: float) -> dict[Any, Swing]:
-    """Return mean and swing of every place of a channel of displacements."""
+    """Return mean and swing of every place.
+
+    Of a channel of displacements.
+    """
     labels = machine.labels(next(c for c in machine.channels if c.name == name).dims[0])
     found = {}
     for label, (mean, swing) in zip(labels, _means(machine, name, start), strict=True):
@@ -91,7 +106,10 @@ def _swings(machine: Result, name: str, start: float) -> dict[Any, Swing]:
 
 
 def _means(machine: Result, name: str, start: float) -> list[tuple[FloatArray, FloatArray]]:
-    """Return mean, and half of what lies between smallest and largest value, along the first dimension."""
+    """Return mean and half range of values.
+
+    Between smallest and largest value, along the first dimension.
+    """
     sums, low, high = np.zeros(()), np.array(np.inf), np.array(-np.inf)
     count = 0
     for block in machine.blocks((name,), start):
@@ -102,7 +120,10 @@ def _means(machine: Result, name: str, start: float) -> list[tuple[FloatArray, F
 
 
 def element_numbers(result: Result, start: float) -> dict[str, ElementForce]:
-    """Return forces and powers of the force elements of a result from time `start` [s], by name."""
+    """Return forces and powers of force elements.
+
+    Of a result from time `start` [s], by name.
+    """
     every = {channel.name for channel in result.channels}
     dim = next((dim for dim in ("element", "connection") if f"{dim}_force" in every), "")
     if not dim:
@@ -116,7 +137,10 @@ def element_numbers(result: Result, start: float) -> dict[str, ElementForce]:
 
 
 def reactions(result: Result, start: float) -> dict[str, list[float]]:
-    """Return force and moment of a machine's bearing on the shaft from time `start` [s]."""
+    """Return a bearing's force and moment.
+
+    Of a machine's bearing on the shaft from time `start` [s].
+    """
     machine, i = result.of_machine(), result.bearing_names.index(result.bearing)
     force, swing = _means(machine, "reaction_force", start)[i]
     moment, _ = _means(machine, "reaction_moment", start)[i]

@@ -23,7 +23,10 @@ _HEAD, _COLUMN = 26, 14
 
 
 def machine_text(found: Summary, width: int | None = None, units: UnitSystem = SI) -> str:
-    """Return what the run of a machine says; `width` and `units` as for one bearing."""
+    """Return the text of a machine's run.
+
+    `width` and `units` as for one bearing.
+    """
     each = list(found.bearings.values())
     rows = [("bearing", [one.title.split(" (")[0] for one in each]), *_rows(found, units)]
     wide = max(_COLUMN, *(2 + len(cell) for cells in (list(found.bearings), *(c for _, c in rows)) for cell in cells))
@@ -68,7 +71,10 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
 
 
 def _band_lines(found: Summary, units: UnitSystem) -> list[str]:
-    """Return the model band of the torque of all bearings, and what it comes from."""
+    """Return the lines of the model band.
+
+    Of the torque of all bearings, with its causes.
+    """
     if not found.friction_torque_Nmm_band:
         return []
     sources = named_sources({name: one.model_band for name, one in found.bearings.items()})
@@ -81,7 +87,10 @@ _NO_ROW = ("place", "capacitance", "trust")  # groups that the text of a machine
 
 
 def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
-    """Return a row for every number of the bearings: its name with unit, and a cell for each."""
+    """Return a row for every number of bearings.
+
+    Its name with unit, and a cell for each.
+    """
     each = list(found.bearings.values())
     groups = {one.group for source in (each[0], each[0].rating) if source for one in quantities(type(source)).values()}
     others = sorted(groups - {*_GROUPS, *_NO_ROW})
@@ -98,7 +107,10 @@ def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
 
 
 def _of_group(each: Sequence[BearingSummary], group: str, units: UnitSystem) -> Iterator[tuple[str, list[str]]]:
-    """Yield the rows of a group: of the bearings, then of their ratings, without those that no bearing has."""
+    """Yield the rows of a group.
+
+    Of the bearings, then of their ratings, without those that no bearing has.
+    """
     sources: tuple[list[BearingSummary] | list[Rating | None], ...] = (list(each), [one.rating for one in each])
     for source in sources:
         kind = next((type(one) for one in source if one is not None), None)
@@ -116,7 +128,10 @@ def _of_group(each: Sequence[BearingSummary], group: str, units: UnitSystem) -> 
 
 
 def _pair(value: float | None, width: float | None, unit: str, units: UnitSystem) -> str:
-    """Write a number and how far it swings or is known, without its unit."""
+    """Write a number with its swing or uncertainty.
+
+    It has no unit.
+    """
     if value is None:
         return NONE
     text = _digits(units.value(value, unit))

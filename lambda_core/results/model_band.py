@@ -54,7 +54,10 @@ class Band(Record):
         return 50.0 * (self.high - self.low) / abs(self.value) if self.value else math.nan
 
     def around(self, value: float) -> list[float]:
-        """Return the ends for another value of the result, as of a run: they lie as far off in proportion."""
+        """Return the ends for another value.
+
+        It is the result of a run, say: they lie as far off in proportion.
+        """
         if not self.value:
             return [value, value]
         return [value * self.low / self.value, value * self.high / self.value]
@@ -64,7 +67,10 @@ class Band(Record):
         return ", ".join(f"{c.name} {100.0 * c.share:.0f} %" for c in self.contributors[:_NAMED])
 
     def text(self) -> str:
-        """Return the band in one line, rounded to what it leaves a meaning."""
+        """Return the band in one line.
+
+        It is rounded to the meaningful digits.
+        """
         half = 0.5 * (self.high - self.low)
         shown = [rounded(number, half) for number in (self.value, self.low, self.high)]
         names = self.mostly()
@@ -73,7 +79,10 @@ class Band(Record):
 
 
 class ModelBand(Record):
-    """The bands of the results of a case, or of one bearing of a machine."""
+    """Bands of the results of a case.
+
+    Or of one bearing of a machine.
+    """
 
     interface: int = INTERFACE
     case: str
@@ -86,7 +95,9 @@ class ModelBand(Record):
         return next(band for band in self.bands if band.quantity == quantity)
 
     def fields(self, values: Mapping[str, float | None] | None = None) -> dict[str, list[float]]:
-        """Return the ends of each band under the name of its number in the machine interface, with ``_band``.
+        """Return the ends of each band by name.
+
+        The name is that of its number in the machine interface, with ``_band``.
 
         Parameters
         ----------
@@ -102,7 +113,10 @@ class ModelBand(Record):
         return found
 
     def shares(self) -> list[str]:
-        """Return how far off each result may be in per cent, a line each."""
+        """Return the uncertainty of each result [%].
+
+        A line each.
+        """
         found = []
         for band in self.bands:
             low, high = (100.0 * (end / band.value - 1.0) for end in (band.low, band.high))
@@ -120,7 +134,10 @@ class ModelBand(Record):
 
 
 class Banded(Record):
-    """The model band of the numbers of a result, which has their names with ``_band``."""
+    """Model band of a result's numbers.
+
+    It has their names with ``_band``.
+    """
 
     friction_torque_Nmm_band: list[float] = Field(description=_ENDS, default=[])
     power_loss_W_band: list[float] = Field(description=_ENDS, default=[])
@@ -144,14 +161,19 @@ class Banded(Record):
 
 
 class MachineBand(Record):
-    """The bands of the results of each bearing of a machine, under its loads there."""
+    """Bands of each bearing of a machine.
+
+    They are those of the results under its loads there.
+    """
 
     interface: int = INTERFACE
     case: str
     bearings: dict[str, ModelBand]
 
     def fields(self) -> dict[str, list[float]]:
-        """Return the ends of the bands of torque and power loss of all bearings.
+        """Return the bands of all bearings' torque.
+
+        Their ends, and those of the power loss.
 
         Their errors are those of the same laws: they add up.
         """
@@ -160,15 +182,24 @@ class MachineBand(Record):
         return {name: sum_of_bands([own.get(name) for own in each]) for name in added}
 
     def shares(self) -> list[str]:
-        """Return how far off each result may be in per cent, a line for each bearing and result."""
+        """Return the uncertainty of each result [%].
+
+        A line for each bearing and result.
+        """
         return [f"{name}: {text}" for name, band in self.bearings.items() for text in band.shares()]
 
     def text(self) -> str:
-        """Return a heading and one line per result for each bearing."""
+        """Return the lines of all bearings' bands.
+
+        A heading and one line per result for each bearing.
+        """
         return "\n".join(f"{name}: {band.text()}" for name, band in self.bearings.items())
 
 
 def sum_of_bands(bands: Sequence[Sequence[float] | None]) -> list[float]:
-    """Return the sum of bands whose errors go together; empty where one is missing."""
+    """Return the sum of correlated bands.
+
+    Their errors go together; empty where one is missing.
+    """
     known = [band for band in bands if band]
     return [sum(band[end] for band in known) for end in (0, 1)] if len(known) == len(bands) and known else []

@@ -20,7 +20,10 @@ _FASTEST = math.pi  # w h from which on a step sees nothing of a swing's frequen
 
 
 class RingMode(Record):
-    """A mode of the rings near the end of a run, and what the integration did to it."""
+    """Mode of the rings with its numerical damping.
+
+    Near the end of a run.
+    """
 
     frequency_Hz: float
     damping_percent: float = Field(description="of critical, of the bearing or the shaft itself")
@@ -29,7 +32,7 @@ class RingMode(Record):
 
 
 class NumericalDamping(Record):
-    """How far vibrations can be believed."""
+    """Accuracy of vibrations."""
 
     resolve_Hz: float = Field(description="highest resolved frequency; 0 for averages")
     step_s: float = Field(description="length of a step, the cubic mean over time")
@@ -38,7 +41,7 @@ class NumericalDamping(Record):
     )
 
     def at(self, frequency: float) -> tuple[float, float]:
-        """Return the damping that is added and the shift of a frequency [%]."""
+        """Return added damping and frequency shift [%]."""
         damping, shift = added(2.0 * math.pi * frequency * self.step_s, fine=self.resolve_Hz > 0.0)
         return 100.0 * damping, 100.0 * shift
 
@@ -66,7 +69,10 @@ class NumericalDamping(Record):
         return f'solver.accuracy = "vibration"{more} resolves it'
 
     def note(self, frequency: float) -> str:
-        """Return the note of a spectrum that ends at a frequency [Hz]."""
+        """Return the note of a spectrum.
+
+        The spectrum ends at a frequency [Hz].
+        """
         damping, shift = self.at(frequency)
         half = self.at(0.5 * frequency)
         where, middle = show(frequency, "frequency", 3), show(0.5 * frequency, "frequency", 3)
@@ -77,7 +83,9 @@ class NumericalDamping(Record):
 
 
 def added(angle: float, *, fine: bool) -> tuple[float, float]:
-    """Return the damping ratio that a formula adds to a swing, and the relative shift of its frequency.
+    """Return added damping ratio and frequency shift.
+
+    A formula adds them to a swing; the shift is relative.
 
     The swing u' = i w u becomes u_n = rho^n, with the principal root rho of the formula at z = i w h (Hairer and Wanner
     1996, Solving ODEs II, IV.3, V.1): arg(rho)/(w h) is the frequency over w, -ln|rho|/(w h) the damping ratio. For
@@ -103,7 +111,10 @@ def added(angle: float, *, fine: bool) -> tuple[float, float]:
 
 
 def numerical_damping(settings: Solver, status: Status, time: float) -> NumericalDamping | None:
-    """Return how far the vibrations of a run can be believed; None of a result of an older version."""
+    """Return the accuracy of a run's vibrations.
+
+    None of a result of an older version.
+    """
     powers = status.statistics.get(FOURTH_POWERS, 0.0)
     if not powers > 0.0 or not time > 0.0:
         return None

@@ -19,7 +19,10 @@ _SCALES = b"DIMENSION_LIST"  # the attribute in which HDF5's dimension scales st
 
 
 def describe(item: h5py.Dataset, texts: Mapping[str, str]) -> None:
-    """Write texts of a dataset that has none of these names yet."""
+    """Write missing texts of a dataset.
+
+    It has none of these names yet.
+    """
     kind, one = h5t.py_create(_TEXT, logical=True), h5s.create(h5s.SCALAR)
     for name, text in texts.items():
         h5a.create(item.id, name.encode(), kind, one).write(np.array(text, dtype=_TEXT))
@@ -45,12 +48,17 @@ def attach(data: h5py.Dataset, axis: int, scale: h5py.Dataset) -> None:
 
 
 def scales_in(items: Mapping[str, object]) -> dict[h5py.h5d.DatasetID, str]:
-    """Return the dimension scales among the objects of a file, with their names."""
+    """Return the dimension scales with their names.
+
+    They are among the objects of a file.
+    """
     return {item.id: name for name, item in items.items() if isinstance(item, h5py.Dataset) and h5ds.is_scale(item.id)}
 
 
 def scales_along(data: h5py.Dataset, scales: Mapping[h5py.h5d.DatasetID, str]) -> list[str]:
-    """Return the name of the scale of each axis, empty where it has none.
+    """Return the name of each axis's scale.
+
+    It is empty where the axis has none.
 
     HDF5 looks a name up by going through the file; the object that is pointed at is known at once.
 

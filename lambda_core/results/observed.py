@@ -17,7 +17,10 @@ if TYPE_CHECKING:
 
 
 def observed_numbers(result: Result, start: float) -> list[ObserverNumber]:
-    """Return the numbers of every observer over the samples from time `start` [s]."""
+    """Return the numbers of every observer.
+
+    Over the samples from time `start` [s].
+    """
     units = {channel.name: channel.unit for channel in result.channels}
     found = []
     for row in result.observers:
@@ -32,7 +35,10 @@ def observed_numbers(result: Result, start: float) -> list[ObserverNumber]:
 
 
 def _reduced(result: Result, number: NumberWritten, start: float) -> float:
-    """Return one number of a channel, NaN where it has no finite value."""
+    """Return one number of a channel.
+
+    NaN where it has no finite value.
+    """
     if number.reduction == "last":
         return _largest(result.sample(-1, (number.channel,))[number.channel])
     count, total, low, high = 0, 0.0, np.inf, -np.inf
@@ -53,7 +59,10 @@ def _largest(values: FloatArray) -> float:
 
 
 def occurred_events(result: Result) -> list[EventSeen]:
-    """Return how often each event began, and when first and last."""
+    """Return how often each event began.
+
+    Also when first and last.
+    """
     rows = result.watched_events
     if not rows:
         return []

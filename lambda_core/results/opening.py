@@ -34,7 +34,10 @@ class BeingWrittenError(ResultError):
 
 @contextmanager
 def opened(path: Path) -> Iterator[h5py.File]:
-    """Open a result of this layout; what is wrong with it, whenever it shows, is a ResultError."""
+    """Open a result of this layout.
+
+    Any fault of it, whenever it shows, is a ResultError.
+    """
     if not path.is_file():
         what = "does not exist"
         if path.exists():
@@ -64,14 +67,20 @@ def opened(path: Path) -> Iterator[h5py.File]:
 
 
 def _damage(error: Exception) -> str:
-    """Return what is damaged; h5py answers some of it with Python's words for a wrong type."""
+    """Return the damage.
+
+    h5py reports some of it with Python's words for a wrong type.
+    """
     if isinstance(error, TypeError | AttributeError | AssertionError):
         return "a part of it is missing, or of another kind"
     return reason(error)
 
 
 def check_alone(file: h5py.File) -> None:
-    """Refuse a file that points at others: a stranger's would show what stands in mine; a run writes none."""
+    """Refuse a file that points at others.
+
+    Somebody's link would show the content of other files of the user; a run writes none.
+    """
 
     def elsewhere(name: str, link: Any) -> str | None:  # HDF5 passes on what is returned, not what is raised
         if not isinstance(link, h5py.HardLink):
@@ -87,7 +96,10 @@ def check_alone(file: h5py.File) -> None:
 
 
 def channels_of(group: h5py.Group) -> Iterator[tuple[Channel, dict[str, str]]]:
-    """Yield the channels of a group, and the path of the labels of each dimension: everything there that grows."""
+    """Yield the channels of a group.
+
+    With the path of the labels of each dimension: everything there that grows.
+    """
     root = group.file
     items = {f"{group.name}/{name}": item for name, item in group.items()}
     scales = scales_in({f"/{name}": item for name, item in root.items()} | items)
@@ -101,7 +113,10 @@ def channels_of(group: h5py.Group) -> Iterator[tuple[Channel, dict[str, str]]]:
 
 
 def labels_of(data: h5py.Dataset) -> tuple[int, ...] | tuple[float, ...] | tuple[str, ...]:
-    """Return the labels of a dimension: names, numbers of balls, places [m]."""
+    """Return the labels of a dimension.
+
+    Names, numbers of balls, places [m].
+    """
     if h5py.check_string_dtype(data.dtype):
         return tuple(printable(label) for label in data.asstr()[()])
     numbers = data[()]
@@ -109,13 +124,19 @@ def labels_of(data: h5py.Dataset) -> tuple[int, ...] | tuple[float, ...] | tuple
 
 
 def integral_table(group: h5py.Group, rows: int) -> FloatArray:
-    """Return the running integrals in the order of INTEGRALS, shape (rows, n)."""
+    """Return the running integrals.
+
+    In the order of INTEGRALS, shape (rows, n).
+    """
     columns = [group[channel.name][:rows].reshape(rows, -1) for channel in INTEGRALS]
     return np.concatenate(columns, axis=1, dtype=np.float64)  # a TypeError where one holds texts
 
 
 def resolved_value(row: dict[str, str]) -> ResolvedValue:
-    """Return a value of the case with its origin from a row of the file's table."""
+    """Return a value of the case with its origin.
+
+    From a row of the file's table.
+    """
     fields: dict[str, Any] = dict(row)
     if fields.pop("type") == "number":
         fields["value"] = float(fields["value"])

@@ -43,7 +43,10 @@ _APART = (
 
 @cache
 def _of_libraries() -> dict[str, str]:
-    """Return the versions of what is installed: looked up on disk, once for all runs of a process."""
+    """Return the versions of installed libraries.
+
+    Looked up on disk, once for all runs of a process.
+    """
     found = {}
     for name in _LIBRARIES:
         with suppress(PackageNotFoundError):
@@ -53,7 +56,7 @@ def _of_libraries() -> dict[str, str]:
 
 @dataclass(frozen=True)
 class BearingOrigin:
-    """The fixed part of a result that one bearing has for itself."""
+    """Fixed part of a result for one bearing."""
 
     model: BearingModel
     kernel_keys: Mapping[str, str]  # "element/role/model", or a part of the core -> hash of the code
@@ -62,7 +65,10 @@ class BearingOrigin:
     band: ModelBand | None = None  # of the equilibrium, where it was asked for
 
     def laws(self) -> list[dict[str, str]]:
-        """Return one row per force element, or film of the circuit, and role: the model and its parameters."""
+        """Return one row per law.
+
+        For each force element, or film of the circuit, and role: the model and its parameters.
+        """
         circuit = self.model.electric
         films = dict.fromkeys(FILMS, circuit.laws) if circuit is not None else {}
         return [
@@ -82,7 +88,10 @@ class BearingOrigin:
         ]
 
     def values(self) -> list[dict[str, str]]:
-        """Return one row per resolved value, numbers in SI, written exactly; `type` says "number" or "text"."""
+        """Return one row per resolved value.
+
+        Numbers in SI, written exactly; `type` is "number" or "text".
+        """
         return [
             {field.name: str(getattr(value, field.name)) for field in fields(value)}
             | {"type": "text" if isinstance(value.value, str) else "number"}
@@ -96,7 +105,9 @@ class BearingOrigin:
 
 @dataclass(frozen=True)
 class MachineOrigin:
-    """The fixed part of a result that shaft and bodies of a machine have.
+    """Fixed part of a result for a machine.
+
+    It is that of shaft and bodies.
 
     Attributes
     ----------
@@ -154,11 +165,17 @@ class Provenance:
 
     @property
     def plugins(self) -> tuple[str, ...]:
-        """Distribution and version of every plugin that a bearing was resolved with."""
+        """Distribution and version of every used plugin.
+
+        A bearing was resolved with it.
+        """
         return tuple(dict.fromkeys(name for model in self.models for name in model.plugins))
 
     def versions(self) -> dict[str, str]:
-        """Return versions of the program, Python, the libraries, and the platform."""
+        """Return all versions.
+
+        Of the program, Python, the libraries, and the platform.
+        """
         ours = {"lambda-bearing": __version__, "python": platform.python_version(), "platform": platform.platform()}
         return ours | _of_libraries()
 
@@ -187,14 +204,20 @@ def machine_data(model: MachineModel) -> dict[str, Any]:
 
 
 def _sums(values: NDArray[Any]) -> dict[str, Any]:
-    """Return shape and sums of an array, to the digits that do not depend on the order of additions."""
+    """Return shape and sums of an array.
+
+    To the digits that do not depend on the order of additions.
+    """
     flat = np.abs(values.astype(np.float64).ravel())
     weights = 1.0 + np.arange(flat.size) % 997 / 997.0
     return {"shape": list(values.shape), "sum": f"{flat.sum():.9g}", "weighted": f"{(flat * weights).sum():.9g}"}
 
 
 def model_data(model: BearingModel) -> dict[str, Any]:
-    """Return the resolved model as plain data, SI; infinite and undefined numbers as text."""
+    """Return the resolved model as plain data.
+
+    SI; infinite and undefined numbers are text.
+    """
     return {field.name: plain(getattr(model, field.name)) for field in fields(model) if field.name not in _APART}
 
 
@@ -203,7 +226,10 @@ _FREE = ("solver.duration", "solver.max_duration", "solver.max_wall", "output.ch
 
 
 def differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[str]:
-    """Return the paths at which two resolved models would not run the same, sorted."""
+    """Return the paths of two models' differences.
+
+    There they would not run the same; sorted.
+    """
     old, new = dict(_leaves("", before)), dict(_leaves("", after))
     paths = {path for path in old.keys() | new.keys() if old.get(path) != new.get(path)}
     silent = ("name", "title", *_FREE)

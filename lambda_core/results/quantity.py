@@ -29,7 +29,7 @@ _NOTHING = 5e-5  # a number below, in its unit, is written as 0 in a cell
 
 @dataclass(frozen=True)
 class Quantity:
-    """How a number is named and written.
+    """Name and format of a number.
 
     Attributes
     ----------
@@ -85,7 +85,10 @@ class Quantity:
         return f"{self.number(value, units)} {units.unit(self.unit)}".rstrip()
 
     def cell(self, value: float | Sequence[float | None] | None, units: UnitSystem = SI) -> str:
-        """Write a value for a cell of a table, without its unit."""
+        """Write a value for a table cell.
+
+        It has no unit.
+        """
         if value is None:
             return NONE
         if isinstance(value, Sequence):
@@ -98,7 +101,10 @@ class Quantity:
         return f"{0.0 if small else there:.{self.digits}g}"
 
     def head(self, units: UnitSystem = SI) -> str:
-        """Return the head of a row in a narrow table, with the unit."""
+        """Return a row's head in a narrow table.
+
+        It has the unit.
+        """
         return f"{self.column} {units.unit(self.unit)}".rstrip()
 
     def _decimals(self, value: float) -> int:
@@ -119,7 +125,9 @@ def quantity(
     axes: str = "",
     default: Any = PydanticUndefined,
 ) -> Any:
-    """Declare a field of a record that is a number, or a list of numbers; see :class:`Quantity`.
+    """Declare a field that is a number.
+
+    Or a list of numbers of a record; see :class:`Quantity`.
 
     The label is the meaning where none is given.
     """
@@ -131,7 +139,10 @@ def quantity(
 
 
 def same_as(record: type[Record], name: str, meaning: str = "", default: Any = PydanticUndefined) -> Any:
-    """Declare a field that is a number of another record, too; `meaning` where it differs."""
+    """Declare a number of another record.
+
+    `meaning` where it differs.
+    """
     info = record.model_fields[name]
     return Field(default, description=meaning or info.description, json_schema_extra=info.json_schema_extra)
 
@@ -140,7 +151,10 @@ _KNOWN: dict[type[Record], dict[str, Quantity]] = {}
 
 
 def quantities(record: type[Record]) -> dict[str, Quantity]:
-    """Return the declared numbers of a record by name, in their order."""
+    """Return the declared numbers of a record.
+
+    By name, in their order.
+    """
     if record in _KNOWN:
         return _KNOWN[record]
     found = _KNOWN[record] = {}
@@ -154,24 +168,36 @@ def quantities(record: type[Record]) -> dict[str, Quantity]:
 
 
 def quantity_of(record: Record, name: str) -> Quantity:
-    """Return the declaration of a field of a record, of the only bearing's where the record has none."""
+    """Return the declaration of a record's field.
+
+    Of the only bearing's where the record has none.
+    """
     own = quantities(type(record))
     return own[name] if name in own else quantity_of(next(iter(record.bearings.values())), name)  # type: ignore[attr-defined]
 
 
 def shown_numbers(record: Record, groups: Sequence[str]) -> list[tuple[Quantity, Any]]:
-    """Return the numbers of a record, and of its only bearing, that stand in narrow tables, group by group."""
+    """Return the numbers for narrow tables.
+
+    Of a record, and of its only bearing, group by group.
+    """
     each = _columns(record)
     return [(one, getattr(owner, one.name)) for group in groups for one, owner in each if one.group == group]
 
 
 def remaining(record: Record, placed: Collection[str]) -> list[tuple[Quantity, Any]]:
-    """Return the numbers of a record, and of its only bearing, with a column whose names are not among `placed`."""
+    """Return the numbers that are not placed.
+
+    Of a record, and of its only bearing, with a column; their names are not among `placed`.
+    """
     return [(one, getattr(owner, one.name)) for one, owner in _columns(record) if one.name not in placed]
 
 
 def _columns(record: Record) -> list[tuple[Quantity, Record]]:
-    """Return the numbers with a column, and whose they are: of the record, or of its only bearing."""
+    """Return the numbers with a column.
+
+    And their owner: the record, or its only bearing.
+    """
     found = {name: (one, record) for name, one in quantities(type(record)).items()}
     if len(bearings := list(getattr(record, "bearings", {}).values())) == 1:
         found |= {name: (one, bearings[0]) for name, one in quantities(type(bearings[0])).items()}
@@ -179,7 +205,10 @@ def _columns(record: Record) -> list[tuple[Quantity, Record]]:
 
 
 def shown(record: Record, name: str, units: UnitSystem = SI) -> str:
-    """Write a number of a record with its unit, and with its model band where there is one."""
+    """Write a number with unit and model band.
+
+    It is one of a record; the band is there if one was computed.
+    """
     one, value = quantity_of(record, name), getattr(record, name)
     plain = one.text(value, units)
     band = getattr(record, f"{name}_band", [])

@@ -37,7 +37,7 @@ _PLACES = 720  # round a ring, where its shape is looked at
 
 
 class RingShape(Record):
-    """How an elastic ring bends, in its own frame."""
+    """Shape of an elastic ring, own frame."""
 
     ring: Ring
     orders: list[int] = Field(description="numbers of waves round the ring")
@@ -50,7 +50,9 @@ class RingShape(Record):
 
 
 class QuasiStatic(Answer, Banded):
-    """Loads, displacement, kinematics and friction without time; the cage is left out.
+    """Quasi-static solution of a bearing.
+
+    Loads, displacement, kinematics and friction without time; the cage is left out.
 
     Numbers that a ring at rest does not have (friction torque, film) are null.
     """
@@ -93,13 +95,18 @@ class QuasiStatic(Answer, Banded):
     assumptions: list[str]
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
-        """Return the lines for people in some units, none longer than `width` where one is given."""
+        """Return the lines of text in some units.
+
+        None is longer than `width` where one is given.
+        """
         from lambda_core.results.text import quasistatic_text
 
         return quasistatic_text(self, width, units)
 
     def plot(self, name: str = "ball-loads", **options: Any) -> Any:
-        """Return a view of the equilibrium as a matplotlib figure; default: the load of every ball.
+        """Return a view as a matplotlib figure.
+
+        It shows the equilibrium; default: the load of every ball.
 
         Returns
         -------
@@ -109,7 +116,9 @@ class QuasiStatic(Answer, Banded):
         return drawn(None, self, None, name, options)
 
     def to_xarray(self) -> Any:
-        """Return contacts and numbers as an xarray.Dataset with units; UsageError when xarray is not installed.
+        """Return contacts and numbers as an xarray.Dataset.
+
+        With units; UsageError when xarray is not installed.
 
         Returns
         -------
@@ -132,7 +141,10 @@ class QuasiStatic(Answer, Banded):
 
 
 def quasistatic_of(found: Equilibrium, rating: Rating | None = None) -> QuasiStatic:
-    """Put an equilibrium into the units of the interface; the verdict needs its rating."""
+    """Put an equilibrium into the interface's units.
+
+    The verdict needs its rating.
+    """
     from lambda_core.model.checks.describe import headline
 
     model = found.context.model
@@ -212,7 +224,10 @@ def _azimuths(found: Equilibrium) -> FloatArray:
 
 
 def _ratio(found: Equilibrium) -> float:
-    """Return orbital over inner ring speed, both against the outer ring."""
+    """Return orbital over inner ring speed.
+
+    Both against the outer ring.
+    """
     model = found.context.model
     inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
     return (found.orbit - outer) / (inner - outer) if inner != outer else math.nan

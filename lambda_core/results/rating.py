@@ -10,7 +10,10 @@ from lambda_core.results.verdict import Found, Limits, Verdict, verdict
 
 
 class Rating(Record):
-    """Life, safety and catalogue friction of a case at its start; null where a method does not answer."""
+    """Life, safety and catalogue friction of a case.
+
+    At its start; null where a method does not answer.
+    """
 
     basic_life_h: float | None = quantity(
         "L_10h of ISO 281, from the catalogue's C and the equivalent load", "h",
@@ -65,7 +68,9 @@ class Rating(Record):
 
 
 def life_that_counts(rating: Rating) -> tuple[str, float | None]:
-    """Return the name and the hours of the rating life that a requirement is compared with.
+    """Return the decisive rating life.
+
+    Its name and hours, which a requirement is compared with.
 
     The loads of every ball count where they are known (ISO/TS 16281), a_ISO where the case gives e_C.
     """

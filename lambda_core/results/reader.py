@@ -111,11 +111,11 @@ class Result:
 
     @cached_property
     def bearings(self) -> dict[str, Result]:
-        """Results of the bearings by name: each is used like that of a bearing alone."""
+        """Results of the bearings by name, as of bearings alone."""
         return {name: self if name == self.bearing else Result(self.path, name) for name in self.bearing_names}
 
     def of_machine(self) -> Result:
-        """Return the result of the machine: motion of shaft and bodies, forces of the bearings."""
+        """Return the result of the machine without its bearings."""
         return self if not self.bearing else Result(self.path, "")
 
     def of_bearing(self, name: str | None = None) -> Result:
@@ -137,7 +137,7 @@ class Result:
         return self
 
     def _chosen(self) -> str:
-        """Return the bearing that is looked at; UsageError where none was chosen."""
+        """Return the chosen bearing; UsageError where none was chosen."""
         if not self.bearing:
             raise BearingNeededError(
                 f"{self.path} has {len(self.bearing_names)} bearings: choose one, {' or '.join(self.bearing_names)} "
@@ -147,7 +147,7 @@ class Result:
 
     @property
     def _place(self) -> str:
-        """Where what is looked at stands in the file."""
+        """Place of the chosen part in the file."""
         return f"{layout.BEARINGS}/{self.bearing}" if self.bearing else layout.MACHINE
 
     # -- what the run wrote --
@@ -164,7 +164,7 @@ class Result:
             return np.asarray(self._data(file, name)[: self._status(file).rows.samples])
 
     def blocks(self, names: Sequence[str], start: float = 0.0) -> Iterator[dict[str, NDArray[np.float64]]]:
-        """Yield several channels in blocks of rows, from time `start` [s]: for results larger than memory."""
+        """Yield channels in blocks of rows from `start` [s]."""
         for name in names:
             self._known(name)
         with opened(self.path) as file:
@@ -175,7 +175,7 @@ class Result:
                 yield {name: self._data(file, name)[begin:stop] for name in names}
 
     def sample(self, row: int, names: Sequence[str]) -> dict[str, NDArray[np.float64]]:
-        """Return several channels at one instant; negative rows count from the end."""
+        """Return channels at one instant, negative rows from the end."""
         for name in names:
             self._known(name)
         with opened(self.path) as file:
@@ -183,7 +183,7 @@ class Result:
             return {name: np.asarray(self._data(file, name)[at]) for name in names}
 
     def labels(self, dim: str) -> tuple[int, ...] | tuple[float, ...] | tuple[str, ...]:
-        """Return the labels along one dimension: names, balls from 1, lumps of a shaft by their place [m]."""
+        """Return the labels (names, numbers, places [m]) along a dimension."""
         if dim not in self._labels:
             raise UsageError(f"{self.path}: {unknown_name('dimension', dim, self._labels)}")
         return self._labels[dim]
@@ -200,7 +200,7 @@ class Result:
             return integral_table(group, self._status(file).rows.records)
 
     def revolutions(self) -> FloatArray:
-        """Return the running integrals at whole cage revolutions, the first row is t = 0."""
+        """Return the integrals at whole cage revolutions, t = 0 first."""
         with opened(self.path) as file:
             group = file[layout.BEARINGS][self._chosen()][layout.REVOLUTIONS_GROUP]
             return integral_table(group, self._status(file).rows.revolutions.get(self.bearing, 0))
@@ -211,10 +211,7 @@ class Result:
             return checkpoint.latest(slot.tobytes() for slot in file[layout.SLOTS][()])
 
     def circuit(self) -> dict[str, NDArray[np.float64]]:
-        """Return what the run wrote of its electric circuit: columns of circuit_rows.CIRCUIT, empty without one.
-
-        Of a machine as a whole a column has one value per bearing, and the voltage of the shaft stands there, too.
-        """
+        """Return the columns of circuit_rows.CIRCUIT, empty without a circuit."""
         found = self._table(CIRCUIT_GROUP)
         if not self.bearing:
             return found
@@ -222,7 +219,7 @@ class Result:
         return {name: values[:, number] if values.ndim > 1 else values for name, values in found.items()}
 
     def discharges(self) -> dict[str, NDArray[np.float64]]:
-        """Return every film that broke down in the run, column -> values, SI; empty where it has no circuit."""
+        """Return every breakdown as columns in SI, empty without circuit."""
         found = self._table(DISCHARGES_GROUP)
         if not self.bearing or "bearing" not in found:
             return found
@@ -230,7 +227,7 @@ class Result:
         return {name: values[own] for name, values in found.items()}
 
     def events(self) -> dict[str, NDArray[np.float64]]:
-        """Return when events of the case began: ``time`` [s], ``event``, the row of :attr:`watched_events`."""
+        """Return ``time`` [s] and ``event`` (row of :attr:`watched_events`) of events."""
         return self._table(f"{layout.BEARINGS}/{self._chosen()}/{EVENTS_GROUP}")
 
     def _table(self, group: str) -> dict[str, NDArray[np.float64]]:
@@ -244,7 +241,7 @@ class Result:
 
     @cached_property
     def model(self) -> dict[str, Any]:
-        """The resolved model as plain data, SI (geometry, materials, oil, bodies, laws, solver)."""
+        """Resolved model as plain data, SI."""
         with opened(self.path) as file:
             found: dict[str, Any] = json.loads(printable(str(self._inputs(file)["model_json"].asstr()[()])))
             check_model(found)
@@ -252,12 +249,12 @@ class Result:
 
     @cached_property
     def machine(self) -> dict[str, Any]:
-        """The machine without its bearings as plain data, SI; empty for one bearing alone."""
+        """Machine without bearings as plain SI data; else empty."""
         return self._machine_json("model_json")
 
     @cached_property
     def machine_numbers(self) -> dict[str, float]:
-        """Numbers of the machine's equilibrium at the start; empty for one bearing alone."""
+        """Numbers of a machine's initial equilibrium; else empty."""
         return {name: float(value) for name, value in self._machine_json("numbers_json").items()}
 
     def _machine_json(self, name: str) -> dict[str, Any]:
@@ -282,17 +279,17 @@ class Result:
 
     @cached_property
     def laws(self) -> list[dict[str, str]]:
-        """Element, role, model, distribution, reference, parameters, origins, kernel key of every law."""
+        """Element, role, model, origins and kernel key of every law."""
         return self._input_table("laws")
 
     @cached_property
     def observers(self) -> list[dict[str, str]]:
-        """Name, title, distribution, reference, parameters, numbers, hash of the code of every observer."""
+        """Name, title, reference, parameters and numbers of every observer."""
         return self._input_table("observers")
 
     @cached_property
     def watched_events(self) -> list[dict[str, str]]:
-        """Name, title, distribution, reference, parameters, action, hash of the code of every event."""
+        """Name, title, reference, parameters and action of every event."""
         return self._input_table("events")
 
     @cached_property
@@ -304,12 +301,12 @@ class Result:
 
     @cached_property
     def kernel_keys(self) -> dict[str, str]:
-        """Hash of the code behind every law and of the core's own compiled code."""
+        """Hashes of all laws' and the core's compiled code."""
         return {row["name"]: row["value"] for row in self._input_table("kernel_keys")}
 
     @cached_property
     def assumptions(self) -> tuple[str, ...]:
-        """What was assumed, one sentence each."""
+        """Assumptions, one sentence each."""
         return self._lines("assumptions")
 
     @cached_property
@@ -323,7 +320,7 @@ class Result:
 
     @cached_property
     def model_band(self) -> ModelBand | None:
-        """The 90 % model band at the start, where the run was asked for it."""
+        """90 % model band at the start, if computed."""
         from lambda_core.results.model_band import ModelBand
 
         with opened(self.path) as file:
@@ -332,7 +329,7 @@ class Result:
 
     @cached_property
     def case_warnings(self) -> tuple[str, ...]:
-        """Where the case leaves what bearing, oil and laws are made for, one sentence each."""
+        """Exceeded limits of bearing, oil and laws, one sentence each."""
         return self._lines("warnings")
 
     @cached_property
@@ -357,13 +354,13 @@ class Result:
         raise AttributeError(f"a result has no {name}")
 
     def __dir__(self) -> list[str]:
-        """Return the names that a notebook completes: methods, and the numbers of the summary."""
+        """Return methods and summary numbers for a notebook's completion."""
         from lambda_core.results.summary import field_names
 
         return sorted({*super().__dir__(), *field_names()})
 
     def __fspath__(self) -> str:
-        """Return the file: a result is taken wherever a path is."""
+        """Return the file, since a result can replace a path."""
         return str(self.path)
 
     def __repr__(self) -> str:
@@ -371,7 +368,7 @@ class Result:
         return f"<Result {self.path}{of}: {self.title}, {self.status().state}>"
 
     def _repr_html_(self) -> str:
-        """Return what a notebook shows: the headline and the summary, as the command `show` prints them."""
+        """Return headline and summary as HTML for a notebook."""
         from html import escape
 
         try:
@@ -381,7 +378,9 @@ class Result:
         return f"<pre>{escape(self.headline)}\n{escape(text)}</pre>"
 
     def with_(self, *, out: str | Path | None = None, **changes: Any) -> Result:
-        """Run the case with `changes`, section by section, into `out` or a file of a free name; return its result.
+        """Run the changed case and return its result.
+
+        `changes` are section by section; the file is `out` or one of a free name.
 
         ``result.with_(operation={"speed": "2750 rpm"})``; errors as of :func:`lambda_core.api.run`.
         """
@@ -395,7 +394,9 @@ class Result:
         return self
 
     def plot(self, name: str, **options: Any) -> Any:
-        """Return a view of the result as a matplotlib figure; a notebook shows it.
+        """Return a view as a matplotlib figure.
+
+        A notebook shows it.
 
         Parameters
         ----------
@@ -423,7 +424,9 @@ class Result:
         return registry().figure(view, data_of(view, self, options))
 
     def to_xarray(self) -> Any:
-        """Return all channels as an xarray.Dataset with dimensions, labels, units and meanings.
+        """Return all channels as an xarray.Dataset.
+
+        With dimensions, labels, units and meanings.
 
         Raises
         ------

@@ -13,11 +13,17 @@ class Record(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     def __eq__(self, other: object) -> bool:
-        """Compare what is declared: where a record comes from, which it may remember, does not count."""
+        """Compare what is declared.
+
+        The origin of a record, which it may remember, does not count.
+        """
         return type(other) is type(self) and self.__dict__ == other.__dict__
 
     def __str__(self) -> str:
-        """Return the lines for people where there are any, else the short form."""
+        """Return the lines of text.
+
+        Else the short form where there are none.
+        """
         text = getattr(type(self), "text", None)
         return str(text(self)) if callable(text) else repr(self)
 

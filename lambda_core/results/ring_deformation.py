@@ -24,7 +24,10 @@ class RingDeformation(Record):
 
 
 def ring_deformations(result: Result, start: float) -> list[RingDeformation]:
-    """Return how oval every elastic part was from time `start` [s] on; empty where all are rigid."""
+    """Return the ovality of every elastic part.
+
+    From time `start` [s] on; empty where all are rigid.
+    """
     written = {channel.name for channel in result.channels}
     names = [f"{body}{_CHANNEL}" for body in BODIES if f"{body}{_CHANNEL}" in written]
     sums, most, count = dict.fromkeys(names, 0.0), dict.fromkeys(names, 0.0), 0

@@ -65,7 +65,10 @@ class RollerLoad(Record):
 
 
 class RollerQuasiStatic(Answer, Banded):
-    """Loads, films, friction torque, lives and safety of a roller bearing without time; the cage is left out."""
+    """Quasi-static solution of a roller bearing.
+
+    Loads, films, friction torque, lives and safety without time; the cage is left out.
+    """
 
     interface: int = INTERFACE
     case: str
@@ -115,7 +118,10 @@ class RollerQuasiStatic(Answer, Banded):
     assumptions: list[str]
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
-        """Return the lines for people in some units, none longer than `width` where one is given."""
+        """Return the lines of text in some units.
+
+        None is longer than `width` where one is given.
+        """
         return _text(self, width, units)
 
     def __repr__(self) -> str:
@@ -148,20 +154,7 @@ class SolvedRollers:
 
 
 def solve_rollers(model: RollerModel, places: Sequence[float] = PLACES) -> SolvedRollers:
-    """Find equilibria over one pitch and friction of a roller bearing.
-
-    Parameters
-    ----------
-    places : sequence of float
-        Of the rollers, as for :func:`over_a_pitch`.
-
-    Raises
-    ------
-    CaseError
-        For loads that the kind of bearing does not take.
-    SolverError
-        When there is no equilibrium.
-    """
+    """Find a roller bearing's equilibria over one pitch, and friction."""
     motion = rolling_motion(model.bearing, *model.speeds)
     try:
         states = over_a_pitch(
@@ -181,7 +174,7 @@ def solve_rollers(model: RollerModel, places: Sequence[float] = PLACES) -> Solve
 
 
 def with_friction(model: RollerModel, solved: SolvedRollers) -> SolvedRollers:
-    """Return solved equilibria with the friction of a model of the same loads."""
+    """Return solved equilibria with the friction of the same loads."""
     motion = solved.motion
     if motion.relative == 0.0:
         return replace(solved, friction=None)
@@ -190,12 +183,15 @@ def with_friction(model: RollerModel, solved: SolvedRollers) -> SolvedRollers:
 
 
 def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
-    """Solve a roller bearing and put it into the units of the interface; errors as :func:`solve_rollers`."""
+    """Solve a roller bearing.
+
+    And put it into the units of the interface; errors as :func:`solve_rollers`.
+    """
     return roller_answer(model, solve_rollers(model))
 
 
 def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStatic:
-    """Put a solved roller bearing into the units of the interface."""
+    """Put a solved roller bearing into interface units."""
     bearing = model.bearing
     state, motion, turning = solved.state, solved.motion, solved.friction is not None
     found = solved.friction or RollerFriction()
@@ -242,7 +238,10 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
 
 
 def headline_of(model: RollerModel, radial: float, axial: float) -> str:
-    """Return what bearing it is, and its operating point, in two lines."""
+    """Return the headline of a bearing.
+
+    Its name and its operating point, in two lines.
+    """
     bearing = model.bearing
     kind = {"tapered": "tapered", "needle": "needle"}.get(bearing.kind, f"cylindrical {bearing.kind}")
     speed = model.speeds[0] * _RPM
@@ -262,12 +261,12 @@ def _parts(found: RollerFriction) -> dict[str, float]:
 
 
 def _largest(state: RollerEquilibrium) -> float:
-    """Return the largest load of a roller on a raceway [N]."""
+    """Return the largest roller load on a raceway [N]."""
     return float(max(state.inner.sum(axis=1).max(), state.outer.sum(axis=1).max()))
 
 
 def _pressure(bearing: RollerBearing, state: RollerEquilibrium, model: RollerModel) -> float:
-    """Return the largest pressure of a raceway [Pa], also at rest."""
+    """Return the largest raceway pressure [Pa], also at rest."""
     from lambda_core.elements.roller.line_contact import peak_pressure
 
     width = bearing.effective_length / model.slices
@@ -286,7 +285,9 @@ def roller_lives(
     viscosity: float,
     contamination: float | None,
 ) -> dict[str, Any]:
-    """Return lives, static safety and viscosity ratio; None where a standard gives none.
+    """Return lives, static safety and viscosity ratio.
+
+    None where a standard gives none.
 
     Lives with a_ISO have the factor of ISO 281 for the equivalent load, and that of every lamina (ISO 16281).
 
@@ -334,7 +335,10 @@ def roller_lives(
 
 
 def _limit(model: RollerModel, radial: float, motion: RollerMotion) -> AxialLimit | None:
-    """Return the permissible axial loads of cylindrical rollers between ribs; None of other kinds and at rest."""
+    """Return the permissible axial loads of rollers.
+
+    Of cylindrical rollers between ribs; None of other kinds and at rest.
+    """
     bearing = model.bearing
     if bearing.kind not in ("NJ", "NUP", "NCF") or motion.relative == 0.0:
         return None
@@ -395,7 +399,7 @@ def _warnings(model: RollerModel, state: RollerEquilibrium, axial: float, limit:
 
 
 def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str:
-    """Return the answer, a line per subject and a table of rollers."""
+    """Return the answer's lines and table of rollers."""
     parts = found.friction_breakdown_Nmm
     tilt_y, tilt_z = found.inner_ring_tilt_mrad
     pressure = units.text(found.max_pressure_GPa, "GPa", 3)

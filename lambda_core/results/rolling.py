@@ -16,7 +16,10 @@ ROLLING = ("load", "contact_angle", "ball_radius", "ball_spin", "ball_velocity")
 
 
 def rolling_of(samples: Mapping[str, NDArray[np.float64]], ball_diameter: float) -> float:
-    """Return the cage speed over the inner ring speed without slip, see :func:`.kinematics.rolling_ratio`."""
+    """Return cage speed over inner ring speed.
+
+    Without slip, see :func:`.kinematics.rolling_ratio`.
+    """
     radius = samples["ball_radius"]
     orbit = samples["ball_velocity"][..., 2] / radius
     return rolling_ratio(samples["load"], samples["contact_angle"], radius, samples["ball_spin"], orbit, ball_diameter)

@@ -21,7 +21,10 @@ from lambda_core.results.run_status import Rows
 
 
 class RowSums:
-    """CRC-32 of the rows of every growing dataset, by its path in the file, kept up as rows are appended."""
+    """CRC-32 of every growing dataset's rows.
+
+    By its path in the file, kept up as rows are appended.
+    """
 
     def __init__(self) -> None:
         self._sums: dict[str, int] = {}
@@ -37,7 +40,10 @@ class RowSums:
 
 
 def sums_of(file: h5py.File, rows: Rows) -> RowSums:
-    """Return the checksums of the first `rows` rows of a result."""
+    """Return the checksums of a result's first rows.
+
+    There are `rows` of them.
+    """
     found = RowSums()
     for name, item in layout.objects(file).items():
         if not layout.grows(item):
@@ -49,7 +55,9 @@ def sums_of(file: h5py.File, rows: Rows) -> RowSums:
 
 
 def check_rows(path: Path, position: Position) -> None:
-    """Compare the rows of a result up to a checkpoint with its checksums; results of earlier versions have none.
+    """Compare the rows with their checksums.
+
+    Those of a result up to a checkpoint; results of earlier versions have none.
 
     Raises
     ------

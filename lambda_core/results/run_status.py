@@ -15,7 +15,7 @@ from lambda_core.domain.processes import exists, started
 
 @dataclass(frozen=True)
 class Rows:
-    """How many rows of the growing datasets count.
+    """Number of valid rows in the datasets.
 
     Samples and running integrals; of an electric circuit its own samples and discharges; by name of the bearing the
     boundaries of cage revolutions, and the events.
@@ -43,7 +43,7 @@ State = Literal["running", "finished", "stopped", "interrupted", "failed"]
 
 @dataclass(frozen=True)
 class Status:
-    """What the run has reached.
+    """State of a run.
 
     Attributes
     ----------
@@ -76,7 +76,10 @@ class Status:
     modes: tuple[tuple[float, float], ...] = ()
 
     def to_bytes(self, size: int) -> bytes:
-        """Return JSON of at most `size` bytes; an overlong message is cut."""
+        """Return JSON of at most `size` bytes.
+
+        An overlong message is cut.
+        """
         data = json.dumps(asdict(self)).encode()
         if len(data) > size:
             kept = max(len(self.message) - (len(data) - size) - 3, 0)
@@ -97,7 +100,10 @@ class Status:
             raise ValueError(str(error)) from None
 
     def alive(self) -> bool:
-        """Tell whether the process that writes this result is still at work, as far as can be seen from here."""
+        """Tell whether the writing process is at work.
+
+        As far as this host can see.
+        """
         if self.state != "running" or self.process.get("host") != socket.gethostname():
             return False
         pid = int(self.process["pid"])

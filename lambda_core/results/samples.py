@@ -16,7 +16,7 @@ ALONE = "bearing"  # name of the bearing of a case that has one bearing only
 
 @dataclass(frozen=True)
 class RunChannels:
-    """What every sample of a run carries.
+    """Channels of a run's samples.
 
     Attributes
     ----------
@@ -32,7 +32,9 @@ class RunChannels:
 
 @dataclass(frozen=True)
 class Samples:
-    """A stretch of samples, channel -> array whose first axis is time.
+    """Stretch of samples.
+
+    Channel -> array whose first axis is time.
 
     Attributes
     ----------

@@ -69,13 +69,18 @@ class SideBySide(Record):
 
 
 def run_names(runs: Sequence[Any]) -> tuple[str, ...]:
-    """Return a short name for each run: its case, or its file where cases repeat."""
+    """Return a short name for each run.
+
+    Its case, or its file where cases repeat.
+    """
     cases = [run.case for run in runs]
     return tuple(cases) if len(set(cases)) == len(cases) else tuple(run.path.stem for run in runs)
 
 
 def differing_inputs(runs: Sequence[Any]) -> list[Differing]:
-    """Return the options at which the cases of several runs differ, as they are written.
+    """Return the options that differ among runs.
+
+    As the cases have them.
 
     Parameters
     ----------

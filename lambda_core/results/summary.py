@@ -56,11 +56,16 @@ _NO_COUNTS = (FOURTH_POWERS, ITERATION_WORK)  # statistics of a run that stand e
 
 
 class FieldOfOneBearingError(BearingNeededError, AttributeError):
-    """A summary of several bearings was asked for a field of one; an AttributeError too, for hasattr."""
+    """Request for one bearing's field of several.
+
+    The summary has several bearings; an AttributeError too, for hasattr.
+    """
 
 
 class Summary(Record):
-    """Averages of a run and its end state: of the machine, and of each bearing.
+    """Averages of a run and its end state.
+
+    Of the machine, and of each bearing.
 
     With one bearing, the numbers of that bearing are also attributes of the summary: ``summary.min_film_um``.
     The names are stable under one number of `interface`. A number that does not exist
@@ -139,7 +144,10 @@ class Summary(Record):
         raise AttributeError(f"a summary has no {name}")
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
-        """Return the lines for people in some units, none longer than `width` where one is given."""
+        """Return the lines of text in some units.
+
+        None is longer than `width` where one is given.
+        """
         if self.orbit:
             from lambda_core.results.machine_text import machine_text
 
@@ -149,7 +157,9 @@ class Summary(Record):
         return summary_text(self, width, units)
 
     def to_xarray(self) -> Any:
-        """Return the averages of every bearing as an xarray.Dataset with units; UsageError without xarray.
+        """Return the averages as an xarray.Dataset.
+
+        Of every bearing with units; UsageError without xarray.
 
         Returns
         -------
@@ -168,13 +178,19 @@ class Summary(Record):
 
 
 def field_names() -> dict[str, str]:
-    """Return the names of all numbers of a summary, of the machine's first, and what they mean."""
+    """Return the names of all numbers with meanings.
+
+    Those of a summary, of the machine's first.
+    """
     every = BearingSummary.model_fields | Summary.model_fields
     return {name: every[name].description or "" for name in (*Summary.model_fields, *every)}
 
 
 def summarise(result: Result) -> Summary:
-    """Compute the summary of a result from its file: of a machine, or of the bearing that the result looks at."""
+    """Compute the summary of a result.
+
+    From its file: of a machine, or of the bearing that the result looks at.
+    """
     status = result.status()
     if not status.rows.samples or not status.rows.records:
         raise UsageError(f"{result.path} holds no samples yet")
@@ -223,7 +239,10 @@ def summarise(result: Result) -> Summary:
 
 
 def _of_bearing(result: Result, status: Status, together: float) -> BearingSummary:
-    """Return the summary of one bearing; `together` is that of :func:`.convergence.shortfalls`."""
+    """Return the summary of one bearing.
+
+    `together` is that of :func:`.convergence.shortfalls`.
+    """
     integrals = result.integrals()
     settings, last = settings_of(result), integrals[-1]
     run_interval, chosen = Interval(integrals[0], last), window_of(result)
@@ -295,13 +314,19 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
 
 
 def _is_driven(result: Result) -> bool:
-    """Tell whether something prescribes a ring's rotation: a torque on a bearing alone is a load."""
+    """Tell whether a ring's rotation is prescribed.
+
+    A torque on a bearing alone is a load.
+    """
     rings = (result.model["inner_ring"], result.model["outer_ring"])
     return result.is_machine or any(ring["dofs"]["spin"]["mode"] == "prescribed" for ring in rings)
 
 
 def _of_rollers(found: BearingSummary, result: Result) -> BearingSummary:
-    """Return the summary without what holds for balls alone: shoulders, limits of tilt and pressure."""
+    """Return the summary of rollers.
+
+    Without what holds for balls alone: shoulders, limits of tilt and pressure.
+    """
     left_out = {"rating life", "capacitance", "bearing capacitance"}
     band = result.model_band
     if band is not None:
@@ -316,13 +341,19 @@ def _of_rollers(found: BearingSummary, result: Result) -> BearingSummary:
 
 
 def _iteration_residual(statistics: Mapping[str, float], run_interval: Interval) -> float | None:
-    """Return the work that early ends of the iteration put in or took, over the energy that flowed."""
+    """Return the iteration's relative work.
+
+    Early ends of the iteration put it in or took it; over the energy that flowed.
+    """
     work, flow = statistics.get(ITERATION_WORK), run_interval.change("input_abs")
     return None if work is None or not flow > 0.0 else work / flow
 
 
 def _reasons(state: str, message: str, found: list[str]) -> list[str]:
-    """Put the end first: a run that did not reach it is not converged, whatever its averages say."""
+    """Put the end first among the reasons.
+
+    A run that did not reach it is not converged, whatever its averages are.
+    """
     ends = {"running": "the run has not reached its end", "failed": "the solver could not go on"}
     if state == "finished":
         return [message, *found] if found and message else found
@@ -330,7 +361,10 @@ def _reasons(state: str, message: str, found: list[str]) -> list[str]:
 
 
 def merged_cage(parts: Mapping[str, float]) -> dict[str, float | None]:
-    """Return torques [N m] by mechanism in N mm, with the cage's contacts as one."""
+    """Return torques with the cage as one [N mm].
+
+    By mechanism, from N m, with the cage's contacts as one.
+    """
     merged = {name: value for name, value in parts.items() if name not in _MECHANISMS_OF_CAGE}
     merged["cage"] = sum(parts[name] for name in _MECHANISMS_OF_CAGE)
     return {name: finite(1e3 * value) for name, value in merged.items()}
@@ -338,7 +372,7 @@ def merged_cage(parts: Mapping[str, float]) -> dict[str, float | None]:
 
 @dataclass(frozen=True)
 class _Span:
-    """What the samples of the averaging window say about contacts under load."""
+    """Contacts under load in the averaging window."""
 
     pressure: float  # largest [Pa]
     film: float  # smallest minimum film [m]
@@ -370,7 +404,10 @@ class _Span:
 
 
 def _edges(result: Result) -> list[Shoulder]:
-    """Return the contacts nearest to the shoulders, over the whole run."""
+    """Return the contacts nearest to the shoulders.
+
+    Over the whole run.
+    """
     grooves, found = Grooves.of(result.model["geometry"]), list[Shoulder]()
     for block in result.blocks(("load", "contact_angle", "semi_axis_a")):
         found += shoulders(grooves, block["load"], block["contact_angle"], block["semi_axis_a"])
@@ -378,7 +415,9 @@ def _edges(result: Result) -> list[Shoulder]:
 
 
 def _highest_pressure(result: Result) -> float:
-    """Return the largest Hertzian pressure of the whole run [Pa]; 0 of a file that holds no samples yet.
+    """Return the run's largest Hertzian pressure [Pa].
+
+    0 of a file that holds no samples yet.
 
     Another run with the option to overwrite the file may have put its own, just begun, in this one's place.
     """
@@ -386,7 +425,10 @@ def _highest_pressure(result: Result) -> float:
 
 
 def contact_list(state: Mapping[str, NDArray[np.float64]]) -> list[Contact]:
-    """Return every contact at one instant; the channels have shapes (ball,) and (ball, ring), SI."""
+    """Return every contact at one instant.
+
+    The channels have shapes (ball,) and (ball, ring), SI.
+    """
     load = state["load"]
     return [
         Contact(
@@ -404,7 +446,9 @@ def contact_list(state: Mapping[str, NDArray[np.float64]]) -> list[Contact]:
 
 
 def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64]) -> str:
-    """Say which contacts have no capacitance, shape (element, ring), and so why the bearing may have none.
+    """Explain missing capacitances.
+
+    Which contacts have none, shape (element, ring), and so why the bearing may have none.
 
     Contacts under load are counted apart from those that hold no more than the weight and the centrifugal force of a
     ball or a roller.
@@ -442,7 +486,10 @@ def _equilibrium(result: Result) -> Equilibrium:
 
 
 def span(values: NDArray[np.float64]) -> list[float]:
-    """Return the smallest and the largest finite number, nothing when there is none."""
+    """Return the smallest and largest finite number.
+
+    Nothing when there is none.
+    """
     finite = values[np.isfinite(values)]
     return [float(finite.min()), float(finite.max())] if finite.size else []
 

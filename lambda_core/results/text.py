@@ -40,7 +40,9 @@ _WIDTH = 100  # of sentences where no width is given
 
 
 def summary_text(summary: Summary, width: int | None = None, units: UnitSystem = SI) -> str:
-    """Return what one run says, a line per subject: the answer first, then where it may be wrong, then the rest.
+    """Return the text of one run.
+
+    A line per subject: the answer first, then where it may be wrong, then the rest.
 
     Parameters
     ----------
@@ -97,12 +99,15 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
 
 
 def other_lines(found: Summary | QuasiStatic, units: UnitSystem) -> list[str]:
-    """Return a line for every declared number that has no place of its own."""
+    """Return a line for every other number.
+
+    It is declared and has no place of its own.
+    """
     return [line(one.column, one.text(value, units)) for one, value in remaining(found, PLACED)]
 
 
 def _capacitance(summary: Summary) -> list[str]:
-    """Return the capacitances, where there are any or a reason why not."""
+    """Return the capacitances or a reason."""
     found = (summary.contact_capacitance_pF, summary.capacitance_note, summary.bearing_capacitance_nF is not None)
     if not any(found):
         return []
@@ -111,7 +116,10 @@ def _capacitance(summary: Summary) -> list[str]:
 
 
 def _torque_lines(summary: Summary, plain: Sequence[str], units: UnitSystem) -> list[str]:
-    """Return the torque with the scatter of its average; with a model band the two stand apart."""
+    """Return the torque with its uncertainty.
+
+    The scatter of its average and a model band are separate.
+    """
     mean, window, verdict = plain
     band = summary.friction_torque_Nmm_band
     if not band:
@@ -130,7 +138,10 @@ def band_lines(band: ModelBand | None) -> list[str]:
 
 
 def _iteration(summary: Summary) -> str:
-    """Return what early ends of Newton's iteration put in or took, where it is known."""
+    """Return the work of Newton's early ends.
+
+    Put in or taken, where it is known.
+    """
     found = summary.iteration_residual
     return "" if found is None else f"ends of iterations {shown(summary, 'iteration_residual')}"
 
@@ -179,7 +190,10 @@ def _four(value: float | None) -> str:
 
 
 def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Sequence[float] = ()) -> list[str]:
-    """Return the ratings of standards and catalogues for the run; their numbers are those of the case at its start."""
+    """Return the ratings of the run.
+
+    Those of standards and catalogues; their numbers are those of the case at its start.
+    """
     if rating is None:
         return []
     facts = quantities(type(rating))
@@ -208,7 +222,10 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Seque
 
 
 def _step(rating: Rating, units: UnitSystem) -> list[str]:
-    """Say why SKF's torque may lie far above others: its sliding torque steps where an axial load begins."""
+    """Explain a large torque of SKF.
+
+    Its sliding torque steps where an axial load begins.
+    """
     without = rating.skf_torque_without_step_Nmm
     if without is None or rating.skf_torque_Nmm is None:
         return []
@@ -248,7 +265,10 @@ def _oval(found: RingDeformation, units: UnitSystem) -> str:
 
 
 def _bent(found: RingShape, units: UnitSystem) -> tuple[str, str]:
-    """Say how far an elastic ring bends out and in, and where."""
+    """Report the deformation of an elastic ring.
+
+    Outwards and inwards, with the places.
+    """
     return (
         f"{found.ring} {units.text(found.outwards_um, 'um', 2)} outwards at {found.outwards_deg:.0f} deg",
         f"{units.text(found.inwards_um, 'um', 2)} inwards at {found.inwards_deg:.0f} deg",
@@ -256,7 +276,10 @@ def _bent(found: RingShape, units: UnitSystem) -> tuple[str, str]:
 
 
 def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSystem = SI) -> str:
-    """Return what an equilibrium says, a line per subject and a table of contacts; `width` as above."""
+    """Return the text of an equilibrium.
+
+    A line per subject and a table of contacts; `width` as above.
+    """
     tilt_y, tilt_z = found.inner_ring_tilt_mrad
     load, film = (f"{name} {units.unit(unit)}" for name, unit in (("load", "N"), ("film", "um")))
     table = [f"{'ball':>6}{'azimuth':>10}{'ring':>8}{load:>10}{'angle deg':>11}{film:>10}{'C pF':>9}"]
@@ -296,7 +319,10 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
 
 
 def _friction_lines(found: QuasiStatic, units: UnitSystem) -> list[str]:
-    """Return torque, its parts and the power; at rest there are none."""
+    """Return torque, its parts and the power.
+
+    At rest there are none.
+    """
     if found.friction_torque_Nmm is None:
         return [line("friction torque", "none: nothing turns")]
     loss = [line("power loss", shown(found, "power_loss_W", units))] if found.power_loss_W is not None else []
@@ -305,7 +331,10 @@ def _friction_lines(found: QuasiStatic, units: UnitSystem) -> list[str]:
 
 
 def _motion_lines(found: QuasiStatic, units: UnitSystem) -> list[str]:
-    """Return the balls' orbit and the films that they roll up; at rest there are none."""
+    """Return the balls' orbit and films.
+
+    They roll up the films; at rest there are none.
+    """
     if found.friction_torque_Nmm is None:
         return []
     return [
@@ -320,7 +349,10 @@ def line(head: str, *parts: str) -> str:
 
 
 def breakdown_lines(parts: Mapping[str, float | None], units: UnitSystem = SI) -> list[str]:
-    """Return the parts of the friction torque: one line per ring, one for the rest [N mm]."""
+    """Return the parts of the friction torque.
+
+    One line per ring, one for the rest [N mm].
+    """
     shown = {name: units.number(value, "N mm") for name, value in parts.items()}
     width = max(map(len, shown.values()), default=1)
     rings = [
@@ -347,7 +379,10 @@ def _margin(edge: Shoulder, units: UnitSystem) -> str:
 
 
 def assumption_lines(assumptions: Sequence[str], file: str = "") -> list[str]:
-    """Return how much was assumed, in one line, and where it stands with its reasons."""
+    """Return the count of assumptions in one line.
+
+    And where they are with their reasons.
+    """
     if not assumptions:
         return []
     where = f"lambda-bearing show {file} --assumptions" if file else "lambda-bearing check --all"
@@ -361,7 +396,10 @@ def _place(position: Sequence[float | None], units: UnitSystem) -> str:
 
 
 def place_with_play(place: Sequence[float], play: float | None, units: UnitSystem) -> list[str]:
-    """Write a displacement, and the axial play in it where the ring has moved through half of it [um]."""
+    """Write a displacement with its axial play [um].
+
+    The play counts where the ring has moved through half of it.
+    """
     if not play or abs(place[0]) < 0.5 * play:
         return [_place(place, units)]
     return [_place(place, units), f"x includes {units.number(play, 'um', 2)} {units.unit('um')} of axial play"]

@@ -32,7 +32,10 @@ _LEAST_SAFETY = 1.0  # ISO 76: the total dent of 0.0001 D_w is reached at P_0 = 
 
 
 class Margin(Record):
-    """How far a number is from a requirement of the case, or from a limit of bearing, oil or standard."""
+    """Margin to a requirement or a limit.
+
+    A requirement of the case, a limit of bearing, oil or standard.
+    """
 
     name: str
     value: float
@@ -61,21 +64,27 @@ class Margin(Record):
 
 
 class Verdict(Record):
-    """Whether every requirement of the case and every limit is met."""
+    """Verdict on all requirements and limits."""
 
     met: bool = Field(description="whether all requirements and limits are met")
     sentence: str = Field(description="the verdict in one sentence, SI")
     margins: list[Margin] = Field(description="requirements of the case first, then limits")
 
     def lines(self, units: UnitSystem = SI) -> tuple[str, list[str]]:
-        """Return the verdict, and the margins to limits that are met and not named in it."""
+        """Return the verdict with met margins.
+
+        They are those to limits that are not named in it.
+        """
         return units.sentence(self.sentence), [
             one.text(units) for one in self.margins if one.met and not one.is_required
         ]
 
 
 class Limits(Record):
-    """What a bearing has to keep to: requirements of its case, and limits of bearing, oil and standards."""
+    """Requirements and limits of a bearing.
+
+    Requirements of its case, limits of bearing, oil and standards.
+    """
 
     speed_rpm: float = Field(description="largest relative speed of the rings")
     limiting_speed_rpm: float | None = Field(description="of the catalogue")
@@ -94,7 +103,10 @@ class Limits(Record):
 
 @dataclass(frozen=True)
 class Found:
-    """Numbers of a solution that are judged; None where there are none."""
+    """Numbers of a solution for the verdict.
+
+    None where there are none.
+    """
 
     pressure_GPa: float | None
     film_parameter: float | None  # smallest
@@ -131,7 +143,7 @@ def limits_of(model: BearingModel) -> Limits:
 
 
 def verdict(limits: Limits, found: Found) -> Verdict:
-    """Compare a solution with what the bearing has to keep to."""
+    """Compare a solution with requirements and limits."""
     margins = [*_required(limits, found), *_general(limits, found)]
     missing = [] if limits.required_life_h is None or found.life_h is not None else ["no rating life is known"]
     failed = [*missing, *(one.text() for one in margins if not one.met)]

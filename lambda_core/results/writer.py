@@ -48,7 +48,9 @@ class DiskError(PartialResultError):
 
 
 class ResultWriter:
-    """Appends to one result file in SWMR mode (single writer, many readers).
+    """Writer of one result in SWMR mode.
+
+    Single writer, many readers; it appends.
 
     Rows gather in memory; `flush` puts them on disk and then says in ``/status`` how many
     there are, in this order, so that whatever the status counts is whole.
@@ -112,7 +114,9 @@ class ResultWriter:
 
     @classmethod
     def continued(cls, path: Path, status: Status, kept: Rows) -> ResultWriter:
-        """Go on writing a result behind the rows that `status` counts.
+        """Go on writing a result.
+
+        Behind the rows that `status` counts.
 
         The file is copied first: one whose writer was killed can be read, not written. `kept` are the rows that come
         along, those that the checksums of the checkpoint stand for; what came after them is dropped. Rows behind those
@@ -136,7 +140,10 @@ class ResultWriter:
             self._samples.append(samples)
 
     def add_record(self, record: Mapping[str, FloatArray], revolutions: Mapping[str, Sequence[FloatArray]]) -> None:
-        """Take running integrals by bearing, and those at the cage revolutions that were completed since the last."""
+        """Take running integrals by bearing.
+
+        And those at the cage revolutions that were completed since the last.
+        """
         self._records.append(record)
         for name, rows in revolutions.items():
             self._revolutions[name].extend(rows)
@@ -163,7 +170,10 @@ class ResultWriter:
         return self._written
 
     def sums(self) -> dict[str, int]:
-        """Return the checksums of what was flushed, by path of the dataset."""
+        """Return the checksums of flushed data.
+
+        By path of the dataset.
+        """
         return self._sums.by_name()
 
     def flush(self, status: Status) -> None:
@@ -183,7 +193,10 @@ class ResultWriter:
         self._put_status(status)
 
     def save(self, checkpoint: Checkpoint) -> None:
-        """Put a checkpoint on disk, over the older of the two; flush the rows it counts before."""
+        """Put a checkpoint on disk.
+
+        Over the older of the two; flush the rows it counts before.
+        """
         data = np.frombuffer(checkpoint.to_bytes(), dtype=np.uint8)
         self._reserve(4 * data.size)
         with self._guard():
@@ -194,7 +207,10 @@ class ResultWriter:
             self._file.flush()
 
     def close(self, *, compress: bool, stop: layout.Stop = layout.never) -> None:
-        """Close the file; `compress` it where the disk has room for that, and nobody asks to `stop` on the way."""
+        """Close the file.
+
+        `compress` it where the disk has room for that, and nobody asks to `stop` on the way.
+        """
         self.closed = True
         with self._guard():
             size = self._file.id.get_filesize()
@@ -283,7 +299,10 @@ class ResultWriter:
             self._file.flush()
 
     def _growth(self) -> int:
-        """Return the bytes of the chunks that the waiting rows will open."""
+        """Return the bytes of new chunks.
+
+        The waiting rows will open them.
+        """
         samples, records = self.pending(), len(self._records)
         waiting = {_SAMPLES: samples, _MACHINE: samples}
         for bearing, rows in self._revolutions.items():
@@ -298,7 +317,10 @@ class ResultWriter:
         return total
 
     def _reserve(self, growth: int) -> None:
-        """Make sure of room; without it close the result as it is, in order and readable."""
+        """Make sure of room.
+
+        Without it close the result as it is, in order and readable.
+        """
         try:
             hdf5.reserve(self._file, growth)
         except OSError as error:
@@ -317,7 +339,10 @@ class ResultWriter:
             raise broken from None
 
     def _give_up(self, message: str) -> None:
-        """Leave the file after a failed write: say so in it where it takes that much, and close it."""
+        """Leave the file after a failed write.
+
+        Write the failure in it where this is possible, and close it.
+        """
         self.closed = True
         with contextlib.suppress(OSError, RuntimeError, ValueError):
             left = replace(self._status, rows=self._written, state="interrupted", message=message)
@@ -328,7 +353,10 @@ class ResultWriter:
 
 
 def _identity(path: Path) -> tuple[int, int] | None:
-    """Return what tells a file from another that takes its name, None where there is none."""
+    """Return the identity of a file.
+
+    It differs from that of another that takes its name; None where there is none.
+    """
     try:
         found = path.stat()
     except OSError:
@@ -342,7 +370,10 @@ def _growing(path: Path) -> h5py.File:
 
 
 def _publish(made: Path, path: Path, overwrite: bool) -> None:
-    """Give a complete file its name; a link refuses a taken one in the same step."""
+    """Give a complete file its name.
+
+    A link refuses a taken one in the same step.
+    """
     try:
         if overwrite:
             os.replace(made, check_target(path))

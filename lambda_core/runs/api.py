@@ -93,7 +93,9 @@ def quasistatic(
 
 
 def _roller_answer(source: Any, overrides: Iterable[str], *, band: bool) -> RollerQuasiStatic | None:
-    """Return the answer of a roller bearing; None where the source is no case of one.
+    """Return the answer of a roller bearing.
+
+    None where the source is no case of one.
 
     Bearings that do not run in time, full complements, have no band: the ranges are those of laws in motion.
     """
@@ -293,7 +295,10 @@ def resume(
 
 
 def _stored_model(found: Result, overrides: Iterable[str]) -> BearingModel | MachineModel:
-    """Return the model of the case in a result, without the limit of wall time that it began with."""
+    """Return the model of the case in a result.
+
+    It has no limit of wall time, though the run may have begun with one.
+    """
     from lambda_core.case.case_io import toml_tables
 
     tables = toml_tables(found.case_toml, str(found.path))

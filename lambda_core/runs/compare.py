@@ -102,7 +102,10 @@ def compare(
 
 
 def _clean(asked: float | None, given: float | None, pitch_diameter: float) -> tuple[float, bool]:
-    """Return the e_C that counts, and whether caller or case gives it: otherwise that of normal cleanliness."""
+    """Return the decisive e_C and its origin.
+
+    Caller or case gives it: otherwise it is that of normal cleanliness.
+    """
     from lambda_core.model.settings.contamination import known_contamination
 
     known = given if asked is None else asked
@@ -113,7 +116,10 @@ def _compare_in_machine(
     source: Any, overrides: Iterable[str], bearing: str | None, methods: tuple[Sequence[Method], ...],
     contamination: float | None, announce: Callable[[str], None] | None,
 ) -> Comparison:  # fmt: skip
-    """Compare methods, those for balls and those for rollers, on one bearing of a machine, at its pose there."""
+    """Compare methods on one bearing of a machine.
+
+    Those for balls and those for rollers, at its pose there.
+    """
     import dataclasses
 
     from lambda_core.analysis.rating.compare_methods import comparison_inputs

@@ -42,7 +42,10 @@ class ComparedNumber(Record):
 
 
 class ComparedMethod(Record):
-    """What one method answers; without numbers the reason says why it does not apply."""
+    """Answer of one method.
+
+    Without numbers the reason explains why it does not apply.
+    """
 
     name: str
     title: str
@@ -55,7 +58,10 @@ class ComparedMethod(Record):
 
 
 class Comparison(Answer):
-    """Every method on one case, at its start; with the simulation if a result was given."""
+    """Every method on one case at its start.
+
+    With the simulation if a result was given.
+    """
 
     interface: int = INTERFACE
     case: str
@@ -75,7 +81,10 @@ class Comparison(Answer):
         return None
 
     def text(self, units: UnitSystem = SI) -> str:
-        """Return the tables for people: one per group, a row per quantity, a column per method."""
+        """Return the tables of methods.
+
+        One per group, a row per quantity, a column per method.
+        """
         lines = [units.sentence(self.headline)]
         for group in GROUP_UNITS:
             lines += _group_lines(group, self.methods, units)
@@ -90,7 +99,9 @@ class Comparison(Answer):
 def comparison_of(
     model: BearingModel, answers: Iterable[MethodAnswer], clean: tuple[float, bool], result: Result | None = None
 ) -> Comparison:
-    """Put the answers of methods, and a simulation of the same model, side by side.
+    """Compare the answers of methods and a simulation.
+
+    They are of the same model.
 
     `clean` is e_C of ISO 281, and whether case or caller gives it.
 
@@ -170,7 +181,10 @@ def _simulated(summary: Summary, model: BearingModel) -> ComparedMethod:
 
 
 def _group_lines(group: str, methods: Sequence[ComparedMethod], units: UnitSystem) -> list[str]:
-    """Return the table of one group; nothing when no method has a number of it."""
+    """Return the table of one group.
+
+    Nothing when no method has a number of it.
+    """
     columns = [
         (
             method.name,
@@ -198,7 +212,10 @@ def _group_lines(group: str, methods: Sequence[ComparedMethod], units: UnitSyste
 
 
 def _cell(value: float | None, largest: float) -> str:
-    """Write one number; rounding, tiny compared with the largest of its unit, is written as 0."""
+    """Write one number, rounding errors as 0.
+
+    An error is tiny compared with the largest number of its unit.
+    """
     if value is None:
         return ""
     if abs(value) < max(_ROUNDING * largest, _NOTHING):

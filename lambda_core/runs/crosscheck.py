@@ -54,7 +54,7 @@ class Integration(Record):
 
 
 class CrossCheck(Answer):
-    """What two integrators make of one case."""
+    """Results of two integrators for one case."""
 
     case: str
     cage: str = Field(description='"locked" to its kinematic speed, or "free"')
@@ -108,7 +108,10 @@ def _line(name: str, row: Integration) -> str:
 
 
 def with_locked_cage(model: BearingModel, start: Equilibrium) -> BearingModel:
-    """Return the model with the cage on its kinematic path: centred, at the balls' mean orbital speed."""
+    """Return the model with a kinematic cage.
+
+    It is centred, at the balls' mean orbital speed.
+    """
     axial = float(np.mean(L.elements_in(start.context.bundle, start.state)["x"]))
     dofs = dict.fromkeys(model.cage_body.dofs, DofState("locked"))
     dofs["x"] = DofState("prescribed", TimeFunction.constant(axial))
@@ -134,7 +137,9 @@ class _Begun:
 def cross_check(
     model: BearingModel | MachineModel, *, free_cage: bool = False, announce: Callable[[str], None] | None = None
 ) -> CrossCheck:
-    """Integrate a model with both integrators from its equilibrium and compare.
+    """Integrate a model with both integrators and compare.
+
+    From its equilibrium.
 
     Parameters
     ----------
@@ -159,7 +164,10 @@ def cross_check(
 
 
 def _bearing(model: BearingModel, free_cage: bool, announce: Callable[[str], None] | None) -> _Begun:
-    """Return a bearing at its start, its cage guided unless it is free."""
+    """Return a bearing at its start.
+
+    Its cage is guided unless it is free.
+    """
     start = solve(model, announce=announce)
     _check_turning(start.relative_speed)
     orbit = abs(start.orbit)
@@ -170,7 +178,10 @@ def _bearing(model: BearingModel, free_cage: bool, announce: Callable[[str], Non
 
 
 def _machine(machine: MachineModel, free_cage: bool, announce: Callable[[str], None] | None) -> _Begun:
-    """Return a machine at its start, its cages guided unless they are free."""
+    """Return a machine at its start.
+
+    Its cages are guided unless they are free.
+    """
     from lambda_core.solver.drivers.machine_motion import machine_start
 
     _check_turning(machine.speed)
@@ -224,7 +235,9 @@ def _trajectories(begun: _Begun, duration: float) -> CrossCheck:
 
 
 def _power_bound(motion: MotionStart[Any, Any], end: float, lost: float, reference: float) -> tuple[float, bool]:
-    """Return by which share our energy may lie off that of the reference [J], and whether both tend to one limit.
+    """Return the allowed share of the energy difference.
+
+    Our energy may differ from that of the reference [J] by it; also return whether both tend to one limit.
 
     See the head of this module.
     """
@@ -236,19 +249,28 @@ def _power_bound(motion: MotionStart[Any, Any], end: float, lost: float, referen
 
 
 def _inner_loads(samples: Channels | MachineSamples) -> list[FloatArray]:
-    """Return the loads of the inner contacts of every bearing, shape (time, ball) [N]."""
+    """Return the loads of the inner contacts [N].
+
+    Of every bearing, shape (time, ball).
+    """
     each = samples.bearings if isinstance(samples, MachineSamples) else [samples]
     return [channels["load"][:, :, RINGS.index("inner")] for channels in each]
 
 
 def _gripped(load: FloatArray) -> NDArray[np.bool_]:
-    """Say which balls the inner ring has pressed all along, shape (time, ball), from the inner contacts' loads."""
+    """Mark the balls that were always loaded.
+
+    By the inner ring, shape (time, ball), from the inner contacts' loads.
+    """
     pressed = load > CARRYING * load.max(axis=1, keepdims=True)
     return np.asarray(np.logical_and.accumulate(pressed, axis=0))
 
 
 def _distance(apart: FloatArray, chosen: NDArray[np.bool_]) -> FloatArray:
-    """Return the root mean square over the chosen states at each time, 0 where there is none."""
+    """Return the rms of the chosen states.
+
+    At each time, 0 where there is none.
+    """
     total: FloatArray = np.sqrt(np.sum(np.where(chosen, apart, 0.0) ** 2, axis=1) / np.maximum(chosen.sum(axis=1), 1))
     return total
 

@@ -46,7 +46,10 @@ class CvodeRun:
     jacobians: int
 
     def dissipated(self) -> FloatArray:
-        """Return the energy that friction has dissipated since the first time, shape (n,) [J]."""
+        """Return the dissipated energy of friction [J].
+
+        Since the first time, shape (n,).
+        """
         lost: FloatArray = self.integrals[:, : self.integrals.shape[1] - L.BESIDE_LOSSES].sum(axis=1)
         return lost
 
@@ -59,7 +62,9 @@ def integrate(
     max_order: int = 2,
     own_jacobian: bool = False,
 ) -> CvodeRun:
-    """Integrate a bearing or a machine from its equilibrium with CVODE's BDF.
+    """Integrate a bearing or machine with CVODE's BDF.
+
+    From its equilibrium.
 
     Parameters
     ----------

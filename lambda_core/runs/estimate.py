@@ -34,7 +34,10 @@ PROCESSOR = "processor time of the run on this machine, from a trial; null where
 
 
 class Estimate(Answer):
-    """Numbers for a case that is being set up; null where there is none."""
+    """Numbers for a case in preparation.
+
+    Null where there is none.
+    """
 
     equilibrium: QuasiStatic
     rating_life_h: float | None = Field(description="basic rating life L_10h (ISO 281)")
@@ -84,7 +87,9 @@ def _time(seconds: float | None) -> str:
 
 
 def machine_estimate(model: MachineModel, announce: Callable[[str], None] | None = None) -> MachineEstimate:
-    """Solve the equilibrium of a machine once and say what follows from it.
+    """Solve a machine once and estimate from it.
+
+    Its equilibrium is solved.
 
     Raises
     ------
@@ -109,7 +114,9 @@ def machine_estimate(model: MachineModel, announce: Callable[[str], None] | None
 def estimate(
     model: BearingModel, methods: Mapping[str, Method], announce: Callable[[str], None] | None = None
 ) -> Estimate:
-    """Solve the equilibrium of a model and say what follows from it.
+    """Solve a model once and estimate from it.
+
+    Its equilibrium is solved.
 
     Parameters
     ----------
@@ -137,7 +144,10 @@ def estimate(
 
 
 def _cage_turn(model: BearingModel, found: Equilibrium) -> float:
-    """Return the duration of one cage turn against the outer ring [s]; inf at rest."""
+    """Return the duration of one cage turn [s].
+
+    Against the outer ring; inf at rest.
+    """
     speed = abs(found.orbit - initial(model.outer_ring.dofs["spin"].motion))
     return 2.0 * math.pi / speed if speed > 0.0 else math.inf
 
@@ -151,14 +161,20 @@ def _simulated_time(model: BearingModel, found: Equilibrium) -> float | None:
 
 
 def _turns(solver: Solver) -> int:
-    """Return how many cage turns a run needs at least to converge."""
+    """Return the least cage turns of a run.
+
+    It needs them to converge.
+    """
     discard = max(DISCARDED_AT_LEAST, math.ceil(solver.discard_revolutions))
     return discard + max(AVERAGED_AT_LEAST, math.ceil(solver.average_revolutions))
 
 
 @dataclass(frozen=True)
 class _Trial:
-    """The first moments of a run: what of it was simulated [s], in what processor time, and that of the run [s]."""
+    """First moments of a run.
+
+    Their simulated time [s], their processor time, and the simulated time of the run [s].
+    """
 
     simulated: float
     spent: float
@@ -166,7 +182,10 @@ class _Trial:
 
 
 def _trial(engine: BearingEngine | MachineEngine, turn: float, simulated: float) -> _Trial | None:
-    """Integrate the first moments of a run, None where these cannot be computed."""
+    """Integrate the first moments of a run.
+
+    None where these cannot be computed.
+    """
     wall, begin = time.perf_counter(), time.process_time()
     advance = engine.advance(min(_TRIAL * turn, simulated), lambda: time.perf_counter() - wall > _TRIAL_WALL)
     spent = time.process_time() - begin

@@ -58,7 +58,9 @@ def launch(
     report: Report | None = None,
     announce: Announce | None = None,
 ) -> Result:
-    """Run a model from its quasi-static equilibrium into a result file.
+    """Run a model into a result file.
+
+    From its quasi-static equilibrium.
 
     Parameters
     ----------
@@ -82,7 +84,9 @@ def launch(
 
 
 def relaunch(path: Path, model: Runnable, *, report: Report | None = None, announce: Announce | None = None) -> Result:
-    """Go on with the run in `path`, whose case resolves to `model` today.
+    """Go on with the run in `path`.
+
+    Its case resolves to `model` today.
 
     Raises
     ------
@@ -106,7 +110,10 @@ def relaunch(path: Path, model: Runnable, *, report: Report | None = None, annou
 
 
 def _check_same(result: Result, model: Runnable) -> None:
-    """Refuse a case that resolves to other values than those of the run."""
+    """Refuse a case with other values.
+
+    It resolves to other values than those of the run.
+    """
     models = {one.name: one.model for one in model.bearings} if isinstance(model, MachineModel) else {}
     if isinstance(model, BearingModel):
         models = dict.fromkeys(result.bearing_names[:1], model)
@@ -129,7 +136,10 @@ def _check_same(result: Result, model: Runnable) -> None:
 
 
 def _check_end(model: Runnable) -> None:
-    """Refuse a run of a machine that has no end, or none that is reached."""
+    """Refuse a run without an end.
+
+    It is one of a machine; the end is missing or cannot be reached.
+    """
     if not isinstance(model, MachineModel):
         return
     asked = model.solver.duration
@@ -158,7 +168,10 @@ def destination(model: Runnable, out: Path | None, overwrite: bool) -> Path:
 
 
 def prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Provenance, Attachments]:
-    """Return the engine at t = 0, its origin, and what is computed from its samples."""
+    """Return the engine at t = 0 and origin.
+
+    Also what is computed from its samples.
+    """
     found = _machine(model, announce) if isinstance(model, MachineModel) else _one(model, announce)
     engine, provenance, live = found
     attached = Attachments.of(provenance, live)
@@ -171,7 +184,10 @@ def prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Pro
 
 
 def _with_bands(model: Runnable, provenance: Provenance, announce: Announce | None) -> Provenance:
-    """Return where a run comes from with the model band of each bearing."""
+    """Return the origin of a run with bands.
+
+    They are the model bands of each bearing.
+    """
     from lambda_core.analysis.band.model_band import band_alone, bands_of_machine
 
     if announce is not None:
@@ -187,7 +203,10 @@ def _with_bands(model: Runnable, provenance: Provenance, announce: Announce | No
 
 
 def _live(model: Runnable, announce: Announce | None) -> Live | None:
-    """Return the electric circuit of the run, where the case has one."""
+    """Return the electric circuit of the run.
+
+    None where the case has none.
+    """
     if model.electric is None:
         return None
     from lambda_core.analysis.electric.live import Live
@@ -257,7 +276,10 @@ def _start_line(start: QuasiStatic, elements: str = "balls") -> str:
 
 
 def _moved(model: BearingModel, before: Mapping[str, Any]) -> list[str]:
-    """Return a sentence for each law that comes from another package, version or text of a file than before."""
+    """Return a sentence for each changed law.
+
+    It comes from another package, version or text of a file than before.
+    """
     found: dict[str, None] = {}
     for element, roles in model.laws.items():
         for role, law in roles.items():

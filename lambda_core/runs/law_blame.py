@@ -44,7 +44,10 @@ def took_part(others: Iterable[Law]) -> str:
 
 @contextmanager
 def naming_laws(*models: BearingModel) -> Iterator[None]:
-    """Name the laws of others where an equilibrium is not found and the sentence names none of them."""
+    """Name the laws of plugins after a failure.
+
+    An equilibrium was not found, and the sentence names none of them.
+    """
     try:
         yield
     except SolverError as error:
@@ -55,10 +58,16 @@ def naming_laws(*models: BearingModel) -> Iterator[None]:
 
 
 class BlamingEngine(MotionEngine[Sampled, Summed_co]):
-    """The dynamics of bearings; when they fail, the laws of others are looked at first."""
+    """Dynamics of bearings that name failing laws.
+
+    When they fail, the laws of plugins are looked at first.
+    """
 
     def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
-        """Integrate as the engine does; report a failure with the law behind it, where one can be found."""
+        """Integrate as the engine does.
+
+        Report a failure with the law behind it, where one can be found.
+        """
         found = super().advance(until, lambda: bool(self._run_away()) or (pause is not None and pause()))
         if gone := self._run_away():
             return Advance(False, gone)
@@ -68,7 +77,10 @@ class BlamingEngine(MotionEngine[Sampled, Summed_co]):
         return Advance(False, f"{found.message}; {next(self._suspicions(), '') or took_part(others)}")
 
     def _run_away(self) -> str:
-        """Say which state of a contact is beyond all bounds, or nothing."""
+        """Report the state that is beyond all bounds.
+
+        It is one of a contact; or nothing.
+        """
         for number, one in enumerate(self.bearings):
             values, first, model = self.kept_states(number), 0, one.context.model
             for raceway in raceways(model.geometry) if values.size else ():
@@ -89,14 +101,20 @@ class BlamingEngine(MotionEngine[Sampled, Summed_co]):
         return ""
 
     def _suspicions(self) -> Iterator[str]:
-        """Yield what is wrong with the laws of others: where they stand now, then anywhere."""
+        """Yield the faults of laws of plugins.
+
+        First for the present state, then for any.
+        """
         for number, one in enumerate(self.bearings):
             labels = {law.label for law in foreign_laws(one.context.model)}
             if labels:
                 yield from (_of(one, sentence) for sentence in self._suspicions_in(number, one.context, labels))
 
     def _suspicions_in(self, number: int, context: SolverContext, labels: set[str]) -> Iterator[str]:
-        """Yield what is wrong with the laws of these labels in a bearing."""
+        """Yield the faults of labelled laws.
+
+        They are laws in a bearing.
+        """
         now, laws = self.channels_now(number), context.model.laws
         for ring, side in enumerate(RINGS):
             element = f"ball_{side}"
@@ -114,16 +132,25 @@ class BlamingEngine(MotionEngine[Sampled, Summed_co]):
 
 
 class BlamingBearingEngine(BlamingEngine[Channels, Sums], BearingEngine):
-    """The dynamics of one bearing; when they fail, the laws of others are looked at first."""
+    """Dynamics of one bearing that name failing laws.
+
+    When they fail, the laws of plugins are looked at first.
+    """
 
 
 def _of(one: ReadBearing, sentence: str) -> str:
-    """Return a sentence with the bearing that it is about, where there are several."""
+    """Return a sentence with its bearing.
+
+    Only where there are several.
+    """
     return f"{one.name}: {sentence}" if one.name else sentence
 
 
 def _shear(context: SolverContext, element: str, now: dict[str, FloatArray]) -> Iterator[str]:
-    """Yield contacts in which the shear stress of the film drives, or is beyond the pressure that presses it."""
+    """Yield contacts with impossible shear stress.
+
+    The stress of the film drives, or is beyond the pressure.
+    """
     law, compiled = context.model.laws[element]["traction"].model, context.kernels.compiled
     for ball in np.flatnonzero(now["load"] > 0.0):
         pressure = np.linspace(0.0, float(now["max_pressure"][ball]), _CELLS)

@@ -33,7 +33,10 @@ from lambda_core.runs.session import Attachments, Known, Last, Session, records_
 
 
 class NothingLeftError(UsageError):
-    """A run that is to go on has come to its end."""
+    """Run that has come to its end.
+
+    It cannot go on.
+    """
 
 
 def run(
@@ -46,7 +49,9 @@ def run(
     attached: Attachments | None = None,
     began: float | None = None,
 ) -> Result:
-    """Simulate from the start until the end, into a new result file.
+    """Simulate from the start until the end.
+
+    Into a new result file.
 
     Parameters
     ----------
@@ -106,7 +111,9 @@ def resume(
     attached: Attachments | None = None,
     began: float | None = None,
 ) -> Result:
-    """Continue a run that was killed, stopped or finished, from its last checkpoint.
+    """Continue a run from its last checkpoint.
+
+    The run was killed, stopped or finished.
 
     Parameters and errors as for :func:`run`; `engine` is new and its models' `solver` says
     when to end.
@@ -126,7 +133,10 @@ def resume(
 
 
 def _lock_of(path: Path) -> Path:
-    """Return the file whose lock a process holds while it takes a result over."""
+    """Return the lock file of a result.
+
+    A process holds it while it takes a result over.
+    """
     return cache_folder().parent / "locks" / f"{digest_of(os.fsencode(path.resolve()))}.lock"
 
 
@@ -138,7 +148,10 @@ def _reopened(
     attached: Attachments | None,
     began: float | None,
 ) -> Session:
-    """Return the next stretch of a run, its file open for this process."""
+    """Return the next stretch of a run.
+
+    Its file is open for this process.
+    """
     result = Result(path)
     status = result.status()
     if status.alive():

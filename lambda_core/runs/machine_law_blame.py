@@ -11,4 +11,7 @@ from lambda_core.solver.drivers.readings import MachineSamples, Sums
 
 
 class BlamingMachineEngine(BlamingEngine[MachineSamples, list[Sums]], MachineEngine):
-    """The dynamics of a machine; when they fail, the laws of others are looked at first."""
+    """Dynamics of a machine that name failing laws.
+
+    When they fail, the laws of plugins are looked at first.
+    """

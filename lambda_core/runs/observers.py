@@ -30,7 +30,10 @@ log = logging.getLogger("lambda_core")
 
 @dataclass(frozen=True)
 class Seen:
-    """What observers and events made of a stretch of samples."""
+    """Results of observers and events.
+
+    They belong to a stretch of samples.
+    """
 
     channels: dict[str, FloatArray]  # of the observers, by name
     events: dict[str, FloatArray]  # columns of EVENTS
@@ -65,12 +68,15 @@ class Watch:
 
     @property
     def any(self) -> bool:
-        """Whether there is an observer or an event at all."""
+        """True if there is an observer or event."""
         return bool(self._observers or self._events)
 
     @property
     def prompt(self) -> bool:
-        """Whether samples have to be looked at as they come: an event may end the run."""
+        """True if samples are needed at once.
+
+        An event may end the run.
+        """
         return any(chosen.action == "stop" for chosen in self._events.values())
 
     @property
@@ -80,16 +86,25 @@ class Watch:
 
     @property
     def faults(self) -> tuple[str, ...]:
-        """Return why observers or events are not called any more, one sentence each."""
+        """Reasons for stopped observers and events.
+
+        One sentence each.
+        """
         return tuple(self.failed.values())
 
     def keys(self) -> dict[str, str]:
-        """Return "observer/NAME" or "event/NAME" -> hash of the module that the function stands in."""
+        """Return the hashes of observers and events.
+
+        "observer/NAME" or "event/NAME" -> hash of the function's module.
+        """
         found = {f"observer/{name}": chosen.item.key for name, chosen in self._observers.items()}
         return found | {f"event/{name}": chosen.item.key for name, chosen in self._events.items()}
 
     def take(self, samples: Mapping[str, NDArray[np.float64]]) -> Seen:
-        """Call every observer and event with a stretch of samples, channel -> array; events see observers' channels."""
+        """Call every observer and event.
+
+        With a stretch of samples, channel -> array; events see observers' channels.
+        """
         shown = {name: _locked(values) for name, values in samples.items()}
         channels: dict[str, FloatArray] = {}
         for name, chosen in self._observers.items():
@@ -101,7 +116,7 @@ class Watch:
         return Seen(channels, {channel.name: rows[:, i] for i, channel in enumerate(EVENTS)})
 
     def catch_up(self, result: Result, rows: Rows) -> None:
-        """Stand where the run stood behind its last sample that counts."""
+        """Restore the state behind the last valid sample."""
         if not self.any or not rows.samples:
             return
         last = {channel.name: result[channel.name][rows.samples - 1 : rows.samples] for channel in result.channels}
@@ -116,7 +131,10 @@ class Watch:
         return list(self._events.items())
 
     def _observed(self, name: str, chosen: ChosenObserver, samples: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
-        """Return the channels of one observer; NaN from the call on in which it failed."""
+        """Return the channels of one observer.
+
+        NaN from the call on in which it failed.
+        """
         item, count = chosen.item, len(samples["time"])
         shapes = {c.name: (count, *(self._sizes[dim] for dim in c.dims)) for c in item.channels}
 
@@ -144,7 +162,10 @@ class Watch:
         return arrays
 
     def _report_without_numbers(self, what: str, arrays: Mapping[str, FloatArray], time: float) -> None:
-        """Report once each channel that has no finite number in a stretch of samples."""
+        """Report each channel without finite numbers once.
+
+        In a stretch of samples.
+        """
         for key, values in arrays.items():
             if key not in self.without_numbers and not np.isfinite(values).any():
                 self.without_numbers[key] = f"{what} returns no finite number as {key} from t = {time:.6g} s"
@@ -152,7 +173,10 @@ class Watch:
                     log.warning("%s", self.without_numbers[key])
 
     def _integrated(self, name: str, of: str, rate: FloatArray, time: FloatArray) -> FloatArray:
-        """Go on with a time integral, summed one after the other, so that it does not matter where a stretch ends."""
+        """Go on with a time integral.
+
+        Values are summed one after the other, so the ends of stretches do not matter.
+        """
         first = not self._before
         start = np.zeros(rate.shape[1:]) if first else self._before[name]
         times = np.concatenate([[time[0] if first else self._before["time"]], time])
@@ -163,7 +187,10 @@ class Watch:
     def _happened(
         self, name: str, chosen: ChosenEvent, number: int, samples: Mapping[str, FloatArray]
     ) -> list[tuple[float, float]]:
-        """Return (time, number) of every sample at which an event begins; note one that ends the run."""
+        """Return (time, number) of every event's beginning.
+
+        Note one that ends the run.
+        """
         found = self._called(f"event/{name}", chosen, samples)
         if found is None:
             return []
@@ -187,7 +214,10 @@ class Watch:
         return self._guarded(key, what, happens)
 
     def _guarded(self, key: str, what: str, call: Callable[[], Answer]) -> Answer | None:
-        """Call a plugin's function; report its first error, and do not call it again."""
+        """Call a plugin's function.
+
+        Report its first error, and do not call it again.
+        """
         if key in self.failed:
             return None
         try:

@@ -37,7 +37,9 @@ _NOT_HERE = {"study": "looks at the table of a study", "machine": "looks at a ma
 
 
 def check_plugins(names: Sequence[str] = (), *, announce: Announce = None) -> Iterator[CheckCard]:
-    """Try what plugins bring: laws against the contract of their role, all else on a short run.
+    """Test what plugins bring.
+
+    Laws against the contract of their role, all else on a short run.
 
     Parameters
     ----------
@@ -65,7 +67,9 @@ def check_plugins(names: Sequence[str] = (), *, announce: Announce = None) -> It
 
 
 def watch_problems(model: BearingModel | MachineModel) -> list[Problem]:
-    """Call the observers and events of a case with its first two samples, and return their mistakes.
+    """Return the mistakes of observers and events.
+
+    They are called with the first two samples of a case.
 
     Returns
     -------
@@ -88,7 +92,10 @@ def watch_problems(model: BearingModel | MachineModel) -> list[Problem]:
 
 
 def _first_two(model: BearingModel | MachineModel) -> dict[str, Any]:
-    """Return the samples of the start and of a moment after it, by bearing."""
+    """Return the first two samples by bearing.
+
+    Of the start and of a moment after it.
+    """
     from lambda_core.runs.launch import prepared
 
     def often(one: BearingModel) -> BearingModel:
@@ -106,7 +113,10 @@ def _first_two(model: BearingModel | MachineModel) -> dict[str, Any]:
 
 
 class _Trial:
-    """A short run of a 6208, made when it is first asked for."""
+    """Short run of a 6208.
+
+    It is made when it is first needed.
+    """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -131,7 +141,10 @@ class _Trial:
         return comparison_inputs(solve(self.model))
 
     def of(self, kind: str, item: Any) -> tuple[list[str], list[str], str]:
-        """Return the faults and warnings of one plugin, and why it was not tried."""
+        """Return the faults of one plugin.
+
+        With its warnings, and the reason where it was not tested.
+        """
         if kind in ("observer", "event"):
             return self._watched(kind, item)
         return self._asked(kind, item)

@@ -15,7 +15,10 @@ from lambda_core.domain.processes import STOP_SIGNALS
 
 
 class Progress(BaseModel):
-    """Where a run stands; one JSON line each with ``--progress=json``."""
+    """Progress of a run.
+
+    One JSON line each with ``--progress=json``.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -37,7 +40,10 @@ class Progress(BaseModel):
     films_broken_per_s: float | None = None  # so far
 
     def __str__(self) -> str:
-        """Say where the run stands in one line; the fields say more."""
+        """Return the progress in one line.
+
+        The fields have more.
+        """
         turns = f"{self.cage_revolutions:.1f} of {self.cage_revolutions_wanted:.0f} cage revolutions"
         left = "" if self.left_s is None else f"{self.left_s:.0f} s left"
         torque = plus_minus(self.friction_torque_Nmm, self.friction_torque_ci_Nmm)
@@ -48,7 +54,7 @@ Report = Callable[[Progress], None]
 
 
 class StopRequest:
-    """Whether somebody asked the run to stop."""
+    """Request to stop the run."""
 
     signal_number: int | None = None
 
@@ -62,7 +68,9 @@ class StopRequest:
 
 @contextmanager
 def stop_request() -> Iterator[StopRequest]:
-    """Turn Ctrl+C and SIGTERM into a request that is answered between two steps.
+    """Turn Ctrl+C and SIGTERM into a request.
+
+    It is answered between two steps.
 
     A second one interrupts wherever Python hears it; where it does not, the command line ends the process. Outside
     the main thread signals are not ours to take.

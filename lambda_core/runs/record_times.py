@@ -17,7 +17,9 @@ RECORDS_PER_REVOLUTION = 40
 
 
 def record_interval(engine: RunEngine, models: Sequence[BearingModel]) -> float:
-    """Return the simulated time between records [s]: 1/40 of a nominal cage revolution.
+    """Return the time between records [s].
+
+    Simulated time, 1/40 of a nominal cage revolution.
 
     The engine's default of SAMPLES_PER_REVOLUTION says how long that is; with an
     interval of one's own, the inner ring's planned speed and D_w/d_m do, of the bearing whose cage turns fastest.
@@ -36,7 +38,10 @@ def record_interval(engine: RunEngine, models: Sequence[BearingModel]) -> float:
 
 
 def next_multiple(now: float, interval: float) -> float:
-    """Return the first multiple of `interval` after `now`, whatever the rounding."""
+    """Return the next multiple of `interval`.
+
+    After `now`, whatever the rounding.
+    """
     number = math.floor(now / interval) + 1
     while number * interval <= now:
         number += 1

@@ -20,7 +20,10 @@ def ready(
     overrides: Iterable[str] = (),
     announce: Callable[[str], None] | None = None,
 ) -> BearingModel | MachineModel:
-    """Return the model of a bearing or a machine, with its temperatures."""
+    """Return a model with its temperatures.
+
+    Of a bearing or a machine.
+    """
     from lambda_core.analysis.thermal.temperatures import ready_model  # `show` starts without what runs need
     from lambda_core.case.case_io import is_machine
 
@@ -33,7 +36,10 @@ def ready(
 
 @one_blas_thread()
 def rerun(found: Result, changes: Mapping[str, Any], out: str | Path | None) -> Result:
-    """Run the case of a result with changes, into `out` as of :func:`lambda_core.api.run`."""
+    """Run the changed case of a result.
+
+    Into `out` as of :func:`lambda_core.api.run`.
+    """
     from lambda_core.case.case_io import read_case, toml_tables
     from lambda_core.runs.launch import launch
 

@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 
 class RunEngine(Protocol):
-    """The dynamics of a machine of one or more bearings, as the run loop asks for them.
+    """Dynamics of a machine for the run loop.
+
+    It has one or more bearings.
 
     The step sequence does not depend on when `advance` is called or what is sampled, so a
     run continued from `state` is the run that was never interrupted, bit for bit.
@@ -39,19 +41,31 @@ class RunEngine(Protocol):
         """Return the time between samples [s]."""
 
     def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
-        """Integrate until `time` >= `until` [s] or `pause` says so; samples gather meanwhile."""
+        """Integrate until `time` >= `until` [s].
+
+        Or until `pause` is true; samples gather meanwhile.
+        """
 
     def samples(self) -> Samples:
         """Return and clear the buffered samples."""
 
     def integrals(self) -> dict[str, dict[str, float]]:
-        """Return the running integrals of every bearing by its name (see :class:`BearingReadings`)."""
+        """Return the running integrals by bearing.
+
+        See :class:`BearingReadings`.
+        """
 
     def statistics(self) -> dict[str, float]:
-        """Return counters of the integrator since the start, those of a restored state among them."""
+        """Return counters of the integrator.
+
+        Since the start, those of a restored state among them.
+        """
 
     def modes(self) -> list[tuple[float, float]]:
-        """Return frequency [Hz] and damping ratio of the modes at `time`."""
+        """Return the modes at `time`.
+
+        Frequency [Hz] and damping ratio.
+        """
 
     def state(self) -> dict[str, NDArray[np.float64]]:
         """Return everything that a continuation needs."""
@@ -116,5 +130,8 @@ class SeveralBearings:
 
 
 def without_time(channels: tuple[Channel, ...]) -> tuple[Channel, ...]:
-    """Return channels except the time, which all of a run have in common."""
+    """Return channels except the time.
+
+    All channels of a run share the time.
+    """
     return tuple(channel for channel in channels if channel.name != TIME)

@@ -46,14 +46,20 @@ _REPORT_AFTER = 0.1  # wall time [s]
 
 @dataclass(frozen=True)
 class Attachments:
-    """What a run computes from its samples in addition to the motion."""
+    """Computations from a run's samples.
+
+    They are in addition to the motion.
+    """
 
     live: Live | None  # the electric circuit
     watches: Mapping[str, Watch]  # observers and events by bearing
 
     @classmethod
     def of(cls, provenance: Provenance, live: Live | None) -> Attachments:
-        """Return a circuit, and the observers and events of every bearing."""
+        """Return a circuit, observers and events.
+
+        The latter two belong to every bearing.
+        """
         return cls(live, {name: Watch(origin.model) for name, origin in provenance.bearings.items()})
 
     def channels(self, engine: RunEngine) -> RunChannels:
@@ -70,17 +76,26 @@ class Attachments:
 
     @property
     def is_prompt(self) -> bool:
-        """Whether samples have to be looked at as they come: an event may end the run."""
+        """True if samples are needed at once.
+
+        An event may end the run.
+        """
         return any(watch.prompt for watch in self.watches.values())
 
     @property
     def ended_by(self) -> str:
-        """A sentence, once an event that stops the run has happened."""
+        """Sentence about the event that stopped the run.
+
+        None before.
+        """
         return next((watch.ended_by for watch in self.watches.values() if watch.ended_by), "")
 
     @property
     def faults(self) -> tuple[str, ...]:
-        """Why observers or events are not called any more, one sentence each."""
+        """Reasons for stopped observers and events.
+
+        One sentence each.
+        """
         return tuple(dict.fromkeys(fault for watch in self.watches.values() for fault in watch.faults))
 
 
@@ -89,7 +104,10 @@ Last = Mapping[str, FloatArray]  # by bearing: the newest row
 
 
 class Session:
-    """One stretch of a run, from a start or a checkpoint to an end."""
+    """One stretch of a run.
+
+    From a start or a checkpoint to an end.
+    """
 
     def __init__(
         self,
@@ -130,7 +148,10 @@ class Session:
         self._flushed = self._saved = self._reported = self._started
 
     def drive(self) -> Result:
-        """Advance until the end, a limit or a request to stop; return the result."""
+        """Advance until the end or a stop.
+
+        A limit or a request may stop it; return the result.
+        """
         try:
             self._save()
             with stop_request() as stop:
@@ -157,7 +178,7 @@ class Session:
         self._converged = are_converged(self._solvers, self._windows, rows, now)
 
     def _now_averaged(self) -> list[Window]:
-        """Return the revolutions that averages are taken over now, by bearing."""
+        """Return the present averaging revolutions by bearing."""
         each = zip(self._solvers, self._known.values(), self._last.values(), strict=True)
         return [window(solver, np.stack(known), last) for solver, known, last in each]
 
@@ -191,7 +212,10 @@ class Session:
         return time.perf_counter() >= self._late_at
 
     def _advance(self, pause: Callable[[], bool]) -> Advance:
-        """Take the engine past the next record, or to where it has to pause, and keep what it brings."""
+        """Take the engine past the next record.
+
+        Or to where it has to pause, and keep what it brings.
+        """
         engine = self._engine
         before = engine.time
         target = next_multiple(before, self._interval)
@@ -204,7 +228,10 @@ class Session:
         return advance
 
     def _advance_to(self, until: float, pause: Callable[[], bool]) -> Advance:
-        """Advance the engine; where an event may end the run, from sample to sample, to stop behind the right one."""
+        """Advance the engine to a time.
+
+        Where an event may end the run, it goes from sample to sample, to stop behind the right one.
+        """
         engine = self._engine
         if not self._attached.is_prompt:
             return engine.advance(until, pause)
@@ -223,7 +250,10 @@ class Session:
                 return advance
 
     def _keep(self, target: float) -> None:
-        """Keep a record of now; `target` is the time of the grid that it stands for [s]."""
+        """Keep a record of now.
+
+        `target` is the time of the grid that it belongs to [s].
+        """
         now = records_of(self._engine)
         crossed = {
             name: boundaries(self._last[name], record, len(self._known[name]) - 1) for name, record in now.items()
@@ -249,7 +279,10 @@ class Session:
         return self._solver.duration == 0.0 and self._converged
 
     def _housekeeping(self) -> None:
-        """Report, flush and save when it is time to; none of it touches the simulation."""
+        """Report, flush and save in due time.
+
+        None of it changes the simulation.
+        """
         now = time.perf_counter()
         if self._report is not None and now - self._reported >= _REPORT_AFTER:
             self._reported = now
@@ -273,7 +306,10 @@ class Session:
         self._saved = time.perf_counter()
 
     def _collect(self) -> None:
-        """Take the samples that the engine has gathered; each call of it costs, so not after every record."""
+        """Take the samples of the engine.
+
+        Each call of it costs, so not after every record.
+        """
         samples = self._engine.samples()
         if len(samples.time):
             self._look(samples)
@@ -289,7 +325,10 @@ class Session:
             self._writer.add_circuit(self._live.take(samples.bearings))
 
     def _look(self, samples: Samples) -> None:
-        """Keep what progress shows of the newest samples: of the bearing with the largest contact load."""
+        """Keep the newest samples for the progress.
+
+        Those of the bearing with the largest contact load.
+        """
         name = max(samples.bearings, key=lambda name: float(samples.bearings[name]["load"][-1].max()))
         shown = samples.bearings[name]
         self._loads = tuple(shown["load"][-1, :, RINGS.index("inner")].tolist())
@@ -309,7 +348,10 @@ class Session:
             self._report(self._progress())
 
     def _status(self, state: State, message: str) -> Status:
-        """Return the state of the run; the writer fills in the rows."""
+        """Return the state of the run.
+
+        The writer adds the rows.
+        """
         spent = self._before.statistics
         counters = {
             name: spent.get(name, 0.0) + count - self._counters.get(name, 0.0)
@@ -327,7 +369,10 @@ class Session:
         )
 
     def _asks_for_modes(self, state: State) -> bool:
-        """Tell whether it is time for them: of six bearings they take two seconds, and who stops a run waits."""
+        """Tell whether the modes are due.
+
+        With six bearings they take two seconds, in which a user would wait for a stop.
+        """
         return state == "finished" if len(self._models) > 1 else state != "running"
 
     def _progress(self) -> Progress:
@@ -364,7 +409,10 @@ class Session:
         )
 
     def _expected(self, turns: float, wanted: float) -> tuple[float, float]:
-        """Return the cage revolutions and the simulated time [s] that the run will take in all, by what is known."""
+        """Return expected cage revolutions and time [s].
+
+        Those of the complete run, by what is known.
+        """
         now = self._engine.time
         per_turn = now / turns if turns > 0.2 else self._interval * RECORDS_PER_REVOLUTION
         if self._solver.duration > 0.0:

@@ -42,7 +42,9 @@ _PUSHES = {
 
 @dataclass(frozen=True)
 class Step:
-    """Where a bearing or a machine stands at the end of a step.
+    """State at the end of a step.
+
+    Of a bearing or a machine.
 
     Attributes
     ----------
@@ -67,14 +69,17 @@ class Step:
     bearings: Mapping[str, Mapping[str, FloatArray]] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> FloatArray:
-        """Return one channel at this moment; UsageError with the nearest names when there is none."""
+        """Return one channel at this moment.
+
+        UsageError with the nearest names when there is none.
+        """
         if name not in self.channels:
             raise UsageError(unknown_name("channel", name, self.channels))
         return self.channels[name]
 
 
 class Coupled(Protocol):
-    """What moves, and what another program gives to it."""
+    """Motion of the model with external inputs."""
 
     @property
     def engine(self) -> BearingEngine | MachineEngine:
@@ -94,7 +99,10 @@ class Coupled(Protocol):
         """Return the largest contact pressure now [Pa]."""
 
     def state(self) -> dict[str, NDArray[np.float64]]:
-        """Return what a continuation needs, but for the engine's own state."""
+        """Return the state for a continuation.
+
+        The engine's own state is separate.
+        """
 
     def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
         """Go back to what :meth:`state` returned."""
@@ -127,7 +135,10 @@ class _OneBearing:
 
 
 class _Machine:
-    """A machine that is pushed at its markers, loads and gears, and turned by its coupling."""
+    """Machine with external forces and drive.
+
+    Forces act at its markers, loads and gears; its coupling turns.
+    """
 
     def __init__(self, machine: MachineModel, couple: Coupling, announce: Announce | None) -> None:
         from lambda_core.solver.drivers.machine_inputs import check_coupling
@@ -159,7 +170,9 @@ class _Machine:
 
 
 class Stepping(Iterator[Step]):
-    """The steps of one bearing or of a machine; ends at ``solver.duration``, or at ``solver.max_duration``.
+    """Steps of one bearing or machine.
+
+    They end at ``solver.duration``, or at ``solver.max_duration``.
 
     Parameters
     ----------
@@ -216,11 +229,13 @@ class Stepping(Iterator[Step]):
 
     @property
     def time_s(self) -> float:
-        """Where the bearing stands [s]."""
+        """Present time of the bearing [s]."""
         return self._engine.time
 
     def give(self, name: str, value: float, rate: float = 0.0, acceleration: float = 0.0) -> None:
-        """Give a load or motion, from now on until it is given anew.
+        """Set a load or motion from now on.
+
+        It holds until it is set again.
 
         Parameters
         ----------
@@ -242,7 +257,9 @@ class Stepping(Iterator[Step]):
         self._coupled.give(name, value, rate, acceleration)
 
     def push(self, force: Sequence[float] = (0.0, 0.0, 0.0), moment: Sequence[float] = (0.0, 0.0)) -> None:
-        """Put a load on the inner ring, in addition to those of the case, from now on until the next call.
+        """Put a load on the inner ring.
+
+        In addition to those of the case, from now on until the next call.
 
         Parameters
         ----------
@@ -274,13 +291,18 @@ class Stepping(Iterator[Step]):
         return self
 
     def __next__(self) -> Step:
-        """Return the next step; SolverError when the integrator cannot go on, as :meth:`step_to`."""
+        """Return the next step.
+
+        SolverError when the integrator cannot go on, as :meth:`step_to`.
+        """
         if self.time_s >= self._end:
             raise StopIteration
         return self._go(min(next_multiple(self.time_s, self.interval), self._end), exactly=self._exact)
 
     def step_to(self, time_s: float) -> Step:
-        """Return the step that ends at a time of the caller's choice, exactly.
+        """Return the step that ends at a time.
+
+        Exactly at the caller's choice.
 
         Raises
         ------
@@ -295,12 +317,18 @@ class Stepping(Iterator[Step]):
         return self._go(time_s, exactly=True)
 
     def state(self) -> dict[str, NDArray[np.float64]]:
-        """Return everything that a continuation from here needs: to look ahead, and :meth:`restore`."""
+        """Return everything for a continuation from here.
+
+        To look ahead, and :meth:`restore`.
+        """
         own = {f"coupled.{name}": part for name, part in self._coupled.state().items()}
         return {**self._engine.state(samples=False), **own, "before": np.array(self._before)}
 
     def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
-        """Go back to where :meth:`state` was asked; what follows is what followed then, bit for bit."""
+        """Go back to a state of :meth:`state`.
+
+        The steps after it are the same again, bit for bit.
+        """
         self._before = (float(state["before"][0]), float(state["before"][1]))
         coupled = {name: part for name, part in state.items() if name.startswith("coupled.")}
         self._coupled.restore({name.removeprefix("coupled."): part for name, part in coupled.items()})
@@ -323,7 +351,10 @@ class Stepping(Iterator[Step]):
         return replace(step, friction_torque_Nmm=torque)
 
     def _advance(self, until: float, exactly: bool) -> None:
-        """Integrate to the end of a step; SolverError when the integrator cannot go on or gets nowhere."""
+        """Integrate to the end of a step.
+
+        SolverError when the integrator cannot go on or makes no progress.
+        """
         engine = self._engine
         begin, before = engine.time, engine.iterations
 
@@ -344,7 +375,10 @@ class Stepping(Iterator[Step]):
 
 
 def _in_steps(model: BearingModel | MachineModel, interval: float) -> BearingModel | MachineModel:
-    """Return the model with no step of the integrator longer than an interval [s]."""
+    """Return the model with limited steps.
+
+    No step of the integrator is longer than an interval [s].
+    """
     if isinstance(model, BearingModel):
         return _bearing_in_steps(model, interval)
     bearings = tuple(replace(one, model=_bearing_in_steps(one.model, interval)) for one in model.bearings)

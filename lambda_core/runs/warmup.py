@@ -18,7 +18,7 @@ from lambda_core.solver.entry import ON_DEMAND, UNITS, missing
 
 
 class Warmup(Record):
-    """What was compiled, and what was there already."""
+    """Compiled and cached code."""
 
     interface: int = INTERFACE
     folder: str = Field(description="where compiled code is kept")
@@ -42,7 +42,9 @@ class Warmup(Record):
 
 
 def warmup(models: Registry, announce: Callable[[str], None] | None = None) -> Warmup:
-    """Compile the solver and every law of a registry into the cache on disk.
+    """Compile the solver and every law.
+
+    Those of a registry, into the cache on disk.
 
     Parameters
     ----------

@@ -39,7 +39,7 @@ _LEAST_SAFETY = 1.0  # static, unless more is asked for
 
 
 class Candidate(Record):
-    """One bearing of the catalogue that was computed for the operating point."""
+    """Catalogue bearing computed for the operating point."""
 
     designation: str
     maker: str
@@ -68,7 +68,10 @@ class Choice(Record):
     left_out: dict[str, int] = Field(description="reason -> number of bearings of the catalogue")
 
     def text(self, units: UnitSystem = SI) -> str:
-        """Return a table for people, then why other bearings were left out."""
+        """Return the table of bearings.
+
+        Then the reasons why other bearings were left out.
+        """
         torque = f"torque {units.unit('N mm')}"
         head = ("bearing", f"d x D x B {units.unit('mm')}", "life", "C0/P0", "n/limit", torque, "")
         rows = [head, *(_cells(one, units) for one in self.candidates)]
@@ -218,7 +221,10 @@ class _Wanted:
         )
 
     def against(self, row: BearingRow, viscosity: float | None, contamination: float | str | None) -> str:
-        """Return what speaks against a bearing, in plural words; "" where nothing does."""
+        """Return the objections to a bearing.
+
+        In plural words; "" where there are none.
+        """
         if self.bore is not None and not math.isclose(row.bore_diameter.value, self.bore, rel_tol=1e-6):
             return "have another bore"
         if self.outside is not None and row.outside_diameter.value > self.outside:
@@ -230,7 +236,10 @@ class _Wanted:
         return self._by_kind(row) or self._by_load(row, viscosity, contamination)
 
     def _by_kind(self, row: BearingRow) -> str:
-        """Return why a kind of bearing cannot stand alone under this load."""
+        """Return the objection to a kind alone.
+
+        It cannot carry this load as a single bearing.
+        """
         if self.axial < kinds()[row.kind].least_thrust * self.radial:
             return f"need more axial load as {row.kind} bearings"
         if row.kind == "angular contact" and row.contact_angle is not None:
@@ -240,7 +249,10 @@ class _Wanted:
         return ""
 
     def _by_load(self, row: BearingRow, viscosity: float | None, contamination: float | str | None) -> str:
-        """Return whether life, static safety or minimum load speak against a bearing (ISO 281, ISO 76)."""
+        """Return the objections by load.
+
+        Life, static safety or minimum load (ISO 281, ISO 76).
+        """
         assert row.dynamic_rating is not None
         assert row.static_rating is not None
         of_kind = kinds()[row.kind]
@@ -268,7 +280,10 @@ class _Wanted:
 
 
 def _si(text: str, quantity: str) -> float:
-    """Read a value with its unit; UsageError with what to write."""
+    """Read a value with its unit.
+
+    UsageError with the right form.
+    """
     try:
         return parse(text, quantity)
     except ValueError as error:
@@ -286,7 +301,10 @@ def _case(row: BearingRow, shared: dict[str, Any]) -> dict[str, Any]:
 def _viscosity(
     rows: Sequence[BearingRow], shared: dict[str, Any], announce: Callable[[str], None] | None
 ) -> float | None:
-    """Return the kinematic viscosity of the oil in operation [m2/s], as one solved bearing has it."""
+    """Return the oil's kinematic viscosity in operation [m2/s].
+
+    As one solved bearing has it.
+    """
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.runs.api import quasistatic
 

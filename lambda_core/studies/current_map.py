@@ -136,7 +136,10 @@ def _read_on(
 
 @contextmanager
 def _folder(folder: str | Path | None) -> Iterator[Path]:
-    """Give a folder to work in; without a name one that is gone afterwards."""
+    """Give a folder to work in.
+
+    Without a name it is removed afterwards.
+    """
     if folder is not None:
         yield Path(folder)
         return
@@ -152,7 +155,7 @@ def _study(
     temperature: str,
     points: str,
 ) -> tuple[Case | MachineCase, Study]:
-    """Return the case of a map, and the study that it is."""
+    """Return the case and study of a map."""
     from lambda_core.case.case import Case
     from lambda_core.case.case_io import read_case
     from lambda_core.model.checking import model_of
@@ -236,7 +239,9 @@ def _ends(name: str, text: str, quantity: str, count: int) -> tuple[str, str]:
 
 
 def map_axes(table: StudyTable, folder: Path) -> tuple[list[float], list[float]]:
-    """Return the speeds [1/min] and temperatures [degC] of each row of a map.
+    """Return speeds [1/min] and temperatures [degC] of rows.
+
+    They are the rows of a map.
 
     Raises
     ------
@@ -259,7 +264,9 @@ def map_axes(table: StudyTable, folder: Path) -> tuple[list[float], list[float]]
 
 
 def map_of(folder: Path, bearing: str | None = None) -> RiskMap:
-    """Read a map from the folder of its study, also while it is being worked on.
+    """Read a map from its study's folder.
+
+    The study may still be at work.
 
     Parameters
     ----------

@@ -23,7 +23,10 @@ SAMPLED = ("latin-hypercube", "sobol", "saltelli", "optimise")
 
 
 class Parameter(Section):
-    """One option of the case that varies: a list of values, or a range."""
+    """Option of the case that varies.
+
+    It has a list of values, or a range.
+    """
 
     path: str = option(description="path of the option in the case, as --set takes it", min_length=1)
     values: list[bool | int | float | str] | None = option(None, "the values, as they would stand in a case")
@@ -59,7 +62,7 @@ class Parameter(Section):
 
 
 class Design(Section):
-    """How the points of the study are chosen."""
+    """Choice of the study's points."""
 
     kind: Kind = option("crossed", "every combination; in step; or samples of the ranges")
     samples: int | None = option(None, "number of samples; of saltelli: base samples", ge=2)
@@ -94,7 +97,7 @@ class Constraint(Section):
 
 
 class Goal(Section):
-    """What an optimisation is after."""
+    """Goal of an optimisation."""
 
     minimise: str | None = option(None, "response to make small")
     maximise: str | None = option(None, "response to make large")
@@ -148,7 +151,9 @@ class Study(Section):
 
 
 def read_study(source: str | Path) -> tuple[Study, Path]:
-    """Read a study file; returns the study and the folder that its case is relative to.
+    """Read a study file.
+
+    Return the study and the folder that its case is relative to.
 
     Raises
     ------

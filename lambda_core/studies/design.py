@@ -22,7 +22,10 @@ FIRST_SAMPLES = 4  # per parameter, before an optimisation searches from the bes
 
 @dataclass(frozen=True)
 class Coordinate:
-    """One parameter made ready: how many values it has, and each as text and as an entry of the table."""
+    """One parameter with its values.
+
+    Their number, and each as text and as an entry of the table.
+    """
 
     parameter: Parameter
     scale: Scale | None  # None for names
@@ -30,7 +33,7 @@ class Coordinate:
 
     @property
     def is_range(self) -> bool:
-        """Whether any value between two ends can be taken."""
+        """True for a continuous range."""
         return self.parameter.range is not None
 
     @property
@@ -39,14 +42,20 @@ class Coordinate:
         return len(self.parameter.values) if self.parameter.values is not None else self.parameter.points or 0
 
     def value(self, index: int) -> tuple[str, float | str]:
-        """Return the value number `index` as text for the case and as an entry of the table."""
+        """Return the value number `index`.
+
+        As text for the case and as an entry of the table.
+        """
         if self.parameter.values is None:
             return self.at(index / (self.count - 1) if self.count > 1 else 0.0)
         text = written(self.parameter.values[index])
         return text, self.numbers[index] if self.scale is not None else text
 
     def at(self, share: float) -> tuple[str, float | str]:
-        """Return the value at a share 0..1 of the range (of a list: of its entries)."""
+        """Return the value at a share 0..1.
+
+        Of the range (of a list: of its entries).
+        """
         if not self.is_range or self.scale is None:
             return self.value(min(int(share * self.count), self.count - 1))
         first, last = self.numbers
@@ -66,7 +75,10 @@ class Coordinate:
 
 @dataclass(frozen=True)
 class Point:
-    """One point: what is written into the case, and the entries of the table."""
+    """One point.
+
+    Its changes of the case, and the entries of the table.
+    """
 
     changes: tuple[str, ...]  # path=value
     coordinates: tuple[float | str, ...]
@@ -101,7 +113,10 @@ class Plan:
 
     @property
     def count(self) -> int:
-        """Number of points; of an optimisation the most that there can be."""
+        """Number of points.
+
+        Of an optimisation the largest possible number.
+        """
         design, dimensions = self.study.design, len(self.coordinates)
         if design.kind == "crossed":
             return math.prod(c.count for c in self.coordinates)
@@ -120,7 +135,10 @@ class Plan:
 
     @property
     def fixed_count(self) -> int:
-        """Number of points that are known before the first is evaluated."""
+        """Number of points known at the start.
+
+        They are known before the first is evaluated.
+        """
         return self.first_samples if self.study.design.kind == "optimise" else self.count
 
     def point(self, number: int) -> Point:
@@ -142,7 +160,10 @@ class Plan:
         return (self.point(number) for number in range(self.fixed_count))
 
     def at(self, shares: FloatArray) -> Point:
-        """Return the point at shares 0..1 of every range, shape (parameters,)."""
+        """Return the point at shares of ranges.
+
+        Shares 0..1 of every range, shape (parameters,).
+        """
         return self._point([c.at(float(share)) for c, share in zip(self.coordinates, shares, strict=True)])
 
     def _point(self, pairs: list[tuple[str, float | str]]) -> Point:
@@ -164,7 +185,9 @@ class Plan:
 
 
 def saltelli(samples: int, dimensions: int, seed: int) -> FloatArray:
-    """Return the shares of a Saltelli design, shape (samples (dimensions + 2), dimensions).
+    """Return the shares of a Saltelli design.
+
+    Shape (samples (dimensions + 2), dimensions).
 
     Matrices A, B, then A with column i from B for each i (Saltelli et al. 2010, Comput. Phys. Commun. 181, 259).
     """
@@ -181,7 +204,10 @@ def saltelli(samples: int, dimensions: int, seed: int) -> FloatArray:
 
 
 def _coordinate(parameter: Parameter, kind: str) -> Coordinate:
-    """Make one parameter ready; ValueError with the sentence that says what is wrong."""
+    """Return one parameter with its values.
+
+    ValueError explains a mistake.
+    """
     values = parameter.values if parameter.values is not None else parameter.range
     assert values is not None
     found = scale_of(values)
@@ -214,7 +240,10 @@ def _a(kind: str) -> str:
 
 
 def _refuse_twins(values: Sequence[Value], same: Sequence[float | str]) -> None:
-    """Refuse a value that stands twice, also in another unit: both would be the same points."""
+    """Refuse a value that stands twice.
+
+    Also in another unit: both would be the same points.
+    """
     for index, entry in enumerate(same):
         if entry in same[:index]:
             one, other = values[same.index(entry)], values[index]

@@ -55,7 +55,7 @@ class Phase(Section):
 
 
 class Cycle(Section):
-    """A duty cycle: a case, and the phases that it goes through."""
+    """Duty cycle of a case with phases."""
 
     name: str = option(description="short name", pattern=NAME_PATTERN)
     case: str = option(description="case file, relative to this one, or built-in case", min_length=1)
@@ -70,7 +70,10 @@ class Cycle(Section):
 
 
 class PhaseResult(Record):
-    """What one phase is on its own; null where a standard does not answer, or nothing turns."""
+    """Result of one phase alone.
+
+    Null where a standard does not answer, or nothing turns.
+    """
 
     name: str
     share: float = Field(description="of the time")
@@ -86,7 +89,10 @@ class PhaseResult(Record):
 
 
 class DutyCycle(Record):
-    """A duty cycle added up; a life is null where a phase has none."""
+    """Sum of a duty cycle.
+
+    A life is null where a phase has none.
+    """
 
     interface: int = INTERFACE
     name: str
@@ -103,7 +109,10 @@ class DutyCycle(Record):
     assumptions: list[str]
 
     def text(self, units: UnitSystem = SI) -> str:
-        """Return a table for people: a row per phase, then the sum."""
+        """Return the table of phases.
+
+        A row per phase, then the sum.
+        """
         lines = [f"{self.name}: a cycle of {number(self.cycle_h, 2)} h of {self.case}", ""]
         lines += [
             *duty_table(self, units),
@@ -136,7 +145,10 @@ _ADDED = (
 
 @dataclass(frozen=True)
 class _Step:
-    """One phase as it is solved: its name, where mistakes in it are looked for, its time [s], its changes."""
+    """One phase to solve.
+
+    Its name, the place of its mistakes, its time [s], its changes.
+    """
 
     name: str
     where: str
@@ -185,7 +197,10 @@ def duty(
 def summed_phases(
     name: str, case: str, total_time: float, alone: Sequence[PhaseResult], assumptions: Sequence[str]
 ) -> DutyCycle:
-    """Add up the phases of one bearing; `whole` is the time of all of them [s]."""
+    """Add up the phases of one bearing.
+
+    `whole` is the time of all of them [s].
+    """
     lives = {kind: _added(alone, kind) for kind in ("basic_life_h", "reference_life_h")}
     total = lives["reference_life_h"]
     phases = [phase.model_copy(update={"damage": _damage(phase, total)}) for phase in alone]
@@ -208,12 +223,18 @@ def summed_phases(
 
 
 def _sum(values: Sequence[float | None]) -> float | None:
-    """Return a sum, None where a part of it is not known."""
+    """Return a sum.
+
+    None where a part of it is not known.
+    """
     return None if None in values else sum(value for value in values if value is not None)
 
 
 def _read(source: str | Path | Mapping[str, Any]) -> tuple[Cycle, Case | MachineCase, list[_Step]]:
-    """Return the cycle, its case and its phases; every mistake of the file at once."""
+    """Return the cycle, its case and its phases.
+
+    An error has every mistake of the file.
+    """
     if isinstance(source, Mapping):
         name, data, folder = "duty cycle", dict(source), Path()
     else:
@@ -234,7 +255,10 @@ def _read(source: str | Path | Mapping[str, Any]) -> tuple[Cycle, Case | Machine
 
 
 def _steps(cycle: Cycle, folder: Path) -> list[_Step]:
-    """Return the phases, from the file itself or from its spectrum."""
+    """Return the phases.
+
+    From the file itself or from its spectrum.
+    """
     if cycle.spectrum is None:
         return [
             _Step(
@@ -256,7 +280,10 @@ def _steps(cycle: Cycle, folder: Path) -> list[_Step]:
 
 
 def _refuse_mistakes(steps: Sequence[_Step], case: Case | MachineCase) -> None:
-    """Refuse a cycle in which a change has no place in the case, with every such phase, before any is solved."""
+    """Refuse a cycle with a wrong change.
+
+    It has no place in the case; every such phase is named, before any is solved.
+    """
     found: list[Problem] = []
     for step in steps:
         try:
@@ -268,7 +295,10 @@ def _refuse_mistakes(steps: Sequence[_Step], case: Case | MachineCase) -> None:
 
 
 def _at(step: _Step, case: str, solve: Callable[[], Solved]) -> Solved:
-    """Return what comes of one phase; its name stands before whatever is wrong with it."""
+    """Return the result of one phase.
+
+    Its name comes before any error.
+    """
     try:
         return solve()
     except CaseError as error:
@@ -322,7 +352,10 @@ def _written(value: bool | int | float | str) -> str:
 
 
 def _added(phases: Sequence[PhaseResult], kind: str) -> float:
-    """Return the life of all phases together [h]; NaN where one that turns has none, infinite where nothing turns."""
+    """Return the life of all phases [h].
+
+    NaN where one that turns has none, infinite where nothing turns.
+    """
     damage = 0.0
     for phase in phases:
         if phase.speed_rpm > 0.0:
@@ -338,7 +371,10 @@ def _damage(phase: PhaseResult, total: float) -> float | None:
 
 
 def _mean_load(phases: Sequence[PhaseResult], mean_speed: float) -> float | None:
-    """Return P_m = (sum P_i^3 n_i t_i / sum n_i t_i)^(1/3) (SKF, Rolling bearings, 17000 EN, 2018: mean load)."""
+    """Return the mean load P_m.
+
+    (sum P_i^3 n_i t_i / sum n_i t_i)^(1/3) (SKF, Rolling bearings, 17000 EN, 2018: mean load).
+    """
     turning = [phase for phase in phases if phase.speed_rpm > 0.0]
     if not turning or any(phase.equivalent_load_N is None for phase in turning):
         return None

@@ -38,7 +38,7 @@ _ALONE = 6.0  # estimated work that other processes do not make shorter [s]
 
 
 class StudyStatus(BaseModel):
-    """Where a study stands."""
+    """State of a study."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -99,7 +99,10 @@ def prepare(
     announce: Announce = None,
     case: Case | MachineCase | None = None,
 ) -> Ready:
-    """Read and check a study; errors as in :func:`lambda_core.studies.study_check.check`, `case` as there."""
+    """Read and check a study.
+
+    Errors as in :func:`lambda_core.studies.study_check.check`, `case` as there.
+    """
     folder: Path | None = None
     if isinstance(source, Study):
         study = source
@@ -112,7 +115,10 @@ def prepare(
 
 
 def _is_short(ready: Ready) -> bool:
-    """Tell whether other processes, which need time to start, would not make a study shorter."""
+    """Tell whether further processes would not help.
+
+    They need time to start.
+    """
     return ready.study.optimise is None and ready.estimate.points * ready.estimate.seconds_per_point < _ALONE
 
 
@@ -125,7 +131,9 @@ def start(
     report: Report | None = None,
     band: bool = False,
 ) -> StudyStatus:
-    """Start a study in a new folder (default: its name) and work until it is done.
+    """Start a study and finish it.
+
+    In a new folder; default: its name.
 
     A study of a few seconds is done by this process alone, where nobody says how many are to work.
     """
@@ -150,7 +158,10 @@ def start(
 
 
 def _band_of(case_toml: str) -> ModelBand | MachineBand | None:
-    """Return the model band of the case that a study varies; none where it cannot be computed alone."""
+    """Return the model band of a study's case.
+
+    None where it cannot be computed alone.
+    """
     from lambda_core.analysis.band.model_band import model_band
     from lambda_core.case.case_io import toml_tables
 
@@ -168,7 +179,9 @@ def resume(
     retry: bool = False,
     report: Report | None = None,
 ) -> StudyStatus:
-    """Go on with a study; with `retry` failed points are done again.
+    """Go on with a study.
+
+    With `retry` failed points are done again.
 
     Raises
     ------
@@ -197,19 +210,25 @@ def resume(
 
 
 def status(folder: Path) -> StudyStatus:
-    """Return where a study stands, also while it is being worked on."""
+    """Return the state of a study.
+
+    Also while it is at work.
+    """
     with closing(Manifest(folder)) as manifest, readable(folder):
         return _status(manifest)
 
 
 def table(folder: Path) -> StudyTable:
-    """Return the table of a study as far as it is known."""
+    """Return the known table of a study."""
     with closing(Manifest(folder)) as manifest, readable(folder):
         return manifest.table()
 
 
 def files(folder: Path) -> tuple[str, str]:
-    """Return the study file and the case, complete, as they were when the study was started."""
+    """Return a study's file and case.
+
+    Complete, as they were when the study was started.
+    """
     import tomlkit
 
     with closing(Manifest(folder)) as manifest, readable(folder):
@@ -224,7 +243,10 @@ def is_study(path: Path) -> bool:
 
 
 def _fingerprint(plan: Plan, case_toml: str, names: tuple[str, ...]) -> str:
-    """Return a hash of the first point with all its laws, and of the compiled code that the responses go through."""
+    """Return the hash of a study.
+
+    Of the first point with all its laws, and of the compiled code of the responses.
+    """
     from lambda_core.analysis.electric.current_numbers import code_folder
     from lambda_core.laws.kernels import sources_key
     from lambda_core.solver.code_files import compiled_sources
@@ -311,7 +333,10 @@ def _tasks(manifest: Manifest, todo: list[tuple[int, tuple[str, ...]]], names: t
 
 
 def _optimise(manifest: Manifest, plan: Plan, names: tuple[str, ...], director: Director[Task, Outcome]) -> None:
-    """Search from the first points; every new point joins the study."""
+    """Search from the first points.
+
+    Every new point joins the study.
+    """
     goal = manifest.study.optimise
     assert goal is not None
 

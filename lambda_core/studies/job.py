@@ -44,7 +44,7 @@ _LOOK_AFTER = 0.05  # [s]
 
 @dataclass(frozen=True)
 class Task:
-    """What one point needs; everything can be pickled."""
+    """Inputs of one point, picklable."""
 
     number: int
     case_toml: str
@@ -57,7 +57,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a point.
+    """Outcome of a point.
 
     `state` is ``done``; ``partial``: a run whose averages have not converged, or a point at which a method of a plugin
     failed; ``failed``: with the reason; ``stopped``: somebody asked the run to stop, it goes on next time;
@@ -75,7 +75,10 @@ class Outcome:
 
 @one_blas_thread()
 def work(task: Task) -> Outcome:
-    """Do one task; never raises for what is wrong with the point."""
+    """Do one task.
+
+    Never raises for an error of the point.
+    """
     global _asked_to_stop
     start = time.perf_counter()
     hash_, state, reason, values, file = "", "failed", "", {}, ""
@@ -116,7 +119,10 @@ def lost(task: Task, reason: str) -> Outcome:
 
 
 def point_model(case_toml: str, changes: tuple[str, ...]) -> BearingModel | MachineModel:
-    """Return the model of one point, of one bearing or of a machine; CaseError with everything that is wrong."""
+    """Return the model of one point.
+
+    Of one bearing or of a machine; CaseError with all problems.
+    """
     tables = _machine_tables(case_toml)
     if tables is None:
         return resolve_point(case_toml, changes)
@@ -126,7 +132,10 @@ def point_model(case_toml: str, changes: tuple[str, ...]) -> BearingModel | Mach
 
 
 def resolve_point(case_toml: str, changes: tuple[str, ...]) -> BearingModel:
-    """Return the model of one point of a case of one bearing; CaseError with everything that is wrong with it."""
+    """Return the model of a one-bearing point.
+
+    It is a point of a case of one bearing; CaseError with all its problems.
+    """
     from lambda_core.case.case_io import apply_overrides
     from lambda_core.discovery.manager import registry
     from lambda_core.model.resolve import resolve
@@ -136,7 +145,10 @@ def resolve_point(case_toml: str, changes: tuple[str, ...]) -> BearingModel:
 
 @lru_cache(maxsize=4)
 def _machine_tables(case_toml: str) -> dict[str, Any] | None:
-    """Return the tables of a machine's case, None for that of one bearing."""
+    """Return the tables of a machine's case.
+
+    None for that of one bearing.
+    """
     from lambda_core.case.case_io import is_machine_case, toml_tables
 
     tables = toml_tables(case_toml, "the case of the study")
@@ -144,7 +156,10 @@ def _machine_tables(case_toml: str) -> dict[str, Any] | None:
 
 
 def with_temperatures(model: _Model) -> _Model:
-    """Return the model of a bearing or a machine at its own temperatures, where the case wants them computed."""
+    """Return a model at its own temperatures.
+
+    Of a bearing or a machine, where the case wants them computed.
+    """
     from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
     from lambda_core.analysis.thermal.operating import at_own_temperatures
     from lambda_core.discovery.manager import registry
@@ -157,7 +172,10 @@ def with_temperatures(model: _Model) -> _Model:
 
 
 def point_hash(model: BearingModel | MachineModel) -> str:
-    """Return the hash that a point is known by: of all that decides its numbers."""
+    """Return the hash of a point.
+
+    Of all that decides its numbers.
+    """
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.model.resolve import case_hash
 
@@ -185,7 +203,10 @@ _kernels: dict[tuple[tuple[str, str, str], ...], Kernels] = {}
 
 
 def kernels_of(model: BearingModel) -> Kernels:
-    """Return the compiled laws of a model; equal choices of laws are compiled once in a process."""
+    """Return the compiled laws of a model.
+
+    Equal choices of laws are compiled once in a process.
+    """
     from lambda_core.solver.drivers.compiled_laws import Kernels
 
     key = tuple((e, r, law.model.label) for e, roles in model.laws.items() for r, law in roles.items())
@@ -238,7 +259,10 @@ def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) ->
 def machine_columns(
     model: MachineModel, state: ShaftState, equilibria: Sequence[Equilibrium], names: tuple[str, ...]
 ) -> dict[str, tuple[float | None, str, str]]:
-    """Return value, unit and meaning of the rows of comparison methods of each bearing among `names`."""
+    """Return columns of a machine's comparison methods.
+
+    Value, unit and meaning of each bearing's rows among `names`.
+    """
     columns: dict[str, tuple[float | None, str, str]] = {}
     for bearing, found, (x, y, z, *_) in zip(model.bearings, equilibria, state.reactions, strict=True):
         own = f"{bearing.name}."
@@ -249,7 +273,9 @@ def machine_columns(
 
 
 def method_rows(found: Equilibrium, names: tuple[str, ...]) -> dict[str, float | None]:
-    """Return the rows of comparison methods among `names`; None where a method does not apply.
+    """Return the chosen rows of comparison methods.
+
+    Those among `names`; None where a method does not apply.
 
     Raises
     ------
@@ -262,7 +288,9 @@ def method_rows(found: Equilibrium, names: tuple[str, ...]) -> dict[str, float |
 def method_columns(
     found: Equilibrium, names: tuple[str, ...], loads: tuple[float, float] | None = None
 ) -> dict[str, tuple[float | None, str, str]]:
-    """Return value, unit and meaning of the rows of comparison methods among `names`.
+    """Return columns of comparison methods.
+
+    Value, unit and meaning of the rows among `names`.
 
     `loads` are radial and axial [N]; default: those of the bearing's case.
     """
@@ -301,7 +329,10 @@ def method_columns(
 def _dynamic(
     model: BearingModel | MachineModel, path: Path, names: tuple[str, ...]
 ) -> tuple[State, str, dict[str, float | None]]:
-    """Run a point, or go on with what there is of it, and read its responses."""
+    """Run a point and read its responses.
+
+    Or go on with an existing part of it.
+    """
     from lambda_core.results.opening import BeingWrittenError
     from lambda_core.studies.responses import DynamicPoint, evaluate, method_rows_among, responses_of
 
@@ -344,7 +375,10 @@ def _run(model: BearingModel | MachineModel, path: Path) -> Result:
 
 
 def _left_by_others(result: Result) -> Result:
-    """Return a result that no process writes any more: a worker outlives its director for a moment."""
+    """Return a result that no process writes.
+
+    A worker outlives its director for a moment.
+    """
     from lambda_core.results.opening import BeingWrittenError
 
     end = time.monotonic() + _PATIENCE

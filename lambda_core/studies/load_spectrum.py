@@ -66,7 +66,10 @@ def read_spectrum(path: Path) -> list[SpectrumLine]:
 
 
 def _columns(number: int, cells: list[str], found: list[Problem]) -> list[_Column]:
-    """Return what the columns are; mistakes come into `found`, and nothing is returned."""
+    """Return the meanings of the columns.
+
+    Mistakes come into `found`, and nothing is returned.
+    """
     where = f"line {number}"
     matches = [_COLUMN.fullmatch(cell) for cell in cells]
     if not all(matches):
@@ -83,7 +86,10 @@ def _columns(number: int, cells: list[str], found: list[Problem]) -> list[_Colum
 
 
 def _line(number: int, cells: list[str], columns: list[_Column], found: list[Problem]) -> SpectrumLine | None:
-    """Return one phase; None where the line has mistakes, which come into `found`."""
+    """Return one phase.
+
+    None where the line has mistakes, which come into `found`.
+    """
     before = len(found)
     if len(cells) != len(columns):
         found.append(Problem(f"line {number}", f"has {len(cells)} cells, and there are {len(columns)} columns"))

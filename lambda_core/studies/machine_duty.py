@@ -27,7 +27,10 @@ SYSTEM = (
 
 
 class MachineDutyCycle(Record):
-    """A duty cycle of a machine added up; a life is null where a phase has none."""
+    """Sum of a machine's duty cycle.
+
+    A life is null where a phase has none.
+    """
 
     interface: int = INTERFACE
     name: str
@@ -42,7 +45,10 @@ class MachineDutyCycle(Record):
     assumptions: list[str]
 
     def text(self, units: UnitSystem = SI) -> str:
-        """Return a table for each bearing, then what they are together."""
+        """Return the table of each bearing.
+
+        Then that of all together.
+        """
         lines = [f"{self.name}: a cycle of {number(self.cycle_h, 2)} h of {self.case}"]
         for name, own in self.bearings.items():
             lines += ["", name, *duty_table(own, units)]
@@ -72,7 +78,10 @@ class MachineDutyCycle(Record):
 
 @dataclass
 class MachinePhases:
-    """Solve the phases of a machine one after the other; laws are compiled once."""
+    """Phases of a machine, solved in order.
+
+    Laws are compiled once.
+    """
 
     announce: Callable[[str], None] | None = None
     kernels: SharedKernels = field(init=False)
@@ -81,7 +90,10 @@ class MachinePhases:
         self.kernels = SharedKernels(self.announce)
 
     def solved_case(self, case: MachineCase, changes: Sequence[str]) -> MachineEquilibrium:
-        """Return the equilibrium of one phase; SolverError where there is none."""
+        """Return the equilibrium of one phase.
+
+        SolverError where there is none.
+        """
         model = ready_machine_of(case, changes, self.announce)
         return equilibrium_of(model, solve_shaft(model, self.announce, self.kernels))
 
@@ -144,5 +156,8 @@ def _phase(name: str, time: float, share: float, state: MachineEquilibrium, bear
 
 
 def _total(values: Sequence[float | None]) -> float | None:
-    """Return a sum, None where a part of it is not known."""
+    """Return a sum.
+
+    None where a part of it is not known.
+    """
     return None if None in values else math.fsum(value for value in values if value is not None)

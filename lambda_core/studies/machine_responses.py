@@ -31,7 +31,10 @@ if TYPE_CHECKING:
 
 @dataclass
 class MachinePoint:
-    """A quasi-static point of a machine: what is asked of it is computed once."""
+    """Quasi-static point of a machine.
+
+    Every requested result is computed once.
+    """
 
     model: MachineModel
     state: ShaftState
@@ -40,7 +43,10 @@ class MachinePoint:
 
     @cached_property
     def equilibria(self) -> list[Equilibrium]:
-        """Of every bearing at its pose, with the friction of its balls."""
+        """Equilibria of all bearings with friction.
+
+        At their poses, with the friction of their balls.
+        """
         return [ring.equilibrium() for ring in self.state.rings]
 
     @cached_property
@@ -60,7 +66,10 @@ class MachinePoint:
 
     @cached_property
     def modes_at_speed(self) -> list[ModeAtSpeed]:
-        """Natural frequencies at the speed of the point, by rising frequency."""
+        """Natural frequencies at the point's speed.
+
+        By rising frequency.
+        """
         from lambda_core.analysis.rotor.machine_modes import modes_at_speed
 
         found = modes_at_speed(self.model, self.state, self.equilibria)
@@ -68,7 +77,10 @@ class MachinePoint:
 
     @cached_property
     def circuit(self) -> Mapping[str, CurrentNumbers]:
-        """Bearing currents of each bearing on quasi-static films, all in one circuit."""
+        """Bearing currents on quasi-static films.
+
+        Of each bearing, all in one circuit.
+        """
         return machine_numbers(
             self.model, self.state, [self.kernels.of(bearing.model) for bearing in self.model.bearings]
         )
@@ -92,13 +104,19 @@ def machine_point(model: MachineModel, kernels: SharedKernels) -> MachinePoint:
 
 @lru_cache(maxsize=8)
 def machine_responses(bearings: tuple[str, ...]) -> Mapping[str, Response]:
-    """Return the responses of a machine with bearings of these names."""
+    """Return the responses of a machine.
+
+    Its bearings have these names.
+    """
     found = [*_of_machine(), *(one for name in bearings for one in _of_bearing(name))]
     return {response.name: response for response in found}
 
 
 def usual_responses(bearings: tuple[str, ...], mode: str) -> tuple[str, ...]:
-    """Return what a study of a machine asks where it names nothing."""
+    """Return the default responses of a machine.
+
+    For a study that names none.
+    """
     if mode == "quasi-static":
         of_machine = ["system_life_h", "friction_torque_Nmm"]
         each = [

@@ -39,22 +39,28 @@ def _under_load(point: StaticPoint, name: str) -> FloatArray:
 
 
 def static_power(point: StaticPoint) -> float:
-    """Power that all contacts dissipate [W]."""
+    """Return the power of all contacts [W]."""
     return float(point.equilibrium.losses.sum())
 
 
 def static_film(point: StaticPoint) -> float:
-    """Smallest minimum film of the contacts under load [um]."""
+    """Return the smallest minimum film [um].
+
+    Of the contacts under load.
+    """
     return 1e6 * float(_under_load(point, "film_minimum").min())
 
 
 def static_lambda(point: StaticPoint) -> float:
-    """Smallest Lambda of the contacts under load."""
+    """Return the smallest Lambda under load."""
     return float(_under_load(point, "film_parameter").min())
 
 
 def static_capacitance(point: StaticPoint) -> float:
-    """Balls in parallel, the two contacts of a ball in series [nF]; infinite where asperities short a ball."""
+    """Return the capacitance of the balls [nF].
+
+    Balls in parallel, the two contacts of a ball in series; infinite where asperities short a ball.
+    """
     each = _contacts(point, "capacitance")
     with np.errstate(divide="ignore"):
         return 1e9 * float((1.0 / (1.0 / each).sum(axis=1)).sum())
@@ -68,18 +74,27 @@ def _start(result: Result) -> float:
 
 
 def dynamic_power(point: DynamicPoint) -> float:
-    """Mean power dissipated in the averaging window [W]."""
+    """Return the mean power [W].
+
+    It is dissipated in the averaging window.
+    """
     interval = window_of(point.result).interval
     return interval.torque() * interval.ratio("relative_angle", "time")
 
 
 def max_load(point: DynamicPoint) -> float:
-    """Largest contact load on either ring in the averaging window [N]."""
+    """Return the largest contact load [N].
+
+    On either ring in the averaging window.
+    """
     return max(float(block["load"].max()) for block in point.result.blocks(("load",), _start(point.result)))
 
 
 def dynamic_lambda(point: DynamicPoint) -> float:
-    """Smallest Lambda under load in the averaging window."""
+    """Return the smallest Lambda under load.
+
+    In the averaging window.
+    """
     smallest = math.inf
     for block in point.result.blocks(("load", "film_parameter"), _start(point.result)):
         load = block["load"]
@@ -90,7 +105,10 @@ def dynamic_lambda(point: DynamicPoint) -> float:
 
 
 def dynamic_capacitance(point: DynamicPoint) -> float:
-    """Mean capacitance of the bearing in the averaging window [nF]."""
+    """Return the mean capacitance of the bearing [nF].
+
+    In the averaging window.
+    """
     values = [
         block["bearing_capacitance"] for block in point.result.blocks(("bearing_capacitance",), _start(point.result))
     ]
@@ -98,7 +116,9 @@ def dynamic_capacitance(point: DynamicPoint) -> float:
 
 
 def cage_speed_deviation(point: DynamicPoint) -> float | None:
-    """Standard deviation of the cage's angular speed over its mean, in the averaging window.
+    """Return the relative deviation of the cage's speed.
+
+    Standard deviation of its angular speed over its mean, in the averaging window.
 
     Small for a cage that turns steadily; a usual measure of cage stability (Ghaisas, Wassgren and Sadeghi 2004,
     J. Tribol. 126, 681, use the deviation ratio of the cage's velocity in the same way).
@@ -113,7 +133,9 @@ def cage_speed_deviation(point: DynamicPoint) -> float | None:
 
 
 def ball_speed_deviation(point: DynamicPoint) -> float | None:
-    """Rms over azimuth bins outside the static load zone of (orbital over kinematic speed - 1).
+    """Return the rms deviation of the balls' speed.
+
+    Over azimuth bins outside the static load zone of (orbital over kinematic speed - 1).
 
     The static load zone is where the inner ring loads balls in the equilibrium at the start of the run, from the first
     to the last loaded ball; None when it goes all round.
@@ -145,7 +167,10 @@ def ball_speed_deviation(point: DynamicPoint) -> float | None:
 
 
 def _outside(loaded: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Return the bins of the largest gap between loaded bins, shape (bins,)."""
+    """Return the bins of the largest gap.
+
+    It is between loaded bins, shape (bins,).
+    """
     outside = np.zeros(_BINS, bool)
     gaps = np.diff(np.append(loaded, loaded[0] + _BINS))
     widest = int(np.argmax(gaps))
@@ -156,7 +181,10 @@ def _outside(loaded: NDArray[np.int64]) -> NDArray[np.bool_]:
 
 
 def pocket_share(point: DynamicPoint) -> float | None:
-    """Share of the averaging window's samples in which a pocket touches its ball."""
+    """Return the share of samples with pocket contact.
+
+    In the averaging window: a pocket touches its ball.
+    """
     if not point.result.model["depth"]["cage"]:
         return None
     touching = [

@@ -10,7 +10,9 @@ from typing import Any
 
 
 class Memo:
-    """Outcomes in a folder, one JSON file each; any process may read and write at any time.
+    """Outcomes in a folder.
+
+    One JSON file each; any process may read and write at any time.
 
     Parameters
     ----------
@@ -22,7 +24,10 @@ class Memo:
         self._folder = folder
 
     def find(self, name: str) -> dict[str, Any] | None:
-        """Return what is kept under a name; None when there is nothing, or it cannot be read."""
+        """Return the outcome under a name.
+
+        None when there is nothing, or it cannot be read.
+        """
         try:
             found = json.loads(self._path(name).read_text(encoding="utf-8"))
         except (OSError, ValueError):

@@ -39,7 +39,10 @@ class _Enough(Exception):
 
 
 def margins(goal: Goal, responses: Responses) -> list[float] | None:
-    """Return how far inside each limit a point is, relative to the limit's size; None when a response is missing."""
+    """Return the margins of a point.
+
+    To each limit, relative to the limit's size; None when a response is missing.
+    """
     found = []
     for constraint in goal.constraints:
         value = responses.get(constraint.response)
@@ -57,7 +60,10 @@ def _size(limit: float) -> float:
 
 
 def merit(goal: Goal, responses: Responses) -> float:
-    """Return what orders points: the goal where all limits are kept, above everything else where not."""
+    """Return the value that orders points.
+
+    The goal where all limits are kept, above everything else where not.
+    """
     value, inside = responses.get(goal.response), margins(goal, responses)
     if value is None or inside is None:
         return math.inf
@@ -68,7 +74,9 @@ def merit(goal: Goal, responses: Responses) -> float:
 def search(
     goal: Goal, starts: FloatArray, found: Sequence[Responses], evaluate: Callable[[FloatArray], Responses]
 ) -> tuple[int, str]:
-    """Search from the best of the first points; returns the number of evaluations and how it ended.
+    """Search from the best of the first points.
+
+    Return the number of evaluations and how it ended.
 
     Parameters
     ----------
@@ -129,7 +137,10 @@ def _limits(goal: Goal) -> int:
 
 
 def best_row(goal: Goal, table: StudyTable, message: str = "") -> Best:
-    """Return the best point of a table that keeps all constraints."""
+    """Return the best point of a table.
+
+    It keeps all constraints.
+    """
     rows = table.rows()
     merits = [merit(goal, row) if table.states[i] in ("done", "partial") else math.inf for i, row in enumerate(rows)]
     place = int(np.argmin(merits)) if merits else 0

@@ -41,7 +41,7 @@ class Pool:
 
     @property
     def room(self) -> int:
-        """How many tasks are handed out at a time."""
+        """Number of tasks at a time."""
         return self.ahead * self.workers
 
     def open(self) -> Executor:
@@ -49,7 +49,10 @@ class Pool:
         raise NotImplementedError
 
     def close(self, *, stop: bool = False) -> None:
-        """Give the workers back; with `stop` without waiting for what they do."""
+        """Give the workers back.
+
+        With `stop` without waiting for their tasks.
+        """
         raise NotImplementedError
 
     def watch(self) -> None:
@@ -75,7 +78,10 @@ class Processes(Pool):
         return self._executor
 
     def close(self, *, stop: bool = False) -> None:
-        """Wait for the processes, or ask them to end: runs save what they have."""
+        """Wait for the processes, or stop them.
+
+        Runs save what they have.
+        """
         if self._executor is None:
             return
         executor, self._executor = self._executor, None
@@ -89,11 +95,17 @@ class Processes(Pool):
 
 
 def _nothing() -> None:
-    """First task of a process: it is only started for it."""
+    """Do nothing.
+
+    It is the first task of a process, which only starts it.
+    """
 
 
 def _begin() -> None:
-    """Prepare a worker: Ctrl+C is for the director, a worker does not outlive it, and ends at once when it is done."""
+    """Prepare a worker process.
+
+    Ctrl+C is for the director, a worker does not outlive it, and ends at once when it is done.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     atexit.register(gc.freeze)
     parent = multiprocessing.parent_process()
@@ -108,7 +120,10 @@ def _end_with(sentinel: int) -> None:
 
 @contextmanager
 def _workers_variables() -> Iterator[None]:
-    """Give processes that start meanwhile one thread each for Numba and linear algebra, and a safe path."""
+    """Set the variables of worker processes.
+
+    Those that start meanwhile get one thread each for Numba and linear algebra, and a safe path.
+    """
     before = {name: os.environ.get(name) for name in _WORKERS_SET}
     os.environ.update(dict.fromkeys(_WORKERS_SET, "1"))
     try:
@@ -122,13 +137,18 @@ def _workers_variables() -> Iterator[None]:
 
 
 def start_apart(command: Sequence[str], folder: Path, said: Path, answer: Path) -> subprocess.Popen[bytes]:
-    """Start a program that outlives this process; errors and answers go to files. OSError when it cannot be started."""
+    """Start a program that outlives this process.
+
+    Errors and answers go to files. OSError when it cannot be started.
+    """
     with said.open("wb") as errors, answer.open("wb") as output:
         return subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output, stderr=errors, **APART)
 
 
 class Dask(Pool):
-    """Workers of dask.distributed: of a scheduler at an address, or of a cluster on this machine.
+    """Workers of dask.distributed.
+
+    Of a scheduler at an address, or of a cluster on this machine.
 
     Parameters
     ----------
@@ -167,7 +187,10 @@ class Dask(Pool):
             self.workers = max(sum(self._client.nthreads().values()), 1)
 
     def open(self) -> Executor:
-        """Return an executor over the scheduler's workers; lost workers' tasks are done by others."""
+        """Return an executor over the scheduler's workers.
+
+        Others do the tasks of lost workers.
+        """
         executor: Executor = self._client.get_executor(pure=False, retries=2)
         return executor
 
@@ -179,7 +202,10 @@ class Dask(Pool):
 
 
 class Inline(Executor):
-    """Does each task in this process, when it is handed over."""
+    """Pool that works in this process.
+
+    It does each task when it is submitted.
+    """
 
     def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Do it now."""
@@ -207,7 +233,9 @@ class Given(Pool):
 
 
 def pool(where: str | Executor, workers: int) -> Pool:
-    """Return the pool that `where` means: ``processes``, ``here``, ``dask``, a scheduler's address, or an executor.
+    """Return the pool of `where`.
+
+    ``processes``, ``here``, ``dask``, a scheduler's address, or an executor.
 
     Raises
     ------

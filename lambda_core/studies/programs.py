@@ -35,7 +35,10 @@ class Program:
 
     @staticmethod
     def found(folder: Path) -> Program:
-        """Return the program that an earlier process started in a folder; OSError or ValueError when there is none."""
+        """Return the program of an earlier process.
+
+        It was started in a folder; OSError or ValueError when there is none.
+        """
         program = Program(folder)
         program._process = json.loads((folder / _PROCESS).read_text(encoding="utf-8"))
         return program
@@ -47,7 +50,10 @@ class Program:
         (self.folder / _PROCESS).write_text(json.dumps(self._process), encoding="utf-8")
 
     def is_alive(self) -> bool:
-        """Tell whether it is at work; once it has ended, `code` says how, as far as that can be known."""
+        """Tell whether it is at work.
+
+        Once it has ended, `code` is the exit code, as far as that can be known.
+        """
         if self._child is None:
             return Status(process=self._process).alive()
         self.code = self._child.poll()

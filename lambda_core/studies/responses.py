@@ -50,7 +50,10 @@ RATED = (
 
 @dataclass
 class StaticPoint:
-    """A quasi-static point: the equilibrium, the same in the words of the machine interface, and its compiled laws."""
+    """Quasi-static point of a bearing.
+
+    The equilibrium, the same in the words of the machine interface, and its compiled laws.
+    """
 
     equilibrium: Equilibrium
     summary: QuasiStatic
@@ -90,13 +93,19 @@ class DynamicPoint:
 
     @cached_property
     def circuit(self) -> Mapping[str, CurrentNumbers]:
-        """Bearing currents of each bearing of a machine on the films of its run."""
+        """Bearing currents on the films of a run.
+
+        Of each bearing of a machine.
+        """
         return circuit_numbers(self.result)
 
 
 @dataclass(frozen=True)
 class Response:
-    """One number of a point; a mode that does not have it has None."""
+    """One number of a point.
+
+    A mode that does not have it has None.
+    """
 
     name: str
     unit: str
@@ -132,7 +141,10 @@ def _parts() -> list[Response]:
 
 
 def of_fields(kind: type[Record], names: Iterable[str]) -> Iterator[Response]:
-    """Yield the numbers of a record as responses without values; of a vector one for each axis."""
+    """Yield the numbers of a record as responses.
+
+    Without values; of a vector one for each axis.
+    """
     for name in names:
         one = quantities(kind)[name]
         if one.axes:
@@ -143,7 +155,10 @@ def of_fields(kind: type[Record], names: Iterable[str]) -> Iterator[Response]:
 
 
 def _fields() -> list[Response]:
-    """Return the numbers of an equilibrium and of a run that have a value for each point."""
+    """Return the numbers with a value per point.
+
+    They are those of an equilibrium and of a run.
+    """
     still, moving = quantities(QuasiStatic), quantities(BearingSummary)
     of_run = [name for name, one in quantities(Summary).items() if one.group == "trust"]
     found = [*of_fields(BearingSummary, moving), *of_fields(Summary, of_run)]
@@ -152,7 +167,10 @@ def _fields() -> list[Response]:
 
 
 def _with_values(one: Response, still: Collection[str], moving: Collection[str]) -> Response:
-    """Return a response with where its values come from: the field of its name, or a measure of its own."""
+    """Return a response with its values' source.
+
+    The field of its name, or a measure of its own.
+    """
     name, _, axis = one.name.partition(".")
     index = None if not axis else "xyz".index(axis) - (name == "inner_ring_tilt_mrad")
     own = _field(name, index)
@@ -185,7 +203,10 @@ def _rated(name: str) -> Callable[[Any], Number]:
 
 
 def _ratings() -> list[Response]:
-    """Return lives and safety, which need no time; the rows of comparison methods have the rest."""
+    """Return lives and safety.
+
+    They need no time; the rows of comparison methods have the rest.
+    """
     return [replace(one, static=_rated(one.name), dynamic=_rated(one.name)) for one in of_fields(Rating, RATED)]
 
 
@@ -234,12 +255,18 @@ def asks_currents(names: Sequence[str]) -> bool:
 
 
 def bearing_names(model: BearingModel | MachineModel) -> tuple[str, ...]:
-    """Return the names of a machine's bearings; none for the model of one bearing."""
+    """Return the names of a machine's bearings.
+
+    None for the model of one bearing.
+    """
     return tuple(bearing.name for bearing in getattr(model, "bearings", ()))
 
 
 def responses_of(model: BearingModel | MachineModel) -> Mapping[str, Response]:
-    """Return the responses of a bearing or a machine, those of its observers, events and states included."""
+    """Return the responses of a model.
+
+    Of a bearing or a machine, those of its observers, events and states included.
+    """
     from lambda_core.studies.machine_responses import machine_responses
     from lambda_core.studies.observed_responses import observed_responses
 
@@ -248,14 +275,19 @@ def responses_of(model: BearingModel | MachineModel) -> Mapping[str, Response]:
 
 
 def method_rows_among(names: Sequence[str], known: Mapping[str, Response]) -> tuple[str, ...]:
-    """Return the names that are rows of comparison methods, which alone are not among the known responses."""
+    """Return the names of comparison methods' rows.
+
+    They alone are not among the known responses.
+    """
     return tuple(name for name in names if name not in known)
 
 
 def chosen(
     names: Sequence[str], mode: str, source: str, known: Mapping[str, Response], bearings: tuple[str, ...] = ()
 ) -> tuple[str, ...]:
-    """Return the names of the responses of a study, groups written out.
+    """Return the names of a study's responses.
+
+    Groups are written out.
 
     Parameters
     ----------
@@ -311,7 +343,9 @@ def evaluate(
     names: Sequence[str], point: StaticPoint | MachinePoint | DynamicPoint, methods: Mapping[str, Number],
     known: Mapping[str, Response],
 ) -> dict[str, Number]:  # fmt: skip
-    """Return the responses of a point; a number that does not exist is None.
+    """Return the responses of a point.
+
+    A number that does not exist is None.
 
     Parameters
     ----------

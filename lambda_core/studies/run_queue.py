@@ -39,7 +39,10 @@ _ENDING: dict[RunKind, str] = {"run": ".h5", "study": ""}
 
 @dataclass
 class QueuedRun:
-    """One run of a bearing or of a shaft, or one study: waiting, going on, or ended."""
+    """One run or one study in the queue.
+
+    A run of a bearing or of a shaft: waiting, going on, or ended.
+    """
 
     name: str
     result: Path  # the file, or the folder of a study
@@ -58,33 +61,39 @@ class QueuedRun:
 
     @property
     def last(self) -> Progress | None:
-        """Where the run stands."""
+        """Last progress of the run."""
         return self.history[-1] if self.history else None
 
     @property
     def percent(self) -> float:
-        """How much is done [%]."""
+        """Completed share of the run [%]."""
         told = self.points or self.last
         return told.percent if told is not None else 0.0
 
     @property
     def left_s(self) -> float | None:
-        """How long it still takes [s], None where that is not known."""
+        """Remaining time [s].
+
+        None where that is not known.
+        """
         told = self.points or self.last
         return told.left_s if told is not None else None
 
     @property
     def is_complete(self) -> bool:
-        """Whether there is nothing to go on with."""
+        """True if nothing is left to do."""
         return self.message == _COMPLETE[self.kind]
 
     @property
     def is_active(self) -> bool:
-        """Whether its process is at work."""
+        """True while its process is at work."""
         return self.state == "running"
 
     def begin(self) -> QueuedRun:
-        """Start the process, unless it is at work or the run was taken out of the queue; returns itself."""
+        """Start the process.
+
+        Unless it is at work or the run was taken out of the queue; return the run.
+        """
         if self.state == "waiting":
             self._is_news = True
             work = _WORK[self.kind][self.resumes]
@@ -98,7 +107,10 @@ class QueuedRun:
         return self
 
     def take_in(self) -> bool:
-        """Take in what the process has said; tell whether anything is new."""
+        """Read the messages of the process.
+
+        Tell whether anything is new.
+        """
         if self.state != "running":
             return False
         try:
@@ -114,7 +126,10 @@ class QueuedRun:
         return bool(lines)
 
     def end(self) -> None:
-        """Take in the last words of a process that has ended, and how it did."""
+        """Read the last messages of an ended process.
+
+        And its exit.
+        """
         if self.state != "running" or self.program is None:
             return
         self.take_in()
@@ -132,7 +147,10 @@ class QueuedRun:
             self.state, self.message = "failed", words or f"ended with code {code}"
 
     def cancel(self) -> None:
-        """Ask the process to stop; it keeps what it has. A run that waits is taken out of the queue."""
+        """Ask the process to stop.
+
+        It keeps what it has. A run that waits is taken out of the queue.
+        """
         if self.state == "waiting":
             self.state, self.message = "stopped", "taken out of the queue"
         elif self.state == "running" and self.program is not None:
@@ -192,7 +210,9 @@ _CODE_OF = {"run": _code_of_run, "study": _code_of_study}
 
 
 class RunQueue:
-    """Runs in the order in which they were asked for, one at a time; a store of the director that starts them.
+    """Queue of runs.
+
+    In the order of the requests, one at a time; a store of the director that starts them.
 
     Parameters
     ----------
@@ -210,7 +230,9 @@ class RunQueue:
         self._director = Director[QueuedRun, QueuedRun](self, Programs(1), QueuedRun.begin, _never_lost, keep_after=0.0)
 
     def add(self, name: str, case_toml: str, folder: Path, kind: RunKind = "run", study_toml: str = "") -> QueuedRun:
-        """Put a case, or a study of it, into the queue; what comes of it goes into `folder` under a free name.
+        """Put a case or study into the queue.
+
+        The study is one of the case; results go into `folder` under a free name.
 
         Parameters
         ----------
@@ -243,7 +265,10 @@ class RunQueue:
         return run
 
     def go_on(self, run: QueuedRun) -> None:
-        """Put a run that was stopped into the queue again, to be continued."""
+        """Put a stopped run into the queue again.
+
+        It is continued.
+        """
         run.resumes, run.state, run.message = True, "waiting", ""
         run._read, run._rest = 0, b""
         self._director.add([run])
@@ -258,7 +283,10 @@ class RunQueue:
         return path
 
     def poll(self) -> bool:
-        """Take in what the runs say, start the next one; tell whether anything is new."""
+        """Read the messages of all runs.
+
+        Start the next one; tell whether anything is new.
+        """
         news = [run.take_in() for run in self.runs]
         return self._director.step() or any(news)
 
@@ -268,7 +296,10 @@ class RunQueue:
         return [run for run in self.runs if run.state in ("waiting", "running")]
 
     def find_earlier(self) -> None:
-        """Take in the runs of queues that are gone; clear away what has long ended."""
+        """Take in the runs of earlier queues.
+
+        Clear away what has long ended.
+        """
         for own in sorted(self._folder.iterdir()) if self._folder.is_dir() else ():
             try:
                 about = json.loads((own / "about").read_text(encoding="utf-8"))
@@ -292,7 +323,10 @@ class RunQueue:
                 run.forget()
 
     def keep(self, outcomes: Sequence[QueuedRun]) -> None:
-        """Tell of runs that have ended; what they found stands in their result files."""
+        """Report runs that have ended.
+
+        Their results are in their files.
+        """
         for run in outcomes:
             if run._is_news:  # not one that was taken out of the queue before it began
                 run._is_news = False
@@ -307,5 +341,8 @@ class RunQueue:
 
 
 def _never_lost(run: QueuedRun, reason: str) -> QueuedRun:
-    """Return the run as it is: its program tells how it ended."""
+    """Return the run as it is.
+
+    Its program reports its end.
+    """
     return run

@@ -23,7 +23,10 @@ _TRIES = 2  # tries of a task, alone, after a worker died on it
 
 
 class StudyProgress(BaseModel):
-    """Where a study stands; one JSON line each with ``--progress=json``."""
+    """Progress of a study.
+
+    One JSON line each with ``--progress=json``.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -40,7 +43,7 @@ Report = Callable[[StudyProgress], None]
 
 @dataclass(frozen=True)
 class Counts:
-    """How many points are in which state."""
+    """Number of points in each state."""
 
     total: int
     done: int
@@ -50,14 +53,14 @@ class Counts:
 
 
 class Stated(Protocol):
-    """What a task leads to.
+    """Result of a task.
 
     It is not done where the state is ``stopped``: somebody asked for an end; or ``pending``: it has to wait.
     """
 
     @property
     def state(self) -> str:
-        """What became of the task."""
+        """State of the task."""
 
 
 Task_ = TypeVar("Task_")
@@ -66,7 +69,7 @@ _Kept = TypeVar("_Kept", contravariant=True)
 
 
 class Store(Protocol[_Kept]):
-    """Where outcomes are kept."""
+    """Store of outcomes."""
 
     def keep(self, outcomes: Sequence[_Kept]) -> None:
         """Write what became of tasks."""
@@ -76,7 +79,9 @@ class Store(Protocol[_Kept]):
 
 
 class Director(Generic[Task_, Outcome_]):
-    """Works through tasks on a pool; outcomes go into the store as they come.
+    """Director of tasks on a pool.
+
+    Outcomes go into the store as they come.
 
     A worker that dies takes no task with it: what was handed out is done again. Tasks that were in work
     when a process died are tried once more one at a time, so that the one that kills its worker is found, and
@@ -119,7 +124,10 @@ class Director(Generic[Task_, Outcome_]):
         self._stopped = False
 
     def run(self, tasks: Iterable[Task_]) -> bool:
-        """Do all tasks; returns False when somebody asked one of them to stop."""
+        """Do all tasks.
+
+        Return False when somebody asked one of them to stop.
+        """
         self._stopped = False
         self.add(tasks)
         try:
@@ -132,7 +140,10 @@ class Director(Generic[Task_, Outcome_]):
         return True
 
     def one(self, task: Task_) -> Outcome_:
-        """Do one task and return its outcome; for searches that need it before they go on."""
+        """Do one task and return its outcome.
+
+        For searches that need it before they go on.
+        """
         try:
             outcome = self._submit(task).result()
         except BrokenProcessPool:
@@ -150,7 +161,9 @@ class Director(Generic[Task_, Outcome_]):
         self._running[self._submit(task)] = task
 
     def step(self, patience: float = 0.0) -> bool:
-        """Hand out what the workers have room for, and take what they bring within a time.
+        """Submit tasks and take results.
+
+        As many as the workers have room for; results within a time.
 
         Parameters
         ----------
@@ -194,7 +207,10 @@ class Director(Generic[Task_, Outcome_]):
             return self._executor.submit(self._work, task)
 
     def _alone(self) -> None:
-        """Do what was handed out one at a time after the workers died: only the guilty one breaks them again."""
+        """Do tasks one at a time.
+
+        They were submitted when the workers died: only the guilty one breaks them again.
+        """
         tasks = list(self._running.values())
         self._running.clear()
         for task in tasks:
@@ -216,7 +232,7 @@ class Director(Generic[Task_, Outcome_]):
         self._stopped = self._stopped or is_stopped
 
     def _keep(self, *, now: bool = False) -> None:
-        """Keep outcomes every half second, and say how far it is."""
+        """Keep outcomes every half second with progress."""
         clock = time.monotonic()
         if not now and (clock - self._kept < self._keep_after or not (self._fresh or self._report)):
             return

@@ -153,7 +153,10 @@ def stribeck(
 def _models(
     source: Any, changes: tuple[str, ...], bearing: str | None, announce: Callable[[str], None] | None
 ) -> Callable[[float], BearingModel]:
-    """Return what gives the model of the bearing at a speed [1/min]."""
+    """Return a function from speed to model.
+
+    The speed is that of the bearing [1/min].
+    """
     if is_machine(source):
         from lambda_core.analysis.rotor.bearing_alone import at_speed, bearing_alone
         from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
@@ -167,7 +170,10 @@ def _models(
 def _bands(
     model_at: Callable[[float], BearingModel], speeds: Sequence[float], torques: Sequence[float]
 ) -> list[list[float]]:
-    """Return the ends of the model band of the torque at each speed; nothing where the bearing has none."""
+    """Return both ends of the torque's model band.
+
+    At each speed; nothing where the bearing has none.
+    """
     from lambda_core.analysis.band.neighbours import places_of
     from lambda_core.analysis.band.over_points import bands_over
 
@@ -176,7 +182,10 @@ def _bands(
 
 
 def _point(model: Any, kernels: Any) -> tuple[dict[str, float], float | None, float]:
-    """Return parts [N mm], SKF's torque [N mm] and the smallest Lambda at one speed."""
+    """Return the torque and Lambda at one speed.
+
+    Parts [N mm], SKF's torque [N mm] and the smallest Lambda.
+    """
     from lambda_core.solver.drivers.equilibrium import solve
 
     parts = dict.fromkeys(_PARTS.values(), 0.0)
@@ -200,7 +209,10 @@ def _smallest_film(found: Any) -> float:
 
 
 def _skf(found: Any) -> float | None:
-    """Return SKF's torque, None where the model is not installed or does not apply."""
+    """Return SKF's torque.
+
+    None where the model is not installed or does not apply.
+    """
     from lambda_core.analysis.rating.engineering import rating_of
     from lambda_core.discovery.manager import registry
 
@@ -210,7 +222,9 @@ def _skf(found: Any) -> float | None:
 
 
 def stribeck_picture(found: SpeedCurve) -> ViewData:
-    """Return the curve for :func:`draw`: torque with its parts over a logarithmic speed, SKF's points, Lambda below.
+    """Return the curve for :func:`draw`.
+
+    Torque with its parts over a logarithmic speed, SKF's points, Lambda below.
 
     Parameters
     ----------

@@ -55,7 +55,9 @@ class Heading:
 
 @contextmanager
 def readable(folder: Path) -> Iterator[None]:
-    """Read the manifest of a study in here, and nothing else: whatever its content leads to is damage.
+    """Treat read errors as a damaged manifest.
+
+    Read the manifest of a study in here, and nothing else.
 
     Raises
     ------
@@ -105,7 +107,10 @@ class Manifest:
     def create(
         folder: Path, study: Study, study_toml: str, case_toml: str, title: str, headings: Sequence[Heading]
     ) -> Manifest:
-        """Start the manifest of a study in `folder`, which is made if needed; it must not hold one yet."""
+        """Start the manifest of a study.
+
+        In `folder`, which is made if needed; it must not hold one yet.
+        """
         try:
             folder.mkdir(parents=True, exist_ok=True)
             path = folder / FILE
@@ -136,7 +141,10 @@ class Manifest:
     # -- what it says --
 
     def meta(self, name: str) -> str:
-        """Return one entry about the complete study; "" when there is none."""
+        """Return one entry about the study.
+
+        "" when there is none.
+        """
         row = self._database.execute("SELECT value FROM meta WHERE name = ?", (name,)).fetchone()
         return str(row[0]) if row else ""
 
@@ -168,14 +176,20 @@ class Manifest:
         return float(self._database.execute("SELECT total(seconds) FROM points").fetchone()[0])
 
     def failures(self, most: int = 20) -> list[tuple[int, str]]:
-        """Return numbers (from 1) and reasons of failed and partial points, and of those that others are at work on."""
+        """Return numbers and reasons of unsuccessful points.
+
+        Numbers from 1, of failed and partial points, and of those that others are at work on.
+        """
         rows = self._database.execute(
             "SELECT number + 1, reason FROM points WHERE reason != '' ORDER BY number LIMIT ?", (most,)
         )
         return [(int(number), str(reason)) for number, reason in rows]
 
     def pending(self, retry: bool = False) -> list[tuple[int, tuple[str, ...]]]:
-        """Return numbers and changes of the points to do; with `retry` failed ones too."""
+        """Return numbers and changes of open points.
+
+        With `retry` failed ones too.
+        """
         states = "('pending', 'failed')" if retry else "('pending')"
         rows = self._database.execute(f"SELECT number, changes FROM points WHERE state IN {states} ORDER BY number")
         return [(int(number), tuple(json.loads(changes))) for number, changes in rows]
@@ -233,7 +247,10 @@ class Manifest:
         json.loads(self.meta("director") or "{}")
 
     def find(self, point: Point) -> dict[str, Any] | None:
-        """Return number, state and responses of the point with the same changes, None when there is none."""
+        """Return the point with the same changes.
+
+        Number, state and responses, None when there is none.
+        """
         row = self._database.execute(
             "SELECT number, state, responses FROM points WHERE changes = ?", (json.dumps(point.changes),)
         ).fetchone()
@@ -260,7 +277,10 @@ class Manifest:
 
     @contextmanager
     def directed(self) -> Iterator[None]:
-        """Mark the study as directed by this process; UsageError while another one does."""
+        """Mark the study as directed by this process.
+
+        UsageError while another one does.
+        """
         owner = json.loads(self.meta("director") or "{}")
         if owner and owner != this_process() and Status(process=owner).alive():
             raise UsageError(f"{self.folder} is being worked on by process {owner['pid']}")
@@ -276,7 +296,10 @@ class Manifest:
 
 
 def _response(heading: Heading, values: Sequence[float | None], shares: Sequence[Sequence[float]]) -> Column:
-    """Return a column of results; `shares` are the ends of its model bands over the values."""
+    """Return a column of results.
+
+    `shares` are the ends of its model bands over the values.
+    """
     band = tuple(
         None if value is None or index >= len(shares) else (value * shares[index][0], value * shares[index][1])
         for index, value in enumerate(values)

@@ -47,7 +47,7 @@ _STARTUP = 4.0  # until the first process works [s]
 
 
 class StudyEstimate(BaseModel):
-    """What a study is and what it will take."""
+    """Size and cost of a study."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -97,7 +97,9 @@ class Ready:
 def check(
     study: Study, folder: Path | None, workers: int, announce: Announce = None, case: Case | MachineCase | None = None
 ) -> Ready:
-    """Check a study: counts, case, paths, units, responses, cost; its kernels are compiled afterwards.
+    """Check a study.
+
+    Counts, case, paths, units, responses, cost; its kernels are compiled afterwards.
 
     Parameters
     ----------
@@ -170,7 +172,10 @@ def _case_toml(study: Study, folder: Path | None, case: Case | MachineCase | Non
 
 
 def _first_model(study: Study, plan: Plan, case_toml: str) -> BearingModel | MachineModel:
-    """Resolve the first point: what is wrong there is wrong everywhere."""
+    """Resolve the first point.
+
+    An error there is an error everywhere.
+    """
     point = _corner(plan, {})
     try:
         return point_model(case_toml, point.changes)
@@ -179,14 +184,19 @@ def _first_model(study: Study, plan: Plan, case_toml: str) -> BearingModel | Mac
 
 
 def _corner(plan: Plan, chosen_: dict[int, tuple[str, float | str]]) -> Point:
-    """Return the point with every parameter at its first value, but for those in `chosen_`."""
+    """Return the point of all first values.
+
+    Except for the parameters in `chosen_`.
+    """
     pairs = [chosen_.get(place, c.at(0.0)) for place, c in enumerate(plan.coordinates)]
     changes = tuple(f"{c.parameter.path}={text}" for c, (text, _) in zip(plan.coordinates, pairs, strict=True))
     return Point(changes, tuple(entry for _, entry in pairs))
 
 
 def _try_ends(study: Study, plan: Plan, case_toml: str) -> list[str]:
-    """Try values of every parameter, alone; returns warnings about points that cannot work.
+    """Try values of every parameter alone.
+
+    Return warnings about points that cannot work.
 
     Raises
     ------
@@ -211,7 +221,10 @@ def _try_ends(study: Study, plan: Plan, case_toml: str) -> list[str]:
 
 
 def _trials(study: Study, plan: Plan) -> Iterator[tuple[str, tuple[str, ...], bool]]:
-    """Yield a name, the changes, and whether it tries a name of a list."""
+    """Yield the trials of a study.
+
+    A name, the changes, and whether it tries a name of a list.
+    """
     yield from _names_together(study, plan)
     if study.design.kind == "zipped":
         last = plan.point(plan.count - 1)
@@ -223,7 +236,10 @@ def _trials(study: Study, plan: Plan) -> Iterator[tuple[str, tuple[str, ...], bo
 
 
 def _names_together(study: Study, plan: Plan) -> Iterator[tuple[str, tuple[str, ...], bool]]:
-    """Yield what names of several lists give together: an oil may lack the data of a law."""
+    """Yield combinations of names of several lists.
+
+    An oil may lack the data of a law.
+    """
     lists = {place: c for place, c in enumerate(plan.coordinates) if c.scale is None}
     if len(lists) < 2:
         return
@@ -235,7 +251,9 @@ def _names_together(study: Study, plan: Plan) -> Iterator[tuple[str, tuple[str, 
 
 
 def _tried(c: Coordinate) -> Iterator[tuple[str, float | str]]:
-    """Yield further values of a parameter after its first: of a list all of them, of a range the last and one between.
+    """Yield further values of a parameter.
+
+    After its first, of a list all of them, of a range the last and one between.
 
     The one between shows options that take whole numbers only.
     """
@@ -258,7 +276,7 @@ def _refused_by_schema(case_toml: str, changes: tuple[str, ...]) -> bool:
 
 
 def _check_goal(study: Study, names: tuple[str, ...]) -> None:
-    """Goal and constraints have to be among the responses."""
+    """Require responses for goal and constraints."""
     if study.optimise is None:
         return
     asked = [study.optimise.response, *(c.response for c in study.optimise.constraints)]
@@ -272,7 +290,9 @@ def _check_goal(study: Study, names: tuple[str, ...]) -> None:
 def _probe(
     study: Study, model: BearingModel | MachineModel, names: tuple[str, ...], rows: tuple[str, ...], announce: Announce
 ) -> tuple[float, dict[str, tuple[float | None, str, str]], float]:
-    """Compile what the study needs and time one point; `rows` of comparison methods are among the `names`.
+    """Compile the study and time one point.
+
+    `rows` of comparison methods are among the `names`.
 
     Returns
     -------
@@ -333,7 +353,10 @@ def _probe_machine(
 
 
 def _file_size(model: BearingModel, simulated: float, orbit: float) -> float:
-    """Return what the samples of a run take, before compression [byte]; `orbit`: mean speed of the balls [rad/s]."""
+    """Return the size of a run's samples [byte].
+
+    Before compression; `orbit`: mean speed of the balls [rad/s].
+    """
     from lambda_core.domain.channels import CHANNELS, DIMENSIONS
     from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
 

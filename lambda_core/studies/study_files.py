@@ -18,14 +18,19 @@ _USUAL = "friction-map"
 
 @cache
 def example_texts() -> dict[str, str]:
-    """Return the study files that come with the program, by name."""
+    """Return the included study files by name.
+
+    They come with the program.
+    """
     found = (entry for entry in resources.files("lambda_core.studies").joinpath("examples").iterdir())
     texts = {entry.name.removesuffix(".toml"): entry for entry in found if entry.name.endswith(".toml")}
     return {name: texts[name].read_text(encoding="utf-8") for name in sorted(texts)}
 
 
 def study_examples() -> dict[str, str]:
-    """Return the names of the studies that come with the program, each with its title.
+    """Return the included studies with titles.
+
+    They come with the program; each has its name.
 
     Returns
     -------
@@ -43,7 +48,9 @@ def init_study(
     *,
     case: str | None = None,
 ) -> Path:
-    """Write a commented study file called `name` that starts from one of those that come with the program.
+    """Write a commented study file called `name`.
+
+    It starts from one of those that come with the program.
 
     Parameters
     ----------

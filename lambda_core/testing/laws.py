@@ -149,7 +149,10 @@ def evaluate(
 
 
 def _along(model: AnyLaw, argument: str, values: ArrayLike, output: int, given: dict[str, Any]) -> FloatArray:
-    """Return one output at each value of `argument` (scalar or the same in every cell)."""
+    """Return one output over `argument`.
+
+    At each value (scalar or the same in every cell).
+    """
     results = []
     for value in np.atleast_1d(np.asarray(values, np.float64)):
         arguments = {**given, argument: float(value)}

@@ -57,7 +57,10 @@ def method_inputs(**changes: Any) -> MethodInputs:
 
 
 class TrialRun:
-    """A run made of given channels, for the tests of views (:class:`lambda_core.plugins.RunData`)."""
+    """Run of given channels for view tests.
+
+    See :class:`lambda_core.plugins.RunData`.
+    """
 
     def __init__(self, channels: Mapping[str, ArrayLike], model: Mapping[str, Any] | None = None) -> None:
         self._channels = {name: np.asarray(values, np.float64) for name, values in channels.items()}
@@ -69,7 +72,10 @@ class TrialRun:
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """Return the channels that were given, those of the program with their meaning."""
+        """Return the given channels.
+
+        Those of the program have their meaning.
+        """
         known = {channel.name: channel for channel in CHANNELS}
         return tuple(known.get(name, Channel(name, (), "", "")) for name in self._channels)
 
@@ -78,7 +84,10 @@ class TrialRun:
         return self._channels[name]
 
     def blocks(self, names: Sequence[str], start: float = 0.0) -> Iterator[dict[str, FloatArray]]:
-        """Yield the channels from time `start` [s] on, in one block."""
+        """Yield the channels in one block.
+
+        From time `start` [s] on.
+        """
         keep = self._channels["time"] >= start
         yield {name: self._channels[name][keep] for name in names}
 
@@ -87,15 +96,15 @@ class TrialRun:
         return {name: self._channels[name][row] for name in names}
 
     def integrals(self) -> FloatArray:
-        """Trial runs have none."""
+        """Return no integrals."""
         raise NotApplicable("a trial run has no running integrals")
 
     def revolutions(self) -> FloatArray:
-        """Trial runs have none."""
+        """Return no revolutions."""
         raise NotApplicable("a trial run has no whole cage revolutions")
 
     def summary(self) -> Any:
-        """Trial runs have none."""
+        """Return no summary."""
         raise NotApplicable("a trial run has no summary")
 
 

@@ -80,7 +80,7 @@ def iso_line(delta: float, R_x: float, R_y: float, E_eff: float, par: NoParamete
 def hertz_line_contact(delta: float, R_x: float, R_y: float, E_eff: float, par: NoParameters, out: FloatArray) -> int:
     """Load of one raceway by the half space's logarithm.
 
-    Delta = 4 w/(pi E') [ln(2 L/b) + 1/2].
+    delta = 4 w/(pi E') [ln(2 L/b) + 1/2].
 
     The deflection below the middle of a strip of length L with Hertz's pressure across: Lundberg 1939. Solved for w by
     Newton's method in ln w.

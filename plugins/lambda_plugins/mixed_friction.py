@@ -43,7 +43,7 @@ class ZhouHoeprich(Parameters):
 def zhou_hoeprich(Lambda: float, par: ZhouHoeprich, out: FloatArray) -> int:
     """Share of the load on asperities after Zhou-Hoeprich.
 
-    Psi = exp(-B Lambda^C), Zhou and Hoeprich.
+    psi = exp(-B Lambda^C), Zhou and Hoeprich.
 
     Zhou and Hoeprich 1991, J. Tribol. 113, 590; constants as in the tapered roller model of Wingertszahn et al. 2023.
     """

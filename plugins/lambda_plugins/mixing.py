@@ -23,7 +23,7 @@ def load_share(
 ) -> int:  # fmt: skip
     """Film and asperities by their shares of the load.
 
-    Tau = (1 - psi) tau_film + psi mu p.
+    tau = (1 - psi) tau_film + psi mu p.
     """
     out[0] = 1.0 - psi
     out[1] = psi
@@ -52,7 +52,7 @@ def contact_area(
 ) -> int:
     """Film and asperities by their shares of the area.
 
-    Tau = (1 - A_r/A) tau_film + psi mu p, A_r = psi F/H.
+    tau = (1 - A_r/A) tau_film + psi mu p, A_r = psi F/H.
 
     Asperities that carry the load psi F under their yield pressure H touch on the real area psi F/H alone (Bowden and
     Tabor); the film is sheared everywhere else, so that friction is the sum of both integrals, each over its own area

@@ -127,7 +127,7 @@ def newtonian(
 ) -> int:
     """Shear stress of a Newtonian fluid.
 
-    Tau = eta v/h_cen, limited to a share of the pressure.
+    tau = eta v/h_cen, limited to a share of the pressure.
 
     Without the limit the stress of a film at bearing pressures would exceed the strength of steel.
     """

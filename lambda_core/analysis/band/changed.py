@@ -12,26 +12,38 @@ ROUGHNESS = "surface.roughness"
 
 
 def is_of_laws(graded: Graded) -> bool:
-    """Tell whether a parameter is one of laws or of what only laws see, and leaves the normal forces as they are."""
+    """Tell whether a parameter belongs to laws alone.
+
+    True for a parameter of laws or of what only laws read that leaves the normal forces unchanged.
+    """
     return bool(graded.law) or graded.path == ROUGHNESS
 
 
 def with_value(model: BearingModel, graded: Graded, number: float, resolver: Resolver) -> BearingModel:
-    """Return a model with another value of a parameter of a law, of its roughness, or of an option of its case."""
+    """Return a model with another value of a parameter.
+
+    The parameter belongs to a law, to its roughness, or is an option of its case.
+    """
     if is_of_laws(graded):
         return with_value_of_laws(model, graded, number)
     return resolved_anew(model, graded.changes(number), resolver)
 
 
 def with_value_of_laws(model: BearingModel, graded: Graded, number: float) -> BearingModel:
-    """Return a model with another value of a parameter of which :func:`is_of_laws` is True."""
+    """Return a model with another parameter of its laws.
+
+    :func:`is_of_laws` is True for the parameter.
+    """
     if graded.law:
         return _with_parameter(model, graded, number)
     return replace(model, roughness=graded.si(number))
 
 
 def _with_parameter(model: BearingModel, graded: Graded, number: float) -> BearingModel:
-    """Return a model whose laws of one role and name have another parameter, but where it was given apart."""
+    """Return a model with another parameter of some laws.
+
+    The laws have one role and name; a value that was given separately stays.
+    """
     _, role, name = graded.path.split(".")
     first = next(roles[role] for roles in model.laws.values() if _is_of(roles, role, graded.law))
     written = first.parameters.model_dump(mode="json") | {name: graded.written(number)}
@@ -54,7 +66,7 @@ def _is_of(roles: Mapping[str, ChosenLaw], role: str, law: str) -> bool:
 
 
 def with_laws(model: BearingModel, role: str, other: BearingModel) -> BearingModel:
-    """Return a model with the laws of one role of another one."""
+    """Return a model with another model's laws of a role."""
     laws = {
         element: {**roles, role: other.laws[element][role]} if role in roles else roles
         for element, roles in model.laws.items()
@@ -63,7 +75,9 @@ def with_laws(model: BearingModel, role: str, other: BearingModel) -> BearingMod
 
 
 def resolved_anew(model: BearingModel, changes: Sequence[str], resolver: Resolver) -> BearingModel:
-    """Return the model of a changed case, under the loads and at the speed of a model.
+    """Return the model of a changed case.
+
+    Loads and speed are those of the given model.
 
     Those of a bearing of a machine are not in its case.
     """
@@ -73,7 +87,10 @@ def resolved_anew(model: BearingModel, changes: Sequence[str], resolver: Resolve
 
 
 def as_loaded(moved: BearingModel, model: BearingModel) -> BearingModel:
-    """Return a model in the place of another one: with its loads, speed and mounting, and no search of temperatures."""
+    """Return a model in the place of another one.
+
+    It takes its loads, speed and mounting, and does not search for temperatures.
+    """
     return replace(
         moved,
         name=model.name,

@@ -77,7 +77,10 @@ class Graded:
         return parse(self.scale.text(number), quantity)
 
     def changes(self, number: float) -> tuple[str, ...]:
-        """Return the changes of the case that set a value, and keep the law that it belongs to."""
+        """Return the changes of the case that set a value.
+
+        They keep the law that it belongs to.
+        """
         value = f"{self.path}={self.scale.text(number)}"
         if not self.law:
             return (value,)
@@ -91,7 +94,7 @@ class Graded:
 
 @dataclass(frozen=True)
 class Exchange:
-    """Laws of a role between which published work does not decide."""
+    """Laws of a role that published work cannot rank."""
 
     role: str
     laws: tuple[str, ...]
@@ -104,7 +107,10 @@ def _data() -> Mapping[str, list[dict[str, Any]]]:
 
 
 def exchanges(model: BearingModel) -> list[Exchange]:
-    """Return the laws that may stand in place of those of a model, its own ones and those of ribs left out."""
+    """Return the laws that may replace those of a model.
+
+    The model's own laws and those of ribs are left out.
+    """
     laws = [roles for element, roles in model.laws.items() if element not in RIBS]
     chosen = {role: law.model.name for roles in laws for role, law in roles.items()}
     found = []
@@ -188,7 +194,10 @@ def _number(text: str) -> float | str:
 
 
 def _of_laws(model: BearingModel, *, is_ranged: bool) -> list[Graded]:
-    """Return the parameters of the laws: those with a published range, or all numbers."""
+    """Return the parameters of the laws.
+
+    These are the ones with a published range, or all numbers.
+    """
     found: dict[str, Graded] = {}
     for roles in model.laws.values():
         for role, law in roles.items():
@@ -206,7 +215,10 @@ def _of_laws(model: BearingModel, *, is_ranged: bool) -> list[Graded]:
 
 
 def _within_class(entry: Graded, base_type: str) -> Graded | None:
-    """Return a parameter with the range of the class of its oil, None where there is none."""
+    """Return a parameter with its oil class's range.
+
+    None where the class has none.
+    """
     for row in _data()["within"]:
         if row["path"] == entry.path and row.get("base_type", base_type) == base_type:
             if "low" not in row:
@@ -216,7 +228,10 @@ def _within_class(entry: Graded, base_type: str) -> Graded | None:
 
 
 def _read(path: str, value: Any, ends: Sequence[Any] | None, extra: Mapping[str, Any]) -> Graded | None:
-    """Return one parameter of a law, None where it is no number."""
+    """Return one parameter of a law.
+
+    None where it is no number.
+    """
     values = [*(ends or ()), *([] if value is None else [value])]
     try:
         read = scale_of(values) if values else None
@@ -231,7 +246,10 @@ def _read(path: str, value: Any, ends: Sequence[Any] | None, extra: Mapping[str,
 
 
 def _plain(model: BearingModel, name: str) -> dict[str, Graded]:
-    """Return the option of the case that a name ends in, without a range."""
+    """Return the option that a name ends in.
+
+    It is an option of the case, without a range.
+    """
     found = {}
     for value in model.values:
         is_named = value.path == name or value.path.endswith(f".{name}")
@@ -243,7 +261,10 @@ def _plain(model: BearingModel, name: str) -> dict[str, Graded]:
 
 
 def _option(model: BearingModel, path: str) -> Graded | None:
-    """Return the value of an option of the case, None where it is no number."""
+    """Return the value of an option of the case.
+
+    None where it is no number.
+    """
     value = next((value for value in model.values if value.path == path), None)
     if value is None or not isinstance(value.value, float):
         return None
@@ -269,7 +290,7 @@ def _of_options(model: BearingModel) -> list[Graded]:
 
 
 def _in_unit(text: str, own: Graded) -> float:
-    """Return a value of the table in the unit of an option."""
+    """Return a table value in an option's unit."""
     if not own.scale.unit:
         return float(text)
     quantity = next(name for name, units in UNITS.items() if own.scale.unit == next(iter(units)))
@@ -277,7 +298,10 @@ def _in_unit(text: str, own: Graded) -> float:
 
 
 def _of_clearance(model: BearingModel, resolver: Resolver | None) -> list[Graded]:
-    """Return the clearance with the limits of its class, where the case leaves it to the class."""
+    """Return the clearance with the limits of its class.
+
+    Only where the case leaves it to the class.
+    """
     from lambda_core.case.case_io import apply_overrides, parse_case
     from lambda_core.model.checking import resolve
 

@@ -37,7 +37,9 @@ Reader = Callable[[Equilibrium], float]
 
 @dataclass(frozen=True)
 class Effect:
-    """Logarithms of the results over those of the case, at each of some equally likely alternatives.
+    """Logarithms of results over those of the case.
+
+    There is one for each of some equally likely alternatives.
 
     Attributes
     ----------
@@ -139,7 +141,9 @@ def _of_machine(
 def bands_of_machine(
     machine: MachineModel, state: ShaftState, quantities: Sequence[str] = QUANTITIES, number: int | None = None
 ) -> MachineBand:
-    """Return the bands of the bearings of a solved machine, or of one of them.
+    """Return the bands of a solved machine's bearings.
+
+    Or the band of one of them.
 
     The loads that shaft and gears put on a bearing count as known.
     """
@@ -159,7 +163,10 @@ def bands_of_machine(
 
 
 def band_alone(model: BearingModel, quantities: Sequence[str] = QUANTITIES) -> ModelBand:
-    """Return the band of a bearing that is alone: of rollers that of their quasi-static answer."""
+    """Return the band of a bearing that is alone.
+
+    For rollers it is the band of their quasi-static answer.
+    """
     if model.rollers is None:
         return band_of(model, quantities)
     from lambda_core.analysis.band.roller_band import roller_band
@@ -178,7 +185,9 @@ def band_of(
     readers: Mapping[str, Reader] = READ,
     units: Mapping[str, str] = UNITS_OF,
 ) -> ModelBand:
-    """Return the band of a resolved model whose temperatures are known, alone or under its loads in a machine.
+    """Return the band of a resolved model.
+
+    Its temperatures are known; it is alone or under its loads in a machine.
 
     Parameters
     ----------
@@ -196,7 +205,9 @@ def band_of(
 
 
 class Effects:
-    """What each range and each exchange of a law does to the results of a model.
+    """Effects of ranges and exchanges on a model's results.
+
+    Each range of a parameter and each exchange of a law has its effect.
 
     Parameters
     ----------
@@ -236,7 +247,7 @@ class Effects:
         self.left_out: list[str] = []
 
     def values_at_all_positions(self) -> FloatArray:
-        """Return the results of the model, averaged over the positions of the balls."""
+        """Return the results, averaged over the ball positions."""
 
         def solved(phase: float) -> Equilibrium:
             return self._base if phase == self._base.phase else solve(self._model, self._kernels, phase=phase)
@@ -245,7 +256,10 @@ class Effects:
         return found
 
     def all(self) -> Iterator[Effect]:
-        """Yield the effects of all parameters and laws; what has no solution is left out and named."""
+        """Yield the effects of all parameters and laws.
+
+        Changes without a solution are left out and named.
+        """
         from lambda_core.discovery.manager import registry
         from lambda_core.model.resolve import resolve
 
@@ -287,7 +301,10 @@ class Effects:
             yield Effect(f"law of {exchange.role}", exchange.source, np.array(found[exchange.role]), is_range=False)
 
     def _others(self, wanted: Sequence[Exchange], resolver: Resolver) -> Iterator[tuple[str, str, BearingModel]]:
-        """Yield role, name and model of each other law: one model has one other law of every role."""
+        """Yield role, name and model of each other law.
+
+        One model has one other law of every role.
+        """
         for number in range(max((len(exchange.laws) for exchange in wanted), default=0)):
             pairs = [(exchange.role, exchange.laws[number]) for exchange in wanted if number < len(exchange.laws)]
             try:
@@ -301,14 +318,19 @@ class Effects:
                     self.left_out.append(f"{role} {law} is left out: {_first(error)}")
 
     def _with_laws(self, pairs: Sequence[tuple[str, str]], resolver: Resolver) -> BearingModel:
-        """Return the model with other laws, without the parameters of its own ones."""
+        """Return the model with other laws.
+
+        The parameters of its own laws do not stay.
+        """
         from lambda_core.case.case_io import parse_case
 
         case = parse_case(self._model.case_toml, self._model.name)
         return resolver(case.with_(models=dict(pairs), parameters={role: None for role, _ in pairs}))
 
     def _fitted(self, fit: FitOrigin, resolver: Resolver) -> Iterator[Effect]:
-        """Yield the effect of the errors of the fitted values, and of the ranges of values that were held.
+        """Yield the effects of fitted and held values.
+
+        Of the errors of the fitted values, and of the ranges of values that were held.
 
         Over the range of a held value the fitted ones follow their regression on it: the data hold for each of its
         values.
@@ -355,7 +377,10 @@ class Effects:
         yield Effect("fitted values", f"fitted to {fit.file}", np.array([total, -total]), is_range=False)
 
     def _fitted_parameters(self, rows: Sequence[FittedValue]) -> list[Graded]:
-        """Return the parameters of a fit; CaseError with the nearest valid path for an unknown one."""
+        """Return the parameters of a fit.
+
+        CaseError with the nearest valid path for an unknown one.
+        """
         found, problems = [], []
         for number, row in enumerate(rows):
             try:
@@ -367,7 +392,10 @@ class Effects:
         return found
 
     def _has(self, name: str) -> bool:
-        """Tell whether a result exists: at rest there is no torque, and without load no film."""
+        """Tell whether a result exists.
+
+        At rest there is no torque, and without load no film.
+        """
         try:
             value = self._readers[name](self._base)
         except (LambdaError, ValueError, ArithmeticError):
@@ -378,7 +406,9 @@ class Effects:
         return np.array([self._readers[name](found) for name in self.names])
 
     def _logarithms(self, model: BearingModel, *, near: bool, other: bool = False) -> FloatArray:
-        """Return ln of the results of a model over those of the case, at one position of the balls.
+        """Return ln of relative results at one position.
+
+        Results of a model over those of the case, for one position of the balls.
 
         With `near` only laws differ; with `other` they are other laws, which have kernels of their own.
         """
@@ -395,7 +425,9 @@ def _ends(row: FittedValue) -> str:
 
 
 def band_around(name: str, unit: str, index: int, value: float, effects: Sequence[Effect]) -> Band:
-    """Return the band of a printed value: it reaches as far as the value, which is none of its corrections.
+    """Return the band of a printed value.
+
+    The band includes the value, because the value is no correction.
 
     Alternatives that lie mostly on one side shift the band, and the case keeps its value. The band of a value that is
     not corrected for a known shift ends at the value where it would otherwise leave it out; it then holds at least the

@@ -21,7 +21,9 @@ _DECADES = 3.0  # largest over smallest value, from which a quantity counts by i
 
 
 def places_of(columns: Sequence[Sequence[float | str]]) -> FloatArray:
-    """Return points in coordinates whose distances compare, shape (n, d), from a column per parameter.
+    """Return points in coordinates whose distances compare.
+
+    Shape (n, d), from a column per parameter.
 
     Numbers run from 0 to 1 over their range, evenly by their logarithm over wide ranges; two names are 1 apart.
     """
@@ -40,7 +42,9 @@ def places_of(columns: Sequence[Sequence[float | str]]) -> FloatArray:
 
 
 def spread_out(places: FloatArray, most: int) -> list[int]:
-    """Return rows of places that lie far apart, at most so many: first the middle one, then each farthest from all.
+    """Return rows of places that lie far apart.
+
+    At most so many: first the middle one, then each farthest from all.
 
     Equal places count as one.
     """
@@ -53,7 +57,10 @@ def spread_out(places: FloatArray, most: int) -> list[int]:
 
 
 def interpolated(places: FloatArray, known: Sequence[int], values: FloatArray) -> FloatArray:
-    """Return values at all places from those at known ones, shape (n, m): a sum of distances from these."""
+    """Return values at all places from known ones.
+
+    Shape (n, m): a sum of distances from the known places.
+    """
     from scipy.interpolate import RBFInterpolator
 
     found: FloatArray = RBFInterpolator(places[list(known)], values, kernel="linear", degree=0)(places)

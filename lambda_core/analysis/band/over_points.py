@@ -60,7 +60,10 @@ def bands_over(model_at: Callable[[int], BearingModel | MachineModel], places: F
 
 
 def _logarithms(model: BearingModel | MachineModel) -> dict[str, list[float]]:
-    """Return the logarithms of both ends over the value of each result."""
+    """Return the logarithms of both ends.
+
+    Over the value of each result.
+    """
     from lambda_core.model.machine_model import MachineModel
 
     if isinstance(model, MachineModel):
@@ -78,7 +81,10 @@ def _of_bearing(found: ModelBand, prefix: str = "") -> dict[str, list[float]]:
 
 
 def _of_machine(found: MachineBand) -> dict[str, list[float]]:
-    """Return the logarithms of each bearing, with its name before them, and of all bearings together."""
+    """Return the logarithms of all bearings.
+
+    Each bearing has its name before them; the last are of all bearings together.
+    """
     logarithms: dict[str, list[float]] = {}
     for name, band in found.bearings.items():
         logarithms |= _of_bearing(band, f"{name}.")

@@ -93,7 +93,10 @@ MEASURED: dict[str, Measured] = {
 
 
 def no_option(path: str, unit: str) -> Condition | None:
-    """Return the condition of a column that is named by an option of a case; None, as there is no case."""
+    """Return the condition of a column without a case.
+
+    None, since an option of a case names the column.
+    """
     del path, unit
     return None
 

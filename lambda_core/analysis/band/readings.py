@@ -35,7 +35,10 @@ _SAME = 1e-6  # relative spread of the loads below which the position of the bal
 def read_values(
     solved: Callable[[float], Equilibrium], readers: Sequence[Callable[[Equilibrium], float]], *, one: bool = False
 ) -> FloatArray:
-    """Return what readers find in the equilibria at several positions of the balls, which `solved` returns."""
+    """Return what readers find in the equilibria.
+
+    `solved` returns the equilibria at several positions of the balls.
+    """
     found = []
     for position in POSITIONS[:1] if one else POSITIONS:
         equilibrium = solved(position)
@@ -69,7 +72,10 @@ def _capacitance(found: Equilibrium) -> float:
 
 
 def _life(found: Equilibrium) -> float:
-    """Return L_10rh of ISO/TS 16281, from the load of every ball."""
+    """Return L_10rh of ISO/TS 16281.
+
+    It follows from the load of every ball.
+    """
     model = found.context.model
     g = model.geometry
     life = reference_rating_life(
@@ -89,7 +95,10 @@ def _displacement(axis: int) -> Callable[[Equilibrium], float]:
 
 
 def _temperature(*place: str) -> Callable[[Equilibrium], float]:
-    """Return the reader of a temperature that was found, which the case of the model has [degC]."""
+    """Return the reader of a computed temperature.
+
+    The case of the model has it [degC].
+    """
 
     def read(found: Equilibrium) -> float:
         value: Any = toml_tables(found.context.model.case_toml, found.context.model.name)

@@ -38,7 +38,9 @@ _KEPT = "laws of rollers are not exchanged"
 
 
 def roller_band(model: BearingModel, base: RollerModel, quantities: Sequence[str] = QUANTITIES) -> ModelBand:
-    """Return the 90 % band of the quasi-static answer of a roller bearing.
+    """Return the 90 % band of a roller bearing.
+
+    It is the band of its quasi-static answer.
 
     As :func:`model_band` for balls, with the same ranges: of temperature, clearance, roughness of ribs, and of the
     parameters of laws that the answer knows. Each is changed at one place of the rollers; laws are not exchanged.
@@ -66,7 +68,9 @@ def roller_band(model: BearingModel, base: RollerModel, quantities: Sequence[str
 
 
 class RollerEffects:
-    """What each range does to the results of a roller bearing; see :class:`Effects`.
+    """Effects of each range on a roller bearing.
+
+    See :class:`Effects`.
 
     Parameters
     ----------
@@ -87,7 +91,10 @@ class RollerEffects:
         self.left_out = [_KEPT]
 
     def all(self) -> Iterator[Effect]:
-        """Yield the effects of all parameters; what has no solution is left out and named."""
+        """Yield the effects of all parameters.
+
+        Changes without a solution are left out and named.
+        """
         for graded, ends in _changed(self._model, self._base, self.left_out):
             if graded.path in self._without:
                 continue
@@ -99,7 +106,10 @@ class RollerEffects:
             yield Effect(graded.short, graded.source, alternatives, is_range=True)
 
     def _logarithms(self, changed: RollerModel) -> FloatArray:
-        """Return ln of the results of a changed model over those of the base, at one place of the rollers."""
+        """Return ln of relative results at one place.
+
+        Results of a changed model over those of the base, for one place of the rollers.
+        """
         is_moved = changed.bearing != self._base.bearing
         solved = solve_rollers(changed, PLACES[:1]) if is_moved else with_friction(changed, self._solved)
         answer = roller_answer(changed, solved)
@@ -109,7 +119,10 @@ class RollerEffects:
 def _changed(
     model: BearingModel, base: RollerModel, left_out: list[str]
 ) -> Iterator[tuple[Graded, tuple[RollerModel, ...]]]:
-    """Yield every parameter that the answer depends on, with the models at the ends of its range."""
+    """Yield every parameter and its models at the ends.
+
+    The answer depends on the parameter; the ends are those of its range.
+    """
     from lambda_core.case.case_io import parse_case
 
     case = parse_case(model.case_toml, model.name)
@@ -134,7 +147,10 @@ def _changed(
 
 
 def _of_class(case: Case, written: RollerModel, base: RollerModel) -> Iterator[tuple[Graded, tuple[RollerModel, ...]]]:
-    """Yield the clearance with the limits of its class, where the case leaves it to the class."""
+    """Yield the clearance with the limits of its class.
+
+    Only where the case leaves it to the class.
+    """
     found = [roller_model(case, (f"bearing.clearance_pick={pick}",)) for pick in ("minimum", "maximum")]
     low, high = (one.bearing.clearance for one in found if one is not None)
     if not low < high or "clearance_pick" in case.bearing.model_fields_set:
@@ -146,7 +162,10 @@ def _of_class(case: Case, written: RollerModel, base: RollerModel) -> Iterator[t
 
 
 def _field(graded: Graded) -> str:
-    """Return the name in FrictionParameters of a parameter; "" where the answer does not have it."""
+    """Return the name in FrictionParameters of a parameter.
+
+    It is "" where the answer does not have it.
+    """
     if graded.path == _RIB_ROUGHNESS:
         return "rib_roughness"
     if not graded.law:
@@ -161,7 +180,10 @@ def _exists(value: float) -> bool:
 
 
 def _read(answer: RollerQuasiStatic, name: str, model: RollerModel) -> float:
-    """Return a result in the unit of its name; NaN where there is none."""
+    """Return a result in the unit of its name.
+
+    NaN where there is none.
+    """
     torque = math.nan if answer.friction_torque_Nmm is None else answer.friction_torque_Nmm
     life = answer.reference_life_h
     return {

@@ -137,7 +137,10 @@ def _alone(
     bearing: str | None,
     announce: Callable[[str], None] | None,
 ) -> BearingModel:
-    """Return one bearing: of a case, or of a machine under the load that it carries there."""
+    """Return one bearing of a case or machine.
+
+    In a machine it has the load that it carries there.
+    """
     if not is_machine(source):
         refuse_bearing(bearing)
         return model_of(source, overrides)  # type: ignore[arg-type]

@@ -42,7 +42,9 @@ _SECTION = "electric."
 
 
 def electric_of_model(model: BearingModel, announce: Announce = None, *, window: Span | None = None) -> Simulation:
-    """Compute a case on the films of its quasi-static equilibria; the circuit is the section electric of the case.
+    """Compute a case on its quasi-static films.
+
+    The circuit is the section electric of the case.
 
     Raises
     ------
@@ -63,7 +65,9 @@ def electric_of_machine(
     phases: int = PHASES,
     kernels: Sequence[Kernels | None] = (),
 ) -> CircuitSimulation:
-    """Compute all bearings of a machine in one circuit, on the films of their quasi-static equilibria.
+    """Compute all bearings of a machine in one circuit.
+
+    The films are those of their quasi-static equilibria.
 
     Parameters
     ----------
@@ -91,7 +95,9 @@ def electric_of_machine(
 
 
 def options_of_run(result: Result, overrides: Iterable[str] = ()) -> Electric | None:
-    """Return the circuit in the case of a run, with other options where they are given.
+    """Return the circuit in the case of a run.
+
+    Other options replace those of the case where they are given.
 
     Raises
     ------
@@ -108,7 +114,9 @@ def options_of_run(result: Result, overrides: Iterable[str] = ()) -> Electric | 
 def circuit_of_run(
     result: Result, overrides: Iterable[str] = (), announce: Announce = None, *, window: Span | None = None
 ) -> CircuitSimulation:
-    """Compute the circuit on the samples of a run, after the revolutions that its averages discard.
+    """Compute the circuit on the samples of a run.
+
+    It starts after the revolutions that the averages discard.
 
     Raises
     ------
@@ -139,7 +147,10 @@ def circuit_of_run(
 def electric_of_run(
     result: Result, overrides: Iterable[str] = (), announce: Announce = None, *, window: Span | None = None
 ) -> Simulation:
-    """Compute the circuit of a run as the bearing sees it that the result is of; see :func:`circuit_of_run`."""
+    """Compute a run's circuit for the result's bearing.
+
+    See :func:`circuit_of_run`.
+    """
     found = circuit_of_run(result, overrides, announce, window=window)
     return found.bearings[result.bearing] if len(found.bearings) > 1 else found.first
 

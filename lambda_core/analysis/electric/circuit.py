@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 
 
 def bearing_capacitance(films: Films) -> FloatArray:
-    """Return the capacitance of the balls in parallel, the two films of a ball in series, shape (n,) [F].
+    """Return the capacitance of all balls in parallel [F].
+
+    The two films of a ball are in series; shape (n,).
 
     C_b = sum C_i C_o/(C_i + C_o): without leaks a ball takes the potential U C_i/(C_i + C_o).
     """
@@ -30,7 +32,9 @@ def bearing_capacitance(films: Films) -> FloatArray:
 
 
 def impedance(films: Films, around: Surroundings, frequency: FloatArray) -> NDArray[np.complex128]:
-    """Return the impedance between the rings, as a meter sees it while the bearing turns, shape (n, frequencies) [Ohm].
+    """Return the impedance between the rings [Ohm].
+
+    As a meter measures it while the bearing turns; shape (n, frequencies).
 
     Each film is a capacitance in parallel with a conductance, the films of a ball are in series, balls and the direct
     capacitance of the rings in parallel; a cage that conducts joins the balls. Valid where the period is short against
@@ -56,7 +60,9 @@ def impedance(films: Films, around: Surroundings, frequency: FloatArray) -> NDAr
 
 
 def shoulders_capacitance(geometry: Mapping[str, float]) -> float:
-    """Return the capacitance of the two rings past the balls [F]: coaxial cylinders 2 pi eps_0 B/ln(D_2/d_1) in air.
+    """Return the capacitance of the rings without balls [F].
+
+    Coaxial cylinders in air, 2 pi eps_0 B/ln(D_2/d_1).
 
     d_1 and D_2 are the diameters of the shoulders, B the width. Cage, seals and oil raise it.
     """
@@ -84,7 +90,7 @@ def surroundings(options: Electric, geometry: Mapping[str, float]) -> Surroundin
 
 
 def circuit_of(options: Electric, bearings: Sequence[Surroundings]) -> Circuit:
-    """Return the circuit that the bearings of a shaft stand in.
+    """Return the circuit of a shaft's bearings.
 
     For the case of one bearing, another one like it counts with this one's capacitance where the case does not give the
     other bearings' (short form of a machine with two).
@@ -101,7 +107,9 @@ def circuit_of(options: Electric, bearings: Sequence[Surroundings]) -> Circuit:
 
 
 def voltage_ratio(circuit: Circuit, capacitances: Sequence[float], bearing: int = 0) -> float:
-    """Return BVR = C_wr/(C_wr + C_rf + sum C_b), bearing over common-mode voltage without leaks (Muetze, Binder 2007).
+    """Return the bearing voltage ratio BVR.
+
+    BVR = C_wr/(C_wr + C_rf + sum C_b), bearing over common-mode voltage without leaks (Muetze, Binder 2007).
 
     Parameters
     ----------
@@ -119,13 +127,18 @@ def voltage_ratio(circuit: Circuit, capacitances: Sequence[float], bearing: int 
 
 
 def _seen(around: Surroundings, capacitance: float) -> tuple[float, float]:
-    """Return the capacitance of a bearing, and of it in series with its insulation [F]."""
+    """Return a bearing's capacitance, bare and insulated [F].
+
+    The second one is in series with its insulation.
+    """
     bare = capacitance + around.rings
     return bare, bare * around.coating / (bare + around.coating) if around.insulated else bare
 
 
 def rotor_capacitance(circuit: Circuit, capacitances: Sequence[float]) -> float:
-    """Return everything between the rotor and its surroundings [F]; `capacitances` are those of the balls.
+    """Return the rotor's capacitance to its surroundings [F].
+
+    `capacitances` are those of the balls.
 
     An insulation is in series with its bearing; a cage is left out.
     """

@@ -62,7 +62,9 @@ class CircuitBearing:
 
 
 def electric_model(options: Electric | None, name: str) -> ElectricModel:
-    """Return a circuit with its laws; without options one of defaults.
+    """Return a circuit with its laws.
+
+    Without options it has the defaults.
 
     Raises
     ------
@@ -78,7 +80,10 @@ def electric_model(options: Electric | None, name: str) -> ElectricModel:
 
 
 def of_model(model: BearingModel) -> CircuitBearing:
-    """Return a resolved model with its circuit; a case without the section gets the defaults."""
+    """Return a resolved model with its circuit.
+
+    A case without the section gets the defaults.
+    """
     chosen = model.electric or electric_model(None, model.name)
     materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
     found = _circuit_bearing("bearing", model.name, chosen, model.geometry, materials, model.oil, model.roughness)
@@ -86,7 +91,10 @@ def of_model(model: BearingModel) -> CircuitBearing:
 
 
 def of_machine(machine: MachineModel) -> list[CircuitBearing]:
-    """Return the bearings of a machine with their circuit; a case without the section gets the defaults."""
+    """Return the bearings of a machine with their circuit.
+
+    A case without the section gets the defaults.
+    """
     chosen = machine.electric or electric_model(MachineElectric(), machine.name)
     found = []
     for mounted in machine.bearings:

@@ -19,7 +19,9 @@ from lambda_core.laws.pack import pack
 
 @dataclass(frozen=True)
 class Films:
-    """Electrical contacts of one bearing or several over time, SI; arrays of shape (n, Z, 2), inner then outer.
+    """Electrical contacts of bearings over time, SI.
+
+    Arrays of shape (n, Z, 2), inner then outer.
 
     Attributes
     ----------
@@ -49,7 +51,10 @@ class Films:
 
 
 def joined(films: Sequence[Films]) -> Films:
-    """Return the contacts of several bearings at the same times, the balls of each behind those before."""
+    """Return the contacts of several bearings together.
+
+    The times are the same; the balls of each bearing follow those before.
+    """
     parts = {
         f.name: np.concatenate([getattr(each, f.name) for each in films], axis=1)
         for f in fields(Films)
@@ -81,7 +86,7 @@ class Surroundings:
 
     @property
     def insulated(self) -> bool:
-        """Whether the outer ring has a potential of its own."""
+        """True if the outer ring has its own potential."""
         return bool(np.isfinite(self.bridge))
 
 
@@ -134,7 +139,7 @@ class Circuit:
 
 @dataclass(frozen=True)
 class Strength:
-    """When films break down, and what burns then.
+    """Laws of breakdown and discharge.
 
     Attributes
     ----------
@@ -152,7 +157,7 @@ class Strength:
 
 @dataclass(frozen=True)
 class BearingSolution:
-    """What an integration says of one of the bearings.
+    """Solution of one bearing.
 
     Attributes
     ----------
@@ -200,7 +205,10 @@ class CircuitSolution:
     balls: tuple[int, ...]
 
     def of(self, bearing: int, times: FloatArray | None = None) -> BearingSolution:
-        """Return what it says of one of the bearings, by number; `times` are its samples where they are its own."""
+        """Return the solution of one bearing, by number.
+
+        `times` are its samples where they are its own.
+        """
         first = sum(self.balls[:bearing])
         ball = self.events[:, L.E_BALL]
         own = (ball >= first) & (ball < first + self.balls[bearing])
@@ -224,7 +232,9 @@ _loaded: list[Any] = []
 
 
 class Network:
-    """Network of a shaft's bearings: integrated stretch by stretch, as samples come.
+    """Network of a shaft's bearings.
+
+    It is integrated stretch by stretch, as samples come.
 
     Between corners of the source and changes of the capacitances the network is solved exactly by its modes. Charges
     are conserved where capacitances change (d(Cv)/dt, not C dv/dt). However the samples are cut into stretches, what
@@ -288,7 +298,7 @@ class Network:
 
     @property
     def circuit(self) -> Circuit:
-        """What surrounds the films."""
+        """Circuit around the films."""
         return self._circuit
 
     @property
@@ -297,7 +307,10 @@ class Network:
         return self._substeps
 
     def held(self) -> dict[str, Any]:
-        """Return workspace, state and laws of the compiled integrator by argument name."""
+        """Return the compiled integrator's arguments by name.
+
+        They are its workspace, state and laws.
+        """
         names = ["part", "own", "held", "state", "known", "drawn", "break_out", "arc_out", "rows", "stand", "members"]
         breaks, arcs = self._strength.breakdown, self._strength.discharge
         return {
@@ -309,7 +322,10 @@ class Network:
 
     @property
     def time(self) -> float:
-        """How far the network has come: the end of its last stretch, or of a discharge that went on beyond it [s]."""
+        """Time that the network has reached [s].
+
+        It is the end of its last stretch, or of a discharge that went on beyond it.
+        """
         return float(self._total[L.T_TIME])
 
     def advance(
@@ -319,7 +335,9 @@ class Network:
         window: tuple[float, float] = (np.inf, -np.inf),
         rest: Corners = UNCHARGED,
     ) -> CircuitSolution:
-        """Integrate through the times of the films, from discharge to discharge.
+        """Integrate through the times of the films.
+
+        The integration goes from discharge to discharge.
 
         Parameters
         ----------
@@ -356,7 +374,10 @@ class Network:
     def _stretch(
         self, films: Films, source: Corners, window: FloatArray, rest: Corners, first: int
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Integrate through few samples, again where there was too little room; return events, extremes, record."""
+        """Integrate through few samples.
+
+        Repeat it where there was too little room; return events, extremes, record.
+        """
         before, charge, potential = self._total.copy(), self._nodes.charge.copy(), self._nodes.potential.copy()
         while True:
             voltages = len(self._balls) + 1
@@ -419,20 +440,29 @@ def integrate(
     rest: Corners = UNCHARGED,
     announce: Any = None,
 ) -> CircuitSolution:
-    """Integrate a network through the times of the films; see :class:`Network`."""
+    """Integrate a network through the films' times.
+
+    See :class:`Network`.
+    """
     balls = [each.film.shape[1] for each in films]
     network = Network(circuit, strengths, balls, seed=seed, substeps=substeps, announce=announce)
     return network.advance(joined(films), source, window, rest)
 
 
 def integrator_code(announce: Any) -> Any:
-    """Return the compiled integrator for calls from Python, out of the pack of the installation where it has one."""
+    """Return the compiled integrator for calls from Python.
+
+    It comes from the pack of the installation where there is one.
+    """
     packed = pack()
     return packed.unit("circuit") if packed else compiled(announce)
 
 
 def compiled(announce: Any) -> Any:
-    """Return the compiled integrator, loaded once per process; it is compiled where the disk does not have it."""
+    """Return the compiled integrator.
+
+    A process loads it once; it is compiled where the disk does not have it.
+    """
     if not _loaded:
         from lambda_core.laws.jit.unstable import know_pointers
 

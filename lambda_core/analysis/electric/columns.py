@@ -50,7 +50,10 @@ class Net(NamedTuple):
 
 
 class Held(NamedTuple):
-    """State of the contacts over one part of an interval, arrays of shape (Z, 2)."""
+    """Contacts over one part of an interval.
+
+    Arrays of shape (Z, 2).
+    """
 
     capacitance: Any  # [F]
     conductance: Any  # [S]
@@ -62,7 +65,10 @@ class Held(NamedTuple):
 
 
 class Tables(NamedTuple):
-    """Contacts at the samples, arrays of shape (samples, Z, 2); units as in `Held`."""
+    """Contacts at the samples.
+
+    Arrays of shape (samples, Z, 2); units as in `Held`.
+    """
 
     capacitance: Any
     conductance: Any
@@ -73,7 +79,10 @@ class Tables(NamedTuple):
 
 
 class FullNetwork(NamedTuple):
-    """The full network over one part of an interval, arrays of shape (n, n)."""
+    """Full network over one part of an interval.
+
+    Arrays of shape (n, n).
+    """
 
     capacitance: Any  # [F]
     conductance: Any  # [S]
@@ -84,7 +93,10 @@ class FullNetwork(NamedTuple):
 
 
 class Nodes(NamedTuple):
-    """Nodes and modes of the full network, arrays of shape (n,)."""
+    """Nodes and modes of the full network.
+
+    Arrays of shape (n,).
+    """
 
     charge: Any  # [C]
     potential: Any  # [V]
@@ -99,7 +111,10 @@ class Nodes(NamedTuple):
 
 
 class Part(NamedTuple):
-    """The nodes that take part in a discharge, arrays of shape (m, m)."""
+    """Nodes that take part in a discharge.
+
+    Arrays of shape (m, m).
+    """
 
     capacitance: Any  # [F]
     conductance: Any  # [S]
@@ -131,7 +146,7 @@ class PartNodes(NamedTuple):
 
 
 class Standing(NamedTuple):
-    """What films stand: the law of the role breakdown, and what it said last."""
+    """Breakdown law with its last voltages."""
 
     law: Any
     par: Any  # per ring of each bearing
@@ -145,7 +160,7 @@ class Standing(NamedTuple):
 
 
 class Arcs(NamedTuple):
-    """What burns: the law of the role discharge, and the arcs of one discharge."""
+    """Discharge law with the arcs of one discharge."""
 
     law: Any
     par: Any  # per ring of each bearing
@@ -171,7 +186,7 @@ class Source(NamedTuple):
 
 
 class Accumulators(NamedTuple):
-    """What is written down."""
+    """Sums and records of an integration."""
 
     total: Any  # T_*
     extremes: Any
@@ -182,7 +197,10 @@ class Accumulators(NamedTuple):
 
 
 class Channels(NamedTuple):
-    """The two channels of a ball in a discharge, arrays of shape (2,)."""
+    """Two channels of a ball in a discharge.
+
+    Arrays of shape (2,).
+    """
 
     burns: Any  # 1 while it conducts
     sign: Any  # of its current

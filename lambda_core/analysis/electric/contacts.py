@@ -34,7 +34,9 @@ _TURNS = 10.0  # of the cage, where nothing says how long
 
 @dataclass(frozen=True)
 class Contacts:
-    """Contacts of one bearing over time, SI; arrays of shape (n, Z, 2), inner then outer, where nothing else stands.
+    """Contacts of one bearing over time, SI.
+
+    Arrays of shape (n, Z, 2), inner then outer, where nothing else is given.
 
     Attributes
     ----------
@@ -85,12 +87,12 @@ class Contacts:
 
     @property
     def loaded(self) -> NDArray[np.bool_]:
-        """Where surfaces press against each other."""
+        """True where surfaces press against each other."""
         return self.load > 0.0
 
     @property
     def shorted(self) -> NDArray[np.bool_]:
-        """Where asperities touch: metal conducts."""
+        """True where asperities touch and metal conducts."""
         return ~np.isfinite(self.capacitance)
 
     @property
@@ -121,12 +123,18 @@ class Contacts:
         return replace(self, **parts)
 
     def turned(self, times: FloatArray) -> FloatArray:
-        """Return the angle of the inner ring against the outer at times [s], straight between and beyond samples."""
+        """Return the relative angle of the rings [rad].
+
+        Of the inner ring against the outer at times [s], linear between and beyond samples.
+        """
         return turned(self.time, self.inner_angle - self.outer_angle, times)
 
 
 def turned(known: FloatArray, angle: FloatArray, times: FloatArray) -> FloatArray:
-    """Return an angle at times, straight between the known ones and beyond them."""
+    """Return an angle at times.
+
+    Linear between the known ones and beyond them.
+    """
     i = np.clip(np.searchsorted(known, times, side="right") - 1, 0, known.size - 2)
     slope = (angle[i + 1] - angle[i]) / (known[i + 1] - known[i])
     return np.asarray(angle[i] + slope * (times - known[i]))
@@ -150,7 +158,10 @@ CHANNELS = ("time", "body_spin_angle", "ball_azimuth", *_CHANNELS.values())  # t
 def contacts_of_samples(
     samples: Mapping[str, FloatArray], roughness: float, origin: str, *, of_lines: bool = False
 ) -> Contacts:
-    """Return the contacts in the samples of a run, channel -> array."""
+    """Return the contacts in the samples of a run.
+
+    The samples map channels to arrays.
+    """
     angle = samples["body_spin_angle"]
     return Contacts(
         time=samples["time"],
@@ -182,7 +193,9 @@ def contacts_of_run(result: Result) -> Contacts:
 def equilibria(
     model: BearingModel, phases: int = PHASES, announce: Announce = None, kernels: Kernels | None = None
 ) -> list[Equilibrium]:
-    """Solve the quasi-static equilibrium at several positions of the balls within one pitch.
+    """Solve the equilibrium at several positions of balls.
+
+    The equilibria are quasi-static, the positions within one pitch.
 
     Raises
     ------
@@ -197,7 +210,9 @@ def equilibria(
 
 
 def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = None) -> Contacts:
-    """Lay equilibria over time as balls pass: ball j takes the place of ball j + 1 after each pitch.
+    """Arrange equilibria in time as balls pass.
+
+    Ball j takes the place of ball j + 1 after each pitch.
 
     No dynamics: every ball has the film that belongs to its place in the load zone.
     """
@@ -240,7 +255,10 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
 
 
 def default_duration(found: list[Equilibrium]) -> float:
-    """Return how long a bearing takes for ten turns of its cage against the outer ring [s]."""
+    """Return the time of ten cage turns [s].
+
+    Of the cage against the outer ring.
+    """
     from lambda_core.model.laws.time_functions import initial
 
     outer = initial(found[0].context.model.outer_ring.dofs["spin"].motion)
@@ -250,7 +268,9 @@ def default_duration(found: list[Equilibrium]) -> float:
 
 
 def films(contacts: Contacts, options: Electric, rolled: FloatArray | None = None) -> Films:
-    """Return the contacts as electric parts: capacitance, conductance, and what breaks down.
+    """Return the contacts as electric parts.
+
+    Capacitance, conductance, and breakdown.
 
     Each sample is treated alone, so that a run gives the same films however its samples come.
 
@@ -284,7 +304,10 @@ def films(contacts: Contacts, options: Electric, rolled: FloatArray | None = Non
 
 
 def _permittivity(contacts: Contacts) -> FloatArray:
-    """Return the permittivity of the oil in each contact [F/m]; outside films that of the films of the same sample."""
+    """Return the oil's permittivity in each contact [F/m].
+
+    Outside films it is that of the films of the same sample.
+    """
     carried = contacts.loaded & ~contacts.shorted
     with np.errstate(divide="ignore", invalid="ignore"):
         own = np.where(carried, contacts.hertz * contacts.film / contacts.area, 0.0)
@@ -298,7 +321,9 @@ def _permittivity(contacts: Contacts) -> FloatArray:
 
 
 def ball_capacitance(contacts: Contacts, permittivity: float) -> FloatArray:
-    """Return the capacitance from each contact into a ball that insulates [F]; two of them are in series in a ball.
+    """Return the capacitance into insulating balls [F].
+
+    From each contact; two of them are in series in a ball.
 
     The flux spreads from the Hertzian ellipse into a half-space: C = 2 pi eps_0 eps_r a/K(m), m = 1 - (b/a)^2, a the
     larger semi-axis, K the complete elliptic integral of the first kind; a circle gives 4 eps_0 eps_r a. It is the
@@ -323,7 +348,9 @@ def ball_capacitance(contacts: Contacts, permittivity: float) -> FloatArray:
 
 
 def rough_excess(contacts: Contacts, options: Electric) -> FloatArray:
-    """Return the capacitance that roughness adds to each Hertzian area [F].
+    """Return the roughness capacitance of Hertzian areas [F].
+
+    It is the capacitance that roughness adds to each area.
 
     C/C_smooth = h E[1/h] >= 1 (Jensen). For a gamma-distributed gap of mean h and deviation sigma, E[1/h] =
     1/(h (1 - sigma^2/h^2)), so the factor is Lambda^2/(Lambda^2 - 1); it has no meaning where Lambda is near 1, where

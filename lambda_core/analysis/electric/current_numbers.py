@@ -65,7 +65,10 @@ def meaning(name: str) -> str:
 
 
 def code_folder() -> Path:
-    """Return where the compiled circuit stands: other code makes other numbers."""
+    """Return the folder of the compiled circuit.
+
+    Other code gives other numbers.
+    """
     return Path(__file__).parent / "compiled"
 
 
@@ -95,7 +98,9 @@ def numbers_of(simulation: Simulation) -> CurrentNumbers:
 
 
 def static_numbers(found: Equilibrium, kernels: Any) -> CurrentNumbers:
-    """Compute a circuit on quasi-static films, at three positions of the balls; `found` is the first of them.
+    """Compute a circuit on quasi-static films.
+
+    At three positions of the balls; `found` is the first of them.
 
     A case without the section electric gets its defaults, and ten turns of the cage without a duration.
 
@@ -116,7 +121,9 @@ def static_numbers(found: Equilibrium, kernels: Any) -> CurrentNumbers:
 
 
 def machine_numbers(machine: MachineModel, state: ShaftState, kernels: Sequence[Kernels]) -> dict[str, CurrentNumbers]:
-    """Compute the circuit of all bearings of a machine on quasi-static films, at three positions of the balls.
+    """Compute the circuit of a machine's bearings.
+
+    All of them on quasi-static films, at three positions of the balls.
 
     Parameters
     ----------
@@ -138,14 +145,19 @@ def machine_numbers(machine: MachineModel, state: ShaftState, kernels: Sequence[
 
 
 def circuit_numbers(result: Result) -> dict[str, CurrentNumbers]:
-    """Compute the circuit of a machine's run as :func:`run_numbers` does, each bearing by its name."""
+    """Compute the circuit of a machine's run.
+
+    As :func:`run_numbers` does, each bearing by its name.
+    """
     from lambda_core.analysis.electric.case_or_run import circuit_of_run
 
     return {name: numbers_of(one) for name, one in circuit_of_run(result).bearings.items()}
 
 
 def run_numbers(result: Result) -> CurrentNumbers:
-    """Compute the circuit of a run on its samples, from where averages begin.
+    """Compute the circuit of a run on samples.
+
+    From where averages begin.
 
     Raises
     ------

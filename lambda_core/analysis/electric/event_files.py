@@ -20,7 +20,9 @@ _UNITS = {channel.name: channel.unit for channel in DISCHARGES}
 def check_target(
     path: Path, overwrite: bool, what: str = "the table of discharges", endings: tuple[str, ...] = (".csv", ".h5")
 ) -> None:
-    """Say before the work what would stop the writing at its end.
+    """Report early what would stop the writing.
+
+    The work comes before the writing.
 
     Raises
     ------
@@ -34,7 +36,10 @@ def check_target(
 
 
 def write(simulation: Simulation | CircuitSimulation, path: Path) -> Path:
-    """Write the discharges; HDF5 also holds voltages and capacitance over time, and the outcome as JSON."""
+    """Write the discharges to a file.
+
+    HDF5 also holds voltages and capacitance over time, and the outcome as JSON.
+    """
     try:
         if path.suffix == ".csv":
             _write_csv(simulation, path)
@@ -46,7 +51,10 @@ def write(simulation: Simulation | CircuitSimulation, path: Path) -> Path:
 
 
 def _write_csv(simulation: Simulation | CircuitSimulation, path: Path) -> None:
-    """Write a row per film that broke down; of several bearings the name stands in a column before the others."""
+    """Write a row per film that broke down.
+
+    With several bearings the first column has the name.
+    """
     header = [f"{name} [{unit}]" if unit else name for name, unit in _UNITS.items()]
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")

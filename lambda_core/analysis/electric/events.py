@@ -24,7 +24,9 @@ SECTORS = 36  # of a raceway
 
 @dataclass(frozen=True)
 class Events:
-    """One entry per film that broke down, in the order of time, SI.
+    """Breakdowns in the order of time, SI.
+
+    One entry per film that broke down.
 
     Attributes
     ----------
@@ -87,7 +89,10 @@ class Events:
 
 
 def events_of(solution: BearingSolution, contacts: Contacts) -> Events:
-    """Return the discharges of an integration with the state of the contacts that it went through."""
+    """Return the discharges of an integration.
+
+    With the state of the contacts that it went through.
+    """
     table = solution.events
     ball, ring = table[:, L.E_BALL].astype(np.int64), table[:, L.E_RACEWAY].astype(np.int64)
     low = table[:, L.E_SAMPLE].astype(np.int64)
@@ -120,7 +125,9 @@ def events_of(solution: BearingSolution, contacts: Contacts) -> Events:
 
 @dataclass(frozen=True)
 class Discharges:
-    """One entry per discharge: what its one or two arcs did together, SI.
+    """Discharges in SI.
+
+    One entry combines the one or two arcs of a discharge.
 
     A discharge is through when both films of the ball broke down, or one did while metal joined the other contact:
     then the rotor's charge flows, otherwise only the ball's.
@@ -147,7 +154,10 @@ def discharges_of(events: Events) -> Discharges:
 
 
 def sector_shares(events: Events, ring: int, sectors: int = SECTORS) -> FloatArray:
-    """Return the share of the breakdowns on one raceway per sector of it, shape (sectors,); zeros without any."""
+    """Return the share of breakdowns per raceway sector.
+
+    Shape (sectors,), of one raceway; zeros without any.
+    """
     angles = events.angle[events.ring == ring]
     count, _ = np.histogram(angles, bins=sectors, range=(0.0, 2.0 * math.pi))
     return np.asarray(count / max(angles.size, 1), dtype=np.float64)

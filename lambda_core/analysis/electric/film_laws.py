@@ -39,7 +39,9 @@ class FilmLaw:
 def film_laws(
     laws: Mapping[str, ChosenLaw], contexts: tuple[Context, Context], announce: Any = None
 ) -> tuple[FilmLaw, FilmLaw]:
-    """Compile the laws of breakdown and discharge, and try them out before compiled code calls them.
+    """Compile the laws of breakdown and discharge.
+
+    They are tried out before compiled code calls them.
 
     Raises
     ------

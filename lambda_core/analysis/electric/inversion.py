@@ -28,7 +28,10 @@ _STEP = 1e-4  # of the logarithm of the scale, for slopes
 
 
 class FilmOutcome(Record):
-    """Film thickness that belongs to a measured capacitance; spans are 16, 50 and 84 % of the series."""
+    """Film thickness of a measured capacitance.
+
+    Spans are 16, 50 and 84 % of the series.
+    """
 
     interface: int = INTERFACE
     case: str
@@ -61,7 +64,9 @@ class FilmOutcome(Record):
 
 
 class FilmModel:
-    """Capacitance of a bearing whose loaded films are all scaled alike.
+    """Capacitance of a bearing with scaled films.
+
+    All loaded films have the same scale.
 
     Parameters
     ----------
@@ -76,11 +81,14 @@ class FilmModel:
         self._bulk = {ring: _bulk_permittivity(found[0], ring) for ring in RINGS}
 
     def capacitance(self, scale: float) -> float:
-        """Return the capacitance between the rings with films of `scale` times those of the equilibria [F]."""
+        """Return the capacitance with scaled films [F].
+
+        Between the rings, with films of `scale` times those of the equilibria.
+        """
         return float(np.mean([self._one(each, scale) for each in self._found])) + self._rings
 
     def scale(self, measured: float) -> float:
-        """Return the scale of the films that belongs to a capacitance [F].
+        """Return the films' scale of a capacitance [F].
 
         Raises
         ------
@@ -106,7 +114,10 @@ class FilmModel:
         return math.log(up / down) / (2.0 * _STEP)
 
     def films(self, ring: str) -> FloatArray:
-        """Return the central films of the loaded contacts of one ring in the equilibria [m]."""
+        """Return the central films of one ring [m].
+
+        Of the loaded contacts in the equilibria.
+        """
         table = np.stack([each.contacts[:, RINGS.index(ring)] for each in self._found]).reshape(
             -1, len(CONTACT_CHANNELS)
         )
@@ -121,7 +132,10 @@ class FilmModel:
         return total
 
     def _contact(self, each: Equilibrium, ball: int, ring: str, scale: float) -> float:
-        """Return the capacitance of one contact by the law of the case: C_Hertz/scale, film times scale."""
+        """Return the capacitance of one contact [F].
+
+        By the law of the case: C_Hertz/scale, film times scale.
+        """
         index = RINGS.index(ring)
         value = dict(zip(CONTACT_CHANNELS, each.contacts[ball, index].tolist(), strict=True))
         if value["load"] <= 0.0:
@@ -142,7 +156,10 @@ class FilmModel:
 
 
 def _bulk_permittivity(each: Equilibrium, ring: str) -> float:
-    """Return the relative permittivity of the oil at no pressure and its temperature."""
+    """Return the oil's permittivity without pressure.
+
+    It is relative, at the oil's temperature.
+    """
     element, context = f"ball_{ring}", each.context
     oil: Any = context.raceway(element)["oil"]
     pressure, temperature = np.zeros(1), np.full(1, float(oil["temperature"]))

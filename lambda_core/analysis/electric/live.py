@@ -61,7 +61,10 @@ class Live:
         self._range, self._broken = np.array([np.inf, -np.inf]), 0
 
     def keys(self) -> dict[str, str]:
-        """Return names and hashes of the code that the circuit runs through."""
+        """Return the code hashes of the circuit.
+
+        By the names of the code that it runs through.
+        """
         from lambda_core.analysis.electric.compiled import switching
 
         found = {f"{film}/{law.law.role}/{law.law.name}": law.kernel.key for law in self._laws for film in FILMS}
@@ -79,7 +82,9 @@ class Live:
         return self._broken / self._network.time if self._network.time > 0.0 else None
 
     def take(self, bearings: Mapping[str, Mapping[str, FloatArray]]) -> CircuitRows:
-        """Take samples, bearing -> channel -> array; return what the circuit has done since it was last asked.
+        """Take samples and return the circuit's new results.
+
+        The samples map bearing -> channel -> array; the results are those since the last call.
 
         Raises
         ------
@@ -140,7 +145,10 @@ class Live:
         return CircuitRows(empty, {name: np.zeros(0) for name in self._table})
 
     def _discharges(self, solution: CircuitSolution, part: Sequence[Contacts]) -> dict[str, FloatArray]:
-        """Return the rows of every film that broke down, those of all bearings in the order of the integration."""
+        """Return the rows of every breakdown.
+
+        Those of all bearings, in the order of the integration.
+        """
         own = [events_of(solution.of(number), contacts) for number, contacts in enumerate(part)]
         found = {
             name: np.concatenate([np.asarray(getattr(events, name), dtype=np.float64) for events in own])
@@ -157,7 +165,9 @@ class Live:
         return found
 
     def catch_up(self, result: Result, rows: Rows) -> None:
-        """Take the samples that a run has written, so that the circuit goes on where it stood.
+        """Take the samples that a run has written.
+
+        The circuit then goes on where it was.
 
         Raises
         ------

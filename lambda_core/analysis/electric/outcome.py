@@ -36,7 +36,7 @@ _BINS = 20
 
 
 class Histogram(Record):
-    """How many discharges fall between edges."""
+    """Number of discharges between edges."""
 
     unit: str
     edges: list[float]
@@ -44,7 +44,10 @@ class Histogram(Record):
 
 
 class Outcome(Answer):
-    """What the circuit of one bearing does; spans are smallest, middle (median) and largest."""
+    """Outcome of one bearing's circuit.
+
+    Spans are smallest, middle (median) and largest.
+    """
 
     interface: int = INTERFACE
     case: str
@@ -142,12 +145,18 @@ def outcome_of(simulation: Simulation) -> Outcome:
 
 
 def floor_share(events: Events, least: float) -> float:
-    """Return the share of the breakdowns at the least voltage, below which films hold whatever the law says."""
+    """Return the share of breakdowns at least voltage.
+
+    Below it films hold, whatever the law returns.
+    """
     return float(np.mean(np.abs(events.contact_voltage) < 1.001 * least)) if events.time.size else 0.0
 
 
 def voltage_range(simulation: Simulation) -> list[float]:
-    """Return the smallest and the largest bearing voltage [V]: between discharges, and at which they began."""
+    """Return the smallest and largest bearing voltage [V].
+
+    Between discharges, and where they began.
+    """
     low, high = simulation.solution.extremes.T
     began = simulation.events.bearing_voltage
     every = np.concatenate([low, high, began])
@@ -155,7 +164,10 @@ def voltage_range(simulation: Simulation) -> list[float]:
 
 
 def unloaded_share(simulation: Simulation) -> float:
-    """Return the share of the bearing's capacitance that balls carry which a ring does not press on."""
+    """Return the unloaded balls' share of capacitance.
+
+    A ring does not press on these balls.
+    """
     capacitance = simulation.films.capacitance
     each = capacitance[:, :, 0] * capacitance[:, :, 1] / capacitance.sum(axis=2)
     open_ = ~simulation.contacts.loaded.all(axis=2)
@@ -163,7 +175,10 @@ def unloaded_share(simulation: Simulation) -> float:
 
 
 def energy_residual(total: FloatArray) -> float:
-    """Return source work + work of moving surfaces - heat - arcs - stored, over the sum of their absolute values."""
+    """Return the relative energy residual.
+
+    Source work + work of moving surfaces - heat - arcs - stored, over the sum of their absolute values.
+    """
     flows = total[[L.T_SOURCE, L.T_MOTION, L.T_OHMIC, L.T_ARC]]
     stored = total[L.T_STORED] - total[L.T_STORED_0]
     rest = flows[0] + flows[1] - flows[2] - flows[3] - stored
@@ -172,7 +187,10 @@ def energy_residual(total: FloatArray) -> float:
 
 
 def charge_residual(simulation: Simulation) -> float:
-    """Return charge brought by the source - leaked - through arcs - kept, over the charge that the source moved."""
+    """Return the relative charge residual.
+
+    Charge brought by the source - leaked - through arcs - kept, over the charge that the source moved.
+    """
     total, (times, volts) = simulation.solution.total, simulation.source
     begin, end = np.interp((total[L.T_BEGAN], total[L.T_TIME]), times, volts)
     winding = simulation.circuit.winding
@@ -201,7 +219,9 @@ def source_words(options: Electric) -> str:
 
 
 def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[str]:
-    """Return what the options leave to defaults that no measurement of this machine stands behind.
+    """Return the unmeasured defaults of the options.
+
+    No measurement of this machine supports them.
 
     Parameters
     ----------
@@ -261,7 +281,10 @@ def _histogram(values: FloatArray, unit: str) -> Histogram:
 
 
 def outcome_text(found: Outcome) -> str:
-    """Return what one bearing in its circuit says, a line per subject."""
+    """Return the text of one bearing's circuit.
+
+    It has a line per subject.
+    """
     lines = [
         line("source", found.source),
         *bearing_lines(found),
@@ -371,7 +394,7 @@ class ShaftOutcome(Answer):
 
 
 def shaft_outcome(found: CircuitSimulation) -> ShaftOutcome:
-    """Put the circuit of a shaft into the units of the interface."""
+    """Return the shaft's outcome in interface units."""
     each = {name: one.outcome for name, one in found.bearings.items()}
     first, outcome = found.first, next(iter(each.values()))
     low, high = found.solution.extremes[:, -1].T
@@ -395,7 +418,10 @@ def shaft_outcome(found: CircuitSimulation) -> ShaftOutcome:
 
 
 def shaft_text(found: ShaftOutcome) -> str:
-    """Return what a shaft with its bearings does in its circuit, a block per bearing."""
+    """Return the text of a shaft's circuit.
+
+    It has a block per bearing.
+    """
     low, high = found.shaft_voltage_V
     lines = [
         line("source", found.source),

@@ -29,13 +29,19 @@ class _Place(Record):
 
 
 class RiskPoint(CurrentNumbers, _Place):
-    """One speed at one temperature; None where there is no equilibrium or nothing discharges."""
+    """One speed at one temperature.
+
+    None where there is no equilibrium or nothing discharges.
+    """
 
     message: str = Field("", description="why a point is empty")
 
     @property
     def quiet_because(self) -> str:
-        """Why nothing discharges: one of QUIET; "" where something does."""
+        """Reason for no discharge, one of QUIET.
+
+        It is "" where something discharges.
+        """
         if self.discharges_per_s is None:
             return "no equilibrium"
         if self.discharges_per_s > 0.0:
@@ -82,7 +88,7 @@ class RiskMap(Record):
 
     @property
     def span(self) -> str:
-        """What is computed at each point, for people."""
+        """Text of the quantities at each point."""
         return "ten turns of the cage" if self.simulated_s is None else f"{self.simulated_s:g} s"
 
     def text(self) -> str:
@@ -120,7 +126,10 @@ class RiskMap(Record):
         return path
 
     def picture(self) -> ViewData:
-        """Return discharges, film, voltage and current density over speed and temperature, to be drawn."""
+        """Return a picture of risk over speed and temperature.
+
+        Discharges, film, voltage and current density.
+        """
         x, y = np.meshgrid(self.speeds_rpm, self.temperatures_degC, indexing="ij")
         speed, temperature = Axis("speed", "1/min", log=_is_even_in_log(self.speeds_rpm)), Axis("temperature", "degC")
         shown = (
@@ -146,7 +155,10 @@ class RiskMap(Record):
         return ViewData("electric-map", "Bearing currents", f"{self.title}   {self.source}", tuple(panels), 2, notes)
 
     def _empty(self, values: FloatArray) -> tuple[Series, ...]:
-        """Return marks on the points that have no value, by the reason."""
+        """Return marks on the points without a value.
+
+        The marks depend on the reason.
+        """
         missing = [p for p, value in zip(self.points, values.ravel(), strict=True) if not np.isfinite(value)]
         kinds = ((look, reason, [p for p in missing if p.quiet_because == reason]) for look, reason in enumerate(QUIET))
         return tuple(
@@ -168,7 +180,10 @@ def _is_even_in_log(values: Sequence[float]) -> bool:
 
 
 def map_text(found: RiskMap) -> str:
-    """Return the discharges per second over speed and temperature, a row per speed."""
+    """Return the table of discharges per second.
+
+    Over speed and temperature, a row per speed.
+    """
     columns = found.temperatures_degC
     cells = [_rate(point) for point in found.points]
     rows = [f"{'1/min':>9}" + "".join(f"{f'{value:.4g} degC':>10}" for value in columns)]

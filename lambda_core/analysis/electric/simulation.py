@@ -97,7 +97,10 @@ class Simulation:
 
     @cached_property
     def outcome(self) -> Outcome:
-        """Voltages, discharges and impedance in the words of the machine interface."""
+        """Outcome in the words of the interface.
+
+        Voltages, discharges and impedance.
+        """
         from lambda_core.analysis.electric.outcome import outcome_of
 
         return outcome_of(self)
@@ -105,7 +108,9 @@ class Simulation:
 
 @dataclass(frozen=True)
 class CircuitSimulation:
-    """All bearings of a shaft in one circuit over a span of time.
+    """All bearings of a shaft in one circuit.
+
+    Over a span of time.
 
     Attributes
     ----------
@@ -120,19 +125,28 @@ class CircuitSimulation:
 
     @cached_property
     def outcome(self) -> ShaftOutcome:
-        """Voltages and discharges of shaft and bearings in the words of the machine interface."""
+        """Outcome of shaft and bearings.
+
+        Voltages and discharges in the words of the interface.
+        """
         from lambda_core.analysis.electric.outcome import shaft_outcome
 
         return shaft_outcome(self)
 
     @property
     def first(self) -> Simulation:
-        """The first bearing; the only one where there are no others."""
+        """First bearing.
+
+        It is the only one where there are no others.
+        """
         return next(iter(self.bearings.values()))
 
 
 def strength_of(laws: tuple[FilmLaw, FilmLaw], options: Electric, roughness: float) -> Strength:
-    """Return when films break down and what burns then; `roughness` is the composite rms one [m]."""
+    """Return the breakdown and discharge laws.
+
+    `roughness` is the composite rms one [m].
+    """
     return Strength(*laws, roughness, options.breakdown.least_voltage)
 
 
@@ -226,7 +240,9 @@ def simulate_circuit(
 
 
 def at_common_times(each: Sequence[Films]) -> list[Films]:
-    """Return the films of several bearings at all of their times, straight lines between samples.
+    """Return the films of bearings at common times.
+
+    At all of their times, linear between samples.
 
     Between a sample with a film that may break down and one without there is none, as in the integration.
     """
@@ -266,5 +282,8 @@ def _resampled(given: Films, times: FloatArray) -> Films:
 
 
 def integrated_until(time: FloatArray, margin: float) -> int:
-    """Return the last sample that a run's circuit is integrated to: `margin` [s] before the newest."""
+    """Return the last sample for a run's circuit.
+
+    It is `margin` [s] before the newest.
+    """
     return int(np.searchsorted(time, time[-1] - margin, side="right")) - 1

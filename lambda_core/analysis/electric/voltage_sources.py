@@ -22,7 +22,9 @@ _LATER = 1e6  # after the end, where nothing changes any more [s]
 def corners(
     source: Inverter | Sine | Step | Series, start: float, stop: float, turned: Turned, origin: float | None = None
 ) -> tuple[FloatArray, FloatArray]:
-    """Return times [s] and volts of the corners of a source over start..stop at least.
+    """Return the corners of a source.
+
+    Times [s] and volts over start..stop at least.
 
     Parameters
     ----------
@@ -78,7 +80,9 @@ def _rate(source: Inverter | Sine | Step | Series) -> float:
 
 
 def one_period(source: Inverter | Sine | Step | Series, origin: float, turned: Turned) -> tuple[FloatArray, FloatArray]:
-    """Return the corners of the first period of a source that began at `origin` [s]; none of one without a period.
+    """Return the corners of a source's first period.
+
+    It began at `origin` [s]; none of one without a period.
 
     The voltage ends where it began.
     """
@@ -94,12 +98,17 @@ def one_period(source: Inverter | Sine | Step | Series, origin: float, turned: T
 
 
 def reach(source: Inverter | Sine | Step | Series) -> float:
-    """Return for how long the voltage is known ahead of the rotor's last known angle [s], 0 where it needs none."""
+    """Return the known time ahead of the rotor [s].
+
+    The voltage is known for this time ahead of the rotor's last known angle; 0 where it needs none.
+    """
     return 1.0 / source.switching_frequency if isinstance(source, Inverter) else 0.0
 
 
 def inverter(source: Inverter, start: float, stop: float, turned: Turned) -> tuple[FloatArray, FloatArray]:
-    """Return the common-mode voltage of a two-level inverter, (V_a + V_b + V_c)/3, over start..stop [s].
+    """Return the common-mode voltage of an inverter [V].
+
+    Two-level inverter, (V_a + V_b + V_c)/3, over start..stop [s].
 
     Sine-triangle modulation, the references held over each half period of the triangle (Holmes and Lipo 2003, Pulse
     Width Modulation for Power Converters, ch. 3). Levels +-U_dc/2 and +-U_dc/6; six edges of U_dc/3 per switching
@@ -126,7 +135,10 @@ def inverter(source: Inverter, start: float, stop: float, turned: Turned) -> tup
 
 
 def _ramps(instant: FloatArray, change: FloatArray, rise: float) -> tuple[FloatArray, FloatArray]:
-    """Return the corners of sums of ramps around their instants, each over the rise time; row by row, from 0 on."""
+    """Return the corners of sums of ramps.
+
+    Around their instants, each over the rise time; row by row, from 0 on.
+    """
     t = np.concatenate([instant - 0.5 * rise, instant + 0.5 * rise], axis=1)
     slope = np.concatenate([np.broadcast_to(change, instant.shape), np.broadcast_to(-change, instant.shape)], axis=1)
     order = np.argsort(t, axis=1, kind="stable")
@@ -140,13 +152,19 @@ def _ramps(instant: FloatArray, change: FloatArray, rise: float) -> tuple[FloatA
 
 
 def _held(rows: FloatArray, start: float, stop: float) -> tuple[FloatArray, FloatArray]:
-    """Return a measured series with its first voltage before it and its last one behind it."""
+    """Return a measured series with constant ends.
+
+    Its first voltage holds before it and its last one behind it.
+    """
     first, last = min(start, rows[0, 0]) - 1.0, max(stop, rows[-1, 0]) + _LATER
     return np.array([first, *rows[:, 0], last]), np.array([rows[0, 1], *rows[:, 1], rows[-1, 1]])
 
 
 def _repeated(rows: FloatArray, start: float, stop: float) -> tuple[FloatArray, FloatArray]:
-    """Return a measured series, repeated over start..stop; where it does not close, a straight line joins its ends."""
+    """Return a measured series, repeated over start..stop.
+
+    Where it does not close, a straight line joins its ends.
+    """
     begin, period = rows[0, 0], period_of(rows)
     t = rows[:, 0] - begin
     if rows[-1, 1] == rows[0, 1]:

@@ -63,7 +63,9 @@ def comparison_inputs(
     stiffness: bool = True,
     loads: tuple[float, float] | None = None,
 ) -> MethodInputs:
-    """Collect what methods may look at of an equilibrium: loads, stiffness, oil, permittivity of the inner contact.
+    """Collect the equilibrium's inputs of comparison methods.
+
+    Loads, stiffness, oil, permittivity of the inner contact.
 
     The `stiffness` takes more equilibria, and can be left out; `loads` are the sizes of radial and axial load [N], by
     default those of the bearing's case.

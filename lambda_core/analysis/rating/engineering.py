@@ -40,7 +40,9 @@ _ROWS: dict[str, tuple[str, str, str]] = {
 
 
 def rating_of(found: Equilibrium, methods: Mapping[str, Method], loads: tuple[float, float] | None = None) -> Rating:
-    """Ask the installed methods of life and catalogue friction about an equilibrium.
+    """Ask the installed methods about an equilibrium.
+
+    They are the methods of life and catalogue friction.
 
     Parameters
     ----------
@@ -76,7 +78,9 @@ def rating_of(found: Equilibrium, methods: Mapping[str, Method], loads: tuple[fl
 
 
 def mounted_rating(model: MachineModel, state: ShaftState, number: int, found: Equilibrium) -> Rating:
-    """Rate a bearing of a machine, under the loads that it has on the shaft.
+    """Rate a bearing of a machine.
+
+    Under the loads that it has on the shaft.
 
     Parameters
     ----------
@@ -94,7 +98,10 @@ def mounted_rating(model: MachineModel, state: ShaftState, number: int, found: E
 
 
 def _of_rollers(found: Equilibrium, rollers: RollerBearing) -> Rating:
-    """Rate rollers as their quasi-static answer does, tilted as in the equilibrium."""
+    """Rate rollers as their quasi-static answer does.
+
+    They are tilted as in the equilibrium.
+    """
     from lambda_core.elements.roller.roller_equilibrium import balance
     from lambda_core.elements.roller.roller_motion import rolling_motion
     from lambda_core.results.roller_quasistatic import roller_lives

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 
 def bearing_number(machine: MachineModel, name: str | None) -> int:
-    """Return the place of a bearing among those of a machine; no name is needed where there is one.
+    """Return the index of a bearing in a machine.
+
+    No name is needed where there is one bearing.
 
     Raises
     ------
@@ -35,7 +37,9 @@ def bearing_number(machine: MachineModel, name: str | None) -> int:
 def bearing_alone(
     machine: MachineModel, name: str | None, announce: Callable[[str], None] | None = None
 ) -> BearingModel:
-    """Return one bearing under the constant load and at the misalignment that it has in the machine at t = 0.
+    """Return one bearing of a machine alone.
+
+    Under the constant load and at the misalignment that it has at t = 0.
 
     Its inner ring is free along x, y and z and carries the load; its tilts are held where shaft and housing hold them,
     as is x of cylindrical rollers.
@@ -45,7 +49,9 @@ def bearing_alone(
 
 
 def bearing_of_run(result: Result) -> BearingModel:
-    """Return the model of the bearing that a result looks at, from the case in its file.
+    """Return the model of a result's bearing.
+
+    From the case in its file.
 
     Of a machine it is alone under the load that it carries at the start, see :func:`bearing_alone`.
 
@@ -90,7 +96,10 @@ def alone_under_load(machine: MachineModel, state: ShaftState, number: int) -> B
 
 
 def at_speed(model: BearingModel, speed: float) -> BearingModel:
-    """Return a bearing whose inner ring turns at another constant speed [rad/s]."""
+    """Return a bearing at another constant speed [rad/s].
+
+    The inner ring turns at it.
+    """
     spin = dataclasses.replace(model.inner_ring.dofs["spin"], motion=TimeFunction.constant(speed))
     inner = dataclasses.replace(model.inner_ring, dofs={**model.inner_ring.dofs, "spin": spin})
     return dataclasses.replace(model, inner_ring=inner)

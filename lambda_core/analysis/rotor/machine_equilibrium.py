@@ -129,14 +129,17 @@ class BearingEquilibrium(Banded):
 
 
 class BodyMoved(Record):
-    """How a body or a place moves from where it is drawn."""
+    """Displacement of a body or place as drawn."""
 
     displacement_um: list[float] = Field(description="x, y, z")
     tilt_mrad: list[float] = Field(description="about x, y and z")
 
 
 class MachineEquilibrium(Answer):
-    """Quasi-static equilibrium of a machine: loads, deflection, lives and friction of its bearings."""
+    """Quasi-static equilibrium of a machine.
+
+    Loads, deflection, lives and friction of its bearings.
+    """
 
     interface: int = INTERFACE
     case: str = Field(description="name of the case")
@@ -177,7 +180,10 @@ class MachineEquilibrium(Answer):
         return self.model_copy(update={"bearings": each, "friction_torque_Nmm_band": torque})
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
-        """Return the lines for people in some units, none longer than `width` where one is given."""
+        """Return the lines of text in some units.
+
+        None is longer than `width` where one is given.
+        """
         from lambda_core.analysis.rotor.machine_text import equilibrium_text
 
         return equilibrium_text(self, width, units)
@@ -185,7 +191,10 @@ class MachineEquilibrium(Answer):
     _model: MachineModel | None = PrivateAttr(default=None)
 
     def __getstate__(self) -> dict[Any, Any]:
-        """Return the state without the model, whose compiled laws cannot go to another process."""
+        """Return the state without the model.
+
+        Compiled laws cannot go to another process.
+        """
         state = super().__getstate__()
         return state | {"__pydantic_private__": (state["__pydantic_private__"] or {}) | {"_model": None}}
 
@@ -216,7 +225,9 @@ class MachineEquilibrium(Answer):
         return drawn(self._solved(), self, None, name, options)
 
     def to_xarray(self) -> Any:
-        """Return the numbers of the bearings and the deflection of the shaft as an xarray.Dataset, with units.
+        """Return bearings and deflection as an xarray.Dataset.
+
+        With units.
 
         Returns
         -------
@@ -238,7 +249,10 @@ class MachineEquilibrium(Answer):
         return self._model
 
     def bearing(self, name: str) -> BearingEquilibrium:
-        """Return one bearing by its name; UsageError with the nearest name where there is none."""
+        """Return one bearing by its name.
+
+        UsageError with the nearest name where there is none.
+        """
         found = {bearing.name: bearing for bearing in self.bearings}
         if name not in found:
             raise UsageError(unknown_name("bearing", name, found))
@@ -312,7 +326,10 @@ def _moved(motion: FloatArray) -> BodyMoved:
 
 
 def _at(model: MachineModel, state: ShaftState, place: Place) -> FloatArray:
-    """Return how a place moves and turns, zeros on the ground and off the nodes of the shaft."""
+    """Return the displacement and rotation of a place.
+
+    Zeros on the ground and off the nodes of the shaft.
+    """
     own, moves = point_on(model, static_rows(model), place.body, place.point)
     return np.asarray(moves @ state.motions[own])
 
@@ -358,7 +375,7 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
 
 
 def _rollers(model: MachineModel, state: ShaftState, index: int, ring: RollerReaction) -> BearingEquilibrium:
-    """Return what there is to say of one bearing with rollers."""
+    """Return the numbers of a bearing with rollers."""
     bearing, reaction, pose = model.bearings[index], state.reactions[index], state.pose(model, index)
     found = rollers_on_shaft(ring)
     answer, rating = found.answer, found.rating
@@ -392,7 +409,10 @@ def _rollers(model: MachineModel, state: ShaftState, index: int, ring: RollerRea
 def _in_machine(
     bearing: MountedBearing, state: ShaftState, index: int, pose: FloatArray, reaction: FloatArray
 ) -> dict[str, Any]:
-    """Return what of a bearing does not depend on its elements: place, load and stiffness."""
+    """Return place, load and stiffness of a bearing.
+
+    They do not depend on its rolling elements.
+    """
     return {
         "name": bearing.name,
         "title": bearing.model.title,
@@ -409,7 +429,10 @@ def _in_machine(
 
 
 def _angles(alone: QuasiStatic) -> list[float]:
-    """Return the smallest and the largest contact angle, in size, of contacts that carry 1 % of the largest load."""
+    """Return the smallest and largest contact angle.
+
+    In size, of contacts that carry 1 % of the largest load.
+    """
     angles = [abs(c.contact_angle_deg) for c in alone.contacts if c.load_N > 0.01 * alone.max_load_N]
     return [min(angles), max(angles)] if angles else []
 
@@ -417,7 +440,10 @@ def _angles(alone: QuasiStatic) -> list[float]:
 def _warnings(
     bearing: MountedBearing, found: Equilibrium, alone: QuasiStatic, loads: tuple[float, float], tilt: float
 ) -> list[str]:
-    """Return what is beyond a limit, ratings first; the load is radial and axial [N]."""
+    """Return warnings of exceeded limits, ratings first.
+
+    The load is radial and axial [N].
+    """
     model = bearing.model
     told = [
         *load_warnings(model, *loads),

@@ -67,7 +67,10 @@ class CampbellRow(Record):
 
 
 class CriticalSpeed(Record):
-    """A speed at which the shaft whirls as fast as it turns."""
+    """Speed at which the shaft whirls synchronously.
+
+    It then whirls as fast as it turns.
+    """
 
     speed_rpm: float
     direction: float
@@ -76,7 +79,10 @@ class CriticalSpeed(Record):
 
 
 class MachineModes(Answer):
-    """Natural frequencies and critical speeds of a machine, bearings as stiff as at its operating point."""
+    """Natural frequencies and critical speeds of a machine.
+
+    Its bearings are as stiff as at its operating point.
+    """
 
     interface: int = INTERFACE
     case: str = Field(description="name of the case")
@@ -89,7 +95,10 @@ class MachineModes(Answer):
     assumptions: list[str]
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
-        """Return the lines for people, none longer than `width` where one is given."""
+        """Return the lines of text.
+
+        None is longer than `width` where one is given.
+        """
         from lambda_core.analysis.rotor.machine_text import modes_text
 
         return modes_text(self, width, units)
@@ -99,11 +108,16 @@ class MachineModes(Answer):
         return self.model_dump(mode="json")
 
     def plot(self, name: str = "whirl", **options: Any) -> Any:
-        """Return natural frequencies over speed as a matplotlib figure; options as for views."""
+        """Return natural frequencies over speed as matplotlib figure.
+
+        The options are those of views.
+        """
         return drawn(None, None, self, name, options)
 
     def to_xarray(self) -> Any:
-        """Return natural frequencies over speed as an xarray.Dataset; UsageError when xarray is not installed.
+        """Return natural frequencies as an xarray.Dataset.
+
+        Over speed; UsageError when xarray is not installed.
 
         Returns
         -------
@@ -122,7 +136,10 @@ class MachineModes(Answer):
 
 
 def modes_of(model: MachineModel, state: ShaftState) -> MachineModes:
-    """Return natural frequencies, critical speeds and bearing matrices at an equilibrium."""
+    """Return natural frequencies and critical speeds.
+
+    At an equilibrium, with the matrices of the bearings.
+    """
     dampings = bearing_damping(model, [ring.equilibrium() for ring in state.rings])
     stiffness = supported(model, state)
     critical = criticals(model, stiffness)[:_SHOWN]
@@ -160,19 +177,28 @@ def modes_of(model: MachineModel, state: ShaftState) -> MachineModes:
 
 
 def modes_at_speed(model: MachineModel, state: ShaftState, equilibria: Sequence[Equilibrium]) -> list[ModeAtSpeed]:
-    """Return the natural frequencies at the speed of an equilibrium, damped by the bearings."""
+    """Return natural frequencies at an equilibrium's speed.
+
+    The bearings damp them.
+    """
     dampings = bearing_damping(model, equilibria)
     return _modes(modes_at(model, supported(model, state), model.speed, damped(model, state, dampings)))
 
 
 def six(matrix: FloatArray) -> list[list[float]]:
-    """Return a matrix over POSE with the row and column of turning about x, which are zero."""
+    """Return a matrix over POSE.
+
+    The row and column of turning about x are zero.
+    """
     rows: list[list[float]] = np.insert(np.insert(matrix, 3, 0.0, axis=0), 3, 0.0, axis=1).tolist()
     return rows
 
 
 def _fastest(model: MachineModel, critical: list[Mode]) -> float:
-    """Return the end of the speeds at which the whirl is shown: beyond the first critical ones [rad/s]."""
+    """Return the end of the whirl's speeds [rad/s].
+
+    It is beyond the first critical ones.
+    """
     return max(2.0 * abs(model.speed), *(1.2 * mode.frequency for mode in critical[:2]), 1.0)
 
 

@@ -34,7 +34,10 @@ def _digits(value: float | None, digits: int = 4) -> str:
 
 @dataclass(frozen=True)
 class _Row:
-    """One line of a table over bearings; a number in `unit`, or text that is ready."""
+    """One line of a table over bearings.
+
+    A number in `unit`, or text that is ready.
+    """
 
     label: str
     unit: str
@@ -74,7 +77,10 @@ _MATRICES = (
 
 
 def _equilibrium_rows(bearings: Sequence[BearingEquilibrium], units: UnitSystem) -> tuple[_Row, ...]:
-    """Return a row for every number of the bearings, those of an axis one below the other."""
+    """Return a row for every number of bearings.
+
+    Those of an axis are one below the other.
+    """
     rows = [_Row("bearing", "", lambda b: str(b.title.split(" (")[0]))]
     for one in quantities(type(bearings[0])).values():
         if one.column and one.axes:
@@ -110,7 +116,10 @@ def _table(
 
 
 def equilibrium_text(found: MachineEquilibrium, width: int | None = None, units: UnitSystem = SI) -> str:
-    """Return what one equilibrium says: the bearings side by side, then the shaft."""
+    """Return the text of one equilibrium.
+
+    The bearings side by side, then the shaft.
+    """
     own = [units.sentence(line) for line in _shaft_lines(found)]
     judged = [(one.name, one.verdict) for one in found.bearings]
     verdicts = [line(f"verdict {name}", verdict.lines(units)[0]) for name, verdict in judged]
@@ -122,7 +131,10 @@ def equilibrium_text(found: MachineEquilibrium, width: int | None = None, units:
 
 
 def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem = SI) -> str:
-    """Return critical speeds, natural frequencies and the matrices of the bearings."""
+    """Return the text of modes and bearing matrices.
+
+    With the critical speeds.
+    """
     far = _FAR * abs(found.speed_rpm) or math.inf
     near = [one for one in found.critical_speeds if one.speed_rpm <= far] or found.critical_speeds[:1]
     speeds = [
@@ -146,7 +158,10 @@ def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem 
 
 
 def _band_lines(report: MachineEquilibrium) -> list[str]:
-    """Return the model band of the torque of all bearings, and what it comes from."""
+    """Return the lines of the model band.
+
+    Of the torque of all bearings, with its causes.
+    """
     if not report.friction_torque_Nmm_band:
         return []
     sources = named_sources({one.name: one.model_band for one in report.bearings})
@@ -155,7 +170,10 @@ def _band_lines(report: MachineEquilibrium) -> list[str]:
 
 
 def _torque(report: MachineEquilibrium) -> str:
-    """Return the torque of all bearings, or the bearings whose torque is unknown."""
+    """Return the torque of all bearings.
+
+    Or name the bearings whose torque is unknown.
+    """
     if report.friction_torque_Nmm is not None:
         return f"{_digits(report.friction_torque_Nmm)} N mm of all bearings"
     unknown = [one.name for one in report.bearings if one.friction_torque_Nmm is None]
@@ -209,17 +227,26 @@ def _shaft_lines(report: MachineEquilibrium) -> list[str]:
 
 
 def _of_bearings(report: MachineEquilibrium) -> tuple[str, ...]:
-    """Return how an assumption of bearings begins: with a name, or with several."""
+    """Return the start of an assumption about bearings.
+
+    It has one name, or several.
+    """
     return tuple(f"{bearing.name}{mark}" for bearing in report.bearings for mark in (":", ","))
 
 
 def _mostly(kind: str) -> str:
-    """Return a mark for a mode in which the shaft moves across its axis among other things."""
+    """Return the mark of a mode with transverse motion.
+
+    The shaft moves across its axis among other things.
+    """
     return "" if kind == "bending" else f" mostly {kind}"
 
 
 def _with_bodies(share: float) -> str:
-    """Return a mark for a mode whose kinetic energy is mostly in other bodies than the shaft."""
+    """Return the mark of a mode of other bodies.
+
+    Most of its kinetic energy is not in the shaft.
+    """
     return " with bodies" if share > 0.5 else ""
 
 
@@ -228,7 +255,9 @@ def _way(direction: float) -> str:
 
 
 def machine_warnings(model: MachineModel) -> list[str]:
-    """Return what does not fit on a shaft, and what of its bearings is beyond a limit, before anything is solved.
+    """Return a machine's warnings before a solution.
+
+    Parts that do not fit on a shaft, and bearings beyond a limit.
 
     Parameters
     ----------
@@ -245,7 +274,10 @@ def machine_warnings(model: MachineModel) -> list[str]:
 
 
 def model_text(model: MachineModel, *, everything: bool = False) -> str:
-    """Return what a resolved shaft is: the verdict, its parts, warnings, assumptions by effect."""
+    """Return the text of a resolved shaft.
+
+    The verdict, its parts, warnings, assumptions by effect.
+    """
     warned = machine_warnings(model)
     shaft = "rigid shaft" if model.body.is_rigid else f"shaft of {1e3 * model.outline[-1][1]:.6g} mm"
     lines = [

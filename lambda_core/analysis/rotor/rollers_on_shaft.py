@@ -50,7 +50,10 @@ class RollersOnShaft:
 
     @property
     def largest_ring(self) -> Ring:
-        """The ring that the largest load stands at; the centrifugal force adds to the outer one."""
+        """Ring of the largest load.
+
+        The centrifugal force adds to the outer one.
+        """
         inner, outer = (float(load.sum(axis=1).max()) for load in (self.solved.state.inner, self.solved.state.outer))
         return "inner" if inner > outer else "outer"
 
@@ -66,7 +69,10 @@ class RollersOnShaft:
         return [math.degrees(self.bearing.angles.inner), math.degrees(self.bearing.angles.outer)]
 
     def contacts(self) -> list[Contact]:
-        """Return every contact of a roller with a raceway, with the film of the slice that carries most."""
+        """Return every contact of a roller with a raceway.
+
+        With the film of the slice that carries most.
+        """
         state, found, angles = self.solved.state, self.solved.friction, self.bearing.angles
         loads = {"inner": state.inner, "outer": state.outer}
         leans = {"inner": angles.inner, "outer": angles.outer}
@@ -92,7 +98,10 @@ def _film(found: RollerFriction | None, ring: str, roller: int, loads: FloatArra
 
 
 def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
-    """Return what a roller bearing answers at the last pose of its rings, as one that is alone."""
+    """Return a roller bearing's answer in a machine.
+
+    At the last pose of its rings, as one that is alone.
+    """
     model, alone = ring.model, taken_out(ring)
     solved = solve_rollers(alone)
     answer = roller_answer(alone, solved)
@@ -116,7 +125,9 @@ def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
 
 
 def taken_out(ring: RollerReaction) -> RollerModel:
-    """Return a roller bearing alone, under the load that it carries at the last pose of its rings.
+    """Return a roller bearing of a machine alone.
+
+    Under the load that it carries at the last pose of its rings.
 
     Its tilts are those of the pose; so is its place in directions without a load that holds it.
     """

@@ -30,7 +30,10 @@ _FELT = 0.01  # of the kinetic energy in the shaft: a mode with less belongs to 
 
 @dataclass(frozen=True)
 class Mode:
-    """A mode of the turning shaft: frequency [rad/s], direction (+1 forward, -1 backward), how the shaft moves."""
+    """Mode of the turning shaft.
+
+    Frequency [rad/s], direction (+1 forward, -1 backward) and shape of the shaft.
+    """
 
     frequency: float
     direction: float
@@ -41,7 +44,9 @@ class Mode:
 
 
 def housed_stiffness(model: MachineModel, state: ShaftState) -> FloatArray:
-    """Return the stiffness of each bearing with the housing behind it, on the shaft, shape (bearings, 5, 5).
+    """Return the stiffness of bearings with their housing.
+
+    On the shaft, shape (bearings, 5, 5).
 
     What the others add through an elastic housing is left out: it stands in :func:`supported`.
     """
@@ -49,7 +54,9 @@ def housed_stiffness(model: MachineModel, state: ShaftState) -> FloatArray:
 
 
 def bearing_damping(model: MachineModel, equilibria: Sequence[Equilibrium]) -> FloatArray:
-    """Return the damping of each bearing for vibrations with the shaft's speed, shape (bearings, 6, 6).
+    """Return the vibration damping of each bearing.
+
+    At the shaft's speed, shape (bearings, 6, 6).
 
     Zeros at rest, and where the balls of a bearing have no steady motion.
 
@@ -66,7 +73,10 @@ def bearing_damping(model: MachineModel, equilibria: Sequence[Equilibrium]) -> F
 
 
 def housed_damping(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
-    """Return the damping of each bearing with the housing behind it, on the shaft, shape (bearings, 6, 6)."""
+    """Return the damping of bearings with their housing.
+
+    On the shaft, shape (bearings, 6, 6).
+    """
     found = dampings.copy()
     found[:, np.ix_(PLACES, PLACES)[0], np.ix_(PLACES, PLACES)[1]] = _of_each(
         _damping_in_series(model, state, dampings)
@@ -81,14 +91,19 @@ def _of_each(matrix: FloatArray) -> FloatArray:
 
 
 def _damping_in_series(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
-    """Return the damping that the shaft feels at all bearings together, shape (5 bearings, 5 bearings)."""
+    """Return the shaft's damping at all bearings.
+
+    Shape (5 bearings, 5 bearings).
+    """
     speed = abs(model.speed) or 1.0
     matrix = _joined(model, state, springs=False) + 1j * speed * _resisting(model, state, dampings, springs=False)
     return np.asarray(_seen_by_shaft(model, matrix).imag / speed)
 
 
 def _in_series(model: MachineModel, state: ShaftState) -> FloatArray:
-    """Return the stiffness that the shaft feels at all bearings together, shape (5 bearings, 5 bearings).
+    """Return the shaft's stiffness at all bearings.
+
+    Shape (5 bearings, 5 bearings).
 
     Rings and bodies behind the bearings follow without inertia.
     """
@@ -96,7 +111,10 @@ def _in_series(model: MachineModel, state: ShaftState) -> FloatArray:
 
 
 def _joined(model: MachineModel, state: ShaftState, *, springs: bool = True) -> FloatArray:
-    """Return the stiffness of what joins shaft, outer rings and bodies: bearings, seats, housing, holds, springs."""
+    """Return the stiffness of all connections.
+
+    Between shaft, outer rings and bodies: bearings, seats, housing, holds, springs.
+    """
     rows = static_rows(model)
     found = structure(model if springs else _without_springs_of_the_shaft(model), rows)[0]
     if model.housing is not None:
@@ -115,7 +133,10 @@ def _joined(model: MachineModel, state: ShaftState, *, springs: bool = True) -> 
 
 
 def _links(state: ShaftState, *, springs: bool) -> list[SolvedLink]:
-    """Return the connections by laws, with or without those of the shaft."""
+    """Return the connections by laws.
+
+    With or without those of the shaft.
+    """
     return [link for link in state.links if springs or not link.is_on_shaft]
 
 
@@ -139,7 +160,10 @@ def _resisting(model: MachineModel, state: ShaftState, dampings: FloatArray, *, 
 
 
 def _inner_against_outer(model: MachineModel, rows: Rows, index: int) -> FloatArray:
-    """Return how an inner ring moves against its outer one, shape (5, rows)."""
+    """Return the relative motion of the rings.
+
+    Inner against outer, shape (5, rows).
+    """
     size = len(PLACES)
     found: FloatArray = np.zeros((size, rows.size))
     found[range(size), rows.node(model.bearings[index].position) + np.array(PLACES)] = 1.0
@@ -148,7 +172,10 @@ def _inner_against_outer(model: MachineModel, rows: Rows, index: int) -> FloatAr
 
 
 def _moving(model: MachineModel, rows: Rows) -> tuple[list[int], list[int]]:
-    """Return the rows of outer rings and of bodies that can move."""
+    """Return the rows of parts that can move.
+
+    They are outer rings and bodies.
+    """
     rings: list[int] = []
     for i, bearing in enumerate(model.bearings):
         is_tied = model.housing is not None and bearing.carrier == GROUND
@@ -159,7 +186,10 @@ def _moving(model: MachineModel, rows: Rows) -> tuple[list[int], list[int]]:
 
 
 def _seen(matrix: Any, kept: Any, others: list[int]) -> Any:
-    """Return what is felt at the rows `kept` of a stiffness, the others following: K_kk - K_ko K_oo^-1 K_ok."""
+    """Return the condensed stiffness at the rows `kept`.
+
+    The others follow: K_kk - K_ko K_oo^-1 K_ok.
+    """
     found = np.array(matrix[np.ix_(kept, kept)])
     others = [row for row in others if abs(matrix[row, row]) > 0.0]
     if others:  # a motion that nothing holds moves nothing: the shortest solution leaves it out
@@ -169,7 +199,9 @@ def _seen(matrix: Any, kept: Any, others: list[int]) -> Any:
 
 
 def supported(model: MachineModel, state: ShaftState) -> FloatArray:
-    """Return the stiffness of the shaft on its bearings, and of the other bodies as they can move.
+    """Return the stiffness of the shaft on bearings.
+
+    And of the other bodies as they can move.
 
     Shape (rows of the shaft + free motions of bodies) squared; outer rings follow without inertia.
     """
@@ -180,20 +212,29 @@ def supported(model: MachineModel, state: ShaftState) -> FloatArray:
 
 
 def _seen_by_masses(model: MachineModel, matrix: Any) -> Any:
-    """Return what is felt by the shaft and by the free motions of bodies, outer rings following."""
+    """Return the condensed stiffness at the masses.
+
+    At the shaft and the free motions of bodies; outer rings follow.
+    """
     rings, bodies = _moving(model, static_rows(model))
     return _seen(matrix, [*range(model.body.mass.shape[0]), *bodies], rings)
 
 
 def _seen_by_shaft(model: MachineModel, matrix: Any) -> Any:
-    """Return what the shaft feels at its bearings, outer rings and bodies following."""
+    """Return the condensed stiffness at the shaft's bearings.
+
+    Outer rings and bodies follow.
+    """
     rings, bodies = _moving(model, static_rows(model))
     kept = np.concatenate([model.body.rows(b.position).start + np.array(PLACES) for b in model.bearings])
     return _seen(matrix, kept, [*rings, *bodies])
 
 
 def damped(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
-    """Return the damping of the shaft by its bearings, and of springs and seats, in the rows of :func:`supported`."""
+    """Return the damping of bearings, springs and seats.
+
+    In the rows of :func:`supported`.
+    """
     speed = abs(model.speed) or 1.0
     matrix = _joined(model, state) + 1j * speed * _resisting(model, state, dampings)
     found: FloatArray = _seen_by_masses(model, matrix).imag / speed
@@ -213,13 +254,19 @@ def masses(model: MachineModel) -> tuple[FloatArray, FloatArray]:
 
 
 def _rings(model: MachineModel) -> list[Disc]:
-    """Return inner rings as discs: all the mass that a rigid shaft may have."""
+    """Return inner rings as discs.
+
+    They are all the mass that a rigid shaft may have.
+    """
     rings = [(bearing.position, bearing.model.inner_ring) for bearing in model.bearings]
     return [Disc(at, ring.mass, ring.transverse_inertia, ring.polar_inertia) for at, ring in rings]
 
 
 def modes_at(model: MachineModel, stiffness: FloatArray, spin: float, damping: FloatArray | None = None) -> list[Mode]:
-    """Return the lowest modes at a speed [rad/s], bearings as stiff as `stiffness` has them, damped as `damping`."""
+    """Return the lowest modes at a speed [rad/s].
+
+    The bearings have `stiffness` and `damping`.
+    """
     mass, gyroscopic = masses(model)
     nodes = model.body.positions.size
     found = whirls(stiffness, mass, gyroscopic, spin, damping=damping, nodes=nodes, count=_COUNT)
@@ -227,7 +274,10 @@ def modes_at(model: MachineModel, stiffness: FloatArray, spin: float, damping: F
 
 
 def criticals(model: MachineModel, stiffness: FloatArray) -> list[Mode]:
-    """Return the critical speeds of the shaft across its axis, rising: bent, or swinging together with its housing."""
+    """Return the transverse critical speeds of the shaft.
+
+    Rising; the shaft bends, or swings together with its housing.
+    """
     mass, gyroscopic = masses(model)
     found = critical_speeds(stiffness, mass, gyroscopic, nodes=model.body.positions.size, count=_COUNT)
     return [mode for mode in (_mode(model, one, mass) for one in found) if mode.lateral > _SHAKEN]

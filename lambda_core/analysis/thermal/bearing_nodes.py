@@ -26,7 +26,10 @@ _COMMON = ("housing", "ambient")  # nodes that all bearings of a machine share
 
 
 def _surface(model: BearingModel) -> float:
-    """Return the surface of one ball, pi D^2, or of one roller with its ends, pi D L + pi D^2/2 [m2]."""
+    """Return the surface of one rolling element [m2].
+
+    Ball: pi D^2; roller with its ends: pi D L + pi D^2/2.
+    """
     if model.rollers is None:
         return math.pi * model.geometry.ball_diameter**2
     diameter = model.rollers.diameter
@@ -34,7 +37,9 @@ def _surface(model: BearingModel) -> float:
 
 
 class BearingNodes:
-    """Nodes of one bearing, alone or one of several on a shaft.
+    """Nodes of one bearing.
+
+    It is alone or one of several on a shaft.
 
     Parameters
     ----------
@@ -51,19 +56,25 @@ class BearingNodes:
         self._shares = destinations(model)
 
     def node(self, own: str) -> str:
-        """Return the name in the network of one of the bearing's own nodes."""
+        """Return a bearing node's name in the network."""
         return own if own in _COMMON or not self.name else f"{self.name}.{own}"
 
     def _named(self, pairs: Pairs) -> Pairs:
         return {(self.node(one), self.node(other)): value for (one, other), value in pairs.items()}
 
     def heat(self, losses: dict[str, float]) -> dict[str, float]:
-        """Return the heat that losses by mechanism [W] put into the nodes [W]."""
+        """Return the heat of losses in the nodes [W].
+
+        By the losses of each mechanism [W].
+        """
         heat = heat_of(losses, self._shares).tolist()
         return {self.node(own): value for own, value in zip(OWN_NODES, heat, strict=True)}
 
     def seats(self) -> Pairs:
-        """Return the conductances that no operating point changes [W/K]: seats and walls."""
+        """Return the constant conductances [W/K].
+
+        Seats and walls, which no operating point changes.
+        """
         g, t, model = self.model.geometry, self.thermal, self.model
         if t.conductances == "none":
             return {}
@@ -94,7 +105,10 @@ class BearingNodes:
         )
 
     def inside(self, point: Point) -> Pairs:
-        """Return the conductances of contacts, and between oil and what it wets, all surfaces wetted [W/K]."""
+        """Return the conductances of contacts and oil [W/K].
+
+        Between oil and what it wets, all surfaces are wetted.
+        """
         g, oil = self.model.geometry, self.model.oil
         nu, k = point["viscosity"], oil.thermal_conductivity
         prandtl = point["density"] * nu * oil.specific_heat / k
@@ -116,7 +130,10 @@ class BearingNodes:
         return self._named(found)
 
     def capacities(self, density: float) -> dict[str, float]:
-        """Return the heat capacities of rings, balls, oil of a density [kg/m3], and cage [J/K]."""
+        """Return the heat capacities [J/K].
+
+        Rings, balls, oil of a density [kg/m3], and cage.
+        """
         g, model, t = self.model.geometry, self.model, self.thermal
         rings: dict[str, Material] = {"inner": model.inner_material, "outer": model.outer_material}
         space = math.pi / 4.0 * (g.outside_diameter**2 - g.bore_diameter**2) * g.width

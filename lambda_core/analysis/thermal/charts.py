@@ -17,7 +17,10 @@ def pictures(found: SteadyTemperatures | TemperaturesOverTime) -> list[ViewData]
 
 
 def over_time(found: TemperaturesOverTime) -> ViewData:
-    """Return temperatures of the nodes, loss, clearance and film over time."""
+    """Draw node temperatures over time.
+
+    With loss, clearance and film.
+    """
     minutes = np.array(found.time_s) / 60.0
     time = Axis("time", "min")
     temperatures = tuple(
@@ -47,7 +50,10 @@ def over_time(found: TemperaturesOverTime) -> ViewData:
 
 
 def heat_flows(found: SteadyTemperatures) -> ViewData:
-    """Return where the heat comes from, where it goes, and the temperatures that drive it."""
+    """Draw the heat flows.
+
+    Sources, targets, and the temperatures that drive them.
+    """
     mechanisms = {name: value for name, value in found.losses_W.items() if value}
     flows = [flow for flow in found.flows if flow.heat_W >= 0.005 * found.state.power_loss_W]
     names = [f"{node_words(flow.source, found.elements)} - {node_words(flow.target, found.elements)}" for flow in flows]

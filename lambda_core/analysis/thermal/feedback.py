@@ -35,7 +35,9 @@ _TOLERANCE = 1e-3  # [K]
 
 @dataclass(frozen=True)
 class Gain:
-    """How strongly the loop answers: temperatures that one kelvin more, once around, adds at once and for good.
+    """Gain of the torque-temperature loop.
+
+    The answer to one kelvin more: the first increment of temperatures and the sum of all.
 
     Below 1 a disturbance dies out; at 1 and above it grows by itself. With the inlet temperatures and the clearances
     as the numbers that go around, the matrix of the loop is d(found)/d(assumed).
@@ -57,12 +59,15 @@ class Gain:
 
     @property
     def cause(self) -> str:
-        """The part of the loop that does most to drive it up."""
+        """Largest contribution to the loop's gain."""
         return "clearance" if self.clearance >= self.viscosity else "viscosity"
 
 
 class Runaway(SolverError):
-    """No steady temperatures below the limit: the loop of torque and temperature feeds itself."""
+    """Runaway of torque and temperature.
+
+    The loop has no steady temperatures below the limit.
+    """
 
     def __init__(self, message: str, gain: Gain | None) -> None:
         super().__init__(message)
@@ -81,13 +86,16 @@ class Steady:
 
 
 def clearance_at(model: BearingModel, at: Mapping[str, float]) -> float:
-    """Return the clearance of a bearing in operation [m] at temperatures of its own nodes [K]."""
+    """Return the operating clearance of a bearing [m].
+
+    At temperatures of its own nodes [K].
+    """
     warm = {part: at.get(part, at.get(_STAND_IN.get(part, ""), math.nan)) for part in _PARTS}
     return model.mounting.clearance(**warm) if model.mounting is not None else model.geometry.clearance
 
 
 def inlet_at(thermal: Thermal, at: Mapping[str, float]) -> float:
-    """Return the temperature of the oil at the inlets of the contacts [K]."""
+    """Return the oil's inlet temperature at contacts [K]."""
     if thermal.inlet == "oil":
         return at["oil"]
     return 0.25 * (at["inner_ring"] + at["outer_ring"]) + 0.5 * at["balls"]
@@ -135,7 +143,9 @@ class Loop(ABC):
         """Quasi-static points that were solved."""
 
     def answer(self, points: Sequence[Point], temperatures: FloatArray) -> tuple[FloatArray, Network]:
-        """Return the steady temperatures under the losses of points, from a first guess, and their network.
+        """Return the steady temperatures under given losses.
+
+        Under the losses of points, from a first guess, with their network.
 
         Raises
         ------
@@ -157,7 +167,10 @@ class Loop(ABC):
     def slopes(
         self, seen: FloatArray, points: Sequence[Point], temperatures: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Return d(steady temperatures)/d(seen), shape (n, m), and d(seen)/d(temperatures), shape (m, n)."""
+        """Return the slopes of steady temperatures and inputs.
+
+        d(steady temperatures)/d(seen), shape (n, m), and d(seen)/d(temperatures), shape (m, n).
+        """
         base, _ = self.answer(points, temperatures)
         outward = np.empty((base.size, seen.size))
         for k, step in enumerate(self.steps):
@@ -179,7 +192,10 @@ class Loop(ABC):
         return Gain(float(own[:bearings].max()), float(own[bearings:].max()), loop)
 
     def first_guess(self) -> FloatArray:
-        """Return all nodes at the temperature that the case gives the oil, held ones at theirs, shape (n,) [K]."""
+        """Return the first guess of all temperatures [K].
+
+        That of the oil in the case, held ones at theirs, shape (n,).
+        """
         held = self.nodes.held
         return np.where(np.isnan(held), self._oil, held)
 
@@ -282,7 +298,10 @@ class BearingLoop(Loop):
 
 
 def runaway_sentence(gain: Gain) -> str:
-    """Say that a loop runs away and which part of it does."""
+    """Return the sentence about a runaway.
+
+    It names the part of the loop that causes it.
+    """
     return (
         f"thermal runaway through the {gain.cause}: the gain of the torque-temperature loop is {gain.loop:.2f} "
         f"(1 or more feeds itself; by clearance {gain.clearance:+.2f}, by viscosity {gain.viscosity:+.2f})"

@@ -20,7 +20,7 @@ Shares = Mapping[str, float]
 
 
 def surface_shares(one: str, first: Material, other: str, second: Material) -> dict[str, float]:
-    """Return the shares of two bodies in the heat of their contact.
+    """Return two bodies' shares of their contact's heat.
 
     Both surfaces pass the contact at nearly one speed and have one temperature in it: the heat goes as their
     effusivities, e_1/(e_1 + e_2) (Blok 1937; Jaeger 1942); half and half for equal materials.
@@ -30,13 +30,18 @@ def surface_shares(one: str, first: Material, other: str, second: Material) -> d
 
 
 def strain_shares(one: str, first: Material, other: str, second: Material) -> dict[str, float]:
-    """Return the shares of two bodies in the energy of deformation of their contact, as (1 - nu^2)/E (Hertz)."""
+    """Return the shares of strain energy in a contact.
+
+    Of both bodies, as (1 - nu^2)/E (Hertz).
+    """
     soft = [(1.0 - m.poisson_ratio**2) / m.youngs_modulus for m in (first, second)]
     return {one: soft[0] / sum(soft), other: soft[1] / sum(soft)}
 
 
 def destinations(model: BearingModel) -> dict[str, Shares]:
-    """Return for each mechanism of LOSSES which node gets what share of its power.
+    """Return the heat's destinations for each mechanism.
+
+    Of LOSSES: which node gets what share of its power.
 
     Drag heats the oil; bending the elastic parts, in equal shares: the sum of their losses is known, not each one.
     """
@@ -64,7 +69,9 @@ def destinations(model: BearingModel) -> dict[str, Shares]:
 
 
 def heat_of(losses: Mapping[str, float], shares: Mapping[str, Shares]) -> FloatArray:
-    """Return the heat put into each of the bearing's own nodes [W], shape (len(OWN_NODES),).
+    """Return the heat into the bearing's nodes [W].
+
+    Shape (len(OWN_NODES),).
 
     Parameters
     ----------

@@ -17,12 +17,17 @@ COEFFICIENTS = {"60": (1.7, 1.5e-4), "62": (2.0, 2e-4), "63": (2.3, 2e-4)}
 
 
 def reference_area(bore: float, outside: float, width: float) -> float:
-    """Return the heat emitting reference surface A_r = pi B (D + d) of a radial bearing [m2] (clause 4.2)."""
+    """Return the heat emitting reference surface A_r [m2].
+
+    A_r = pi B (D + d) of a radial bearing (clause 4.2).
+    """
     return math.pi * width * (outside + bore)
 
 
 def heat_flow_density(area: float) -> float:
-    """Return the reference heat flow density q_r [W/m2] of radial bearings.
+    """Return the reference heat flow density [W/m2].
+
+    q_r of radial bearings.
 
     0.016 W/mm2 up to A_r = 50 000 mm2, above 0.016 (A_r/50 000)^-0.34 (clause 4.3).
     """
@@ -31,7 +36,10 @@ def heat_flow_density(area: float) -> float:
 
 
 def conductance(bore: float, outside: float, width: float) -> float:
-    """Return q_r A_r/(50 K): what shaft and housing take away per kelvin [W/K]."""
+    """Return q_r A_r/(50 K) [W/K].
+
+    Shaft and housing take away this heat per kelvin.
+    """
     area = reference_area(bore, outside, width)
     return heat_flow_density(area) * area / (BEARING - AMBIENT)
 

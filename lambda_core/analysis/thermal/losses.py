@@ -60,7 +60,10 @@ class Point:
         return float(self.values[len(LOSSES) + _EXTRAS.index(name)])
 
     def with_losses(self, losses: Mapping[str, float]) -> Point:
-        """Return the point with other losses by mechanism [W]: averages of a run."""
+        """Return the point with other losses [W].
+
+        By mechanism, averages of a run.
+        """
         values = self.values.copy()
         values[: len(LOSSES)] = [losses[name] for name in LOSSES]
         torque = len(LOSSES) + _EXTRAS.index("torque")
@@ -68,7 +71,10 @@ class Point:
         return Point(self.inlet, self.clearance, values)
 
     def towards(self, other: Point, share: float) -> Point:
-        """Return the point at a share of the way to another one."""
+        """Return the point towards another one.
+
+        At a share of the way.
+        """
         return Point(
             self.inlet + share * (other.inlet - self.inlet),
             self.clearance + share * (other.clearance - self.clearance),
@@ -104,7 +110,9 @@ class Losses:
         self._announce = announce
 
     def at(self, inlet: float, clearance: float) -> Point:
-        """Solve the point at an inlet temperature [K] and a clearance [m].
+        """Solve the point at temperature [K] and clearance [m].
+
+        The temperature is that of the inlet.
 
         Raises
         ------
@@ -119,7 +127,10 @@ class Losses:
             raise SolverError(f"{place}: {error}") from error
 
     def there(self, inlet: float, clearance: float) -> BearingModel:
-        """Return the model at an inlet temperature [K] and a clearance [m]."""
+        """Return the model at temperature [K] and clearance [m].
+
+        The temperature is that of the inlet.
+        """
         model = self.model
         return dataclasses.replace(
             model,
@@ -150,7 +161,10 @@ def point_of(found: Equilibrium) -> Point:
 
 
 def contact_conductances(found: Equilibrium) -> tuple[float, float]:
-    """Return the conductance between the rolling elements and each ring through all contacts [W/K]: inner, outer."""
+    """Return the conductances of both rings' contacts [W/K].
+
+    Inner, outer: through all contacts with the rolling elements.
+    """
     model = found.context.model
     ball, oil = model.ball_material, found.context.oil
     total = [0.0, 0.0]
@@ -170,7 +184,9 @@ def contact_conductances(found: Equilibrium) -> tuple[float, float]:
 
 
 class LossMap:
-    """Points between solved ones: a grid that is solved where it is needed, linear in each of its cells.
+    """Interpolated points of a grid.
+
+    The grid is solved where it is needed, linear in each of its cells.
 
     A cell is 2 K by 1 um: the loss of an oil whose viscosity halves in 20 K is met to 1.5e-3 in the middle of a cell.
     Continuous, so that an integrator can step over it.
@@ -185,7 +201,10 @@ class LossMap:
         self._known: dict[tuple[int, int], FloatArray] = {}
 
     def at(self, inlet: float, clearance: float) -> Point:
-        """Return the point at an inlet temperature [K] and a clearance [m]; see :meth:`Losses.at`."""
+        """Return the point at temperature [K] and clearance [m].
+
+        The temperature is that of the inlet; see :meth:`Losses.at`.
+        """
         x = (inlet - self._origin[0]) / self.INLET
         y = (clearance - self._origin[1]) / self.CLEARANCE
         i, j = math.floor(x), math.floor(y)

@@ -17,13 +17,16 @@ from lambda_core.model.settings.resolve_thermal import NodeSet
 
 
 class Surroundings(Protocol):
-    """What carries the bearings: shaft and housing."""
+    """Shaft and housing around the bearings."""
 
     def conductances(self, temperatures: Mapping[str, float]) -> Pairs:
-        """Return conductances along the shaft and to the surroundings at temperatures of the nodes [K], in W/K."""
+        """Return conductances of the shaft and surroundings [W/K].
+
+        Along the shaft and to the surroundings, at temperatures of the nodes [K].
+        """
 
     def capacities(self) -> dict[str, float]:
-        """Return the heat capacities of shaft and housing by node [J/K]."""
+        """Return heat capacities of shaft and housing nodes [J/K]."""
 
 
 class MachineNetwork:
@@ -68,7 +71,10 @@ class MachineNetwork:
         return dict(zip(self.names, temperatures.tolist(), strict=True))
 
     def heat(self, points: Sequence[Point]) -> FloatArray:
-        """Return the heat that losses of all bearings put into each node, with what the case adds, shape (n,) [W]."""
+        """Return the heat of all losses per node [W].
+
+        Of all bearings, with what the case adds, shape (n,).
+        """
         own: dict[str, float] = {}
         for bearing, point in zip(self.bearings, points, strict=True):
             for name, value in bearing.heat(point.losses).items():
@@ -77,7 +83,10 @@ class MachineNetwork:
         return found
 
     def network(self, points: Sequence[Point], temperatures: FloatArray) -> Network:
-        """Return the network at the bearings' quasi-static points and temperatures of the nodes [K]."""
+        """Return the network at points and temperatures [K].
+
+        The points are quasi-static points of the bearings, the temperatures those of the nodes.
+        """
         pairs = {**self._seats, **self.around.conductances(self.named(temperatures))}
         for bearing, point in zip(self.bearings, points, strict=True):
             pairs.update(bearing.inside(point))
@@ -89,7 +98,9 @@ class MachineNetwork:
         return Network(self.names, conductance, self.heat(points), self.held)
 
     def capacities(self, points: Sequence[Point]) -> FloatArray:
-        """Return the heat capacity of every node [J/K], shape (n,); infinite where the temperature is held.
+        """Return the heat capacity of every node [J/K].
+
+        Shape (n,), infinite where the temperature is held.
 
         Parameters
         ----------
@@ -114,7 +125,10 @@ class MachineNetwork:
         return np.where(free, [found.get(name, math.inf) for name in self.names], math.inf)
 
     def start(self) -> FloatArray:
-        """Return the temperatures of the nodes at the start of a transient [K], shape (n,)."""
+        """Return the initial temperatures of a transient [K].
+
+        Of the nodes, shape (n,).
+        """
         given, common = self._nodes.given, self._nodes.start
         first = [(given[name].start if name in given else None) or common for name in self.names]
         return np.where(np.isnan(self.held), first, self.held)

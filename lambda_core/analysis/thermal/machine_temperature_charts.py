@@ -19,7 +19,10 @@ def pictures(found: MachineTemperatures | MachineTemperaturesOverTime) -> list[V
 
 
 def along_shaft(found: MachineTemperatures) -> ViewData:
-    """Return temperatures along the shaft and by bearing, losses, and where the heat goes."""
+    """Draw temperatures along the shaft.
+
+    And by bearing, with losses and heat flows.
+    """
     at, names = found.temperatures_degC, list(found.bearings)
     supports = tuple(Mark(name, found.bearings[name].position_mm, "x") for name in names)
     housing = (Mark("housing", at["housing"]),) if "housing" in at else ()
@@ -46,7 +49,10 @@ def along_shaft(found: MachineTemperatures) -> ViewData:
 
 
 def _along(found: MachineTemperatures) -> tuple[Series, ...]:
-    """Return the shaft as a line, the parts of the bearings as points at their places."""
+    """Draw shaft temperatures as a line with points.
+
+    The points are the parts of the bearings at their places.
+    """
     shaft = Series(
         "shaft",
         np.array([place.position_mm for place in found.shaft]),
@@ -81,7 +87,10 @@ def _nodes(found: MachineTemperatures) -> tuple[Series, ...]:
 
 
 def over_time(found: MachineTemperaturesOverTime) -> ViewData:
-    """Return temperatures, losses, clearances and films of all bearings over time."""
+    """Draw temperatures and losses over time.
+
+    With clearances and films of all bearings.
+    """
     minutes = np.array(found.time_s) / 60.0
     time = Axis("time", "min")
     at = found.temperatures_degC
@@ -124,7 +133,10 @@ def _bars(title: str, names: list[str], values: list[float]) -> Panel:
 
 
 def _is_bearing(node: str, names: list[str]) -> bool:
-    """Tell whether a node is of a bearing, or takes what dampers of a bearing lose."""
+    """Tell whether a node belongs to a bearing.
+
+    Or takes what dampers of a bearing lose.
+    """
     return node == "ambient" or any(node.startswith(f"{name}.") for name in names)
 
 

@@ -31,7 +31,7 @@ class PlaceOnShaft(Record):
 
 
 class BearingState(Record):
-    """What belongs to the temperatures of one bearing."""
+    """Temperatures and state of one bearing."""
 
     title: str
     elements: str = Field(default="balls", description="word for the node balls: balls, or rollers")
@@ -42,7 +42,7 @@ class BearingState(Record):
 
 
 class BearingCourse(Record):
-    """What one bearing does over time."""
+    """State of one bearing over time."""
 
     title: str
     friction_torque_Nmm: list[float | None]
@@ -54,7 +54,10 @@ class BearingCourse(Record):
 
 
 class MachineTemperatures(Answer):
-    """Temperatures at which every node of a machine passes on the heat that it gets."""
+    """Steady temperatures of a machine.
+
+    Every node passes on the heat that it gets.
+    """
 
     interface: int = INTERFACE
     kind: Literal["steady machine"] = Field(default="steady machine", description="which report this is")
@@ -83,7 +86,7 @@ class MachineTemperatures(Answer):
 
 
 class MachineTemperaturesOverTime(Answer):
-    """What the temperatures of a machine do from a start."""
+    """Temperatures of a machine from a start."""
 
     interface: int = INTERFACE
     kind: Literal["transient machine"] = Field(default="transient machine", description="which report this is")
@@ -206,7 +209,10 @@ def _along(loop: MachineLoop, temperatures: np.ndarray) -> list[PlaceOnShaft]:
 
 
 def _assumptions(loop: MachineLoop) -> list[str]:
-    """Return the assumptions of the case but for those of the network, and of clearances that are not those found."""
+    """Return the other assumptions of the case.
+
+    Those of the network, and of clearances that differ from the computed ones, are left out.
+    """
     known = loop.machine.heat.assumptions
     passed = ("clearance in operation", CLEARANCE_HOLDS)
     return [

@@ -20,7 +20,10 @@ _LABEL, _COLUMN = 28, 12
 
 
 def steady_text(found: MachineTemperatures, units: UnitSystem) -> str:
-    """Return what steady temperatures say: bearings, shaft and housing, flows, the balance."""
+    """Return the text of steady temperatures.
+
+    Bearings, shaft and housing, flows, the balance.
+    """
     at = found.temperatures_degC
     loss = units.text(found.power_loss_W, "W", 1)
     return "\n".join(
@@ -81,7 +84,10 @@ def elements_in(found: MachineTemperatures) -> str:
 
 
 def course_text(found: MachineTemperaturesOverTime, units: UnitSystem) -> str:
-    """Return what temperatures over time say: a table, times of rise, the balance."""
+    """Return the text of temperatures over time.
+
+    A table, times of rise, the balance.
+    """
     nodes = [f"{name}.{part}" for name in found.bearings for part in ("inner_ring", "outer_ring", "oil")]
     nodes = [name for name in (*nodes, "housing") if name in found.temperatures_degC]
     width = max(_COLUMN, *(len(name) + 2 for name in nodes))
@@ -118,7 +124,9 @@ def course_text(found: MachineTemperaturesOverTime, units: UnitSystem) -> str:
 
 
 def ways(found: MachineTemperatures) -> list[tuple[str, str, float]]:
-    """Return source, target and heat [W] of the flows between parts, the largest first.
+    """Return the flows between parts [W].
+
+    Source, target and heat, the largest first.
 
     A bearing with its oil is one part, the shaft another.
     """

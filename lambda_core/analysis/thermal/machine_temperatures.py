@@ -59,7 +59,10 @@ class MachineLoop(Loop):
         self._announce, self._kernels, self._count = announce, SharedKernels(announce), 0
 
     def seen(self, temperatures: FloatArray) -> FloatArray:
-        """Return inlet temperatures [K], clearances [m], and growth of the shaft beyond the housing's [m]."""
+        """Return the quantities that the contacts see.
+
+        Inlet temperatures [K], clearances [m], and growth of the shaft beyond the housing's [m].
+        """
         at, heat = self.nodes.named(temperatures), self.machine.heat
         inlets, clearances = [], []
         for bearing in self.machine.bearings:
@@ -70,7 +73,9 @@ class MachineLoop(Loop):
         return np.array([*inlets, *clearances, *self.grown(at)])
 
     def grown(self, at: Mapping[str, float]) -> FloatArray:
-        """Return how far the shaft at each bearing has grown beyond the housing [m].
+        """Return the shaft's growth beyond the housing [m].
+
+        At each bearing.
 
         Where the network has no shaft or no housing, they have the mean temperature of inner or outer rings. A rigid
         shaft has no length along which it could grow.
@@ -87,13 +92,16 @@ class MachineLoop(Loop):
         return found
 
     def there(self, seen: FloatArray) -> MachineModel:
-        """Return the machine at what the contacts see; growth shifts the outer rings the other way."""
+        """Return the machine in the contacts' condition.
+
+        Growth shifts the outer rings the other way.
+        """
         inlets, clearances, grown = seen.reshape(3, -1).tolist()
         mounted = zip(self.machine.bearings, inlets, clearances, grown, strict=True)
         return replace(self.machine, bearings=tuple(_warm(*one) for one in mounted))
 
     def solved(self, seen: FloatArray) -> tuple[Point, ...]:
-        """Solve shaft and bearings, and return the point of each bearing.
+        """Solve shaft and bearings, return each bearing's point.
 
         Raises
         ------
@@ -116,7 +124,10 @@ class MachineLoop(Loop):
     def slopes(
         self, seen: FloatArray, points: Sequence[Point], temperatures: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Return the slopes; d(steady temperatures)/d(seen) is that of a near place where one is known."""
+        """Return the slopes.
+
+        d(steady temperatures)/d(seen) is that of a near place where one is known.
+        """
         known = self._known
         if known is not None and float((np.abs(seen - known[0]) / self._cells).max()) <= 1.0:
             return known[1], self.inward(temperatures)
@@ -143,7 +154,10 @@ def _mean(machine: MachineModel, at: Mapping[str, float], part: str) -> float:
 
 
 def _warm(mounted: MountedBearing, inlet: float, clearance: float, grown: float) -> MountedBearing:
-    """Return a bearing at a temperature of its oil and a clearance, its outer ring moved against the shaft's growth."""
+    """Return a bearing at oil temperature and clearance.
+
+    Its outer ring is moved against the shaft's growth.
+    """
     model, seating = mounted.model, mounted.seating
     model = replace(
         model,
@@ -158,7 +172,9 @@ def _warm(mounted: MountedBearing, inlet: float, clearance: float, grown: float)
 def ready_machine_of(
     source: Source | MachineModel, overrides: Iterable[str] = (), announce: Callable[[str], None] | None = None
 ) -> MachineModel:
-    """Return the resolved machine of a case, at its own temperatures where it wants them computed.
+    """Return the resolved machine of a case.
+
+    At its own temperatures where it wants them computed.
 
     Parameters
     ----------
@@ -193,7 +209,9 @@ def ready_machine_of(
 
 
 def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Steady]:
-    """Return the steady temperatures that the averaged losses of a machine's run would give, cages and all.
+    """Return the steady temperatures of a machine's run.
+
+    Of its averaged losses, including the cages.
 
     Conductances are those of the equilibrium at the temperatures that the run was made with.
     """
@@ -211,7 +229,10 @@ def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Stea
 
 
 def without_temperatures(machine: MachineModel) -> MachineModel:
-    """Return the machine with all its temperatures to be computed, whatever its case gives."""
+    """Return the machine without its case's temperatures.
+
+    All of them are to be computed.
+    """
     if machine.awaits_temperatures:
         return machine
     tables = toml_tables(machine.case_toml, machine.name)
@@ -228,7 +249,7 @@ def without_temperatures(machine: MachineModel) -> MachineModel:
 
 
 def _with_temperatures(loop: MachineLoop, found: Steady, sentence: str) -> dict[str, Any]:
-    """Return the tables of the case with the temperatures that were found."""
+    """Return the case's tables with computed temperatures."""
     machine, at = loop.machine, loop.nodes.named(found.temperatures)
     tables = toml_tables(machine.case_toml, machine.name)
     bearings = {}

@@ -16,7 +16,9 @@ from lambda_core.domain.arrays import FloatArray
 
 @dataclass(frozen=True)
 class Network:
-    """A linear network: C_i dT_i/dt = q_i + sum_j G_ij (T_j - T_i).
+    """Linear thermal network.
+
+    C_i dT_i/dt = q_i + sum_j G_ij (T_j - T_i).
 
     Attributes
     ----------
@@ -37,28 +39,39 @@ class Network:
 
     @cached_property
     def free(self) -> NDArray[np.bool_]:
-        """Nodes whose temperature is found, and that anything is joined to."""
+        """Connected nodes whose temperature is unknown."""
         joined: NDArray[np.bool_] = np.isnan(self.held) & (self.conductance.sum(axis=1) > 0.0)
         return joined
 
     @cached_property
     def laplacian(self) -> FloatArray:
-        """Matrix L with (L T)_i = sum_j G_ij (T_i - T_j), shape (n, n)."""
+        """Matrix L of the conductances.
+
+        (L T)_i = sum_j G_ij (T_i - T_j), shape (n, n).
+        """
         found: FloatArray = np.diag(self.conductance.sum(axis=1)) - self.conductance
         return found
 
     def flows(self, temperatures: FloatArray) -> FloatArray:
-        """Return the heat that flows from node i to node j, shape (n, n) [W]."""
+        """Return the heat flows between all nodes [W].
+
+        From node i to node j, shape (n, n).
+        """
         found: FloatArray = self.conductance * (temperatures[:, None] - temperatures[None, :])
         return found
 
     def storing(self, temperatures: FloatArray) -> FloatArray:
-        """Return the heat that stays in each node, q - L T, shape (n,) [W]; at a held node minus what leaves there."""
+        """Return the heat that stays in each node [W].
+
+        q - L T, shape (n,); at a held node minus what leaves there.
+        """
         found: FloatArray = self.heat - self.laplacian @ temperatures
         return found
 
     def steady(self) -> FloatArray:
-        """Return the temperatures at which every free node passes on what it gets, shape (n,) [K].
+        """Return the steady temperatures [K].
+
+        Every free node passes on what it gets; shape (n,).
 
         A node that nothing is joined to has the temperature NaN.
 
@@ -74,6 +87,9 @@ class Network:
         return temperatures
 
     def leaving(self, temperatures: FloatArray) -> float:
-        """Return the heat that leaves through the held nodes, what is put in at them included [W]."""
+        """Return the heat that leaves at held nodes [W].
+
+        What is put in at them is included.
+        """
         held = ~np.isnan(self.held)
         return float(self.heat[held].sum() - (self.laplacian[held] @ np.nan_to_num(temperatures)).sum())

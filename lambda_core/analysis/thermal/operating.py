@@ -26,7 +26,9 @@ _PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
 def at_own_temperatures(
     model: BearingModel, resolve: Callable[[Case], BearingModel], announce: Announce = None
 ) -> BearingModel:
-    """Return the model at steady temperatures found by its thermal network; one whose temperatures are given as it is.
+    """Return the model at computed steady temperatures.
+
+    Its thermal network gives them; a model with given temperatures stays as it is.
 
     The case that the returned model carries has these temperatures written in, so that a result needs no search when
     it goes on or is looked at.
@@ -79,7 +81,9 @@ def _sentence(loop: BearingLoop, found: Steady) -> str:
 
 
 def of_run(result: Result, model: BearingModel, announce: Announce = None) -> tuple[BearingLoop, Steady]:
-    """Return the steady temperatures that the averaged losses of a run would give, cage and all.
+    """Return the steady temperatures of a run.
+
+    Of its averaged losses, including the cage.
 
     Conductances are those of the quasi-static point at the temperatures that the run was made with; the gain of the
     loop is that of the quasi-static point too.
@@ -102,7 +106,10 @@ def of_run(result: Result, model: BearingModel, announce: Announce = None) -> tu
 
 
 def averaged_losses(result: Result, model: BearingModel) -> dict[str, float]:
-    """Return the average losses of a bearing in a run by mechanism [W]."""
+    """Return a bearing's average losses in a run [W].
+
+    By mechanism.
+    """
     chosen = window(model.solver, result.revolutions(), result.integrals()[-1]).interval
     time = chosen.change("time")
     return {name: chosen.change(f"loss.{name}") / time for name in LOSSES}

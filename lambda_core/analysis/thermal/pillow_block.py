@@ -30,7 +30,10 @@ class PillowBlock:
         self._shaft = bearing.node("shaft")
 
     def conductances(self, temperatures: Mapping[str, float]) -> Pairs:
-        """Return the conductances from housing and shaft to the surroundings at temperatures [K], in W/K."""
+        """Return the conductances to the surroundings [W/K].
+
+        From housing and shaft, at temperatures [K].
+        """
         g, t = self.model.geometry, self.thermal
         area = t.housing_area or outside.housing_area(g.outside_diameter)
         if t.conductances == "palmgren":
@@ -60,6 +63,9 @@ class PillowBlock:
 
 
 def bearing_network(model: BearingModel, thermal: Thermal) -> MachineNetwork:
-    """Return the network of one bearing alone in a pillow block."""
+    """Return the network of one bearing alone.
+
+    It is in a pillow block.
+    """
     bearing = BearingNodes(model, thermal)
     return MachineNetwork(model.name, nodes_alone(thermal), (bearing,), PillowBlock(bearing))

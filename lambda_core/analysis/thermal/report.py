@@ -26,7 +26,10 @@ _ZERO_CELSIUS = 273.15
 
 
 class LoopGain(Record):
-    """Gain of the torque-temperature loop: from 1 on it feeds itself."""
+    """Gain of the torque-temperature loop.
+
+    From 1 on it feeds itself.
+    """
 
     loop: float = Field(description="largest real part of the eigenvalues of the loop")
     clearance: float = Field(description="of the clearance on itself: temperatures take clearance, preload heats")
@@ -39,7 +42,10 @@ class LoopGain(Record):
 
 
 class HeatFlow(Record):
-    """Heat between two nodes, in the direction in which it flows."""
+    """Heat between two nodes.
+
+    In the direction in which it flows.
+    """
 
     source: str
     target: str
@@ -48,7 +54,7 @@ class HeatFlow(Record):
 
 
 class State(Record):
-    """What belongs to the temperatures at one moment."""
+    """State of the temperatures at one moment."""
 
     friction_torque_Nmm: float | None
     power_loss_W: float = Field(description="dissipated in the bearing")
@@ -61,7 +67,9 @@ class State(Record):
 
 
 class SteadyTemperatures(Answer):
-    """Temperatures at which every node passes on the heat that it gets.
+    """Steady temperatures of all nodes.
+
+    Every node passes on the heat that it gets.
 
     Attributes
     ----------
@@ -96,7 +104,7 @@ class SteadyTemperatures(Answer):
 
 
 class TemperaturesOverTime(Answer):
-    """What the temperatures do from a start.
+    """Temperatures from a start.
 
     Attributes
     ----------
@@ -139,7 +147,7 @@ class TemperaturesOverTime(Answer):
 
 
 def _assumptions(loop: BearingLoop) -> tuple[list[str], list[str]]:
-    """Return the assumptions of the network and those of the case."""
+    """Return the assumptions of network and case."""
     found = network_assumptions(loop.thermal)
     if loop.model.mounting is not None and not loop.model.mounting.shaft:
         found.append("the stated clearance is that of the mounted bearing at the reference temperature")
@@ -149,7 +157,10 @@ def _assumptions(loop: BearingLoop) -> tuple[list[str], list[str]]:
 
 
 def _headline(loop: BearingLoop, point: Point) -> str:
-    """Return the lines that say what the bearing is, at the temperatures found."""
+    """Return the headline of a bearing.
+
+    At the temperatures found.
+    """
     return "\n".join(headline(loop.losses.there(point.inlet, point.clearance)))
 
 
@@ -180,7 +191,10 @@ def steady_of(loop: BearingLoop, found: Steady, losses_from: str = "quasi-static
 
 
 def flows_of(network: Network, temperatures: FloatArray) -> list[HeatFlow]:
-    """Return the heat between all nodes of a network, the largest first."""
+    """Return the heat between all nodes.
+
+    The largest first.
+    """
     names, flows = network.names, network.flows(temperatures)
     pairs = [(i, j) for i in range(len(names)) for j in range(len(names)) if flows[i, j] > 0.0]
     return [
@@ -195,7 +209,10 @@ def flows_of(network: Network, temperatures: FloatArray) -> list[HeatFlow]:
 
 
 def in_watts(losses: dict[str, float]) -> dict[str, float | None]:
-    """Return losses by mechanism, the contacts of the cage as one [W]."""
+    """Return losses by mechanism [W].
+
+    The contacts of the cage are one.
+    """
     return {name: None if value is None else 1e-3 * value for name, value in merged_cage(losses).items()}
 
 
@@ -248,7 +265,10 @@ def course_of(loop: BearingLoop, course: Course) -> TemperaturesOverTime:
 
 
 def reason_of(loop: Loop, course: Course) -> str:
-    """Say why a course ended before its time; empty when it did not."""
+    """Explain the early end of a course.
+
+    Empty when it did not end early.
+    """
     if not course.beyond_limit:
         return ""
     last = np.where(np.isnan(loop.nodes.held), course.temperatures[-1], -math.inf)

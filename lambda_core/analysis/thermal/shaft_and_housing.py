@@ -49,7 +49,9 @@ class ShaftAndHousing:
         self._pieces = _pieces(machine)
 
     def conductances(self, temperatures: Mapping[str, float]) -> Pairs:
-        """Return the conductances along the shaft, and from shaft and housing to the surroundings [W/K].
+        """Return the conductances of shaft and housing [W/K].
+
+        Along the shaft, and from shaft and housing to the surroundings.
 
         The housing has the surface of all bearings' pillow blocks, where the case does not say, and the height of the
         largest one.
@@ -68,7 +70,10 @@ class ShaftAndHousing:
         return found
 
     def _along(self, temperatures: Mapping[str, float]) -> Pairs:
-        """Return the conductances along the shaft and from its surface [W/K]; also from its end faces to the air."""
+        """Return the conductances along and around the shaft [W/K].
+
+        From its surface; also from its end faces to the air.
+        """
         found: Pairs = {}
         conductivity = self.heat.material.thermal_conductivity
         if not self._pieces or self._pieces[0].begin not in temperatures:
@@ -84,14 +89,17 @@ class ShaftAndHousing:
         return found
 
     def _coefficient(self, piece: _Piece, temperatures: Mapping[str, float]) -> float:
-        """Return the coefficient of heat transfer from the surface of a piece [W/(m2 K)]."""
+        """Return a piece's surface heat transfer coefficient [W/(m2 K)]."""
         if self.heat.section.conductances != "harris":
             return 0.0
         surface = 0.5 * (temperatures[piece.begin] + temperatures[piece.end])
         return outside.shaft_coefficient(piece.diameter, self.machine.speed, surface, temperatures[piece.around])
 
     def capacities(self) -> dict[str, float]:
-        """Return the heat capacities of the shaft's nodes, with discs on them, and of the housing [J/K]."""
+        """Return the heat capacities of shaft and housing [J/K].
+
+        Of the shaft's nodes, with discs on them.
+        """
         steel = self.heat.material
         found = dict.fromkeys(self.heat.shaft, 0.0)
         for piece in self._pieces:
@@ -107,7 +115,10 @@ class ShaftAndHousing:
 
 
 def _pieces(machine: MachineModel) -> tuple[_Piece, ...]:
-    """Return the pieces of the shaft between its nodes, each with the diameter that it is drawn with."""
+    """Return the shaft's pieces between its nodes.
+
+    Each has the diameter that it is drawn with.
+    """
     heat, at = machine.heat, machine.body.positions
     seats = [bearing.position for bearing in machine.bearings]
     ends = np.array([end for _, end, _, _ in machine.outline[:-1]])

@@ -34,13 +34,18 @@ def housing_area(outside_diameter: float) -> float:
 
 
 def housing_mass(outside_diameter: float) -> float:
-    """Return the mass of that pillow block: a cast-iron cylinder with the bearing's seat taken out [kg]."""
+    """Return the mass of the pillow block [kg].
+
+    A cast-iron cylinder without the bearing's seat.
+    """
     height, width = HEIGHT_RATIO * outside_diameter, WIDTH_RATIO * outside_diameter
     return CAST_IRON_DENSITY * math.pi / 4.0 * (height**2 - outside_diameter**2) * width
 
 
 def natural_convection(diameter: float, surface: float, air: float) -> float:
-    """Return the coefficient of a horizontal cylinder in still air [W/(m2 K)].
+    """Return the natural convection of a cylinder [W/(m2 K)].
+
+    Coefficient of a horizontal cylinder in still air.
 
     Nu = 0.53 (Gr Pr)^(1/4), 1e4 < Gr Pr < 1e9 (McAdams 1954, Heat Transmission, 3rd ed., chapter 7).
 
@@ -56,7 +61,9 @@ def natural_convection(diameter: float, surface: float, air: float) -> float:
 
 
 def forced_convection(diameter: float, speed: float) -> float:
-    """Return the coefficient of a cylinder in a cross flow of air [W/(m2 K)].
+    """Return the forced convection of a cylinder [W/(m2 K)].
+
+    Coefficient in a cross flow of air.
 
     Churchill and Bernstein 1977, J. Heat Transfer 99, 300: Nu = 0.3 + 0.62 Re^(1/2) Pr^(1/3)/[1 + (0.4/Pr)^(2/3)]^(1/4)
     [1 + (Re/282000)^(5/8)]^(4/5), Re Pr > 0.2.
@@ -67,12 +74,17 @@ def forced_convection(diameter: float, speed: float) -> float:
 
 
 def radiation(emissivity: float, surface: float, walls: float) -> float:
-    """Return the coefficient of radiation to large surroundings, e sigma (T^2 + T_a^2)(T + T_a) [W/(m2 K)]."""
+    """Return the coefficient of radiation [W/(m2 K)].
+
+    To large surroundings, e sigma (T^2 + T_a^2)(T + T_a).
+    """
     return emissivity * STEFAN_BOLTZMANN * (surface**2 + walls**2) * (surface + walls)
 
 
 def rotating_shaft(diameter: float, speed: float) -> float:
-    """Return the coefficient of a horizontal shaft that turns in still air [W/(m2 K)].
+    """Return the convection of a rotating shaft [W/(m2 K)].
+
+    Coefficient of a horizontal shaft that turns in still air.
 
     Nu = 0.133 Re^(2/3) Pr^(1/3), Re = omega d^2/(2 nu) from 1e3 to 1e5 (Becker 1963, Int. J. Heat Mass Transfer 6,
     1053); below that rotation matters less than natural convection.
@@ -89,7 +101,9 @@ def rotating_shaft(diameter: float, speed: float) -> float:
 
 
 def long_fin(diameter: float, coefficient: float, conductivity: float) -> float:
-    """Return the conductance from a bearing seat into a shaft that is long on both sides [W/K].
+    """Return the conductance into a long shaft [W/K].
+
+    From a bearing seat; the shaft is long on both sides.
 
     A fin of infinite length on each side, sqrt(h P k A) with P = pi d, A = pi d^2/4 (Harper and Brown 1922).
     """
@@ -97,7 +111,9 @@ def long_fin(diameter: float, coefficient: float, conductivity: float) -> float:
 
 
 def housing_coefficient(height: float, housing: float, air: float, air_speed: float, emissivity: float) -> float:
-    """Return the coefficient of a housing of a height [m]: the larger convection, and radiation [W/(m2 K)].
+    """Return the coefficient of a housing [W/(m2 K)].
+
+    Of a height [m]: the larger convection, and radiation.
 
     Parameters
     ----------
@@ -117,6 +133,9 @@ def housing_coefficient(height: float, housing: float, air: float, air_speed: fl
 
 
 def shaft_coefficient(diameter: float, speed: float, surface: float, air: float) -> float:
-    """Return the coefficient of a shaft, turning [rad/s] or in still air, whichever is larger [W/(m2 K)]."""
+    """Return the coefficient of a shaft [W/(m2 K)].
+
+    Turning [rad/s] or in still air, whichever is larger.
+    """
     still = natural_convection(diameter, surface, air)
     return max(rotating_shaft(diameter, speed), still)

@@ -19,7 +19,10 @@ def node_words(node: str, elements: str) -> str:
 
 
 def steady_text(found: SteadyTemperatures) -> str:
-    """Return what steady temperatures say: nodes, flows, what the contacts make of them."""
+    """Return the text of steady temperatures.
+
+    Nodes, flows, effect on the contacts.
+    """
     state = found.state
     nodes = [
         f"  {node_words(name, found.elements):<14}{number(value):>9} degC{number(found.heat_W[name], 2):>11} W"
@@ -57,7 +60,10 @@ def steady_text(found: SteadyTemperatures) -> str:
 
 
 def course_text(found: TemperaturesOverTime) -> str:
-    """Return what temperatures over time say: a table, times of rise, the balance."""
+    """Return the text of temperatures over time.
+
+    A table, times of rise, the balance.
+    """
     names = list(found.temperatures_degC)
     last = len(found.time_s) - 1
     rows = sorted({round(k * last / (_ROWS - 1)) for k in range(_ROWS)})
@@ -93,7 +99,10 @@ def course_text(found: TemperaturesOverTime) -> str:
 
 
 def _assumed(found: SteadyTemperatures | TemperaturesOverTime) -> list[str]:
-    """Return what the network assumes in full, and where the rest stands."""
+    """Return the network's assumptions.
+
+    In full, and where the others are.
+    """
     return [
         *(line("network" if i == 0 else "", text) for i, text in enumerate(found.network_assumptions)),
         *assumption_lines(found.assumptions),
@@ -101,7 +110,10 @@ def _assumed(found: SteadyTemperatures | TemperaturesOverTime) -> list[str]:
 
 
 def gain_text(gain: LoopGain) -> str:
-    """Return the gain of the torque-temperature loop with its two parts."""
+    """Return the gain of the loop.
+
+    Torque-temperature loop, with its two parts.
+    """
     # what rounds to nothing has no sign; a format of numbers would say -0.00
     clearance, viscosity, loop = (round(part, 2) + 0.0 for part in (gain.clearance, gain.viscosity, gain.loop))
     return f"{loop:.2f}   (clearance alone {clearance:+.2f}, viscosity alone {viscosity:+.2f}; from 1 on: runaway)"

@@ -61,7 +61,9 @@ def ready_model(
     *,
     is_static: bool = False,
 ) -> BearingModel:
-    """Return the resolved model of a case as it runs: at its own temperatures, where it wants them computed.
+    """Return the resolved model of a case.
+
+    At its own temperatures, where it wants them computed.
 
     With `is_static` it is for an equilibrium, which needs no end in time.
 
@@ -79,7 +81,10 @@ def ready_model(
 
 
 def run_of(source: object) -> Result | None:
-    """Return the run whose result file this is; None for anything else."""
+    """Return the run of this result file.
+
+    None for anything else.
+    """
     from lambda_core.results.reader import Result
 
     is_file = isinstance(source, str | Path) and Path(source).suffix == ".h5" and Path(source).is_file()

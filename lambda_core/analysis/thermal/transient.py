@@ -26,7 +26,7 @@ _ROUNDS, _HALVINGS, _GROWTH = 4, 30, 2.0
 
 @dataclass(frozen=True)
 class Course:
-    """What the temperatures do over time.
+    """Temperatures over time.
 
     Attributes
     ----------
@@ -58,13 +58,19 @@ class Course:
 
     @property
     def residual(self) -> float:
-        """(put in - taken out - stored) over what was put in."""
+        """Relative energy residual.
+
+        (put in - taken out - stored) over what was put in.
+        """
         missing = self.put_in - self.taken_out - self.stored
         return missing / self.put_in if self.put_in > 0.0 else 0.0
 
 
 class _Balance:
-    """Right-hand side: temperatures of the free nodes, then the heat put in and taken out so far."""
+    """Right-hand side of the thermal equations.
+
+    Temperatures of the free nodes, then the heat put in and taken out so far.
+    """
 
     def __init__(self, loop: Loop, first: Points) -> None:
         self.loop = loop
@@ -84,7 +90,10 @@ class _Balance:
         return found
 
     def rates(self, points_at: PointsAt) -> Callable[[float, FloatArray], FloatArray]:
-        """Return the right-hand side with the points at a time and temperatures."""
+        """Return the rates with the points.
+
+        At a time and temperatures.
+        """
 
         def rate(time: float, state: FloatArray) -> FloatArray:
             temperatures = self.temperatures(state)
@@ -96,7 +105,7 @@ class _Balance:
         return rate
 
     def limit(self, time: float, state: FloatArray) -> float:
-        """Return how far the hottest node is below the limit [K]."""
+        """Return the hottest node's margin to the limit [K]."""
         return float(self.loop.thermal.limit - state[: self.capacity.size].max())
 
     limit.terminal = True  # type: ignore[attr-defined]
@@ -105,7 +114,10 @@ class _Balance:
 def _integrated(
     balance: _Balance, points_at: PointsAt, span: tuple[float, float], state: FloatArray, times: FloatArray
 ) -> Any:
-    """Integrate over a span [s] with LSODA (Hindmarsh 1983, Petzold 1983: backward differences where it is stiff)."""
+    """Integrate over a span [s] with LSODA.
+
+    Hindmarsh 1983, Petzold 1983: backward differences where it is stiff.
+    """
     from scipy.integrate import solve_ivp
 
     count = balance.capacity.size
@@ -123,7 +135,10 @@ def _integrated(
 
 
 def _with_limit(found: Any) -> tuple[FloatArray, FloatArray]:
-    """Return times and states of an integration, with those at which the limit was passed."""
+    """Return an integration with its limits.
+
+    Times and states, with those at which the limit was passed.
+    """
     time, states = np.asarray(found.t), np.asarray(found.y).T
     if found.status == 1 and found.t_events and found.y_events:
         kept = [states] if time.size else []  # none where the limit is passed before the first wanted time
@@ -154,7 +169,9 @@ def _course(
 
 
 def warm_up(loop: BearingLoop, duration: float) -> Course:
-    """Integrate the temperatures of one bearing from the start of the case over a time.
+    """Integrate the temperatures of one bearing.
+
+    From the start of the case over a time.
 
     Losses between solved quasi-static points are interpolated (:class:`LossMap`).
 
@@ -186,7 +203,9 @@ def warm_up(loop: BearingLoop, duration: float) -> Course:
 
 
 def warm_up_machine(loop: Loop, duration: float) -> Course:
-    """Integrate the temperatures of a machine from the start of the case over a time.
+    """Integrate the temperatures of a machine.
+
+    From the start of the case over a time.
 
     What several bearings see has too many dimensions for a grid. Points are solved along the course instead: between
     two of them, a cell of :class:`LossMap` apart at most, losses are linear in time, and the later one is solved again
@@ -241,7 +260,10 @@ def _step(
     balance: _Balance, span: tuple[float, float], state: FloatArray, seen: FloatArray, points: Points,
     cells: FloatArray, moments: FloatArray,
 ) -> _Step:  # fmt: skip
-    """Return a step over a span [s], or its first part where more than a cell would be passed."""
+    """Return a step over a span [s].
+
+    Or its first part where more than a cell would be passed.
+    """
     loop, (begin, end) = balance.loop, span
     for _ in range(_HALVINGS):
         later = points
@@ -275,7 +297,10 @@ def _between(one: Points, other: Points, share: float) -> Points:
 
 
 def _gain_at(loop: Loop, temperatures: FloatArray) -> Gain | None:
-    """Return the gain of the loop at temperatures; None where no point can be solved near them."""
+    """Return the gain of the loop at temperatures.
+
+    None where no point can be solved near them.
+    """
     try:
         seen = loop.seen(temperatures)
         return loop.gain(*loop.slopes(seen, loop.solved(seen), temperatures))
@@ -284,7 +309,10 @@ def _gain_at(loop: Loop, temperatures: FloatArray) -> Gain | None:
 
 
 def rise_time(course: Course, node: int, share: float) -> float:
-    """Return when a node has done a share of its change between start and end [s]; NaN where it changes by < 0.1 K."""
+    """Return the rise time of a node [s].
+
+    It has then done a share of its change between start and end; NaN where it changes by < 0.1 K.
+    """
     values = course.temperatures[:, node]
     change = float(values[-1] - values[0])
     if abs(change) < 0.1:

@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 
 
 class Angles(NamedTuple):
-    """Angles [rad], radial clearance as bought, diametral [m], arrangement and distance of two rows [m]."""
+    """Angles and clearances of a bearing.
+
+    Angles [rad], radial clearance as bought, diametral [m], arrangement and distance of two rows [m].
+    """
 
     free: float
     resting: float
@@ -26,7 +29,9 @@ class Angles(NamedTuple):
 
 @dataclass(frozen=True)
 class Given:
-    """What a case and the catalogue say of a bearing, and where its kind writes what follows.
+    """Given data of a bearing.
+
+    The case and the catalogue give them; the kind of the bearing adds what follows.
 
     Attributes
     ----------
@@ -64,7 +69,10 @@ class Given:
 
 @dataclass(frozen=True)
 class Shoulders:
-    """Heights of shoulders over the raceway where nothing is known of them, in ball diameters by ring."""
+    """Default heights of shoulders over the raceway.
+
+    In ball diameters by ring, where nothing is known of them.
+    """
 
     heights: Mapping[str, float]
     what: str
@@ -72,7 +80,10 @@ class Shoulders:
 
 
 def single_groove(_: Geometry, __: int) -> tuple[int, ...]:
-    """Return the thrusts that the grooves of a ring take in a row: one groove, both ways."""
+    """Return the thrusts of grooves in a row.
+
+    One groove of a ring takes both directions.
+    """
     return (0,)
 
 

@@ -44,10 +44,13 @@ class Geometry:
 
     @property
     def kind(self) -> BallKind:
-        """The kind of bearing, as rows of the catalogue name it."""
+        """Kind of bearing as in the catalogue."""
         return kind_of(vars(self))
 
     @property
     def rated_rows(self) -> int:
-        """Rows by which the standards rate the bearing: of four-point contact each pair of arcs counts as one."""
+        """Rows by which the standards rate the bearing.
+
+        Each pair of arcs of four-point contact counts as one.
+        """
         return self.rows * self.kind.arcs

@@ -40,7 +40,10 @@ class Raceway:
 
     @property
     def name(self) -> str:
-        """The arc for people: "outer +x" takes a thrust of the shaft to +x."""
+        """Name of the arc in texts.
+
+        "outer +x" takes a thrust of the shaft to +x.
+        """
         side = self.end or self.thrust
         return f"{('inner', 'outer')[self.ring]}{' rib' if self.end else ''}{('', ' +x', ' -x')[side]}"
 
@@ -52,7 +55,10 @@ def row_places(geometry: Geometry) -> tuple[float, ...]:
 
 @lru_cache(maxsize=64)  # asked a dozen times for one set of tables
 def raceways(geometry: Geometry) -> tuple[Raceway, ...]:
-    """Return the raceways row by row, of each the inner ring's before the outer ring's; behind them ribs of rollers."""
+    """Return the raceways row by row.
+
+    Of each row the inner ring's before the outer ring's; behind them ribs of rollers.
+    """
     found = tuple(
         _raceway(geometry, row, place, ring, thrust)
         for row, place in enumerate(row_places(geometry))
@@ -66,7 +72,10 @@ def raceways(geometry: Geometry) -> tuple[Raceway, ...]:
 
 
 def raceways_of_a_ball(geometry: Geometry) -> tuple[Raceway, ...]:
-    """Return the raceways of one ball in the order of its contacts, those of the first row."""
+    """Return the raceways of one ball.
+
+    In the order of its contacts, those of the first row.
+    """
     return tuple(raceway for raceway in raceways(geometry) if raceway.row == 0)
 
 

@@ -8,7 +8,10 @@ from lambda_core.elements.ball.ball_kind import Given
 
 
 def contact_angle(given: Given) -> float:
-    """Return the free contact angle of two rows [rad]; NaN after a problem."""
+    """Return the free contact angle of two rows [rad].
+
+    NaN after a problem.
+    """
     if given.bearing.contact_angle is not None:
         given.ledger.given("bearing.contact_angle", given.bearing.contact_angle, "angle")
         return float(given.bearing.contact_angle)
@@ -19,7 +22,10 @@ def contact_angle(given: Given) -> float:
 
 
 def is_consistent(given: Given, kind: str, arrangements: tuple[str, ...]) -> bool:
-    """Tell whether case and catalogue agree on two rows of a kind with these arrangements; notes a problem."""
+    """Tell whether case and catalogue agree on rows.
+
+    They are two rows of a kind with these arrangements; a difference is noted as a problem.
+    """
     inline, row, ledger = given.inline, given.row, given.ledger
     if row is None:
         return True

@@ -39,7 +39,10 @@ class AxialLimit:
 
     @property
     def continuous(self) -> float:
-        """Smallest of the three limits of a constant axial load [N]."""
+        """Smallest limit of a constant axial load [N].
+
+        There are three limits.
+        """
         return min(self.thermal, self.mechanical, self.guidance)
 
 

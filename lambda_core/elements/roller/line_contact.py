@@ -24,7 +24,9 @@ EVEN_WIDTH = 0.5 * math.exp(0.5)
 
 
 def raceway_radius(roller_diameter: float, pitch_diameter: float, contact_angle: float = 0.0, *, inner: bool) -> float:
-    """Return the reduced radius R of a roller on its raceway [m].
+    """Return the reduced radius of a raceway contact [m].
+
+    R of a roller on its raceway.
 
     R = (D_we/2) (1 -+ gamma), gamma = D_we cos(alpha)/D_pw, upper sign for the inner ring (Harris and Kotzalas,
     Rolling Bearing Analysis, 5th ed., vol. 1, ch. 2).
@@ -34,7 +36,9 @@ def raceway_radius(roller_diameter: float, pitch_diameter: float, contact_angle:
 
 
 def half_width(line_load: FloatArray | float, radius: FloatArray | float, e_eff: float) -> FloatArray:
-    """Return Hertz's half width b = sqrt(8 w R/(pi E')) [m].
+    """Return Hertz's half width of a line [m].
+
+    b = sqrt(8 w R/(pi E')).
 
     Johnson, Contact Mechanics, 1985, eq. 4.43. Valid for half spaces: b much smaller than R and than the length.
 
@@ -52,13 +56,18 @@ def half_width(line_load: FloatArray | float, radius: FloatArray | float, e_eff:
 
 
 def peak_pressure(line_load: FloatArray | float, radius: FloatArray | float, e_eff: float) -> FloatArray:
-    """Return Hertz's maximum pressure 2 w/(pi b) = sqrt(w E'/(2 pi R)) [Pa] (Johnson 1985, eq. 4.45)."""
+    """Return Hertz's maximum pressure of a line [Pa].
+
+    2 w/(pi b) = sqrt(w E'/(2 pi R)) (Johnson 1985, eq. 4.45).
+    """
     found: FloatArray = np.sqrt(np.asarray(line_load) * e_eff / (2.0 * math.pi * np.asarray(radius)))
     return found
 
 
 def iso_load(approach: FloatArray | float, length: float) -> FloatArray:
-    """Return the load [N] of a roller at an approach of both raceways [m].
+    """Return the load of a roller [N].
+
+    At an approach of both raceways [m].
 
     Q = c_L delta^(10/9), c_L = 35948 L_we^(8/9) (N, mm; ISO 16281:2025). Valid for steel; both contacts together,
     without profile; zero where the approach is negative. The constant contains no diameter: Lundberg's logarithm,
@@ -70,7 +79,10 @@ def iso_load(approach: FloatArray | float, length: float) -> FloatArray:
 
 
 def iso_approach(load: FloatArray | float, length: float) -> FloatArray:
-    """Return the approach of both raceways [m] at a load [N], the inverse of :func:`iso_load`."""
+    """Return the approach of both raceways [m].
+
+    At a load [N], the inverse of :func:`iso_load`.
+    """
     found: FloatArray = (np.asarray(load) / (ISO_CONSTANT * (length * _MM) ** (8.0 / 9.0))) ** (
         1.0 / ISO_EXPONENT
     ) / _MM
@@ -78,7 +90,9 @@ def iso_approach(load: FloatArray | float, length: float) -> FloatArray:
 
 
 def palmgren_approach(load: FloatArray | float, length: float) -> FloatArray:
-    """Return the approach [m] of one raceway after Palmgren, 3.84e-5 Q^0.9/l^0.8 (mm, N).
+    """Return Palmgren's approach of one raceway [m].
+
+    3.84e-5 Q^0.9/l^0.8 (mm, N).
 
     Palmgren, Ball and Roller Bearing Engineering, 3rd ed., 1959; Harris and Kotzalas, vol. 1, ch. 6. Valid for steel
     and rollers of usual proportions. A check of ISO 16281, whose approach is 2.07 times this one: twice and 3.4 %.
@@ -88,7 +102,9 @@ def palmgren_approach(load: FloatArray | float, length: float) -> FloatArray:
 
 
 def finite_line_approach(load: float, length: float, radius: float, e_eff: float) -> float:
-    """Return the approach [m] of one raceway under an even load on a half-space line.
+    """Return the half-space approach of one raceway [m].
+
+    The load on the line is even.
 
     delta = 4 w/(pi E') [ln(2 L/b) + 1/2]: the deflection below the middle of a strip of length L with Hertz's pressure
     across (Lundberg 1939, Forschung auf dem Gebiete des Ingenieurwesens 10, 201; follows from Johnson 1985, eq. 3.19).

@@ -18,7 +18,9 @@ def moes_line_film(
     pressure_viscosity: float,
     e_eff: float,
 ) -> FloatArray:
-    """Return the central film of a line contact [m], from rigid-isoviscous to elastic-piezoviscous.
+    """Return the central film of a line contact [m].
+
+    It covers all regimes from rigid-isoviscous to elastic-piezoviscous.
 
     H = [(H_RI^(7/3) + H_EI^(7/3))^(3s/7) + (H_RP^(-7/2) + H_EP^(-7/2))^(-2s/7)]^(1/s), s = (7 + 8 exp(-2 H_EI/H_RI))/5,
     H_RI = 3/M, H_RP = 1.287 L^(2/3), H_EI = 2.621 M^(-1/5), H_EP = 1.311 M^(-1/8) L^(3/4) with H = (h/R) U^(-1/2),
@@ -53,7 +55,9 @@ def moes_line_film(
 def dowson_toyoda_film(
     line_load: float, radius: float, speed: float, viscosity: float, pressure_viscosity: float, e_eff: float
 ) -> float:
-    """Return the central film of an elastic-piezoviscous line contact [m], 3.06 R U^0.69 G^0.56 W^-0.10.
+    """Return the elastic-piezoviscous film of a line [m].
+
+    Central film, 3.06 R U^0.69 G^0.56 W^-0.10.
 
     Dowson and Toyoda 1979, 5th Leeds-Lyon Symposium, 60, with the mean speed in U. It checks
     :func:`moes_line_film` in its commonest regime.
@@ -118,7 +122,9 @@ def inlet_heat_film(
 def inlet_heat_rolling(
     speed: FloatArray | float, viscosity: float, temperature_slope: float, conductivity: float, factor: float = 0.29
 ) -> FloatArray:
-    """Return the factor of inlet heating on the rolling resistance, 1/(1 + 0.29 L^0.78).
+    """Return the factor of inlet heating.
+
+    On the rolling resistance, 1/(1 + 0.29 L^0.78).
 
     L = eta beta u^2/k: Aihara 1987, J. Tribol. 109, 471, measured with tapered roller bearings.
 
@@ -141,6 +147,9 @@ def inlet_heat_rolling(
 
 
 def asperity_share(film_parameter: FloatArray | float, scale: float, exponent: float) -> FloatArray:
-    """Return the share of the load on asperities, exp(-B Lambda^C) (Zhou and Hoeprich 1991, J. Tribol. 113, 590)."""
+    """Return the share of the load on asperities.
+
+    exp(-B Lambda^C) (Zhou and Hoeprich 1991, J. Tribol. 113, 590).
+    """
     found: FloatArray = np.exp(-scale * np.maximum(film_parameter, 0.0) ** exponent)
     return found

@@ -70,7 +70,9 @@ def logarithmic(
 
 
 def iso_cylindrical(x: FloatArray | float, length: float, diameter: float) -> FloatArray:
-    """Return the drop of a cylindrical roller [m] after ISO 16281:2025, B.5.
+    """Return the drop of a cylindrical roller [m].
+
+    After ISO 16281:2025, B.5.
 
     0.00035 D_we ln(1/(1 - (2x/L_we)^2)) up to L_we = 2.5 D_we; longer rollers have 0.0005 D_we and a flat of
     L_we - 2.5 D_we. The two forms do not join at 2.5 D_we: the standard's own step, 0.35 to 0.50.
@@ -81,7 +83,9 @@ def iso_cylindrical(x: FloatArray | float, length: float, diameter: float) -> Fl
 
 
 def iso_tapered(x: FloatArray | float, length: float, diameter: float, half_angle: float) -> FloatArray:
-    """Return the drop of a tapered roller [m] after ISO 16281:2025, B.6.
+    """Return the drop of a tapered roller [m].
+
+    After ISO 16281:2025, B.6.
 
     0.00045 (D_we/cos(beta)) ln(1/(1 - (2x/L_we)^2)), x along the contact line. The factor was read in a secondary
     source only.
@@ -99,14 +103,19 @@ def iso_tapered(x: FloatArray | float, length: float, diameter: float, half_angl
 
 
 def crowned(x: FloatArray | float, radius: float) -> FloatArray:
-    """Return the drop of a circular crown [m], R - sqrt(R^2 - x^2), without cancellation."""
+    """Return the drop of a circular crown [m].
+
+    R - sqrt(R^2 - x^2), without cancellation.
+    """
     x = np.asarray(x)
     found: FloatArray = x**2 / (radius + np.sqrt(radius**2 - x**2))
     return found
 
 
 def two_radii(x: FloatArray | float, middle_length: float, middle_radius: float, end_radius: float) -> FloatArray:
-    """Return the drop of a middle and two end arcs that join without a kink [m].
+    """Return the drop of three tangent arcs [m].
+
+    A middle and two end arcs join without a kink.
 
     Parameters
     ----------
@@ -129,7 +138,9 @@ def two_radii(x: FloatArray | float, middle_length: float, middle_radius: float,
 
 
 def tabulated(x: FloatArray | float, positions: Sequence[float], drops: Sequence[float]) -> FloatArray:
-    """Return the drop [m] between measured points, monotone between neighbours (PCHIP, Fritsch and Carlson 1980).
+    """Return the drop [m] between measured points.
+
+    Monotone between neighbours (PCHIP, Fritsch and Carlson 1980).
 
     Raises
     ------
@@ -145,7 +156,10 @@ def tabulated(x: FloatArray | float, positions: Sequence[float], drops: Sequence
 
 
 def total(x: FloatArray, *profiles: Profile) -> FloatArray:
-    """Return the sum of the drops of roller and raceways [m]; a roller's own profile counts once per contact."""
+    """Return the sum of all drops [m].
+
+    Of roller and raceways; a roller's own profile counts once per contact.
+    """
     found: FloatArray = np.zeros_like(x)
     for profile in profiles:
         found = found + profile(x)

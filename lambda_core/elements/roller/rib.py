@@ -33,7 +33,7 @@ class TaperedAngles:
 
 @dataclass(frozen=True)
 class RibContact:
-    """Where and how the sphere end touches the rib.
+    """Contact of the sphere end with the rib.
 
     Attributes
     ----------
@@ -58,7 +58,9 @@ class RibContact:
 
 
 def tapered_angles(roller_diameter: float, pitch_diameter: float, outer_angle: float) -> TaperedAngles:
-    """Return the angles of a tapered bearing from its printed numbers.
+    """Return the angles of a tapered bearing.
+
+    They follow from its printed numbers.
 
     sin(alpha_r)/tan(beta) = D_pw/D_we and alpha_r + beta = alpha_o, with the diameters at the roller's middle:
     tan(beta) = (D_we/D_pw) sin(alpha_o - beta).
@@ -73,7 +75,9 @@ def tapered_angles(roller_diameter: float, pitch_diameter: float, outer_angle: f
 def rib_contact(
     angles: TaperedAngles, large_diameter: float, end_radius: float, height: float, *, rib: str = "cone"
 ) -> RibContact:
-    """Return the contact of a sphere end with a conical or spherical rib.
+    """Return the contact of a sphere end.
+
+    It touches a conical or spherical rib.
 
     The sphere's centre lies on the roller's axis, A - r_s from the apex, A = D_l/(2 tan(beta)); the normal passes
     through it: sin(theta) = (h - (A - r_s) sin(beta))/r_s. The conical rib is concave around the bearing's axis with
@@ -115,7 +119,9 @@ def rib_contact(
 
 
 def rib_load(outer_load: float, angles: TaperedAngles, normal: float) -> tuple[float, float]:
-    """Return the loads of the rib and of the inner raceway [N] that balance an outer raceway's load.
+    """Return rib and inner loads [N] in balance.
+
+    They balance an outer raceway's load.
 
     Along the generatrix F_f cos(theta) = Q_o sin(2 beta), across Q_i = Q_o cos(2 beta) + F_f sin(theta); without
     centrifugal force and friction.
@@ -126,7 +132,9 @@ def rib_load(outer_load: float, angles: TaperedAngles, normal: float) -> tuple[f
 
 
 def relative_speed(angles: TaperedAngles, ring_speed: float) -> float:
-    """Return the roller's angular speed against the inner ring [rad/s], about their common generatrix.
+    """Return the relative roller speed [rad/s].
+
+    Against the inner ring, about their common generatrix.
 
     |omega_i - omega_o| sin(alpha_o)/sin(2 beta): rolling without sliding on both raceways, whose lines share the apex.
     """
@@ -134,7 +142,9 @@ def relative_speed(angles: TaperedAngles, ring_speed: float) -> float:
 
 
 def orbital_ratio(angles: TaperedAngles) -> float:
-    """Return the cage's speed over the inner ring's, outer ring at rest.
+    """Return cage speed over inner ring speed.
+
+    The outer ring is at rest.
 
     sin(alpha_i)/(2 cos(beta) sin(alpha_r)), from the same rolling.
     """
@@ -151,7 +161,9 @@ def sliding_speed(angles: TaperedAngles, ring_speed: float, height: float) -> fl
 
 
 def rib_entrainment(angles: TaperedAngles, ring_speed: float, contact: RibContact) -> float:
-    """Return the mean surface speed of rib and roller end [m/s] in the frame that turns with the cage.
+    """Return the rib's mean surface speed [m/s].
+
+    Of rib and roller end in the frame that turns with the cage.
 
     The outer ring is at rest. The rib moves with (omega_i - omega_c) r; the roller's end is slower by the sliding
     speed.

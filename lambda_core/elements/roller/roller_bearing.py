@@ -141,7 +141,7 @@ class RollerBearing:
 
     @property
     def full_complement(self) -> bool:
-        """Whether there is no cage."""
+        """True without a cage."""
         return self.kind in FULL_COMPLEMENT
 
     @property
@@ -168,11 +168,16 @@ class RollerBearing:
 
     @property
     def inertias(self) -> tuple[float, float]:
-        """Polar and transverse moment of inertia of a roller [kg m2], a cylinder of its mean diameter."""
+        """Moments of inertia of a roller [kg m2].
+
+        Polar and transverse, of a cylinder of its mean diameter.
+        """
         return self.mass * self.diameter**2 / 8.0, self.mass * (self.diameter**2 / 16.0 + self.length**2 / 12.0)
 
     def radius(self, ring: Ring) -> float:
-        """Return the reduced radius of a roller on a raceway, at its middle, across the generatrix [m].
+        """Return the reduced radius of a raceway contact [m].
+
+        At the roller's middle, across the generatrix.
 
         1/R = 1/R_1 -+ 1/R_2 with the radii of curvature normal to the generatrix: cones of radius r at the contact have
         r/cos(angle) (Harris and Kotzalas, vol. 1, ch. 2).
@@ -185,7 +190,10 @@ class RollerBearing:
         return 1.0 / (1.0 / roller - math.cos(angles.outer) / (self.centre + lever))
 
     def drops(self, slices: int) -> FloatArray:
-        """Return the drop of the roller's profile over its slices [m], (slices,)."""
+        """Return the profile drop over the slices [m].
+
+        Of the roller, shape (slices,).
+        """
         x = slice_positions(self.effective_length, slices)
         if self.profile == "none":
             return np.zeros(slices)
@@ -204,7 +212,10 @@ class RollerBearing:
         return tuple(self._plane_rib(ring, end) for ring, end in RIBS[self.kind] if self.rib_height > 0.0)
 
     def _cone_rib(self) -> Rib:
-        """Return the rib at the large end of a tapered roller."""
+        """Return the tapered roller's rib.
+
+        It is at the large end.
+        """
         angles = self.angles
         large = self.diameter + 2.0 * math.tan(angles.half) * 0.5 * self.length
         apex = 0.5 * self.diameter / math.tan(angles.half)  # from the roller's middle, along its axis
@@ -222,7 +233,10 @@ class RollerBearing:
         return Rib("inner", -1, (float(place[0]), float(place[1])), (float(normal[0]), float(normal[1])), 0.0, contact)
 
     def _plane_rib(self, ring: Ring, end: int) -> Rib:
-        """Return a rib of cylindrical rollers: the end touches in the middle of its height."""
+        """Return a rib of cylindrical rollers.
+
+        The end touches in the middle of its height.
+        """
         height = 0.5 * self.rib_height
         lever = 0.5 * self.diameter - height
         radius = self.end_radius or lever / math.sin(_RIB_OPENING)

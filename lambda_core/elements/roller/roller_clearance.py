@@ -18,7 +18,9 @@ CLASSES = ("C2", "CN", "C3", "C4", "C5")
 
 
 def roller_clearance(bore: float, clearance_class: str) -> tuple[float, float]:
-    """Return the limits of the radial clearance [m] of a bore [m] (ISO 5753-1:2009, as remembered).
+    """Return the limits of radial clearance [m].
+
+    For a bore [m] (ISO 5753-1:2009, as remembered).
 
     Raises
     ------

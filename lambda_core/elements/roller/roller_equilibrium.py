@@ -29,7 +29,7 @@ _STEEL = 2.0 / (2.0 * (1.0 - 0.3**2) / 206e9)  # E' of steel on steel [Pa], behi
 
 @dataclass(frozen=True)
 class RollerEquilibrium:
-    """Where rings and rollers are, and what they carry.
+    """Equilibrium of rings and rollers with their loads.
 
     Attributes
     ----------
@@ -63,7 +63,10 @@ class RollerEquilibrium:
 
     @property
     def carried(self) -> tuple[float, float]:
-        """Radial and axial load that the rollers take [N]; zero where it is below what the balance leaves."""
+        """Load that the rollers carry [N].
+
+        Radial and axial; zero where it is below what the balance leaves.
+        """
         largest = max(float(part.max(initial=0.0)) for part in (self.inner, self.outer, self.ribs))
         found = float(np.hypot(self.loads[1], self.loads[2])), abs(float(self.loads[0]))
         radial, axial = (0.0 if load < _SETTLED * largest else load for load in found)
@@ -72,7 +75,10 @@ class RollerEquilibrium:
 
 @dataclass(frozen=True)
 class Springs:
-    """All contacts of one roller: penetration = rollers @ u + ring @ v - gap, energy c/(p + 1) penetration^(p + 1)."""
+    """All contacts of one roller.
+
+    penetration = rollers @ u + ring @ v - gap, energy c/(p + 1) penetration^(p + 1).
+    """
 
     roller: FloatArray  # (m, 3)
     ring: FloatArray  # (m, 3), of the inner ring's motion in the roller's plane
@@ -94,7 +100,9 @@ class Springs:
 
 
 def single_contact_constant(length: float) -> float:
-    """Return c of Q = c delta^(10/9) of ONE raceway [N/m^(10/9)].
+    """Return c of one raceway's load [N/m^(10/9)].
+
+    Q = c delta^(10/9) of ONE raceway.
 
     ISO 16281's c_L holds for both raceways in series; alike, each takes half of the approach: c = c_L 2^(10/9).
     """
@@ -112,7 +120,9 @@ def balance(
     first_angle: float = 0.0,
     near: RollerEquilibrium | None = None,
 ) -> RollerEquilibrium:
-    """Find the equilibrium of all rollers and the inner ring; the outer ring stands still.
+    """Find the equilibrium of rollers and inner ring.
+
+    The outer ring stands still.
 
     Parameters
     ----------
@@ -203,7 +213,10 @@ def _refuse(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -
 
 
 def thrust_problem(bearing: RollerBearing, thrust: float) -> str:
-    """Return what is wrong with a thrust on the inner ring along x [N]; "" where ribs or cones take it."""
+    """Explain a thrust that the bearing cannot take.
+
+    On the inner ring along x [N]; "" where ribs or cones take it.
+    """
     if bearing.kind == "tapered":
         wrong = thrust <= 0.0
         return "a tapered roller bearing needs thrust on the inner ring along x, above zero" if wrong else ""
@@ -217,12 +230,18 @@ def thrust_problem(bearing: RollerBearing, thrust: float) -> str:
 
 
 def takes_one_side(bearing: RollerBearing) -> bool:
-    """Return whether ribs or cones take thrust from one side alone."""
+    """Tell whether the bearing takes one-sided thrust only.
+
+    Ribs or cones take it.
+    """
     return bool(thrust_problem(bearing, 1.0)) != bool(thrust_problem(bearing, -1.0))
 
 
 def single_springs(bearing: RollerBearing, slices: int) -> Springs:
-    """Return all contacts of one roller: outer slices, inner slices, ribs."""
+    """Return all contacts of one roller.
+
+    Outer slices, inner slices, ribs.
+    """
     angles, half = bearing.angles, 0.5 * bearing.diameter
     inner, outer, axis = angles.inner, angles.outer, angles.roller
     along = slice_positions(bearing.effective_length, slices)
@@ -260,7 +279,10 @@ def single_springs(bearing: RollerBearing, slices: int) -> Springs:
 
 
 def _carry(azimuths: FloatArray) -> FloatArray:
-    """Return the motion of the inner ring in the plane of every roller, (Z, 3, 5)."""
+    """Return the inner ring's motion at every roller.
+
+    In the plane of the roller, (Z, 3, 5).
+    """
     cosine, sine = np.cos(azimuths), np.sin(azimuths)
     carry: FloatArray = np.zeros((len(azimuths), 3, 5))
     carry[:, 0, 0] = 1.0
@@ -272,7 +294,10 @@ def _carry(azimuths: FloatArray) -> FloatArray:
 def _start(
     bearing: RollerBearing, loads: FloatArray, free: NDArray[np.bool_], ring: FloatArray, azimuths: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return a first guess in which the loaded rollers touch both raceways and the loaded ribs."""
+    """Return a first guess of the equilibrium.
+
+    The loaded rollers touch both raceways and the loaded ribs.
+    """
     radial = float(np.hypot(loads[1], loads[2]))
     cosine = math.cos(bearing.contact_angle)
     largest = 4.08 * radial / (bearing.count * cosine)
@@ -300,7 +325,10 @@ def _start(
 
 @dataclass(frozen=True)
 class _Condensed:
-    """The Hessian of ring and rollers with the rollers eliminated, one 3 x 3 block each."""
+    """Hessian of ring and rollers, condensed.
+
+    The rollers are eliminated, one 3 x 3 block each.
+    """
 
     stiffness: FloatArray  # of the ring, rollers in equilibrium, (5, 5)
     diagonal: FloatArray  # of the ring, rollers where they are, (5,)
@@ -310,7 +338,10 @@ class _Condensed:
 
 
 def _condensed(springs: Springs, slope: FloatArray, carry: FloatArray, roller_left: FloatArray) -> _Condensed:
-    """Eliminate the rollers from the Hessian at these stiffnesses of all contacts."""
+    """Eliminate the rollers from the Hessian.
+
+    At these stiffnesses of all contacts.
+    """
     own = np.einsum("zm,mi,mj->zij", slope, springs.roller, springs.roller)
     mixed = np.einsum("zm,mi,mp->zip", slope, springs.roller, springs.ring) @ carry
     plane = np.einsum("zm,mp,mr->zpr", slope, springs.ring, springs.ring)

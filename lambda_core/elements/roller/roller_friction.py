@@ -50,7 +50,10 @@ class OilState:
 
 @dataclass(frozen=True)
 class FrictionParameters:
-    """What friction depends on apart from geometry, load, speed and oil."""
+    """Friction data apart from the operating point.
+
+    Friction also depends on geometry, load, speed and oil.
+    """
 
     raceway_roughness: float = 0.16e-6  # composite rms [m]: Wingertszahn et al. 2023, Lubricants 11, 369
     rib_roughness: float = 0.24e-6  # composite rms [m]: the same
@@ -166,7 +169,10 @@ def skf_kind(bearing: RollerBearing) -> str:
 
 
 def replenishment(bearing: RollerBearing, speed: float, viscosity: float, constant: float) -> float:
-    """Return phi_rs = exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))), mm, mm2/s, 1/min (SKF 2018, "Friction")."""
+    """Return the replenishment factor phi_rs.
+
+    exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))), mm, mm2/s, 1/min (SKF 2018, "Friction").
+    """
     _, k_z = SKF_CONSTANTS[skf_kind(bearing)]
     d, D = 1e3 * bearing.bore, 1e3 * bearing.outside
     rpm = abs(speed) * 30.0 / math.pi
@@ -175,7 +181,10 @@ def replenishment(bearing: RollerBearing, speed: float, viscosity: float, consta
 
 @dataclass(frozen=True)
 class _Raceway:
-    """Powers [W] of one raceway without factors of heat and supply, and what belongs to them."""
+    """Powers [W] of one raceway.
+
+    Without factors of heat and supply, and what belongs to them.
+    """
 
     rolling: float
     hysteresis: float
@@ -186,14 +195,19 @@ class _Raceway:
     largest: FloatArray  # shear force that the film can carry [N], (Z,)
 
     def sliding(self, factor: float) -> float:
-        """Return the power of the slip that carries the traction [W]: force times slip, a Newtonian film."""
+        """Return the power of the slip [W].
+
+        The slip carries the traction: force times slip, a Newtonian film.
+        """
         return float(np.sum(np.minimum(factor * self.traction, self.largest) ** 2 * self.ease))
 
 
 def _raceway(
     bearing: RollerBearing, ring: Ring, loads: FloatArray, motion: RollerMotion, oil: OilState, par: FrictionParameters
 ) -> _Raceway:
-    """Return the powers and films of one raceway, slice by slice.
+    """Return powers and films of one raceway.
+
+    Slice by slice.
 
     Losses in the solids: the couple (2/(3 pi)) alpha w b per length of a cylinder (Johnson, Contact Mechanics, 1985,
     eq. 9.2 for line contact) against the roller's speed relative to the raceway. The film carries the traction that
@@ -235,7 +249,10 @@ def _raceway(
 def _rib(
     rib: Rib, loads: FloatArray, bearing: RollerBearing, motion: RollerMotion, oil: OilState, par: FrictionParameters
 ) -> tuple[float, float, float, HertzContact] | None:
-    """Return power of all rollers [W], smallest film [m], friction and contact of the most loaded; None unloaded."""
+    """Return power [W] and film [m] of ribs.
+
+    Power of all rollers, smallest film, friction and contact of the most loaded; None unloaded.
+    """
     if not np.any(loads > 0.0):
         return None
     power, film = 0.0, math.inf
@@ -253,7 +270,9 @@ def _rib(
 def _rib_contact(
     rib: Rib, load: float, bearing: RollerBearing, motion: RollerMotion, oil: OilState, par: FrictionParameters
 ) -> tuple[float, float, float, HertzContact]:
-    """Return power [W], film [m], mean friction and Hertz contact of one roller end.
+    """Return the friction of one roller end.
+
+    Power [W], film [m], mean friction and Hertz contact.
 
     Slip is that of two bodies that turn against each other about their common generatrix: omega_rel times the distance
     from it, cell by cell over the ellipse; the axis x of the contact is along sliding. Shear of the film tau_E

@@ -23,7 +23,10 @@ _SYSTEM = 8.0 / 9.0
 
 @dataclass(frozen=True)
 class RollerLife:
-    """Basic reference rating life of ISO 16281 with what it was made of."""
+    """Basic reference rating life of ISO 16281.
+
+    It has its inputs, too.
+    """
 
     life: float  # L_10r [1e6 revolutions]
     equivalent_load: float  # P_ref,r = C_r/L_10r^(3/10) [N]
@@ -58,7 +61,9 @@ def lamina_life(
     inner_rotates: bool = True,
     riser: FloatArray | float | None = None,
 ) -> RollerLife:
-    """Return the basic reference rating life from the loads of all laminae (ISO 16281:2025).
+    """Return the basic reference rating life.
+
+    From the loads of all laminae (ISO 16281:2025).
 
     L_10r = {sum_k [(q_ci/q_ei)^(-9/2) + (q_ce/q_ee)^(-9/2)]}^(-8/9), q_e the mean of f_k q_jk over the rollers, of the
     exponent 4 on the ring that turns relative to the load and 9/2 on the other.
@@ -101,7 +106,9 @@ def lamina_equivalent_loads(life: RollerLife, dynamic_rating: float) -> FloatArr
 def modified_lamina_life(
     life: RollerLife, dynamic_rating: float, viscosity_ratio: float, contamination: float, fatigue_limit: float
 ) -> float:
-    """Return the modified reference rating life L_10mr [1e6 revolutions] (ISO 16281:2025).
+    """Return L_10mr [1e6 revolutions].
+
+    The modified reference rating life (ISO 16281:2025).
 
     {sum_k a_ISO,k^(-9/8) X_k}^(-8/9): each lamina has the factor a_ISO of its own equivalent load
     (:func:`lamina_equivalent_loads`). Parameters as for
@@ -116,7 +123,10 @@ def modified_lamina_life(
 
 
 def _mean(loads: FloatArray, exponent: float) -> FloatArray:
-    """Return the power mean over the rollers; relative to the largest, so that zero stays zero without overflow."""
+    """Return the power mean over the rollers.
+
+    Relative to the largest, so that zero stays zero without overflow.
+    """
     top = loads.max(axis=0)
     scale = np.where(top > 0.0, top, 1.0)
     found: FloatArray = top * np.mean((loads / scale) ** exponent, axis=0) ** (1.0 / exponent)

@@ -40,11 +40,16 @@ class RollerMotion:
         return self.inner - self.outer
 
     def roller_speed(self, ring: Ring) -> float:
-        """Return the speed of the roller against a ring [rad/s], above zero."""
+        """Return the roller's speed against a ring [rad/s].
+
+        Above zero.
+        """
         return self.turning[0 if ring == "inner" else 1]
 
     def rib(self, rib: Rib, bearing: RollerBearing) -> tuple[float, float]:
-        """Return the mean surface speed at a rib [m/s] in the cage's frame, and the turning behind its sliding [rad/s].
+        """Return the speeds at a rib.
+
+        The mean surface speed [m/s] in the cage's frame, and the turning behind its sliding [rad/s].
 
         The rib moves with its ring; the roller's end slides behind by turning times the height above the generatrix.
         """
@@ -54,7 +59,9 @@ class RollerMotion:
         return abs(surface - 0.5 * turning * rib.contact.height), turning
 
     def inertial(self, bearing: RollerBearing) -> FloatArray:
-        """Return centrifugal force and gyroscopic moment on a roller in its plane, (a, r, moment) [N, N, N m].
+        """Return inertial force and moment on a roller.
+
+        Centrifugal force and gyroscopic moment in its plane, (a, r, moment) [N, N, N m].
 
         The moment is -omega_c x H of the angular momentum H = I_p omega_p e0 + I_t omega_t e1 of a body with two equal
         transverse inertias, its axis carried round by the cage (Euler's equations).

@@ -28,7 +28,9 @@ def over_a_pitch(
     slices: int = 40,
     places: Sequence[float] = PLACES,
 ) -> tuple[RollerEquilibrium, ...]:
-    """Return the equilibria at even places of the rollers over one pitch; the first is enough where all are alike.
+    """Return the equilibria over one pitch.
+
+    At even places of the rollers; the first is enough where all are alike.
 
     In the first a roller stands where the radial load presses, or the displacement of a held ring.
 
@@ -63,7 +65,9 @@ def over_a_pitch(
 
 
 def mean_friction(found: Sequence[RollerFriction]) -> RollerFriction:
-    """Return the mean of torques over places, and the extremes of pressures and films.
+    """Return mean torques and extreme pressures and films.
+
+    Over places of the rollers.
 
     Films of slices, friction of a rib and factors are those of the first.
     """

@@ -17,7 +17,9 @@ FLOW_SHEAR = math.sqrt(2.0) * (
 
 
 def flow_shear(radius: FloatArray | float, viscosity: float, film: FloatArray | float) -> FloatArray:
-    """Return the shear force per length and slip of the oil around a line contact [Pa s].
+    """Return the flow's shear coefficient [Pa s].
+
+    Shear force per length and slip of the oil around a line contact.
 
     3.49 eta sqrt(R/h): Couette flow between a cylinder and a plane of the gap h + x^2/(2 R), full up to where the oil
     tears and in streamers of its flow behind (Dowson and Higginson, Elasto-hydrodynamic Lubrication, 1966, ch. 3, whose
@@ -74,7 +76,7 @@ def rolling_force(
 
 
 def rolling_torque(force: FloatArray, speed: float, ring_speed: float) -> float:
-    """Return the torque of rolling resistance in a bearing [N m].
+    """Return a bearing's torque of rolling resistance [N m].
 
     Each contact takes the power 2 F u: F on both surfaces, which move with u in the contact's frame.
 

@@ -33,7 +33,9 @@ class SliceLoads:
 
 @dataclass(frozen=True)
 class Elastic:
-    """What the deflection matrix needs to know of the contacts that carry the same slice loads.
+    """Contact data for the deflection matrix.
+
+    These contacts carry the same slice loads.
 
     Attributes
     ----------
@@ -57,7 +59,10 @@ class Elastic:
 
 
 def slice_positions(length: float, count: int) -> FloatArray:
-    """Return the middles of `count` equal slices along the roller [m], x_k = L ((k - 1/2)/n - 1/2), (n,)."""
+    """Return the middles of `count` equal slices [m].
+
+    Along the roller, x_k = L ((k - 1/2)/n - 1/2), (n,).
+    """
     return length * ((np.arange(count) + 0.5) / count - 0.5)
 
 
@@ -121,7 +126,9 @@ def elastic_loads(
 
 
 def deflection_matrix(loads: FloatArray, positions: FloatArray, elastic: Elastic) -> FloatArray:
-    """Return the deflection of slice k per load on slice l [m/N], (rollers, n, n).
+    """Return the deflection matrix of the slices [m/N].
+
+    Slice k per load on slice l, (rollers, n, n).
 
     Love 1929, Phil. Trans. R. Soc. A 228, 377 (Johnson 1985, eq. 3.25): an even pressure on a rectangle 2a by 2h
     deflects the half space on its axis at the distance y by
@@ -155,7 +162,9 @@ def deflection_matrix(loads: FloatArray, positions: FloatArray, elastic: Elastic
 def approach_at_load(
     load: float, tilt: float, drop: FloatArray, length: float, elastic: Elastic | None = None
 ) -> float:
-    """Return the approach [m] at which a tilted roller carries `load` [N].
+    """Return the approach of a loaded roller [m].
+
+    A tilted roller carries `load` [N] at it.
 
     Laminae without `elastic`, else slices with the deflection matrix.
     """
@@ -180,7 +189,10 @@ def slice_loads(
     length: float,
     elastic: Elastic | None = None,
 ) -> SliceLoads:
-    """Load laminae, or slices with a deflection matrix where `elastic` is given."""
+    """Load laminae or coupled slices.
+
+    Slices have a deflection matrix where `elastic` is given.
+    """
     if elastic is None:
         return lamina_loads(approach, tilt, drop, length)
     return elastic_loads(approach, tilt, drop, length, elastic)
@@ -199,7 +211,10 @@ def _summed(loads: FloatArray, positions: FloatArray) -> SliceLoads:
 
 
 def _solve(matrix: FloatArray, wanted: FloatArray, active: NDArray[np.bool_]) -> FloatArray:
-    """Return the loads of the active slices [N]; an open slice has the equation q = 0."""
+    """Return the loads of the active slices [N].
+
+    An open slice has the equation q = 0.
+    """
     both = active[:, :, None] & active[:, None, :]
     scale = matrix.max()
     masked = np.where(both, matrix, 0.0) + np.where(active, 0.0, scale)[:, :, None] * np.eye(matrix.shape[-1])
@@ -208,7 +223,10 @@ def _solve(matrix: FloatArray, wanted: FloatArray, active: NDArray[np.bool_]) ->
 
 
 def _strip(distance: FloatArray, across: FloatArray) -> FloatArray:
-    """Return G(y) = a asinh(y/a) + y asinh(a/y), odd in y."""
+    """Return the strip's function G(y).
+
+    A asinh(y/a) + y asinh(a/y), odd in y.
+    """
     nonzero = np.where(distance == 0.0, 1.0, distance)
     found: FloatArray = across * np.arcsinh(distance / across) + distance * np.arcsinh(across / np.abs(nonzero))
     return found

@@ -63,7 +63,9 @@ class FilmPart(NamedTuple):
 
 @dataclass(frozen=True)
 class Circuit:
-    """What the image of bearings with a circuit holds in addition to their motion.
+    """Circuit in the image of bearings.
+
+    The image holds it in addition to their motion.
 
     Attributes
     ----------
@@ -120,7 +122,9 @@ class Circuit:
 def circuit(
     model: BearingModel | MachineModel, spans: Sequence[BearingSpan], contacts: int, announce: Announce = None
 ) -> Circuit | None:
-    """Return the circuit of a bearing or a machine, uncharged; None where its case has none.
+    """Return the uncharged circuit of a bearing or machine.
+
+    None where its case has none.
 
     Parameters
     ----------

@@ -68,7 +68,10 @@ class Constant:
 
 
 def points(lowest: float, highest: float, order: int) -> FloatArray:
-    """Return the points of Chebyshev, from the highest to the lowest."""
+    """Return the points of Chebyshev.
+
+    From the highest to the lowest.
+    """
     unit = np.cos(np.pi * np.arange(order + 1) / order)
     found: FloatArray = 0.5 * (lowest + highest) + 0.5 * (highest - lowest) * unit
     found[[0, -1]] = highest, lowest
@@ -76,7 +79,10 @@ def points(lowest: float, highest: float, order: int) -> FloatArray:
 
 
 def between(at: float, where: FloatArray, values: FloatArray) -> FloatArray:
-    """Return the polynomial through values (points, ...) at a place (barycentric formula of the second kind)."""
+    """Return the polynomial through values at a place.
+
+    Values of shape (points, ...), barycentric formula of the second kind.
+    """
     far = at - where
     if (far == 0.0).any():
         on: FloatArray = values[far == 0.0][0]
@@ -121,7 +127,10 @@ def constants(
 
 
 def _curves(option: Varied, base: FloatArray, sample: Callable[[Mapping[str, float]], FloatArray]) -> FloatArray:
-    """Return the values of all constants at the points of one option."""
+    """Return the values of all constants.
+
+    At the points of one option.
+    """
     known: dict[float, FloatArray] = {}
 
     def at(value: float) -> FloatArray:
@@ -148,7 +157,10 @@ def _curves(option: Varied, base: FloatArray, sample: Callable[[Mapping[str, flo
 
 
 def _checked(option: Varied, base: FloatArray, found: FloatArray) -> FloatArray:
-    """Return a sample; it has to have the same counts as the base."""
+    """Return a checked sample.
+
+    It must have the same counts as the base.
+    """
     if found.size == base.size:
         counts = _counts(base) | _counts(found)
         if (found[counts] == base[counts]).all() and np.isfinite(found).all():
@@ -193,5 +205,8 @@ def _scaled(
 
 
 def _share(corner: int, option: int) -> float:
-    """Return places that lie in no row: fractional parts of multiples of irrational numbers (Weyl)."""
+    """Return places that lie in no row.
+
+    They are fractional parts of multiples of irrational numbers (Weyl).
+    """
     return math.modf((corner + 1) * math.sqrt(2.0 + option * 1.7))[0]

@@ -15,7 +15,7 @@ _CAUGHT = {"logStatusError": "steps and values that are refused", "logStatusWarn
 
 @dataclass(frozen=True)
 class About:
-    """What stands at the head of a description.
+    """Head of a description.
 
     Attributes
     ----------
@@ -116,7 +116,10 @@ def _variable(model: ET.Element, variable: Variable, reference: int, fmi: int) -
 
 
 def _structure(root: ET.Element, variables: Sequence[Variable], fmi: int) -> None:
-    """Say which are outputs: each depends on all inputs, and can be asked for at the start."""
+    """Mark the outputs of the model.
+
+    Each depends on all inputs, and is available at the start.
+    """
     structure = ET.SubElement(root, "ModelStructure")
     outputs = [i for i, variable in enumerate(variables) if variable.causality == "output"]
     if fmi == 3:

@@ -127,18 +127,27 @@ class Frozen:
     machine: MachineStart | None
 
     def moves(self, body: str) -> bool:
-        """Tell whether a body of a bearing that is alone is there and can move."""
+        """Tell whether a body can move.
+
+        The bearing is alone and has the body.
+        """
         model = self.bearings[0].model
         if body == "cage":
             return bool(model.depth.cage)
         return any(dof.mode != "locked" for dof in getattr(model, body).dofs.values())
 
     def input_place(self, name: str) -> int:
-        """Return where a machine keeps what is given to it [bytes]: value, then rate."""
+        """Return the place of a machine's input [bytes].
+
+        Value, then rate.
+        """
         return self.image.place(self.host, _HOST_WORDS + 2 * self.given.index(name))
 
     def of_row(self, rows: Any, row: int, field: str) -> int:
-        """Return the place of a field in a row of a table."""
+        """Return the place of a field in a table.
+
+        It is in a row of the table.
+        """
         return self.image.place(rows) + row * int(rows.itemsize) + int(rows.dtype.fields[field][1])
 
     def integral(self, name: str) -> int:
@@ -161,7 +170,9 @@ def freeze(
     options: Sequence[Varied] = (),
     changed: Callable[[Mapping[str, float]], BearingModel | MachineModel] | None = None,
 ) -> Frozen:
-    """Solve for the start of a model and freeze it there.
+    """Solve for the start of a model and freeze it.
+
+    The frozen model stays at that state.
 
     Parameters
     ----------
@@ -269,7 +280,10 @@ class _OneBearing:
         self.bearings = (FrozenBearing("", model, context.assembly.spans()[0]),)
 
     def alike(self, model: BearingModel) -> BearingEngine:
-        """Return an engine of another model in the state and with the contact frame of the first."""
+        """Return an engine of another model, otherwise alike.
+
+        It has the state and the contact frame of the first.
+        """
         base, given = self._equilibrium, self.given
         if self._couple == "motion":  # the host holds the rings where the base has them
             own = base.context.model
@@ -297,21 +311,30 @@ class _Machine:
         self.bearings = tuple(FrozenBearing(one.name, one.context.model, one.span) for one in self.engine.bearings)
 
     def alike(self, machine: MachineModel) -> MachineEngine:
-        """Return an engine of another model in the state and with the contact frames of the first."""
+        """Return an engine of another model, otherwise alike.
+
+        It has the state and the contact frames of the first.
+        """
         return MachineEngine(changed_start(self.machine, machine), capacity=_CAPACITY)
 
 
 def _circuit(
     model: BearingModel | MachineModel, engine: BearingEngine | MachineEngine, announce: Announce
 ) -> Circuit | None:
-    """Return the circuit of what moves; None where its case has none."""
+    """Return the circuit of the moving model.
+
+    None where its case has none.
+    """
     contacts = engine.parts()[3].contacts
     spans = engine.context.assembly.spans()
     return circuit(model, spans, contacts.size // contacts.shape[-1], announce)
 
 
 def _parts(engine: BearingEngine | MachineEngine) -> list[FloatArray]:
-    """Return everything that the set-up of a model has worked out, as views of numbers."""
+    """Return everything that the set-up computed.
+
+    The results are views of numbers.
+    """
     _, context, memory, _ = engine.parts()
     tables = [getattr(context.bundle, name) for name in _TABLES]
     found = [table.view(np.float64).reshape(-1) for table in tables if table.size]
@@ -321,6 +344,9 @@ def _parts(engine: BearingEngine | MachineEngine) -> list[FloatArray]:
 
 
 def _joined(parts: Sequence[FloatArray]) -> FloatArray:
-    """Return all numbers one after another; a count below zero, which reads as no number, as -1."""
+    """Return all numbers one after another.
+
+    A count below zero, which reads as no number, becomes -1.
+    """
     joined: FloatArray = np.nan_to_num(np.concatenate(parts), nan=-1.0, posinf=np.inf, neginf=-np.inf)
     return joined

@@ -61,7 +61,7 @@ _LOOKED_AT = (
 
 
 def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
-    """Return what the library's C has to know of a case."""
+    """Return a case's header for the library's C."""
     image, fault = frozen.image, frozen.image.place(frozen.bundle.scratch) + _at(R.SCRATCH, "fault")
     numbers = {
         "IMAGE_SIZE": image.size,
@@ -128,7 +128,10 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
 
 
 def _limit_numbers(frozen: Frozen) -> dict[str, object]:
-    """Return the numbers of the warnings at the limits of laws: :mod:`lambda_core.results.limits`."""
+    """Return the numbers of the warnings at limits.
+
+    They are limits of laws: :mod:`lambda_core.results.limits`.
+    """
     contacts = frozen.scratch.contacts
     places = {f"CONTACT_{name.upper()}": _at(R.CONTACT_SAMPLE, name) for name in _LOOKED_AT}
     return {
@@ -146,7 +149,9 @@ def _limit_numbers(frozen: Frozen) -> dict[str, object]:
 
 
 def _part_table(frozen: Frozen) -> list[str]:
-    """Return where each bearing stands, the ring of each contact of its balls, and its limits and grooves.
+    """Return the table of all bearings' parts.
+
+    The place of each bearing, the ring of each contact of its balls, and its limits and grooves.
 
     Of both rings the groove: radius, edge, edge between two arcs.
     """
@@ -165,7 +170,10 @@ def _part_table(frozen: Frozen) -> list[str]:
 
 
 def _start_numbers(frozen: Frozen) -> dict[str, object]:
-    """Return the numbers of a start elsewhere than at the case's equilibrium."""
+    """Return the numbers of another start.
+
+    It is not at the case's equilibrium.
+    """
     image, start = frozen.image, frozen.start
     found: dict[str, object] = {
         "STATE": image.place(frozen.memory.y),
@@ -208,7 +216,10 @@ def _start_numbers(frozen: Frozen) -> dict[str, object]:
 
 
 def _followers(frozen: Frozen) -> Iterator[tuple[int, int, list[tuple[int, float]]]]:
-    """Yield places of numbers that follow what a machine is given, of the time since when, and their shares."""
+    """Yield the places that follow a machine's inputs.
+
+    With the time since when, and their shares.
+    """
     given = frozen.machine.given if frozen.machine else None
     for row, shares in given.shares.items() if given else ():
         begin = frozen.of_row(frozen.terms, row, "begin")
@@ -220,7 +231,10 @@ def _followers(frozen: Frozen) -> Iterator[tuple[int, int, list[tuple[int, float
 
 
 def _machine_tables(frozen: Frozen, variables: Sequence[Variable]) -> list[str]:
-    """Return what follows the inputs of a machine, and the sums that its outputs are."""
+    """Return the followers of a machine's inputs.
+
+    Also return the sums that its outputs are.
+    """
     followers: list[str] = []
     shares: list[str] = []
     for place, begin, sources in _followers(frozen):
@@ -278,7 +292,10 @@ def _film_table(frozen: Frozen) -> list[str]:
 
 
 def _slope_numbers(frozen: Frozen) -> dict[str, object]:
-    """Return the numbers of slopes of reactions by the solver's Jacobian, where the host leads the rings."""
+    """Return the numbers of the reactions' slopes.
+
+    They use the solver's Jacobian, where the host prescribes the rings' motion.
+    """
     prescribed, image = frozen.prescribed, frozen.image
     if prescribed is None:
         return {"SLOPES": 0}
@@ -295,7 +312,10 @@ def _slope_numbers(frozen: Frozen) -> dict[str, object]:
 
 
 def _slope_table(frozen: Frozen) -> list[str]:
-    """Return the shared states that the Jacobian of a bearing with prescribed motion counts as free."""
+    """Return the free shared states of the Jacobian.
+
+    The bearing has a prescribed motion.
+    """
     states = ", ".join(map(str, frozen.prescribed.bundle.active)) if frozen.prescribed else ""
     return [f"static const unsigned lb_slope_states[] = {{{states}}};"] if states else []
 
@@ -317,7 +337,10 @@ def _start_tables(frozen: Frozen) -> list[str]:
 
 
 def _curves(frozen: Frozen) -> list[str]:
-    """Return what constants follow: points of every option, values of every curve."""
+    """Return the dependent constants' curves.
+
+    Points of every option, values of every curve.
+    """
     rows: list[str] = []
     curves: list[str] = []
     values: list[float] = []
@@ -336,7 +359,7 @@ def _curves(frozen: Frozen) -> list[str]:
 
 
 def _needed() -> tuple[str, ...]:
-    """Return what a processor must have for code of this process."""
+    """Return the processor features of this process's code."""
     name = known_processor()
     return _NAMED[name] if name in _NAMED else tuple(each for each in _CPUID if each in features())
 

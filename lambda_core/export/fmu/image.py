@@ -26,7 +26,9 @@ _LINE = 64  # [bytes] arrays begin at lines of the processor's cache
 
 
 class Image:
-    """The bytes, and what a host does to a copy of them.
+    """Bytes of an image and a host's operations.
+
+    The host works on a copy of them.
 
     Parameters
     ----------
@@ -78,7 +80,10 @@ class Image:
                 self.fixes.append((begin + 8 * i, self._function(by_address[address])))
 
     def place(self, array: Any, index: int = 0) -> int:
-        """Return where an array begins, or the eight-byte item of some index [bytes]."""
+        """Return the start of an array [bytes].
+
+        Or of the eight-byte item of some index.
+        """
         address = _address(array)
         for begin, end, place in self._places:
             if begin <= address < end:
@@ -86,7 +91,10 @@ class Image:
         raise KeyError("the array is not in the image")
 
     def bytes(self) -> bytes:
-        """Return the image as it is now, with places for addresses."""
+        """Return the image with places for addresses.
+
+        It has the present values.
+        """
         data = bytearray(self.size)
         struct.pack_into(f"<{len(self._words)}q", data, 0, *self._words)
         for begin, end, place in self._places:
@@ -122,7 +130,9 @@ class Image:
             raise TypeError(f"{kind} has {words_of(kind)} words in this Numba, not {len(self._words) - begin}")
 
     def _laid_out(self, last: set[int]) -> tuple[list[tuple[int, int, int]], int, int]:
-        """Return runs of memory (begin, end, place in the image), views of one memory together, and both sizes.
+        """Return the memory layout of the image.
+
+        Runs of memory (begin, end, place in the image), views of one memory together, and both sizes.
 
         Runs that begin at the addresses `last` stand at the end.
         """
@@ -141,7 +151,10 @@ def _address(array: Any) -> int:
 
 
 def _extent(array: Any) -> tuple[int, int]:
-    """Return where an array's bytes begin and end; an empty one has a byte, too."""
+    """Return begin and end of an array's bytes.
+
+    An empty one has a byte, too.
+    """
     return _address(array), _address(array) + max(array.nbytes, 1)
 
 
@@ -162,5 +175,8 @@ def _up(size: int) -> int:
 
 
 def host_words(count: int) -> Any:
-    """Return memory for numbers that belong to the host, to be a section of an image."""
+    """Return memory for the host's numbers.
+
+    It becomes a section of an image.
+    """
     return np.zeros(count)

@@ -74,7 +74,9 @@ PLATFORMS = {
 
 
 def compiler(platform: str = "linux") -> tuple[str, ...]:
-    """Return the command of a C compiler for a platform: the system's for its own, or that of the extra ``fmu``.
+    """Return the C compiler's command for a platform.
+
+    The system's for its own platform, or that of the extra ``fmu``.
 
     Raises
     ------
@@ -132,7 +134,7 @@ def build(parts: Parts, interface: str, folder: Path, name: str, platform: str) 
 
 @dataclass(frozen=True)
 class Parts:
-    """What a library is made of, except for the interface.
+    """Parts of a library except its interface.
 
     Attributes
     ----------

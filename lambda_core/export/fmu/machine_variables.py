@@ -51,7 +51,10 @@ class _Machine:
 
 
 def machine_variables(frozen: Frozen, start: MachineStart) -> Iterator[Variable]:
-    """Yield the variables of a machine but for time and options."""
+    """Yield the variables of a machine.
+
+    Time and options are not among them.
+    """
     machine = _Machine(frozen, start)
     yield from _inputs(machine)
     for place, at in load_places(machine.model).items():
@@ -80,7 +83,10 @@ def _inputs(machine: _Machine) -> Iterator[Variable]:
 
 
 def _point(machine: _Machine, name: str, place: Place) -> Iterator[Variable]:
-    """Yield how a point of shaft or body moves; the turning of the shaft moves it nowhere."""
+    """Yield the motion of a point.
+
+    It is on the shaft or a body; the shaft's rotation does not move it.
+    """
     if place.body == SHAFT:
         shaft = machine.start.shaft
         lumps = member_numbers(machine.model, shaft).lumps
@@ -109,7 +115,10 @@ def _point(machine: _Machine, name: str, place: Place) -> Iterator[Variable]:
 
 
 def _shares(machine: _Machine, members: list[int], weights: FloatArray, rate: bool) -> Iterator[tuple[int, float]]:
-    """Yield places of states of members, and how much each counts."""
+    """Yield places of states with their weights.
+
+    They are states of members.
+    """
     for member, own in zip(members, weights.reshape(-1, NODE), strict=True):
         for row, (state, sign, slope) in _STATES.items():
             if own[row] != 0.0:
@@ -135,7 +144,10 @@ def _is_free(machine: _Machine, member: int) -> bool:
 
 
 def _motions(machine: _Machine, one: FrozenBearing) -> Iterator[Variable]:
-    """Yield how rings and cage of a bearing stand and move, and what the bearing puts on the shaft."""
+    """Yield a bearing's motions and forces.
+
+    Of rings and cage, and what the bearing exerts on the shaft.
+    """
     name, rings = named(f"bearings.{one.name}"), {"inner_ring": INNER, "outer_ring": OUTER}
     for ring, which in rings.items():
         member = one.span.bodies[which]

@@ -69,7 +69,10 @@ def build_pack(folder: Path, announce: Callable[[str], None]) -> None:
 
 
 def _functions(announce: Callable[[str], None]) -> tuple[dict[str, Any], list[Any]]:
-    """Compile units and laws; return what the manifest says of each by name, and their pointers in this order."""
+    """Compile units and laws.
+
+    Return what the manifest lists of each by name, and their pointers in this order.
+    """
     from lambda_core.analysis.electric.circuit_integrator import compiled
     from lambda_core.analysis.electric.compiled import switching
     from lambda_core.discovery.manager import registry
@@ -99,7 +102,10 @@ def _functions(announce: Callable[[str], None]) -> tuple[dict[str, Any], list[An
 
 
 def _written(signature: Any) -> list[Any]:
-    """Return the kinds of a function's arguments as :func:`lambda_core.laws.pack.kind_from` reads them."""
+    """Return the kinds of a function's arguments.
+
+    As :func:`lambda_core.laws.pack.kind_from` reads them.
+    """
     return [_kind(each) for each in signature.args]
 
 
@@ -138,7 +144,10 @@ def _link(command: tuple[str, ...], objects: Mapping[str, bytes], sources: list[
 
 
 def main() -> int:
-    """Build the pack in the folder that the command names; for which processor is settled before Numba is imported."""
+    """Build the pack in the folder.
+
+    The command names the folder; the processor is set before Numba is imported.
+    """
     if os.environ.get(_CPU) != LEVEL:
         settings = {_CPU: LEVEL, _FEATURES: "", "LAMBDA_BEARING_CODE": "native"}
         again = [sys.executable, "-P", "-W", "ignore", "-m", __spec__.name, *sys.argv[1:]]

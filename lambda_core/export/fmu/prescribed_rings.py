@@ -54,7 +54,10 @@ class PrescribedRings:
         ]
 
     def workspaces(self) -> list[Any]:
-        """Return the arrays that are written anew whenever slopes are asked for; no part of a saved state."""
+        """Return the temporary arrays of slopes.
+
+        Each request for slopes rewrites them; they are no part of a saved state.
+        """
         return [self.state, *(array for array in self.blocks if isinstance(array, np.ndarray))]
 
     def entry(self, at: dict[str, int], core: Core) -> Entry:
@@ -77,7 +80,9 @@ def prescribed_rings(context: SolverContext, given: Sequence[str]) -> Prescribed
 
 
 def axis_of(name: str, field: str) -> tuple[int, float]:
-    """Return the shared state that a field of a signal is, and its sign there; -1 for none.
+    """Return the shared state of a signal's field.
+
+    And its sign there; -1 for none.
 
     Parameters
     ----------

@@ -58,7 +58,7 @@ class Start:
         return [(f"start_{name}", kind, getattr(self, name)) for name, kind in zip(names, kinds, strict=True)]
 
     def entry(self, at: dict[str, int]) -> Entry:
-        """Return the function of the library that looks for the equilibrium."""
+        """Return the library's function for the equilibrium."""
         pointer = Pointer(build("solve_static"), UNITS["solve_static"][1])
         names = ("evaluate", "jacobian", "bundle", "blocks", "factors", *(name for name, *_ in self.sections()))
         return Entry("lb_static", pointer, (*(at[name] for name in names), WORD))
@@ -89,7 +89,10 @@ def prepare_start(found: Equilibrium) -> Start:
 
 
 def _rolling(found: Equilibrium, speed: float) -> FloatArray:
-    """Return orbital velocity and spin of the balls at a speed of the inner ring."""
+    """Return orbital velocity and spin of the balls.
+
+    At a speed of the inner ring.
+    """
     ring = found.context.model.inner_ring
     dof = dataclasses.replace(ring.dofs[SPIN], motion=TimeFunction.constant(speed))
     model = dataclasses.replace(

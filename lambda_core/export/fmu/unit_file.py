@@ -201,7 +201,10 @@ def _write(task: Mapping[str, Any], announce: Callable[[str], None] | None) -> N
 
 
 def _zip(parts: Mapping[str, bytes], target: Path) -> None:
-    """Write an archive to a temporary name in its folder, and move it to its place."""
+    """Write an archive and move it in place.
+
+    It has a temporary name in its folder first.
+    """
     target.parent.mkdir(parents=True, exist_ok=True)
     part = target.with_name(f".{target.name}.part")
     try:
@@ -216,7 +219,10 @@ def _zip(parts: Mapping[str, bytes], target: Path) -> None:
 
 
 def _write_apart(task: Mapping[str, Any], processor: str) -> None:
-    """Write an FMU in a process of its own: for which processor Numba compiles is settled when it is imported."""
+    """Write an FMU in a separate process.
+
+    Numba fixes the processor when it is imported.
+    """
     code = "from lambda_core.export.fmu.unit_file import serve; serve()"
     # A named processor has its own features and no others.
     settings = {_CPU: processor, _FEATURES: ""} if processor != "native" else {}
@@ -232,7 +238,10 @@ def _write_apart(task: Mapping[str, Any], processor: str) -> None:
 
 
 def serve() -> None:
-    """Do one task from standard input; the whole work of a process."""
+    """Do one task from standard input.
+
+    It is all the work of a process.
+    """
     from lambda_core.domain.errors import LambdaError
 
     try:

@@ -22,7 +22,10 @@ from lambda_core.solver.arrays.integrator_memory import CONTROL, COUNT
 
 
 class Kind(IntEnum):
-    """How a variable is read; the numbers of source/core.h."""
+    """Reading of a variable.
+
+    The numbers are those of source/core.h.
+    """
 
     TIME = 0
     INPUT = 1
@@ -41,7 +44,10 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True)
 class Variable:
-    """One variable; its value reference is its place in the list."""
+    """One variable.
+
+    Its value reference is its place in the list.
+    """
 
     name: str
     text: str
@@ -61,7 +67,7 @@ class Variable:
 
     @property
     def causality(self) -> Literal["independent", "input", "output", "parameter"]:
-        """Which way it goes."""
+        """Causality of the variable."""
         if self.kind is Kind.TIME:
             return "independent"
         if not self.given:
@@ -70,7 +76,7 @@ class Variable:
 
     @property
     def given(self) -> bool:
-        """Whether a host sets it."""
+        """True if a host sets it."""
         return self.kind in (Kind.INPUT, Kind.SOURCE, Kind.VARIED)
 
 
@@ -79,7 +85,10 @@ _TITLES = {"x": "along the shaft", "y": "horizontal", "z": "vertical"}
 
 
 def variables(frozen: Frozen) -> list[Variable]:
-    """Return the variables of a bearing or a machine in the order of their value references."""
+    """Return the variables in order.
+
+    Of a bearing or a machine, in the order of their value references.
+    """
     found = [Variable("time", "time", "s", Kind.TIME, 0)]
     if frozen.machine is not None:
         from lambda_core.export.fmu.machine_variables import machine_variables
@@ -96,13 +105,19 @@ def variables(frozen: Frozen) -> list[Variable]:
 
 
 def named(path: str) -> str:
-    """Return a path as FMI's structured names have it: what is no identifier stands in quotes."""
+    """Return a path as FMI's structured names.
+
+    Quotes enclose what is no identifier.
+    """
     table, _, name = path.partition(".")
     return path if re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII) else f"{table}.'{name}'"
 
 
 def _unit(name: str) -> tuple[str, str, str]:
-    """Return the units of an input, of its rate and of its acceleration."""
+    """Return the units of an input.
+
+    Of its value, its rate and its acceleration.
+    """
     word = name.split(".")[1]
     if word.startswith("force"):
         return "N", "", ""
@@ -131,7 +146,7 @@ def _inputs(frozen: Frozen) -> Iterator[Variable]:
 
 
 def _varied(frozen: Frozen) -> Iterator[Variable]:
-    """Yield the options of the case that a host may change."""
+    """Yield the options that a host may change."""
     behind = frozen.host.size - len(frozen.varied)
     for k, option in enumerate(frozen.varied):
         yield Variable(
@@ -230,7 +245,10 @@ def steps(frozen: Frozen) -> Variable:
 
 
 def of_circuit(frozen: Frozen) -> Iterator[Variable]:
-    """Yield the source that the host is, and what the circuit answers with."""
+    """Yield the variables of the circuit.
+
+    The host is the source, and the circuit answers.
+    """
     found = frozen.circuit
     if found is None:
         return

@@ -47,11 +47,17 @@ class Varied:
 
     @property
     def is_temperature(self) -> bool:
-        """Whether it is one, which a host works out while the bearing turns."""
+        """True for a temperature.
+
+        A host computes it while the bearing turns.
+        """
         return self.quantity == "temperature"
 
     def change(self, value: float) -> str:
-        """Return the change of a case that gives it a value."""
+        """Return the change that sets the value.
+
+        It changes a case.
+        """
         return f"{self.path}={value!r} {self.unit}" if self.quantity else f"{self.path}={value!r}"
 
 
@@ -102,7 +108,10 @@ def _read(text: str, written: Mapping[str, Any], case: Case | MachineCase) -> Va
 
 
 def _check_known(path: str, value: str, case: Case | MachineCase) -> None:
-    """Raise UsageError when no case says such an option, or none such a value."""
+    """Refuse an option that no case has.
+
+    Also a value that no case has; UsageError.
+    """
     from lambda_core.case.case_io import apply_overrides
 
     try:

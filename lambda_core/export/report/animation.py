@@ -23,7 +23,10 @@ _COLOURS = 64  # of a GIF
 
 
 def check_format(path: Path) -> str:
-    """Return the format that the name of a file asks for; UsageError when there is none such, or it cannot be made."""
+    """Return the format by a file's name.
+
+    UsageError when there is none such, or it cannot be made.
+    """
     name = path.suffix.lower()
     if name not in FORMATS:
         raise UsageError(unknown_name("format of animations", name or path.name, FORMATS))
@@ -49,7 +52,7 @@ def check_pace(turns: float, frames: int, fps: float) -> None:
 
 
 def write_animation(registry: Registry, scene: Scene, path: Path, fps: float, report: Report | None = None) -> Path:
-    """Write a scene in the format that the name of the file asks for.
+    """Write a scene in the file name's format.
 
     Parameters
     ----------
@@ -97,7 +100,10 @@ def _encoder() -> Any:
 
 
 def _mp4(frames: Iterator[Image], path: Path, fps: float) -> None:
-    """Encode H.264 that browsers and slides play: 4:2:0, the index in front."""
+    """Encode H.264 that browsers and slides play.
+
+    4:2:0, the index in front.
+    """
     first = next(frames)
     height, width = first.shape[:2]
     writer = _encoder().write_frames(
@@ -114,7 +120,10 @@ def _mp4(frames: Iterator[Image], path: Path, fps: float) -> None:
 
 
 def _gif(frames: Iterator[Image], path: Path, fps: float) -> None:
-    """Write a GIF that repeats; all frames share the colours of the first, so that nothing flickers."""
+    """Write a GIF that repeats.
+
+    All frames share the colours of the first, so that nothing flickers.
+    """
     from PIL import Image as Picture
 
     first = Picture.fromarray(next(frames)).quantize(_COLOURS, dither=Picture.Dither.NONE)

@@ -336,7 +336,10 @@ def report(
 
 
 def _chapter(source: str | PathLike[str] | FitReport, bearing: str | None, cover: Cover) -> Chapter:
-    """Return the chapter about a result, a case, a study or a fit."""
+    """Return the chapter about a subject.
+
+    It is a result, a case, a study or a fit.
+    """
     from lambda_core.discovery.manager import registry
     from lambda_core.export.report.chapters import case_inputs
     from lambda_core.export.report.page import run_chapter, study_chapter
@@ -386,7 +389,10 @@ def _case_chapter(source: str | PathLike[str], bearing: str | None, cover: Cover
 
 
 def _cover(project: str, author: str, appendices: Sequence[str], units: str) -> Cover:
-    """Return the parts of the page other than the results; the day only where somebody signs."""
+    """Return the page's parts other than results.
+
+    It has the day only where somebody signs.
+    """
     from datetime import date
 
     from lambda_core.domain.unit_systems import unit_system
@@ -400,7 +406,7 @@ def _cover(project: str, author: str, appendices: Sequence[str], units: str) -> 
 
 
 def _refuse_existing(path: Path, overwrite: bool) -> None:
-    """Say before the work what would stop it at its end."""
+    """Refuse existing files before the work."""
     if not check_target(check_new(path, overwrite)).exists():
         check_folder(path.absolute().parent, path)
 
@@ -421,7 +427,10 @@ def subject_of(
 
 
 def _begun(found: Result) -> Result:
-    """Return a result that there is something to see of; UsageError before the first sample."""
+    """Return a result that has samples.
+
+    UsageError before the first sample.
+    """
     if not found.status().rows.samples:
         raise UsageError(f"{found.path} holds no samples yet")
     return found

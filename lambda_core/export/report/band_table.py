@@ -13,7 +13,10 @@ _SCATTER = {"friction torque": "friction_torque_ci_Nmm"}
 
 
 def model_bands(summary: Any, units: UnitSystem = SI) -> tuple[Table, ...]:
-    """Return what the model band says of each number; nothing where the run was not asked for it."""
+    """Return the model band of each number.
+
+    It is empty where the run did not compute one.
+    """
     band = summary.model_band
     if band is None:
         return ()

@@ -36,7 +36,10 @@ _SIZES = ("bore_diameter", "outside_diameter", "width")
 
 @dataclass(frozen=True)
 class Picture:
-    """One view on a page, or the reason why it shows nothing."""
+    """One view on a page.
+
+    Or the reason for its absence.
+    """
 
     name: str
     svg: str
@@ -45,7 +48,10 @@ class Picture:
 
 @dataclass(frozen=True)
 class Inputs:
-    """What a run or a study starts from, ready to print."""
+    """Start of a run or a study.
+
+    It is ready to print.
+    """
 
     values: tuple[Table, ...]
     assumptions: tuple[str, ...]
@@ -58,7 +64,7 @@ class Inputs:
 
 @dataclass(frozen=True)
 class BearingPart:
-    """What a report says of one bearing."""
+    """Report of one bearing."""
 
     name: str  # of a bearing of a machine; "" of one alone
     title: str
@@ -75,7 +81,10 @@ class BearingPart:
 
 @dataclass(frozen=True)
 class Chapter:
-    """One subject of a document: the pages of a run, of a case or of a study."""
+    """One subject of a document.
+
+    It has the pages of a run, of a case or of a study.
+    """
 
     kind: str  # "run", "case" or "study"
     title: str
@@ -133,7 +142,9 @@ def bearing_part(
 
 
 def case_chapter(model: Any, found: Any, units: UnitSystem = SI, pictures: Sequence[Picture] = ()) -> Chapter:
-    """Return the chapter of a case at its operating point: of one bearing, or of a machine.
+    """Return the chapter of a case.
+
+    At its operating point; of one bearing, or of a machine.
 
     Parameters
     ----------
@@ -196,7 +207,10 @@ def run_bearings(result: Result, units: UnitSystem) -> tuple[BearingPart, ...]:
 
 
 def _carried(found: Any) -> tuple[float, ...]:
-    """Return radial and axial load of a bearing from its contacts [N]."""
+    """Return the carried loads of a bearing [N].
+
+    Radial and axial load from its contacts.
+    """
     inner = [c for c in found.contacts if c.ring == "inner"]
     angles = [(math.radians(c.contact_angle_deg), math.radians(c.azimuth_deg), c.load_N) for c in inner]
     across = [q * math.cos(a) for a, _, q in angles]
@@ -206,7 +220,10 @@ def _carried(found: Any) -> tuple[float, ...]:
 
 
 def _applied(model: Any) -> tuple[float, ...]:
-    """Return radial and axial load on the inner ring at the start [N]."""
+    """Return the applied loads on the inner ring [N].
+
+    Radial and axial load at the start.
+    """
     from lambda_core.model.laws.time_functions import initial
 
     x, y, z = (initial(force) for force in model.inner_ring.force)
@@ -230,7 +247,10 @@ def _sentences(lines: Sequence[str], units: UnitSystem) -> tuple[str, ...]:
 
 @lru_cache(maxsize=8)
 def _band(case_toml: str) -> ModelBand | None:
-    """Return the 90 % model band of the case of one bearing; None where there is none."""
+    """Return the 90 % model band of a case.
+
+    Of one bearing; None where there is none.
+    """
     from lambda_core.analysis.band.model_band import model_band
     from lambda_core.case.case_io import parse_case
     from lambda_core.results.model_band import ModelBand
@@ -263,7 +283,10 @@ def run_inputs(result: Result, units: UnitSystem = SI) -> Inputs:
 
 
 def case_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
-    """Return the inputs of a study or a case from the resolved model of one bearing."""
+    """Return the inputs of a study or case.
+
+    From the resolved model of one bearing.
+    """
     from types import SimpleNamespace
 
     from lambda_core.results.citation import citation
@@ -284,7 +307,10 @@ def case_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
 
 
 def machine_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
-    """Return the inputs of a machine: laws and values of its first bearing stand for those that all share."""
+    """Return the inputs of a machine.
+
+    Laws and values of its first bearing represent those that all share.
+    """
     from dataclasses import replace
 
     first = case_inputs(model.bearings[0].model, units)

@@ -17,7 +17,10 @@ if TYPE_CHECKING:
 
 
 def fit_chapter(registry: Registry, report: FitReport, cover: Cover) -> Chapter:
-    """Return the chapter of one fit; what speaks against it stands below its state."""
+    """Return the chapter of one fit.
+
+    The objections follow its state.
+    """
     units = cover.units
     tables = (
         _parameters(report),

@@ -46,7 +46,10 @@ class ViewCard(BaseModel):
 
 
 def cards(registry: Registry, subject: Subject | None = None) -> list[ViewCard]:
-    """Return every installed view, or those of one kind of subject."""
+    """Return every installed view.
+
+    Or those of one kind of subject.
+    """
     return [
         ViewCard(
             name=view.name,
@@ -67,7 +70,9 @@ def cards(registry: Registry, subject: Subject | None = None) -> list[ViewCard]:
 def every(
     registry: Registry, subject: Any, kind: Subject, without: Container[str] = ()
 ) -> Iterator[tuple[View, ViewData | NotApplicable]]:
-    """Yield every view that is offered for a subject with its data, or with the reason why it shows nothing.
+    """Yield every view of a subject.
+
+    With its data, or with the reason why it shows nothing.
 
     Those named by `without` are left out.
     """
@@ -89,7 +94,9 @@ def every(
 
 
 def write(registry: Registry, data: ViewData, folder: Path, stem: str, formats: Sequence[str]) -> list[Path]:
-    """Draw a view into files ``stem-view.format`` of a folder; returns their paths.
+    """Draw a view into files of a folder.
+
+    The names are ``stem-view.format``; returns their paths.
 
     Raises
     ------
@@ -120,6 +127,9 @@ def write(registry: Registry, data: ViewData, folder: Path, stem: str, formats: 
 
 
 def stem_of(paths: Sequence[Path]) -> str:
-    """Return the beginning of file names for pictures of these results."""
+    """Return the stem of picture file names.
+
+    For pictures of these results.
+    """
     words = [re.sub(r"[^A-Za-z0-9._-]+", "-", path.resolve().stem or path.name) for path in paths]
     return words[0] if len(words) == 1 else f"{words[0]}-and-{len(words) - 1}-more"

@@ -29,7 +29,7 @@ _STEEL, _DARK, _BRASS, _RED = (0.75, 0.76, 0.78), (0.25, 0.27, 0.32), (0.72, 0.5
 
 @dataclass
 class _File:
-    """What a glTF file is made of."""
+    """Contents of a glTF file."""
 
     tree: dict[str, Any]
     data: bytearray = field(default_factory=bytearray)
@@ -95,7 +95,10 @@ class _File:
         return len(self.tree[kind]) - 1
 
     def binary(self) -> bytes:
-        """Return the file: header, JSON chunk, binary chunk (glTF 2.0 specification, section 4)."""
+        """Return the file in binary form.
+
+        Header, JSON chunk, binary chunk (glTF 2.0 specification, section 4).
+        """
         self.tree["buffers"] = [{"byteLength": len(self.data)}]
         text = json.dumps(self.tree, separators=(",", ":")).encode()
         text += b" " * (-len(text) % 4)
@@ -146,7 +149,10 @@ def _rings(file: _File, scene: Scene, time: int) -> None:
 
 
 def _cage(file: _File, scene: Scene, time: int) -> None:
-    """Add two rims with bars between the pockets: a picture of a cage, not the drawing of this one."""
+    """Add two rims with bars between the pockets.
+
+    It is a picture of a cage, not the drawing of this one.
+    """
     size, places = scene.geometry, row_places(geometry_of(dict(scene.geometry)))
     count = scene.load.shape[1] // len(places)
     ball, pitch = 0.5 * size["ball_diameter"], 0.5 * size["pitch_diameter"]
@@ -179,7 +185,10 @@ def _balls(file: _File, scene: Scene, time: int) -> None:
 
 
 def _loads(file: _File, scene: Scene, time: int) -> None:
-    """Add an arrow per contact along x of its own, scaled and turned by its force."""
+    """Add an arrow per contact.
+
+    It is along its own x, scaled and turned by its force.
+    """
     radius = 0.5 * scene.geometry["ball_diameter"]
     mesh = file.mesh("load", _arrow(radius), _RED)
     vectors, most = scene.load_vectors(), float(scene.load.max()) or 1.0
@@ -198,7 +207,10 @@ def _loads(file: _File, scene: Scene, time: int) -> None:
 
 
 def _pose(scene: Scene, body: int) -> FloatArray:
-    """Return the orientation of a body: spin about x, then tilt about y, then about z."""
+    """Return the orientation of a body.
+
+    Spin about x, then tilt about y, then about z.
+    """
     from scipy.spatial.transform import Rotation
 
     spin = Rotation.from_rotvec(scene.body_angle[:, body, None] * np.array([1.0, 0.0, 0.0]))
@@ -207,7 +219,10 @@ def _pose(scene: Scene, body: int) -> FloatArray:
 
 
 def _from_x(direction: FloatArray) -> FloatArray:
-    """Return the rotations that turn the x axis into unit vectors; the identity for zero vectors."""
+    """Return the rotations from x to unit vectors.
+
+    The identity for zero vectors.
+    """
     found = np.stack([np.zeros(len(direction)), -direction[:, 2], direction[:, 1], 1.0 + direction[:, 0]], axis=1)
     size = np.linalg.norm(found, axis=1, keepdims=True)
     identity = np.array([0.0, 0.0, 0.0, 1.0])
@@ -216,7 +231,10 @@ def _from_x(direction: FloatArray) -> FloatArray:
 
 
 def _continuous(quaternions: FloatArray) -> FloatArray:
-    """Return the same orientations with signs that do not jump: viewers interpolate between them."""
+    """Return orientations without jumps of sign.
+
+    Viewers interpolate between them.
+    """
     turned = np.sum(quaternions[1:] * quaternions[:-1], axis=1) < 0.0
     signs = np.cumprod(np.append(1.0, np.where(turned, -1.0, 1.0)))
     found: FloatArray = quaternions * signs[:, None]
@@ -227,7 +245,10 @@ def _continuous(quaternions: FloatArray) -> FloatArray:
 
 
 def _turned(outline: FloatArray) -> Surface:
-    """Turn a closed outline of (x, radius) about the x axis; corners stay sharp."""
+    """Turn a closed outline about the x axis.
+
+    The outline is (x, radius); corners stay sharp.
+    """
     following = np.roll(outline, -1, axis=0)
     segments = np.stack([outline, following], axis=1).reshape(-1, 2)
     angle = np.linspace(0.0, 2.0 * math.pi, _AROUND + 1)
@@ -272,7 +293,10 @@ def _laid(places: FloatArray, direction: FloatArray) -> FloatArray:
 
 
 def _normals(places: FloatArray, triangles: NDArray[np.uint32]) -> FloatArray:
-    """Return unit normals at the places: means of the triangles around each, by area."""
+    """Return unit normals at the places.
+
+    They are means of the triangles around each, by area.
+    """
     corners = places[triangles]
     flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     found = np.zeros_like(places)

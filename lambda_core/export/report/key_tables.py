@@ -35,7 +35,10 @@ _LEAST_LOAD = 0.01  # of the largest load of a contact, as in `loaded balls`
 
 @dataclass(frozen=True)
 class Table:
-    """One table of a page: a caption, headings, rows of text."""
+    """One table of a page.
+
+    A caption, headings, rows of text.
+    """
 
     caption: str
     head: tuple[str, ...]
@@ -43,7 +46,9 @@ class Table:
 
 
 def key_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]]:
-    """Return what an engineer looks for first: loss, life, safety, lubrication; each name, number, unit.
+    """Return the key figures of a run.
+
+    Loss, life, safety, lubrication; each name, number, unit.
 
     `found` is a run, an equilibrium, or a bearing of one.
     """
@@ -85,12 +90,18 @@ def key_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]
 
 
 def _remaining(found: Any, units: UnitSystem) -> list[tuple[str, str, str]]:
-    """Return the declared numbers that no table here places by hand."""
+    """Return the remaining declared numbers.
+
+    No table here places them by hand.
+    """
     return [(one.label, one.cell(value, units), units.unit(one.unit)) for one, value in remaining(found, PLACED)]
 
 
 def _band(found: Any, field: str, unit: str, name: str, units: UnitSystem) -> list[tuple[str, str, str]]:
-    """Return the row of a model band, where there is one."""
+    """Return the row of a model band.
+
+    Only where there is one.
+    """
     ends = getattr(found, f"{field}_band", [])
     if not ends:
         return []
@@ -147,7 +158,10 @@ def margins(verdict: Verdict, units: UnitSystem = SI) -> Table:
 
 
 def given_values(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> Table:
-    """Return what the case says and what the bearing is, without parameters of laws."""
+    """Return the values of case and bearing.
+
+    Without parameters of laws.
+    """
     rows = tuple(
         (value.path, units.sentence(_shown(value)), value.source)
         for value in values
@@ -157,7 +171,9 @@ def given_values(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> Tab
 
 
 def machine_figures(found: Any, units: UnitSystem = SI, run: Any = None) -> Table:
-    """Return the key numbers of the bearings of a machine, a column for each and one for all of them.
+    """Return the key figures of a machine.
+
+    A column for each bearing and one for all of them.
 
     Parameters
     ----------
@@ -208,7 +224,10 @@ def machine_figures(found: Any, units: UnitSystem = SI, run: Any = None) -> Tabl
 
 
 def machine_reactions(found: Any, units: UnitSystem = SI) -> Table:
-    """Return forces and moments of the bearings on the shaft, and the forces of gears."""
+    """Return the reactions of a machine.
+
+    Forces and moments of the bearings on the shaft, and the forces of gears.
+    """
     force, moment = units.unit("N"), units.unit("N m")
     head = ("", f"x {force}", f"y {force}", f"z {force}", f"about y {moment}", f"about z {moment}")
     rows = [
@@ -227,7 +246,10 @@ def machine_reactions(found: Any, units: UnitSystem = SI) -> Table:
 
 
 def _figure(record: Any, name: str, units: UnitSystem, label: str = "") -> tuple[str, str, str]:
-    """Return name, number and unit of a field as it is declared."""
+    """Return name, number and unit of a field.
+
+    They are declared.
+    """
     one, value = quantity_of(record, name), getattr(record, name)
     number = None if value is None else units.value(value, one.unit)
     return label or one.label, rounded(number, one.digits), units.unit(one.unit)
@@ -255,7 +277,10 @@ def run_figures(summary: Any, units: UnitSystem = SI) -> Table:
 
 
 def currents(summary: Any) -> tuple[Table, ...]:
-    """Return what the circuit of a run did; nothing where the case has none."""
+    """Return the circuit's results of a run.
+
+    Nothing where the case has none.
+    """
     found = summary.currents
     if found is None:
         return ()
@@ -265,7 +290,10 @@ def currents(summary: Any) -> tuple[Table, ...]:
 
 
 def watched(summary: Any) -> tuple[Table, ...]:
-    """Return what observers and events of plugins say; nothing where the case has none."""
+    """Return the results of observers and events.
+
+    They belong to plugins; nothing where the case has none.
+    """
     tables = []
     if summary.observed:
         rows = tuple((f"{n.meaning} ({n.observer})", rounded(n.value, 4), n.unit) for n in summary.observed)
@@ -284,7 +312,10 @@ def _life(life: float | None) -> str:
 
 
 def rounded(value: float | None, digits: int = 3) -> str:
-    """Write a number to a few significant digits, thousands in groups; a dash for what does not exist."""
+    """Write a number to few significant digits.
+
+    Thousands in groups; a dash for what does not exist.
+    """
     if value is None or not math.isfinite(value):
         return "–"
     short = float(f"{value:.{digits}g}") if abs(value) > _NOTHING else 0.0
@@ -323,7 +354,10 @@ def contacts(summary: Any, units: UnitSystem = SI) -> Table:
 
 
 def in_unit(name: str, value: Any, unit: str, units: UnitSystem) -> tuple[str, str, str]:
-    """Return a row: a name, a value in the unit in which it is shown, that unit."""
+    """Return a row of name, value and unit.
+
+    The value is in the displayed unit.
+    """
     if isinstance(value, float):
         value = units.value(value, unit)
     return name, written(value), units.unit(unit)
@@ -360,14 +394,19 @@ def study_points(table: StudyTable, units: UnitSystem = SI) -> Table:
 
 
 def _cell(value: Any, unit: str, units: UnitSystem) -> str:
-    """Write a number of a point: a life as a life, others to four digits."""
+    """Write a number of a point.
+
+    A life as a life, others to four digits.
+    """
     if not isinstance(value, float):
         return written(value)
     return hours_alone(value) if unit == "h" else rounded(units.value(value, unit), 4)
 
 
 def value_tables(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> tuple[Table, ...]:
-    """Return the resolved values with their sources, a table for each section of the case.
+    """Return the resolved values with their sources.
+
+    A table for each section of the case.
 
     What parts of a section share (the material of rings and balls, the laws of both raceways) stands there once.
     """
@@ -398,7 +437,10 @@ def _shown(value: ResolvedValue) -> str:
 
 
 def law_table(laws: Sequence[Mapping[str, str]]) -> Table:
-    """Return every law with the force elements that use it and its parameters."""
+    """Return every law with its elements and parameters.
+
+    The force elements are those that use the law.
+    """
     import json
 
     found: dict[tuple[str, str, str, str], list[str]] = {}
@@ -412,7 +454,10 @@ def law_table(laws: Sequence[Mapping[str, str]]) -> Table:
 
 
 def written(value: object) -> str:
-    """Write one entry of a table; a dash for what does not exist."""
+    """Write one entry of a table.
+
+    A dash for what does not exist.
+    """
     if value is None:
         return "–"
     if isinstance(value, bool):

@@ -65,7 +65,10 @@ APPENDICES = ("tables", *(name for name, _ in _CHAPTERS))
 
 @dataclass(frozen=True)
 class Cover:
-    """What the person who reports says: project, author, day, which appendices follow the standard pages, units."""
+    """Cover data that the user gives.
+
+    Project, author, day, the appendices after the standard pages, units.
+    """
 
     project: str = ""
     author: str = ""
@@ -75,7 +78,10 @@ class Cover:
 
     @property
     def line(self) -> str:
-        """One line for the head of the page, "" without one."""
+        """One line for the head of the page.
+
+        "" without one.
+        """
         return "   ".join(filter(None, (self.project, self.author, self.date)))
 
 
@@ -83,7 +89,10 @@ _NO_COVER = Cover()
 
 
 def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) -> Chapter:
-    """Return the chapter of one run, of a bearing or of a machine."""
+    """Return the chapter of one run.
+
+    Of a bearing or of a machine.
+    """
     summary, units = result.summary(), cover.units
     pictures = _pictures(registry, result, "result", cover)
     overview: tuple[Table, ...] = ()
@@ -127,7 +136,10 @@ def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) ->
 
 
 def _start_of(result: Result) -> tuple[Any, Any] | None:
-    """Return model and equilibrium of the case of a machine's run; None where it cannot be solved any more."""
+    """Return model and equilibrium of a machine's run.
+
+    From its case; None where it cannot be solved any more.
+    """
     from lambda_core.analysis.rotor.api import machine_equilibrium, machine_of
     from lambda_core.case.case_io import toml_tables
 
@@ -140,7 +152,10 @@ def _start_of(result: Result) -> tuple[Any, Any] | None:
 
 
 def machine_drawings(registry: Registry, model: Any, found: Any, cover: Cover) -> list[Picture]:
-    """Draw deflection, bending moment and what else there is to see of a machine's equilibrium."""
+    """Draw a machine's equilibrium.
+
+    Deflection, bending moment and the other drawings.
+    """
     from lambda_core.views.view import MachineData
 
     drawn = every(registry, MachineData(model, found, None), "machine")
@@ -189,7 +204,10 @@ def study_chapter(
 
 
 def document(chapters: Sequence[Chapter], cover: Cover = _NO_COVER, comparison: Sequence[Table] = ()) -> str:
-    """Return one page with all chapters; several begin with the tables that compare them."""
+    """Return one page with all chapters.
+
+    Several begin with the tables that compare them.
+    """
     title = chapters[0].title if len(chapters) == 1 else f"{len(chapters)} results"
     return _render(title=title, chapters=chapters, cover=cover, comparison=comparison)
 
@@ -221,7 +239,10 @@ def write_page(text: str, path: Path) -> Path:
 
 
 def _sections(registry: Registry, result: Result) -> list[dict[str, Any]]:
-    """Return what plugins say of a run; one that fails says so in its place."""
+    """Return the plugins' sections on a run.
+
+    A section that fails shows the failure in its place.
+    """
     found = []
     for section in registry.sections.values():
         try:
@@ -253,7 +274,10 @@ def _render(**context: Any) -> str:
 
 
 def _breakable(path: str) -> Any:
-    """Let a long path of an option break after its dots and underscores."""
+    """Let a long option path break.
+
+    After its dots and underscores.
+    """
     from markupsafe import Markup
 
     return Markup(re.sub(r"([._])", r"\1<wbr>", escape(path)))
@@ -282,7 +306,10 @@ def _pictures(registry: Registry, subject: Any, kind: Any, cover: Cover, *, all_
 
 
 def svg(registry: Registry, data: ViewData) -> str:
-    """Return a view as SVG for the inside of a page: it takes the width that it is given."""
+    """Return a view as SVG for a page.
+
+    It takes the width that it is given.
+    """
     buffer = BytesIO()
     view = registry.views.get(data.view)
     whose = view.distribution if view is not None else "the house"

@@ -19,7 +19,9 @@ _QUIET = ("--headless", "--disable-gpu", "--disable-extensions", "--no-first-run
 
 
 def check_printer() -> None:
-    """Say before the work when nothing here can print a PDF.
+    """Report early that no PDF can be printed.
+
+    The check comes before the work.
 
     Raises
     ------

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 
 def scene_of(run: Result, *, start: float | None, turns: float, frames: int) -> Scene:
-    """Return evenly spaced frames of a run; between recorded samples everything is interpolated linearly.
+    """Return evenly spaced frames of a run.
+
+    Between recorded samples everything is interpolated linearly.
 
     Parameters
     ----------
@@ -88,13 +90,18 @@ def _at(times: FloatArray, values: FloatArray, at: FloatArray) -> FloatArray:
 
 
 def _play(cage: dict[str, object]) -> float:
-    """Return the free radius of the cage [m]: half the clearance of what guides it."""
+    """Return the free radius of the cage [m].
+
+    It is half the clearance of the guide.
+    """
     name = "pocket_clearance" if cage["guidance"] == "ball" else "land_clearance"
     return 0.5 * float(str(cage[name]))
 
 
 def _rotations(times: FloatArray, azimuth: FloatArray, spin: FloatArray, at: FloatArray) -> FloatArray:
-    """Return the orientation of each ball at moments, shape (frames, balls, 4): quaternions x, y, z, w.
+    """Return the orientation of each ball at moments.
+
+    Shape (frames, balls, 4): quaternions x, y, z, w.
 
     The angular velocity is taken as constant between recorded samples (their mean), turned by its exponential map.
     """

@@ -24,7 +24,9 @@ _STYLE = (
 def bearing_sketch(
     geometry: Mapping[str, Any], loads: Sequence[float] = (), speed: str = "", units: UnitSystem = SI
 ) -> str:
-    """Draw a bearing in section with its main dimensions and the load on its inner ring.
+    """Draw a bearing in section.
+
+    With its main dimensions and the load on its inner ring.
 
     Parameters
     ----------
@@ -62,7 +64,10 @@ def bearing_sketch(
 
 
 def _ring(geometry: Mapping[str, Any], ring: str, side: float, scale: float, at: Any) -> str:
-    """Return half a ring in section: a rectangle with the grooves of its rows."""
+    """Return half a ring in section.
+
+    It is a rectangle with the grooves of its rows.
+    """
     half, rows = 0.5 * float(geometry["width"]), int(geometry.get("rows", 1))
     apart = float(geometry.get("row_distance", 0.0)) if rows == 2 else 0.0
     rim = 0.5 * float(geometry["outside_diameter" if ring == "outer" else "bore_diameter"])
@@ -86,7 +91,10 @@ def _ring(geometry: Mapping[str, Any], ring: str, side: float, scale: float, at:
 
 
 def _balls(geometry: Mapping[str, Any], side: float, scale: float, centre: tuple[float, float]) -> list[str]:
-    """Return the balls of one side with the lines through their contacts."""
+    """Return the balls of one side.
+
+    With the lines through their contacts.
+    """
     rows = int(geometry.get("rows", 1))
     apart = float(geometry.get("row_distance", 0.0)) if rows == 2 else 0.0
     angle, radius = float(geometry.get("contact_angle", 0.0)), 0.5 * float(geometry["ball_diameter"]) * scale
@@ -159,7 +167,9 @@ def _arrow(x1: float, y1: float, x2: float, y2: float) -> list[str]:
 def shaft_sketch(
     machine: Mapping[str, Any], sizes: Mapping[str, tuple[float, float, float]], units: UnitSystem = SI
 ) -> str:
-    """Draw a shaft in its bearings with gears, discs and places of loads.
+    """Draw a shaft in its bearings.
+
+    With gears, discs and places of loads.
 
     Parameters
     ----------
@@ -236,7 +246,9 @@ _ROSE = 130.0  # radius of the circle of balls [px]
 
 
 def load_sketch(contacts: Sequence[Any], units: UnitSystem = SI) -> str:
-    """Draw the balls of a bearing, seen along +x, with the load of each at the inner ring as a bar outwards.
+    """Draw the load of each ball.
+
+    The balls are seen along +x, the load of each at the inner ring is a bar outwards.
 
     Parameters
     ----------

@@ -28,7 +28,10 @@ _PLANES = ((1, 5, 1.0), (2, 4, -1.0))
 
 @dataclass(frozen=True)
 class ElementMatrices:
-    """Of one element, shape (24, 24), in the order of its nodes."""
+    """Matrices of one element.
+
+    Shape (24, 24), in the order of its nodes.
+    """
 
     stiffness: FloatArray
     mass: FloatArray
@@ -36,7 +39,10 @@ class ElementMatrices:
 
 
 def shapes(spot: float) -> tuple[FloatArray, FloatArray]:
-    """Return what each node's value counts at a spot of the element (0 to 1), and its slope per element length."""
+    """Return the shape functions of an element.
+
+    Weight of each node's value at a spot of the element (0 to 1), and its slope per element length.
+    """
     values, slopes = np.ones(NODES), np.zeros(NODES)
     for i, own in enumerate(SPOTS):
         others = np.delete(SPOTS, i)

@@ -18,7 +18,10 @@ _SAME = 1e-7  # [m] nodes nearer than this are one
 
 @dataclass(frozen=True)
 class Disc:
-    """A rigid, axisymmetric body at one place of a shaft, SI."""
+    """Rigid, axisymmetric body on a shaft, SI.
+
+    It is at one place.
+    """
 
     position: float  # [m]
     mass: float  # [kg]
@@ -28,7 +31,9 @@ class Disc:
 
 @dataclass(frozen=True)
 class ElasticBody:
-    """Matrices of a body with nodes of six degrees of freedom, and further coordinates behind them.
+    """Matrices of an elastic body.
+
+    Its nodes have six degrees of freedom; further coordinates follow them.
 
     Attributes
     ----------
@@ -51,7 +56,10 @@ class ElasticBody:
     damping: FloatArray | None = None  # where a reduced model has it [N s/m, N s, N m s]
 
     def node(self, position: float) -> int:
-        """Return the number of the node at a place [m]; ValueError where there is none."""
+        """Return the node at a place [m].
+
+        Its number; ValueError where there is none.
+        """
         if not self.has_node(position):
             raise ValueError(f"there is no node at {position:g} m")
         return int(np.argmin(np.abs(self.positions - position)))
@@ -61,12 +69,15 @@ class ElasticBody:
         return bool(np.abs(self.positions - position).min() <= 10.0 * _SAME)
 
     def rows(self, position: float) -> slice:
-        """Return the six rows of the node at a place [m]."""
+        """Return the six rows of a place's node [m]."""
         node = self.node(position)
         return slice(NODE * node, NODE * (node + 1))
 
     def weight(self, gravity: Sequence[float]) -> FloatArray:
-        """Return the nodal forces of an acceleration of gravity [m/s2] by the consistent mass, shape (6 n + m,)."""
+        """Return the nodal forces of gravity.
+
+        Of an acceleration [m/s2] by the consistent mass, shape (6 n + m,).
+        """
         pull = np.zeros(self.mass.shape[0])
         for axis in range(3):
             pull[axis : NODE * self.positions.size : NODE] = gravity[axis]
@@ -74,11 +85,14 @@ class ElasticBody:
 
     @property
     def is_rigid(self) -> bool:
-        """Whether it has one node only."""
+        """True for a body of one node."""
         return self.positions.size == 1
 
     def nearest(self, position: float) -> float:
-        """Return the place of the node that carries a point [m]: there, or of a rigid body its only one."""
+        """Return the place of a point's node [m].
+
+        The point itself has a node, or the body is rigid and has only one.
+        """
         return float(self.positions[0]) if self.is_rigid else position
 
     @property
@@ -88,7 +102,9 @@ class ElasticBody:
 
 
 def mesh(ends: Sequence[float], places: Sequence[float], longest: Sequence[float]) -> FloatArray:
-    """Return ends of elements [m]: at the ends of every section and at every place, none longer than wanted.
+    """Return the ends of elements [m].
+
+    At the ends of every section and at every place, none longer than wanted.
 
     Parameters
     ----------
@@ -112,7 +128,10 @@ def mesh(ends: Sequence[float], places: Sequence[float], longest: Sequence[float
 def elements_of(
     sections: Sequence[tuple[float, RoundSection]], places: Sequence[float], fineness: float = 1.0
 ) -> FloatArray:
-    """Return the ends of the elements of a shaft [m]; arguments as for :func:`shaft_body`, discs among the places."""
+    """Return the ends of a shaft's elements [m].
+
+    Arguments as for :func:`shaft_body`, discs among the places.
+    """
     return mesh(_ends(sections), places, [fineness * section.outside_diameter for _, section in sections])
 
 
@@ -127,7 +146,9 @@ def shaft_body(
     discs: Sequence[Disc] = (),
     fineness: float = 1.0,
 ) -> ElasticBody:
-    """Return a shaft of round sections, one behind the other from x = 0.
+    """Return a shaft of round sections.
+
+    One behind the other from x = 0.
 
     Parameters
     ----------
@@ -160,13 +181,19 @@ def shaft_body(
 
 
 def rigid_body(position: float) -> ElasticBody:
-    """Return a rigid body without mass at a place [m], to put discs on: one node that nothing deforms."""
+    """Return a rigid body without mass.
+
+    It has one node at a place [m], to put discs on.
+    """
     nothing = np.zeros((NODE, NODE))
     return ElasticBody(np.array([position]), nothing, nothing, nothing)
 
 
 def with_discs(body: ElasticBody, discs: Sequence[Disc]) -> ElasticBody:
-    """Return a body with rigid discs at some of its nodes."""
+    """Return a body with rigid discs.
+
+    They are at some of its nodes.
+    """
     mass, gyroscopic = body.mass.copy(), body.gyroscopic.copy()
     for disc in discs:
         rows = body.rows(disc.position)
@@ -177,7 +204,10 @@ def with_discs(body: ElasticBody, discs: Sequence[Disc]) -> ElasticBody:
 
 
 def disc_mass(disc: Disc) -> FloatArray:
-    """Return what a disc adds to the mass matrix at its node, shape (6, 6)."""
+    """Return a disc's part of the mass matrix.
+
+    At its node, shape (6, 6).
+    """
     transverse = disc.transverse_inertia
     found: FloatArray = np.diag([disc.mass] * 3 + [disc.polar_inertia, transverse, transverse])
     return found
@@ -186,7 +216,9 @@ def disc_mass(disc: Disc) -> FloatArray:
 def internal_forces(
     body: ElasticBody, displacement: FloatArray, gravity: Sequence[float]
 ) -> tuple[FloatArray, FloatArray]:
-    """Return what the right-hand side of a cut does to the left-hand side, at both ends of every element.
+    """Return the internal forces of every element.
+
+    Action of the right-hand side of a cut on the left-hand side, at both ends.
 
     Parameters
     ----------
@@ -221,7 +253,10 @@ def internal_forces(
 
 
 def _forces_between_nodes(body: ElasticBody, displacement: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the same from the balance of the nodes on the left, each with its share of the weight."""
+    """Return the internal forces by the nodes' balance.
+
+    Of the nodes on the left, each with its share of the weight.
+    """
     count = NODE * body.positions.size
     at = (body.stiffness @ displacement)[:count].reshape(-1, NODE)
     places, forces = [], []

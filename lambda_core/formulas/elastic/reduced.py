@@ -27,7 +27,10 @@ _BEYOND = 1e100  # no number of a model: squares of it are infinite
 
 
 def write_reduced(body: ElasticBody, path: str | Path) -> None:
-    """Write a body as `read_reduced` reads it, as .json or .npz by the name of the file; UsageError otherwise."""
+    """Write a body in the format of `read_reduced`.
+
+    As .json or .npz by the name of the file; UsageError otherwise.
+    """
     target = Path(path)
     data: dict[str, Any] = {"format": FORMAT, "nodes": body.positions, "stiffness": body.stiffness, "mass": body.mass}
     data |= {"gyroscopic": body.gyroscopic}
@@ -88,7 +91,10 @@ def read_reduced(path: str | Path) -> ElasticBody:
 
 
 def _numbers(data: dict[str, Any], name: str, dimensions: tuple[int, ...], found: list[Problem]) -> FloatArray:
-    """Return an array of numbers; an empty one and a problem where there is none."""
+    """Return an array of numbers.
+
+    Where there is none, an empty one and a problem.
+    """
     message = "is required"
     if name in data:
         try:
@@ -125,7 +131,10 @@ def _nodes(data: dict[str, Any], found: list[Problem]) -> FloatArray:
 
 
 def _lumps(data: dict[str, Any], names: tuple[str, ...], count: int, found: list[Problem]) -> tuple[int, ...]:
-    """Return the numbers of the nodes that carry the mass in motion, given by number from 0 on, or by name."""
+    """Return the nodes that carry the moving mass.
+
+    Their numbers, given by number from 0 on, or by name.
+    """
     given = np.ravel(np.asarray(data.get("lumps", []), dtype=object)).tolist()
     numbers = [names.index(str(one)) if str(one) in names else one for one in given]
     if all(isinstance(n, int | np.integer) and not isinstance(n, bool) and 0 <= n < count for n in numbers):

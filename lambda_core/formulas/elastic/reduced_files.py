@@ -82,7 +82,10 @@ def _reason(error: OSError) -> str:
 
 
 def _check_size(name: str, numbers: int) -> None:
-    """Refuse an array by what its header says, before memory is taken for it."""
+    """Refuse an array by its header.
+
+    No memory has been taken for it yet.
+    """
     if numbers > _MOST:
         raise CaseError("", [Problem(name, f"has {numbers} numbers, at most {_MOST} are read: reduce the model")])
 
@@ -121,7 +124,10 @@ def _of_hdf5(content: bytes) -> dict[str, Any]:
 
 
 def _of_toml(text: str, folder: Path) -> dict[str, Any]:
-    """Return the tables of a TOML file; a name in place of a matrix is that of a CSV file in its folder."""
+    """Return the tables of a TOML file.
+
+    A name in place of a matrix is that of a CSV file in its folder.
+    """
     found = tomllib.loads(text)
     for name in ("nodes", *MATRICES):
         if isinstance(found.get(name), str):
@@ -136,7 +142,10 @@ def _of_toml(text: str, folder: Path) -> dict[str, Any]:
 
 
 def _of_csv(path: Path) -> list[list[float]]:
-    """Return the numbers of a CSV file; OSError or ValueError with what is wrong."""
+    """Return the numbers of a CSV file.
+
+    OSError or ValueError explain a failure.
+    """
     try:
         reader = csv.reader(io.StringIO(read_text(path, _LARGEST), newline=""))
     except UnicodeDecodeError:

@@ -63,23 +63,33 @@ class ElasticRing:
         return ElasticRing(radius, area, moment, youngs_modulus, density, housing / (math.pi * radius))
 
     def stiffness(self, order: int) -> float:
-        """Return k_n = pi E I (n^2 - 1)^2/R^3 + pi R k of the amplitude of cos(n th) or sin(n th) [N/m]."""
+        """Return the stiffness of a wave [N/m].
+
+        k_n = pi E I (n^2 - 1)^2/R^3 + pi R k of the amplitude of cos(n th) or sin(n th).
+        """
         bending = math.pi * self.youngs_modulus * self.second_moment * (order**2 - 1) ** 2 / self.radius**3
         return bending + math.pi * self.radius * self.bedding
 
     def mass(self, order: int) -> float:
-        """Return m_n = pi rho A R (1 + 1/n^2), radial and tangential motion together [kg]."""
+        """Return the mass of a wave [kg].
+
+        m_n = pi rho A R (1 + 1/n^2), radial and tangential motion together.
+        """
         return math.pi * self.density * self.area * self.radius * (1.0 + 1.0 / order**2)
 
     def frequency(self, order: int) -> float:
-        """Return the natural angular frequency of a pattern with `order` waves [rad/s].
+        """Return the natural angular frequency of waves [rad/s].
+
+        Of a pattern with `order` waves.
 
         Free: n (n^2 - 1)/sqrt(n^2 + 1) sqrt(E I/(rho A R^4)) (Hoppe 1871; Love 1927, art. 293).
         """
         return math.sqrt(self.stiffness(order) / self.mass(order))
 
     def flexibility(self, angles: FloatArray, orders: int = 10) -> FloatArray:
-        """Return radial displacements under unit radial forces at the same places, outwards, shape (m, m) [m/N].
+        """Return the flexibility of a ring [m/N].
+
+        Radial displacements outwards under unit radial forces at the same places, shape (m, m).
 
         Bending alone: translation (n = 1) is the rigid body's. Forces are to be in balance, as far as no bedding holds.
 
@@ -95,7 +105,9 @@ class ElasticRing:
         return np.asarray(sum(np.cos(n * apart) / self.stiffness(n) for n in waves), dtype=float)
 
     def whirl_frequencies(self, order: int, spin: float) -> tuple[float, float]:
-        """Return the angular frequencies of a wave against and with the spin, in the turning ring's frame [rad/s].
+        """Return both whirl frequencies of a wave [rad/s].
+
+        Against and with the spin, in the turning ring's frame.
 
         Coriolis forces couple both amplitudes: m_n (c'' + ...) with the gyroscopic term 4 spin n/(n^2 + 1), so that
         w = -+ 2 n spin/(n^2 + 1) + sqrt(w_n^2 + (2 n spin/(n^2 + 1))^2); the inward pull of rotation left out. The
@@ -121,7 +133,9 @@ def shape(amplitudes: FloatArray, azimuths: FloatArray) -> FloatArray:
 
 
 def ovality(amplitudes: FloatArray) -> FloatArray:
-    """Return the largest less the smallest diameter [m]; odd numbers of waves leave diameters as they are.
+    """Return the largest less the smallest diameter [m].
+
+    Odd numbers of waves leave diameters as they are.
 
     Parameters
     ----------
@@ -136,7 +150,9 @@ def ovality(amplitudes: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True)
 class RingWaves:
-    """The waves of an elastic ring or cage that a bearing's model follows: orders 2 to `orders`, with modal damping.
+    """Modelled waves of an elastic ring or cage.
+
+    Orders 2 to `orders`, with modal damping.
 
     Attributes
     ----------
@@ -162,5 +178,8 @@ class RingWaves:
         return 2.0 * self.damping_ratio * self.ring.mass(order) * self.ring.frequency(order)
 
     def coupling(self, order: int) -> float:
-        """Return 4 n/(n^2 + 1) m_n: Coriolis force on one amplitude, over the other's rate and the ring's spin [kg]."""
+        """Return the Coriolis coefficient of a wave [kg].
+
+        4 n/(n^2 + 1) m_n: force on one amplitude, over the other's rate and the ring's spin.
+        """
         return 4.0 * order / (order**2 + 1) * self.ring.mass(order)

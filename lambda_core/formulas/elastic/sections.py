@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class BodyMaterial:
-    """What an elastic body is made of, SI."""
+    """Material of an elastic body, SI."""
 
     youngs_modulus: float  # [Pa]
     poisson_ratio: float
@@ -46,12 +46,17 @@ class RoundSection:
 
     @property
     def second_moment(self) -> float:
-        """I about a diameter [m4]; the polar one is twice as large."""
+        """Second moment of area about a diameter [m4].
+
+        The polar one is twice as large.
+        """
         return math.pi / 64.0 * (self.outside_diameter**4 - self.bore**4)
 
     @property
     def shear_coefficient(self) -> float:
-        """Share of the area that carries shear (Cowper 1966, J. Appl. Mech. 33, 335, table 1).
+        """Share of the area that carries shear.
+
+        Cowper 1966, J. Appl. Mech. 33, 335, table 1.
 
         6 (1 + nu)(1 + m^2)^2/[(7 + 6 nu)(1 + m^2)^2 + (20 + 12 nu) m^2], m = bore over outside diameter; for m = 0 it
         is that of the circle, 6 (1 + nu)/(7 + 6 nu).

@@ -18,7 +18,9 @@ from lambda_core.formulas.elastic.body import ElasticBody
 def natural_frequencies(
     stiffness: FloatArray, mass: FloatArray, held: Sequence[int] = (), count: int | None = None
 ) -> tuple[FloatArray, FloatArray]:
-    """Return natural angular frequencies [rad/s], rising, and modes of unit modal mass.
+    """Return natural angular frequencies [rad/s] and modes.
+
+    Rising; the modes have unit modal mass.
 
     Parameters
     ----------
@@ -74,7 +76,9 @@ def whirls(
     nodes: int,
     count: int = 8,
 ) -> list[Whirl]:
-    """Return the modes of a shaft that turns, of M q'' + (C + spin G) q' + K q = 0.
+    """Return the modes of a turning shaft.
+
+    Of M q'' + (C + spin G) q' + K q = 0.
 
     Nelson 1980, J. Mech. Des. 102, 793.
 
@@ -111,7 +115,9 @@ def whirls(
 def critical_speeds(
     stiffness: FloatArray, mass: FloatArray, gyroscopic: FloatArray, *, nodes: int, count: int = 8
 ) -> list[Whirl]:
-    """Return the speeds at which the shaft whirls as fast as it turns: K q = spin^2 (M - i G) q.
+    """Return the critical speeds of a shaft.
+
+    It whirls as fast as it turns: K q = spin^2 (M - i G) q.
 
     Stiffness is that of one speed. Forward ones (direction +1) answer to unbalance.
 
@@ -136,7 +142,10 @@ def critical_speeds(
 
 
 def _direction(shape: np.ndarray, nodes: int, spin: float) -> float:
-    """Return how far a motion exp(i w t) circles with the spin: areas of the nodes' orbits over their squares."""
+    """Return the whirl direction of a motion.
+
+    How far exp(i w t) circles with the spin: areas of the nodes' orbits over their squares.
+    """
     y, z = shape[1 : 6 * nodes : 6], shape[2 : 6 * nodes : 6]
     square = float(np.sum(np.abs(y) ** 2 + np.abs(z) ** 2))
     total = square + float(np.sum(np.abs(shape[0 : 6 * nodes : 6]) ** 2))
@@ -147,7 +156,9 @@ def _direction(shape: np.ndarray, nodes: int, spin: float) -> float:
 
 
 def craig_bampton(body: ElasticBody, kept: Sequence[float], modes: int) -> ElasticBody:
-    """Return the body with the nodes at `kept` [m] and the lowest modes of it clamped there (Craig and Bampton 1968).
+    """Return the body reduced by Craig and Bampton.
+
+    With the nodes at `kept` [m] and the lowest modes of it clamped there (Craig and Bampton 1968).
 
     AIAA J. 6, 1313. Static deflections under loads at the kept nodes are exact.
 

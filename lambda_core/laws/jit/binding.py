@@ -25,7 +25,10 @@ FILE = "<parameters by name>"  # stands for the file of generated code in messag
 
 
 class PositionError(TypeError):
-    """A kernel read its parameters by position; `index` is what it asked for."""
+    """Kernel that read its parameters by position.
+
+    `index` is the position that it read.
+    """
 
     def __init__(self, index: object) -> None:
         super().__init__(f"par[{index}]")
@@ -33,12 +36,18 @@ class PositionError(TypeError):
 
 
 def stretch(array: Any, start: int, count: int) -> Any:
-    """Return part of an array, a view; compiled, it is not looked at whether the array goes so far."""
+    """Return part of an array as view.
+
+    Compiled code does not check the end of the array.
+    """
     return array[start : start + count]
 
 
 def status_of(returned: Any) -> Any:
-    """Return what a kernel returned; compiled, anything but an int64 is refused."""
+    """Return the result of a kernel as status.
+
+    Compiled code refuses anything but an int64.
+    """
     return returned
 
 
@@ -81,7 +90,10 @@ def source(role: Role, layout: Layout, taken: tuple[str, ...], *, alone: bool = 
 
 
 def _looped(count: str, handed: str) -> list[str]:
-    """Return the lines that call the kernel `count` times, with 1 for a status where every call has 1."""
+    """Return the lines that call the kernel repeatedly.
+
+    `count` times, with 1 for a status where every call has 1.
+    """
     return [
         "failed = 0",
         f"for k in range({count}):",
@@ -99,7 +111,10 @@ def _named(name: str) -> str:
 
 
 def _of_contact(role: Role, argument: Argument) -> str:
-    """Return what the kernel is handed of an argument for contact k."""
+    """Return an argument's value for contact k.
+
+    The kernel gets this value.
+    """
     if argument.each:
         return f"{argument.name}[k]"
     if argument.kind == "f" or argument.name == "par":
@@ -111,7 +126,10 @@ def _of_contact(role: Role, argument: Argument) -> str:
 
 @lru_cache(maxsize=256)
 def taken_by(kernel: Callable[..., int]) -> tuple[str, ...]:
-    """Return the names of a kernel's arguments: it may leave out what its role had not at first."""
+    """Return the names of a kernel's arguments.
+
+    It may leave out what its role did not have at first.
+    """
     return tuple(inspect.signature(kernel).parameters)
 
 
@@ -125,7 +143,9 @@ def bound(
     strict: bool = False,
     fenced: bool = False,
 ) -> FunctionType:
-    """Return the function that takes the flat array and calls the kernel with the record.
+    """Return the function that takes the flat array.
+
+    It calls the kernel with the record.
 
     Parameters
     ----------
@@ -162,7 +182,10 @@ class _Strict:
 
 
 def _layouts(layout: Layout) -> Iterator[Layout]:
-    """Yield every record in the order in which :func:`_record` numbers them."""
+    """Yield every record in order.
+
+    :func:`_record` numbers them in this order.
+    """
     yield layout
     for member in layout.members:
         if isinstance(member.kind, Layout):
@@ -170,7 +193,10 @@ def _layouts(layout: Layout) -> Iterator[Layout]:
 
 
 def _record(layout: Layout, start: str, counts: list[str], places: Iterator[int]) -> tuple[str, str]:
-    """Return (the record written as a call, the place behind its last word); fixed steps are summed up."""
+    """Return the record as call, and the end.
+
+    The end is the place behind its last word; fixed steps are summed up.
+    """
     place, words = next(places), []
     for member in layout.members:
         if isinstance(member.kind, Layout):
@@ -189,6 +215,9 @@ def _record(layout: Layout, start: str, counts: list[str], places: Iterator[int]
 
 
 def _after(place: str, step: int) -> str:
-    """Return a place some words on: "n0 + 3" after "n0 + 2"."""
+    """Return a place some words on.
+
+    "n0 + 3" after "n0 + 2".
+    """
     head, _, last = place.rpartition(" + ")
     return f"{head} + {int(last) + step}" if head else str(int(last) + step)

@@ -40,7 +40,10 @@ _LARGE = 200_000  # bytes of LLVM's code that are worth while to leave unread: p
 
 
 class _FolderLocator(_CacheLocator):
-    """Keeps a function in one given folder, whose name already says everything about its content."""
+    """Locator of one given folder for a function.
+
+    The folder's name already identifies its content.
+    """
 
     folder: Path
 
@@ -70,7 +73,10 @@ class _FolderLocator(_CacheLocator):
 
 @functools.cache
 def _own_folder() -> Path:
-    """Return the one temporary folder of this process, gone when it ends."""
+    """Return the temporary folder of this process.
+
+    It is removed when the process ends.
+    """
     made, maker = Path(tempfile.mkdtemp(prefix="lambda-bearing-")), os.getpid()
 
     def remove() -> None:
@@ -82,7 +88,10 @@ def _own_folder() -> Path:
 
 
 class _SealedFiles(IndexDataCacheFile):
-    """Files of a cache that end in a hash of what they hold: machine code with a flipped bit would end the process."""
+    """Cache files that end in a hash.
+
+    It is the hash of their content: machine code with a flipped bit would end the process.
+    """
 
     def _load_index(self) -> Any:
         return {} if _unsealed(Path(self._index_path)) is None else super()._load_index()
@@ -103,7 +112,10 @@ class _SealedFiles(IndexDataCacheFile):
 
 
 def _unsealed(path: Path) -> memoryview | None:
-    """Return what a file holds before the hash at its end; None where there is no file, or the hash is of another."""
+    """Return a file's content before its hash.
+
+    None where there is no file, or the hash is of another.
+    """
     try:
         content = memoryview(path.read_bytes())
     except OSError:
@@ -157,7 +169,10 @@ def _nothing() -> bytes:
 
 
 def attach(dispatcher: Any, function: Callable[..., Any], folder: Path, on_miss: Callable[[], None]) -> None:
-    """Give a dispatcher a cache for `function` in `folder` that calls `on_miss` before compiling."""
+    """Attach a cache in `folder` to a dispatcher.
+
+    It is for `function`, and calls `on_miss` before compiling.
+    """
     locator = type("FolderLocator", (_FolderLocator,), {"folder": folder})
     implementation = type("FolderCacheImpl", (_Results,), {"_locator_classes": [locator]})
 
@@ -194,6 +209,9 @@ def processor() -> tuple[Any, ...]:
 
 
 def callback(dispatcher: Any, signature: Any) -> tuple[int, object]:
-    """Return the address of a compiled function for C, and what keeps it alive."""
+    """Return a compiled function's address for C.
+
+    And the object that keeps it alive.
+    """
     compiled = dispatcher.get_compile_result(signature)
     return int(compiled.library.get_pointer_to_function(compiled.fndesc.llvm_cfunc_wrapper_name)), dispatcher

@@ -35,7 +35,7 @@ _COUNTED_DOWN = """define internal i8 @lb_count_down(ptr %at, i64 %by, i32 %flag
 
 @dataclass(frozen=True)
 class Target:
-    """What machine code is made for.
+    """Target of machine code.
 
     Attributes
     ----------
@@ -47,12 +47,18 @@ class Target:
 
     @property
     def is_x86(self) -> bool:
-        """Whether the processor is of the kind that compiled code of this process is for."""
+        """True for the processor family of this process.
+
+        Compiled code of this process is made for this family.
+        """
         return not self.triple or self.triple.startswith("x86_64")
 
 
 def machine_code(module_ir: Any, target: Target) -> bytes:
-    """Return an object file of a module, which is optimised no further."""
+    """Return a module's object file.
+
+    It is optimised no further.
+    """
     codegen = cpu_target.target_context.codegen()
     cpu, features = (codegen._get_host_cpu_name(), codegen._tm_features) if target.is_x86 else ("generic", "")
     if target.triple:
@@ -73,7 +79,9 @@ def machine_code(module_ir: Any, target: Target) -> bytes:
 
 
 def exact(module_ir: Any, *, fused: bool) -> Any:
-    """Return a module whose arithmetic is that of IEEE 754 as it is written, so that every processor has its bits.
+    """Return a module with exact IEEE 754 arithmetic.
+
+    The arithmetic is as written, so every processor computes the same bits.
 
     Parameters
     ----------
@@ -91,7 +99,10 @@ def exact(module_ir: Any, *, fused: bool) -> Any:
 
 
 def _fuse(found: re.Match[str]) -> str:
-    """Return a function in which a product that one sum alone uses is rounded with it."""
+    """Return a function with fused products.
+
+    A product that one sum alone uses is rounded with it.
+    """
     uses = Counter(_USE.findall(found[0]))
     products = {name: _parted(factors) for name, factors in _PRODUCT.findall(found[0]) if uses[name] == _ONCE}
 
@@ -113,7 +124,10 @@ def _fuse(found: re.Match[str]) -> str:
 
 
 def _parted(operands: str) -> tuple[str, str]:
-    """Return both operands, of which one at least has a name: constants of vectors have commas of their own."""
+    """Return both operands.
+
+    At least one of them has a name: constants of vectors have commas of their own.
+    """
     found = _FIRST.fullmatch(operands) or _SECOND.fullmatch(operands)
     return (found[1], found[2]) if found else ("", "")
 

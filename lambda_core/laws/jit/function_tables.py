@@ -21,7 +21,9 @@ TABLE = types.Array(types.int64, 2, "C")
 
 
 def reader(kind: Any) -> Callable[[Any, int], Any]:
-    """Return the function ``read(table, row)`` that makes functions of the addresses in one row of a table.
+    """Return the function ``read(table, row)``.
+
+    It makes functions of the addresses in one row of a table.
 
     Parameters
     ----------

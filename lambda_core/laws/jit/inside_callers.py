@@ -20,10 +20,16 @@ from numba.core.compiler import Compiler
 
 
 class _Part(JITCodeLibrary):
-    """Intermediate code of one function and of those that it calls, for whoever calls it."""
+    """Intermediate code of one function.
+
+    And of those that it calls, for its callers.
+    """
 
     def finalize(self) -> None:
-        """Close the library: link what is called, and leave the rest to the caller."""
+        """Close the library.
+
+        Link called functions, and leave the rest to the caller.
+        """
         self._raise_if_finalized()
         for library in dict.fromkeys(self._linking_libraries):
             self._reload_init.update(library._reload_init)
@@ -34,7 +40,10 @@ class _Part(JITCodeLibrary):
 
 
 def _without_code(library: _Part, fndesc: Any, env: Any) -> Any:
-    """Return what stands for the function in Numba's tables; there is no code behind it."""
+    """Return a function's entry without code.
+
+    Numba's tables take it.
+    """
     library._ensure_finalized()
     return make_function(fndesc.lookup_module(), fndesc.qualname.rpartition(".")[2], "", 0, env, (library,))
 
@@ -48,7 +57,10 @@ class _PartCompiler(Compiler):
 
 
 class _ApartCompiler(_PartCompiler):
-    """Tells LLVM that the arrays do not overlap; a vectorised loop begins by finding out otherwise."""
+    """Compiler for arrays that do not overlap.
+
+    LLVM then needs no check for overlap at the start of a vectorised loop.
+    """
 
     def define_pipelines(self) -> Any:
         self.state.flags.noalias = True
@@ -56,7 +68,10 @@ class _ApartCompiler(_PartCompiler):
 
 
 class _LawCompiler(Compiler):
-    """A law: what it is handed are arrays apart from each other."""
+    """Compiler of a law.
+
+    The arrays that it gets do not overlap.
+    """
 
     def define_pipelines(self) -> Any:
         self.state.flags.noalias = True
@@ -64,10 +79,16 @@ class _LawCompiler(Compiler):
 
 
 class _LargePart(_Part):
-    """A function that stays one of its own: its callers call it, in place of a copy in each of them."""
+    """Function that stays separate.
+
+    Its callers call it, in place of a copy in each of them.
+    """
 
     def add_ir_module(self, ir_module: Any) -> None:
-        """Take in the function as Numba made it, marked to be left where it is."""
+        """Take in the function from Numba.
+
+        It is marked to stay where it is.
+        """
         for function in ir_module.functions:
             if function.blocks:
                 function.attributes.add("noinline")

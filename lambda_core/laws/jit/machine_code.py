@@ -33,7 +33,9 @@ from lambda_core.laws.jit.plain import is_plain
 
 
 def _take_wide_vectors() -> None:
-    """Let loops over cells take all of 512 bits where the processor has them and keeps its clock with them.
+    """Let loops over cells use 512 bits.
+
+    Only where the processor has them and keeps its clock with them.
 
     LLVM takes half of them on Intel's processors, the first of which slowed down; AVX512-VBMI2
     marks the later ones, from Ice Lake on. What the user sets (NUMBA_CPU_NAME, NUMBA_CPU_FEATURES) stays.
@@ -56,7 +58,10 @@ OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}} | (
 
 
 def _way() -> ModuleType:
-    """Return how code is kept and pointed at: through Numba's internals, or the plain way."""
+    """Return the method of keeping code.
+
+    Through Numba's internals, or the plain way.
+    """
     if is_plain():
         return plain
     from lambda_core.laws.jit import disk_cache
@@ -65,7 +70,9 @@ def _way() -> ModuleType:
 
 
 def role_signature(role: Role) -> Any:
-    """Return the Numba signature of a role's laws: ``int64(float64, ..., float64[::1], ...)``.
+    """Return the Numba signature of a role's laws.
+
+    ``int64(float64, ..., float64[::1], ...)``.
 
     Numbers in which contacts differ are arrays (:mod:`lambda_core.laws.jit.binding`).
     """
@@ -74,19 +81,27 @@ def role_signature(role: Role) -> Any:
 
 
 def alone_arguments(role: Role) -> tuple[Any, ...]:
-    """Return the types of the arguments of a role's kernel for one contact."""
+    """Return the argument types for one contact.
+
+    They are those of the kernel of a role.
+    """
     return tuple(stretches.ROW if argument.kind == "a" else types.float64 for argument in role.arguments)
 
 
 def return_type(function: FunctionType, arguments: Any) -> Any:
-    """Return the type that Numba infers for the result of a function; it is compiled and thrown away."""
+    """Return the inferred type of a function's result.
+
+    Numba compiles the function for this only.
+    """
     dispatcher = njit(**OPTIONS)(function)
     dispatcher.compile(arguments)
     return returned_type(dispatcher)
 
 
 def make_callable(helpers: tuple[FunctionType, ...], **options: Any) -> None:
-    """Let compiled kernels call plain Python functions; the functions themselves stay as they are.
+    """Let compiled kernels call plain Python functions.
+
+    The functions themselves stay as they are.
 
     Options of ``numba.njit`` hold for functions that no kernel of this process called before.
     """
@@ -97,13 +112,18 @@ def make_callable(helpers: tuple[FunctionType, ...], **options: Any) -> None:
 
 
 def returned_type(dispatcher: Any) -> Any:
-    """Return the type that Numba inferred for the result of the only compiled signature."""
+    """Return the only signature's inferred result type.
+
+    Numba inferred it.
+    """
     (compiled,) = dispatcher.overloads.values()
     return types.unliteral(compiled.signature.return_type)
 
 
 def environment_key() -> str:
-    """Return a hash of what compiled code depends on besides its sources (hex, 16 characters).
+    """Return the hash of the compiler's environment.
+
+    Compiled code depends on it besides its sources (hex, 16 characters).
 
     Versions of Python, numpy, Numba and llvmlite, the processor and its features, the
     optimisation level, how code is made here, and the bounds-check flag, to which Numba's own cache is blind.
@@ -123,7 +143,9 @@ def environment_key() -> str:
 def compile_into(
     function: Callable[..., Any], signature: Any, folder: Path, on_miss: Callable[[], None], **options: Any
 ) -> Any:
-    """Compile `function` for one explicit `signature`, or load it from `folder`.
+    """Compile `function`, or load it from `folder`.
+
+    For one explicit `signature`.
 
     `signature` may be a tuple of argument types: the return type is then inferred.
     Returns the Numba dispatcher, closed for other signatures.
@@ -142,7 +164,10 @@ def compile_into(
 
 
 def _touch(folder: Path) -> None:
-    """Date a folder as used now; where there is a new one, drop those that nobody has used for long."""
+    """Mark a folder as used now.
+
+    Where there is a new one, drop those that nobody has used for long.
+    """
     if folder.exists():
         with contextlib.suppress(OSError):
             os.utime(folder)
@@ -155,7 +180,9 @@ def _touch(folder: Path) -> None:
 
 
 class Pointer(types.WrapperAddressProtocol):
-    """Address of a compiled kernel, to be passed to compiled code as a first-class function.
+    """Address of a compiled kernel.
+
+    Compiled code takes it as a first-class function.
 
     It keeps the code alive and is never pickled: another process compiles (or loads) its own.
     """
@@ -173,7 +200,10 @@ class Pointer(types.WrapperAddressProtocol):
 
     @property
     def compiled(self) -> Any:
-        """What Numba keeps of the code behind it; not on the plain way."""
+        """Code that Numba keeps behind the pointer.
+
+        The plain way has none.
+        """
         return self._kept.get_compile_result(self._signature)
 
     def __reduce__(self) -> Any:

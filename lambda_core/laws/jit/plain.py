@@ -29,7 +29,10 @@ def is_forced() -> bool:
 
 @cache
 def is_plain() -> bool:
-    """Tell whether the plain way is taken in this process; loads Numba."""
+    """Tell whether this process uses the plain way.
+
+    Loads Numba.
+    """
     if is_forced():
         return True
     try:
@@ -40,7 +43,10 @@ def is_plain() -> bool:
 
 
 def instructions(code: CodeType) -> tuple[tuple[str, str], ...]:
-    """Return (operation, name) of every instruction of a function, without a name where it reads none."""
+    """Return the instructions of a function.
+
+    (operation, name), without a name where an instruction reads none.
+    """
     read = ((each.opname, str(each.argval)) for each in dis.get_instructions(code) if each.opname != "EXTENDED_ARG")
     return tuple(pair if pair[0] in _READS else ("", "") for pair in read)
 
@@ -58,7 +64,10 @@ def processor() -> tuple[str, ...]:
 
 
 def callback(dispatcher: Any, signature: Any) -> tuple[int, object]:
-    """Return the address of a compiled function for C, and what keeps it alive."""
+    """Return a compiled function's address for C.
+
+    And the object that keeps it alive.
+    """
     from numba import cfunc
 
     made = cfunc(signature, **{key: value for key, value in dispatcher.targetoptions.items() if key != "nopython"})

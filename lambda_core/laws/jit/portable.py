@@ -71,24 +71,36 @@ class Entry:
 
 
 def known_processor() -> str:
-    """Return the processor that compiled code of this process is made for."""
+    """Return the processor of compiled code.
+
+    The code is that of this process.
+    """
     return str(cpu_target.target_context.codegen()._get_host_cpu_name())
 
 
 def features() -> frozenset[str]:
-    """Return the features of a processor that compiled code of this process may use."""
+    """Return the processor features of compiled code.
+
+    Compiled code of this process may use them.
+    """
     if config.CPU_FEATURES is not None:
         return frozenset(name[1:] for name in config.CPU_FEATURES.split(",") if name[:1] == "+")
     return frozenset(name for name, has in llvm.get_host_cpu_features().items() if has)
 
 
 def fuses() -> bool:
-    """Tell whether code for several systems rounds products and sums as one: where the least processor can."""
+    """Tell whether code fuses products and sums.
+
+    Code for several systems rounds them as one where the least processor can.
+    """
     return "fma" in features()
 
 
 def words_of(kind: Any) -> int:
-    """Return how many words of eight bytes a value takes that is handed to compiled code."""
+    """Return the number of words of a value.
+
+    A word has eight bytes; compiled code gets the value.
+    """
     if isinstance(kind, Reference):
         return kind.words
     context = cpu_target.target_context
@@ -96,14 +108,16 @@ def words_of(kind: Any) -> int:
 
 
 def symbol(pointer: Pointer) -> str:
-    """Return the name under which compiled code can be called from C."""
+    """Return the name of compiled code for C."""
     return str(_compiled(pointer).fndesc.llvm_cfunc_wrapper_name)
 
 
 def object_codes(
     entries: Sequence[Entry], table: Sequence[Pointer], cache: Path, targets: Sequence[Target], *, alike: bool
 ) -> list[dict[str, bytes]]:
-    """Return object files by name, per target, with the entries and all that they call.
+    """Return object files by name, per target.
+
+    They have the entries and all that these call.
 
     Each function has a file of its own: what was made of it once serves every library that it is in.
 
@@ -140,7 +154,10 @@ def object_codes(
 
 
 def _kept(pointer: Pointer, name: str, cache: Path, targets: Sequence[Target], *, alike: bool) -> list[bytes]:
-    """Return the object file of a function per target, from the cache where it is there."""
+    """Return a function's object file per target.
+
+    It comes from the cache where it is there.
+    """
     part, made = None, []
     for target in targets:
         file = cache / f"portable-{name[3:]}" / f"{target.triple or 'here'}{'-alike' if alike else ''}.o"
@@ -158,7 +175,10 @@ def _kept(pointer: Pointer, name: str, cache: Path, targets: Sequence[Target], *
 
 
 def _alone(pointer: Pointer, name: str, *, alike: bool) -> Any:
-    """Return a module with a function under a name and all that it calls, without Python."""
+    """Return a module with one function.
+
+    It has a name, and all that it calls, without Python.
+    """
     part = _part(pointer, name)
     caller = _compiled(pointer).fndesc.qualname
     _without_python(part, dict.fromkeys(_unknown(part), caller))
@@ -180,7 +200,10 @@ def _refuse_unlike(module_ir: Any) -> None:
 
 
 def data_code(name: str, data: bytes, target: Target) -> bytes:
-    """Return an object file with constant bytes under a name, at a line of the processor's cache."""
+    """Return an object file with constant bytes.
+
+    They have a name, at a line of the processor's cache.
+    """
     codegen = cpu_target.target_context.codegen()
     module = ir.Module("data")
     _constant(module, name, ir.ArrayType(BYTE, len(data)), bytearray(data)).align = 64
@@ -190,7 +213,10 @@ def data_code(name: str, data: bytes, target: Target) -> bytes:
 
 
 def _within(module_ir: Any, name: str) -> None:
-    """Keep a name within the library: another bearing in the same process has it, too."""
+    """Keep a name within the library.
+
+    Another bearing in the same process has it, too.
+    """
     found = [each for each in (*module_ir.functions, *module_ir.global_variables) if each.name == name]
     found[0].visibility = "hidden"
 
@@ -200,7 +226,10 @@ def _head(codegen: Any) -> str:
 
 
 def _content(pointer: Pointer) -> str:
-    """Return a hash of all that goes into the object file of a function."""
+    """Return the hash of an object file's sources.
+
+    Everything that goes into the object file of a function counts.
+    """
     made_by = b"".join(file.read_bytes() for file in (Path(__file__), Path(__file__).with_name("emission.py")))
     digest = hashlib.sha256(environment_key().encode() + made_by)
     digest.update(_compiled(pointer).library._get_module_for_linking().as_bitcode())
@@ -208,7 +237,10 @@ def _content(pointer: Pointer) -> str:
 
 
 def unknown(pointer: Pointer) -> list[str]:
-    """Return the functions that compiled code calls and that are there with Python only."""
+    """Return the functions that only Python has.
+
+    Compiled code calls them.
+    """
     return _unknown(_part(pointer, "wanted"))
 
 
@@ -225,7 +257,10 @@ def _compiled(pointer: Pointer) -> Any:
 
 
 def _part(pointer: Pointer, name: str) -> Any:
-    """Return a module with a function under a name, and what it calls hidden."""
+    """Return a module with hidden callees.
+
+    Only the function has a name.
+    """
     part = _compiled(pointer).library._get_module_for_linking().clone()
     for number, each in enumerate([*part.functions, *part.global_variables]):
         if each.name == symbol(pointer):
@@ -241,7 +276,10 @@ def _part(pointer: Pointer, name: str) -> Any:
 def _module_of_entries(
     codegen: Any, names: Mapping[str, str], entries: Sequence[Entry], table: Sequence[Pointer]
 ) -> ir.Module:
-    """Return a module with the entries and the table of functions."""
+    """Return a module with the entries.
+
+    And the table of functions.
+    """
     module = ir.Module("entries")
     module.triple, module.data_layout = codegen._llvm_module.triple, codegen._data_layout
     known: dict[str, ir.Function] = {}
@@ -271,7 +309,10 @@ def _constant(module: ir.Module, name: str, kind: Any, value: Any) -> Any:
 
 
 def _door(module: ir.Module, entry: Entry, called: ir.Function) -> None:
-    """Add the function that loads the arguments from the image and calls on."""
+    """Add the function that calls an entry.
+
+    It loads the arguments from the image.
+    """
     more = [argument for argument in entry.arguments if isinstance(argument, ir.Type)]
     function = ir.Function(module, ir.FunctionType(WORD, [BYTE.as_pointer(), *more]), entry.name)
     builder, image, handed = ir.IRBuilder(function.append_basic_block()), function.args[0], iter(function.args[1:])
@@ -298,7 +339,10 @@ def _run(module_ir: Any, *names: str) -> None:
 
 
 def _without_python(module_ir: Any, callers: Mapping[str, str]) -> None:
-    """Put functions that do nothing in the place of Python's, and drop what only they were given."""
+    """Replace Python's functions by empty ones.
+
+    Drop the values that only they used.
+    """
     stubs: dict[str, str] = {}
     for each in [*module_ir.functions, *module_ir.global_variables]:
         name = each.name
@@ -324,7 +368,10 @@ def _without_python(module_ir: Any, callers: Mapping[str, str]) -> None:
 
 
 def is_function(kind: Any) -> bool:
-    """Tell whether a value is a pointer to a compiled function."""
+    """Tell whether a value is a function pointer.
+
+    It points to a compiled function.
+    """
     return isinstance(kind, types.FunctionType)
 
 

@@ -30,7 +30,10 @@ _MISSING = object()
 
 
 class UnreachableError(PluginError):
-    """A kernel uses something whose content cannot be followed or may change unseen."""
+    """Kernel that uses something unknown.
+
+    Its content cannot be followed or may change unseen.
+    """
 
 
 @dataclass(frozen=True)
@@ -76,7 +79,9 @@ def reach(function: Callable[..., Any], *, lenient: bool = False) -> Reach:
 
 
 def content_key(function: Callable[..., Any]) -> str:
-    """Return the key of all that a function reaches, objects of unknown content by their name.
+    """Return the key of a function's content.
+
+    It has all that the function reaches, objects of unknown content by their name.
 
     A function of a module with a file is followed once; one that was typed in (a notebook, a shell) each time, because
     what it calls can be typed again.
@@ -92,7 +97,10 @@ def _kept_key(function: Callable[..., Any]) -> str:
 
 
 def _plain(function: Any) -> Any:
-    """Return the Python function behind a Numba dispatcher, or the object itself."""
+    """Return the Python function of a dispatcher.
+
+    The dispatcher is Numba's; other objects stay as they are.
+    """
     return getattr(function, "py_func", function)
 
 
@@ -111,7 +119,10 @@ class _Walk:
             self.hash.update(len(data).to_bytes(8, "little") + data)
 
     def value(self, value: Any, where: str) -> None:
-        """Add one value: a constant, a function, or a container of them."""
+        """Add one value.
+
+        A constant, a function, or a container of them.
+        """
         if value is None or value is Ellipsis or isinstance(value, bool | int | float | complex | str | bytes):
             self.add("constant", type(value).__name__, repr(value))
         elif isinstance(value, np.ndarray | np.generic):
@@ -161,7 +172,10 @@ class _Walk:
         self.within.pop()
 
     def code(self, code: CodeType, scope: dict[str, Any], free: dict[str, Any], where: str) -> None:
-        """Add one code object: what it does, its constants and the globals it reads."""
+        """Add one code object.
+
+        Its instructions, its constants and the globals that it reads.
+        """
         self.codes.append(code)
         self.add("code", code.co_code, code.co_argcount, code.co_kwonlyargcount, code.co_flags)
         self.add(code.co_varnames, code.co_names, code.co_freevars, code.co_cellvars)
@@ -189,7 +203,10 @@ class _Walk:
 
 
 def _ordered(value: Any) -> str:
-    """Write an option; sets in order, which otherwise differs from process to process."""
+    """Write an option with ordered sets.
+
+    The order of sets otherwise differs from process to process.
+    """
     return repr(sorted(value)) if isinstance(value, set | frozenset) else repr(value)
 
 
@@ -199,7 +216,10 @@ def _name(value: Any) -> str:
 
 
 def _of_library(value: Any) -> bool:
-    """Tell whether a function or type belongs to Python, numpy or Numba."""
+    """Tell whether an object belongs to a library.
+
+    A function or type of Python, numpy or Numba.
+    """
     if not isinstance(value, BuiltinFunctionType | np.ufunc | type) and not callable(value):
         return False
     if isinstance(value, np.ufunc) and getattr(np, value.__name__, None) is not value:
@@ -208,7 +228,10 @@ def _of_library(value: Any) -> bool:
 
 
 def _module(value: Any) -> str:
-    """Return the module of a function or type; ufuncs name none before numpy 2.2."""
+    """Return the module of a function or type.
+
+    Ufuncs name none before numpy 2.2.
+    """
     return getattr(value, "__module__", None) or "builtins"
 
 
@@ -227,7 +250,9 @@ _UNREAD = (3, 14)  # of Python; its code was not read here yet
 
 @cache
 def _instructions(code: CodeType) -> tuple[tuple[str, str], ...]:
-    """Return (operation, name) of every instruction, without a name where it reads none.
+    """Return the instructions of a function.
+
+    (operation, name), without a name where an instruction reads none.
 
     The standard library's disassembler says the same, with much else that takes a tenth of a second at every start.
     """
@@ -248,7 +273,9 @@ def _instructions(code: CodeType) -> tuple[tuple[str, str], ...]:
 
 
 def _globals_read(code: CodeType, scope: dict[str, Any], where: str) -> Iterator[tuple[str, Any]]:
-    """Yield (dotted name, value) of every global that `code` loads, through modules.
+    """Yield every global that `code` loads.
+
+    (dotted name, value), through modules.
 
     A module is followed only along the attributes that are read from it.
     """

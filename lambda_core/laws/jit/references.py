@@ -34,7 +34,9 @@ _BYTE, _INT = ir.IntType(8), ir.IntType(64)
 
 
 class Reference(types.Type):
-    """Type of a named tuple in compiled code: the address of its words.
+    """Type of a named tuple in compiled code.
+
+    It is the address of its words.
 
     Parameters
     ----------
@@ -62,7 +64,9 @@ def array_t(kind: Array) -> Any:
 
 
 def reference_t(named: type[Any], functions: Mapping[str, Any] | None = None) -> Reference:
-    """Return the type of a class from :func:`lambda_core.laws.jit.words.by_reference` in compiled code.
+    """Return the type of a class in compiled code.
+
+    The class comes from :func:`lambda_core.laws.jit.words.by_reference`.
 
     Parameters
     ----------
@@ -133,7 +137,10 @@ def _load(builder, place, word, kind):
 
 @unbox(Reference)
 def _unbox(kind, value, c):
-    """Emit what asks a tuple for the address of its words."""
+    """Emit the code for a tuple's address.
+
+    It is the address of its words.
+    """
     builder, api = c.builder, c.pyapi
     address = cgutils.alloca_once_value(builder, cgutils.voidptr_t(None))
     found = api.object_getattr_string(value, kind.attribute)

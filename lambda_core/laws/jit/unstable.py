@@ -8,5 +8,8 @@ __all__ = ["NumbaExperimentalFeatureWarning", "know_pointers"]
 
 
 def know_pointers() -> None:
-    """Teach Numba the type of pointers to functions, which it forgets until their module is imported."""
+    """Teach Numba the type of function pointers.
+
+    Numba forgets it until their module is imported.
+    """
     import numba.experimental.function_type  # noqa: F401

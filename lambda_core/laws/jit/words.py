@@ -34,11 +34,13 @@ class Array:
 
     @property
     def words(self) -> int:
-        """How many words an array takes."""
+        """Number of words of an array."""
         return HEAD + 1 + 2 * self.ndim
 
     def of(self, value: Any, address: int) -> Iterator[int]:
-        """Yield the words of an array whose items stand at an address.
+        """Yield the words of an array.
+
+        Its items are at an address.
 
         Raises
         ------
@@ -73,18 +75,26 @@ def words_of(kind: Kind) -> int:
 
 
 def kinds_of(named: Any) -> Mapping[str, Kind]:
-    """Return the kinds of the fields of a class from :func:`by_reference`, in the order of the tuple."""
+    """Return the kinds of a class's fields.
+
+    The class comes from :func:`by_reference`; they are in the order of the tuple.
+    """
     found: Mapping[str, Kind] = named.KINDS
     return found
 
 
 def attribute(named: type) -> str:
-    """Return the name of the attribute that has the address of the words: of this class and no other."""
+    """Return the attribute of the words' address.
+
+    It belongs to this class and no other.
+    """
     return f"address_{named.__name__}"
 
 
 def by_reference(otherwise: Kind | None = None, /, **kinds: Kind) -> Callable[[type[T]], type[T]]:
-    """Let a class of named tuples have an address for compiled code; its words are made when that is first asked for.
+    """Give a class of named tuples an address.
+
+    Compiled code uses it; the words are made when it is first needed.
 
     Parameters
     ----------
@@ -114,7 +124,10 @@ def _address(self: Any) -> int:
 
 
 def words(kind: Kind, value: Any) -> Iterator[int]:
-    """Yield the words of a field; TypeError where an array is of another type."""
+    """Yield the words of a field.
+
+    TypeError where an array is of another type.
+    """
     if isinstance(kind, Array):
         yield from kind.of(value, int(value.ctypes.data))
     elif isinstance(kind, Function):
@@ -125,5 +138,8 @@ def words(kind: Kind, value: Any) -> Iterator[int]:
 
 
 def addresses(rows: Sequence[Sequence[Any]]) -> NDArray[np.int64]:
-    """Return the table of a row of pointers to compiled functions each; it does not keep their code alive."""
+    """Return the table of rows of pointers.
+
+    They point to compiled functions; the table does not keep their code alive.
+    """
     return np.array([[pointer.__wrapper_address__() for pointer in row] for row in rows], dtype=np.int64)

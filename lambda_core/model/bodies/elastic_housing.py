@@ -21,7 +21,9 @@ _LOOSE = 1e-9  # of the largest eigenvalue: below, the housing moves without for
 def elastic_housing(
     path: Path, bearings: Sequence[MountedBearing], ledger: Ledger
 ) -> tuple[FloatArray, FloatArray] | tuple[None, None]:
-    """Return stiffness and damping between the outer rings, shape (5 bearings, 5 bearings); None after a problem.
+    """Return stiffness and damping between outer rings.
+
+    Shape (5 bearings, 5 bearings); None after a problem.
 
     What the rings do not hold, further nodes and modes, follows without force: K_kk - K_ko K_oo^-1 K_ok.
 

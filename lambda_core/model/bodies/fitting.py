@@ -24,7 +24,7 @@ _TOUCHING = 1e-6  # [m] faces that meet, whatever the rounding of sums
 
 @dataclass(frozen=True)
 class _Span:
-    """What a part takes of the shaft's length."""
+    """Span of a part on the shaft."""
 
     name: str
     begin: float
@@ -35,7 +35,9 @@ class _Span:
 
 
 def fitting_warnings(case: MachineCase, bearings: Sequence[MountedBearing], outline: Outline) -> tuple[str, ...]:
-    """Return a sentence for everything on a shaft that cannot stand there as it is drawn.
+    """Return warnings of parts that do not fit.
+
+    A sentence for everything on a shaft that cannot be where it is drawn.
 
     Nothing of it changes the equilibrium, which knows bearings by their places alone; so it is no mistake of the case:
     sleeves and equivalent diameters are usual.
@@ -67,7 +69,10 @@ def _span(bearing: MountedBearing) -> _Span:
 
 
 def _on_seat(bearing: MountedBearing, given: MachineBearing, span: _Span, outline: Outline) -> Iterator[str]:
-    """Compare the bore with the pieces of the shaft under the ring; the one that is farthest off is named."""
+    """Compare the bore with the shaft under it.
+
+    The piece of the shaft with the largest difference is named.
+    """
     bore, width = bearing.model.geometry.bore_diameter, span.end - span.begin
     fit = max(_SEAT, _SEAT_SHARE * bore)
     under = [
@@ -104,7 +109,10 @@ def _on_shaft(span: _Span, left: float, right: float) -> Iterator[str]:
 
 
 def _wheels(case: MachineCase, spans: Sequence[_Span], outline: Outline) -> Iterator[str]:
-    """Compare gears, of which only the middle is known, and discs that have a shape with bearings and shaft."""
+    """Compare gears and discs with bearings and shaft.
+
+    Only the middle of a gear is known; a disc may have a shape.
+    """
     for name, gear in case.gears.items():
         for span in spans:
             if span.begin + _TOUCHING < gear.place < span.end - _TOUCHING:
@@ -124,7 +132,10 @@ def _wheels(case: MachineCase, spans: Sequence[_Span], outline: Outline) -> Iter
 
 
 def _diameter(outline: Outline, place: float) -> float:
-    """Return the diameter of the shaft at a place, the smaller one at a step; 0 where it is not known."""
+    """Return the diameter of the shaft at a place.
+
+    The smaller one at a step; 0 where it is not known.
+    """
     return min((diameter for begin, end, diameter, _ in outline if begin <= place <= end), default=0.0)
 
 

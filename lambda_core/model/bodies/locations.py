@@ -28,7 +28,7 @@ _SAME = 1e-6  # [m]
 
 @dataclass(frozen=True)
 class Places:
-    """Where everything stands.
+    """Places of all parts.
 
     Attributes
     ----------
@@ -49,19 +49,27 @@ class Places:
         return self.of[f"{table}.{name}"].body == SHAFT
 
     def carrier(self, name: str) -> Carrier:
-        """Return a body, given by its name or by a marker on it; the ground where nobody knows it."""
+        """Return a body by name or marker.
+
+        The ground where nobody knows the name.
+        """
         if name in self.carriers:
             return self.carriers[name]
         return self.markers[name].body if name in self.markers else GROUND
 
     def seat(self, name: str) -> int:
-        """Return the number of the body that carries an outer ring; the ground where no body can."""
+        """Return the body that carries an outer ring.
+
+        Its number; the ground where no body can.
+        """
         found = self.carrier(name)
         return GROUND if isinstance(found, BearingPart) else found
 
 
 def places(case: MachineCase, outside: ElasticBody | None, ledger: Ledger) -> Places:
-    """Return where everything stands; what is wrong with it is noted.
+    """Return the places of all parts.
+
+    Problems are noted.
 
     Where the shaft comes from a file that cannot be read, names that nobody knows may be those of its nodes.
     """
@@ -115,14 +123,17 @@ def places(case: MachineCase, outside: ElasticBody | None, ledger: Ledger) -> Pl
 
 
 def bearing_parts(case: MachineCase) -> dict[str, BearingPart]:
-    """Return the outer rings and cages of a case by their names as places: "left.outer_ring", "left.cage"."""
+    """Return the outer rings and cages as places.
+
+    By their names in a case: "left.outer_ring", "left.cage".
+    """
     return {f"{name}.{part}": BearingPart(name, part) for name in case.bearings for part in PARTS}
 
 
 def _refuse_absent_cages(
     case: MachineCase, carriers: Mapping[str, Carrier], found: Mapping[str, Place], ledger: Ledger
 ) -> None:
-    """Note places on the cage of a bearing that has none."""
+    """Note places on the cage of a cageless bearing."""
     used = [(f"{where}.at", place.body) for where, place in found.items()]
     used += [(f"markers.{name}.body", carriers.get(marker.body, GROUND)) for name, marker in case.markers.items()]
     used += [(f"connections.{name}.to", carriers.get(one.to, GROUND)) for name, one in case.connections.items()]
@@ -143,7 +154,10 @@ def _placed(case: MachineCase) -> Iterator[tuple[str, str, Placed]]:
 
 
 def _coupling(case: MachineCase, outside: ElasticBody | None, found: Mapping[str, Place]) -> float:
-    """Return where the coupling stands [m]; on a rigid shaft at its bearing."""
+    """Return the place of the coupling [m].
+
+    On a rigid shaft it is at its bearing.
+    """
     if case.shaft.drive is not None:
         return case.shaft.drive
     if case.shaft.is_rigid:
@@ -152,7 +166,10 @@ def _coupling(case: MachineCase, outside: ElasticBody | None, found: Mapping[str
 
 
 def carried(arm: Sequence[float] | FloatArray) -> FloatArray:
-    """Return how a point moves and turns with a body, `arm` from its centre [m], shape (6, 6): u + theta x arm."""
+    """Return the motion of a point with a body.
+
+    `arm` is from the body's centre [m], shape (6, 6): u + theta x arm.
+    """
     x, y, z = (float(a) for a in arm)
     found: FloatArray = np.eye(NODE)
     found[:3, 3:] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
@@ -160,20 +177,26 @@ def carried(arm: Sequence[float] | FloatArray) -> FloatArray:
 
 
 def carried_by_shaft(body: ElasticBody, point: Sequence[float] | FloatArray) -> tuple[float, FloatArray]:
-    """Return the place of the node that carries a point of the shaft [m], and how the point moves with it, (6, 6)."""
+    """Return the node of a shaft's point.
+
+    Its place [m], and how the point moves with it, (6, 6).
+    """
     node = body.nearest(float(point[0]))
     return node, carried([float(point[0]) - node, *point[1:]])
 
 
 def _unknown(what: str, name: str, known: Iterable[str]) -> str:
-    """Say what may stand in place of a name that nobody knows."""
+    """Suggest a name for an unknown one."""
     names = list(known)
     words = unknown_name(what, name, names) if names else f'there is no marker "{name}"; there are no [markers]'
     return f'{words}; or a length with its unit, "85 mm"' if name[:1].isdigit() else words
 
 
 def _fits(table: str, where: str, marker: str, place: Place, ledger: Ledger, *, is_by_law: bool) -> None:
-    """Note a marker that this part cannot stand at; a law acts at places that turn with the shaft, too."""
+    """Note a marker that this part cannot use.
+
+    A law acts at places that turn with the shaft, too.
+    """
     is_off_axis = max(abs(place.point[1]), abs(place.point[2])) > _SAME
     if table in _ON_AXIS and (place.body != SHAFT or is_off_axis):
         ledger.problem(f"{where}.at", f'"{marker}" is not on the axis of the shaft: choose a marker on it')
@@ -185,7 +208,10 @@ def _ends(
     case: MachineCase, carriers: Mapping[str, Carrier], markers: Mapping[str, Place], found: Mapping[str, Place],
     ledger: Ledger,
 ) -> None:  # fmt: skip
-    """Check what carries outer rings, and the other ends of springs."""
+    """Check the carriers of rings and spring ends.
+
+    The rings are outer rings; springs have other ends.
+    """
     others = [(f"bearings.{name}", "outer", part.outer) for name, part in case.bearings.items()]
     others += [(f"connections.{name}", "to", part.to) for name, part in case.connections.items()]
     for where, option, other in others:
@@ -208,7 +234,10 @@ def _ends(
 
 
 def _axes(marker: Marker) -> FloatArray:
-    """Return the axes of a marker as columns: turned about x, then about y and z as they were."""
+    """Return the axes of a marker as columns.
+
+    Turned about x, then about y and z as they were.
+    """
     found: FloatArray = np.eye(3)
     for angle, (i, k) in ((marker.about_x, (1, 2)), (marker.about_y, (2, 0)), (marker.about_z, (0, 1))):
         turn = np.eye(3)

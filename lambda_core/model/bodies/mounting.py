@@ -23,7 +23,9 @@ _SIGN = {"+x": 1, "-x": -1, None: 0}
 def mounted(
     name: str, given: MachineBearing, model: BearingModel, carrier: int, growth: float, ledger: Ledger
 ) -> MountedBearing:
-    """Return a bearing at its place, its outer ring where preload and the housing's growth put it.
+    """Return a bearing at its place.
+
+    Preload and the housing's growth displace its outer ring.
 
     Parameters
     ----------
@@ -72,7 +74,10 @@ def mounted(
 
 
 def refuse_motion(name: str, given: MachineBearing, is_carried: bool, ledger: Ledger) -> None:
-    """Note motions of a ring that something else decides; `is_carried`: by a body or an elastic housing."""
+    """Note motions of a ring that are decided elsewhere.
+
+    `is_carried`: by a body or an elastic housing.
+    """
     for dof in POSE:
         where, motion = f"bearings.{name}.support.{dof}.motion", getattr(given.support, dof).motion
         if motion is None:
@@ -88,7 +93,10 @@ def refuse_motion(name: str, given: MachineBearing, is_carried: bool, ledger: Le
 
 
 def _seat(name: str, given: MachineBearing, model: BearingModel, carrier: int, ledger: Ledger) -> tuple[float, ...]:
-    """Return the stiffness of the seat; one that is locked in a body that moves is very stiff, tilts at its radius."""
+    """Return the stiffness of the seat.
+
+    A seat that is locked in a moving body is very stiff; tilts are at its radius.
+    """
     found = [_stiffness(given, dof) for dof in POSE]
     if carrier == GROUND or not any(map(math.isinf, found)):
         return tuple(found)
@@ -101,13 +109,19 @@ def _seat(name: str, given: MachineBearing, model: BearingModel, carrier: int, l
 
 
 def _stiffness(given: MachineBearing, dof: str) -> float:
-    """Return the housing's stiffness in a degree of freedom; inf where locked, 0 where free."""
+    """Return the housing's stiffness of one motion.
+
+    Inf where locked, 0 where free.
+    """
     held: Dof = getattr(given.support, dof)
     return 0.0 if dof == "x" and given.preload_force is not None and held.mode == "locked" else held.hold
 
 
 def _ratings(name: str, angle: float, model: BearingModel, ledger: Ledger) -> tuple[float, float, float]:
-    """Return C, C_0 and C_u [N]: the catalogue's or the case's where they are known, else of the inner geometry."""
+    """Return C, C_0 and C_u [N].
+
+    The catalogue's or the case's where they are known, else of the inner geometry.
+    """
     known = {value.path: value.value for value in model.values if isinstance(value.value, float)}
     g = model.geometry
     dynamic, static, fatigue = (

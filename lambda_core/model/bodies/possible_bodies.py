@@ -42,7 +42,9 @@ def check_possible(case: Case, geometry: Geometry, bodies: Mapping[BodyName, Bod
 
 
 def _check_motion(dof: str, geometry: Geometry, bodies: Mapping[BodyName, Body], ledger: Ledger) -> None:
-    """Compare prescribed motions with the way that balls leave between rings, and pockets leave to them.
+    """Compare prescribed motions with the free way.
+
+    Balls leave it between rings, pockets leave it to balls.
 
     What a free body may follow is left alone.
     """
@@ -63,7 +65,10 @@ def _check_motion(dof: str, geometry: Geometry, bodies: Mapping[BodyName, Body],
 
 
 def _check_spins(case: Case, geometry: Geometry, ledger: Ledger) -> None:
-    """Refuse prescribed spins at which rings and cage would fly apart."""
+    """Refuse prescribed spins that would burst parts.
+
+    Rings and cage are the parts.
+    """
     highest = 2.0 * FASTEST / geometry.pitch_diameter
     spins: dict[str, Any] = {"operation.speed": case.operation.speed}
     for name in BODIES:

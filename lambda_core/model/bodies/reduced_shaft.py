@@ -21,7 +21,10 @@ _ALIKE = 1e-6  # relative difference of what has to be equal
 
 
 def reduced_shaft(path: Path, ledger: Ledger) -> ElasticBody | None:
-    """Return the model of a shaft from a file; None after a problem, each with what to do about it."""
+    """Return a shaft's model from a file.
+
+    None after a problem, each with its remedy.
+    """
     file = ReducedFile(_WHERE, path, ledger)
     body = file.read()
     if body is None:
@@ -43,7 +46,10 @@ def reduced_shaft(path: Path, ledger: Ledger) -> ElasticBody | None:
 
 
 def _rigid_motions(body: ElasticBody) -> FloatArray:
-    """Return the six motions as a rigid body about the left end, shape (rows, 6)."""
+    """Return the six rigid motions.
+
+    About the left end, shape (rows, 6).
+    """
     found: FloatArray = np.zeros((body.mass.shape[0], NODE))
     for n, x in enumerate(body.positions):
         found[NODE * n : NODE * (n + 1)] = np.eye(NODE)
@@ -73,7 +79,10 @@ def _check_stiffness(body: ElasticBody, rigid: FloatArray, file: ReducedFile) ->
 
 
 def _of_nodes(body: ElasticBody, stiffness: FloatArray) -> FloatArray:
-    """Return the stiffness between the nodes, further coordinates following without force: they take some (checked)."""
+    """Return the stiffness between the nodes.
+
+    Further coordinates follow without force: they take some (checked).
+    """
     n = NODE * body.positions.size
     follows = np.linalg.solve(stiffness[n:, n:], stiffness[n:, :n])
     found: FloatArray = stiffness[:n, :n] - stiffness[:n, n:] @ follows
@@ -81,7 +90,10 @@ def _of_nodes(body: ElasticBody, stiffness: FloatArray) -> FloatArray:
 
 
 def _turned(matrix: FloatArray) -> FloatArray:
-    """Return a matrix of nodes after a turn of the body by 90 degrees."""
+    """Return a matrix of nodes after a turn.
+
+    The body turns by 90 degrees.
+    """
     quarter = np.zeros((NODE, NODE))
     quarter[0, 0] = quarter[3, 3] = 1.0
     quarter[2, 1] = quarter[5, 4] = 1.0  # y goes to z
@@ -107,7 +119,10 @@ def _check_mass(body: ElasticBody, rigid: FloatArray, file: ReducedFile) -> None
 
 
 def _with_gyroscopic(body: ElasticBody, rigid: FloatArray, ledger: Ledger) -> ElasticBody:
-    """Return the body with gyroscopic terms: those of the file, else of the polar inertia of its nodes."""
+    """Return the body with gyroscopic terms.
+
+    Those of the file, else of the polar inertia of its nodes.
+    """
     if np.any(body.gyroscopic):
         return body
     found = np.zeros_like(body.mass)

@@ -24,7 +24,10 @@ Vector = tuple[TimeFunction, TimeFunction, TimeFunction]
 
 @dataclass(frozen=True)
 class Inertia:
-    """Mass [kg] and moments of inertia [kg m2] of an axisymmetric part about its centre."""
+    """Mass [kg] and inertia [kg m2] of a part.
+
+    The part is axisymmetric; moments of inertia about its centre.
+    """
 
     mass: float
     transverse: float
@@ -40,13 +43,18 @@ class Inertia:
 
 
 def hollow_cylinder(mass: float, inner_radius: float, outer_radius: float, length: float) -> Inertia:
-    """Return the inertia of a hollow cylinder: m (R^2 + r^2)/2 and m (3 (R^2 + r^2) + l^2)/12."""
+    """Return the inertia of a hollow cylinder.
+
+    m (R^2 + r^2)/2 and m (3 (R^2 + r^2) + l^2)/12.
+    """
     squares = inner_radius**2 + outer_radius**2
     return Inertia(mass, mass * (3.0 * squares + length**2) / 12.0, mass * squares / 2.0)
 
 
 def groove_volume(groove_radius: float, race_diameter: float, shoulder_diameter: float) -> float:
-    """Return the volume [m3] cut out by a groove: a circle's segment turned about the shaft (Pappus).
+    """Return the volume [m3] of a groove.
+
+    A circle's segment turned about the shaft (Pappus).
 
     The segment's centroid is taken at 2/5 of its height from the groove's bottom, exact for a parabola.
     """
@@ -58,7 +66,9 @@ def groove_volume(groove_radius: float, race_diameter: float, shoulder_diameter:
 
 
 def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: float) -> Inertia:
-    """Estimate a ring as a hollow cylinder from its seat to its shoulders, less the groove.
+    """Estimate a ring as a hollow cylinder.
+
+    From its seat to its shoulders, less the groove.
 
     On one side of an angular contact ring the shoulder is gone, down to the raceway: with that on both rings, these,
     the balls and the cage have the mass that a catalogue prints (tests/literature/test_kinds.py). So it is of double
@@ -87,7 +97,10 @@ def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: f
 
 
 def _sphered_ring(g: Geometry, density: float) -> Inertia:
-    """Return the outer ring of a self-aligning bearing: a bar less the layer of a sphere between its faces."""
+    """Return a self-aligning bearing's outer ring.
+
+    A bar less the layer of a sphere between its faces.
+    """
     sphere = g.groove_radius_outer
     volume = math.pi * ((0.25 * g.outside_diameter**2 - sphere**2) * g.width + g.width**3 / 12.0)
     mean = math.sqrt(0.25 * g.outside_diameter**2 - volume / (math.pi * g.width))  # hole of a cylinder of that volume
@@ -97,7 +110,9 @@ def _sphered_ring(g: Geometry, density: float) -> Inertia:
 def resolve_cage(
     spec: CageBody, row: CageRow, geometry: Geometry, material: Material, ledger: Ledger
 ) -> tuple[Cage, Inertia]:
-    """Return the cage's geometry and inertia after the formula of its type.
+    """Return the cage's geometry and inertia.
+
+    After the formula of its type.
 
     m = density fill pi d_m (radial D_w) (axial D_w); inertia of a hollow cylinder of that
     radial thickness and width about the pitch circle.
@@ -149,7 +164,10 @@ def resolve_cage(
 
 
 def _check_cage(geometry: Geometry, pocket: float, land: float, ledger: Ledger) -> None:
-    """Refuse pockets without bars between them; say when a guiding land cannot act."""
+    """Refuse pockets without bars between them.
+
+    Report a guiding land that cannot act.
+    """
     chord = geometry.pitch_diameter * math.sin(math.pi / geometry.ball_count)
     if geometry.ball_diameter + pocket >= chord:
         gap = show(chord - geometry.ball_diameter, "small_length", 4)
@@ -162,7 +180,10 @@ def _check_cage(geometry: Geometry, pocket: float, land: float, ledger: Ledger) 
 
 
 def resolve_inertia(name: str, spec: InnerRing | OuterRing | CageBody, estimate: Inertia, ledger: Ledger) -> Inertia:
-    """Return mass and inertia, each from the case or from the estimate (its inertia scaled to a given mass)."""
+    """Return mass and inertia of a part.
+
+    Each from the case or from the estimate (its inertia scaled to a given mass).
+    """
     path = f"bodies.{name}"
     _check_mass(f"{path}.mass", spec.mass, ledger)
     mass = spec.mass if spec.mass is not None else estimate.mass
@@ -186,13 +207,19 @@ def resolve_inertia(name: str, spec: InnerRing | OuterRing | CageBody, estimate:
 
 
 def _check_mass(path: str, mass: float | None, ledger: Ledger) -> None:
-    """Refuse a mass whose motion double precision cannot follow together with that of a ball."""
+    """Refuse a mass beyond double precision.
+
+    Its motion could not be computed together with that of a ball.
+    """
     if mass is not None and mass > MOST_MASS:
         ledger.problem(path, f"{mass:g} kg is more than a bearing carries: at most {MOST_MASS:g} kg")
 
 
 def shaft_inertia(spec: InnerRing, geometry: Geometry, density: float, ledger: Ledger) -> Inertia:
-    """Return the shaft that moves with the inner ring: given, or a solid bar as thick as the bore."""
+    """Return the shaft that moves with the ring.
+
+    It moves with the inner ring; given, or a solid bar as thick as the bore.
+    """
     if not spec.shaft_mass:
         return Inertia(0.0, 0.0, 0.0)
     _check_mass("bodies.inner_ring.shaft_mass", spec.shaft_mass, ledger)
@@ -227,7 +254,10 @@ def resolve_body(name: BodyName, case: Case, inertia: Inertia) -> Body:
 
 
 def body_loads(name: BodyName, case: Case) -> tuple[Vector, Vector]:
-    """Return force (x, y, z) [N] and moment (about x, y, z) [N m] on one body, inertial frame."""
+    """Return force [N] and moment [N m] on a body.
+
+    (x, y, z) and about x, y, z, inertial frame.
+    """
     loads = case.loads
     own: Load = getattr(loads, name) or Load()
     force = [time_function(own.force_x), time_function(own.force_y), time_function(own.force_z)]
@@ -245,7 +275,10 @@ def body_loads(name: BodyName, case: Case) -> tuple[Vector, Vector]:
 
 
 def direction(azimuth: float) -> tuple[float, float]:
-    """Return cosine and sine, exact at whole right angles so that "down" has no sideways part."""
+    """Return cosine and sine of a direction.
+
+    Exact at whole right angles so that "down" has no sideways part.
+    """
     quarter = azimuth / (math.pi / 2.0)
     if abs(quarter - round(quarter)) < 1e-12:
         return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[round(quarter) % 4]
@@ -283,7 +316,9 @@ def check_bodies(case: Case, ledger: Ledger) -> None:
 
 
 def _say_free_tilt(case: Case, ledger: Ledger) -> None:
-    """Say that the inner ring may tilt where the loads tilt it and the case does not speak of it.
+    """Report an inner ring that may tilt.
+
+    The loads tilt it, and the case has no option for it.
 
     Radial load alone, or axial load alone, leaves the rings parallel.
     """
@@ -299,7 +334,10 @@ def _say_free_tilt(case: Case, ledger: Ledger) -> None:
 
 
 def _check_locked_loads(case: Case, ledger: Ledger) -> None:
-    """Note loads along degrees of freedom that cannot move: they would have no effect."""
+    """Note loads along locked degrees of freedom.
+
+    They would have no effect.
+    """
     for name in BODIES:
         force, moment = body_loads(name, case)
         torque = TimeFunction() if case.operation.torque is not None and name == "inner_ring" else moment[0]

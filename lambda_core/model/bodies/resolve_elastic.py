@@ -26,7 +26,9 @@ _Usual = tuple[tuple[str, float, str], ...]  # field, its usual value, where tha
 def resolve_elastic(
     case: Case, geometry: Geometry, cage: tuple[Cage, float], materials: Mapping[str, Material], ledger: Ledger
 ) -> dict[BodyName, RingWaves]:
-    """Return the rings that bend, and the cage; complete unless there are problems.
+    """Return the rings and the cage that bend.
+
+    Complete unless there are problems.
 
     Parameters
     ----------
@@ -84,7 +86,10 @@ def _resolve_ring(
 def _resolve_cage(
     options: BendingCage, geometry: Geometry, cage: Cage, mass: float, material: Material, ledger: Ledger
 ) -> RingWaves:
-    """Return the waves of the cage: a ring of its mass, whose section bends as the one that is written."""
+    """Return the waves of the cage.
+
+    It is a ring of its mass; its section bends as in the case.
+    """
     path, radius = "elastic.cage", 0.5 * geometry.pitch_diameter
     area = mass / (2.0 * math.pi * radius * material.density)
     written = options.section_height
@@ -140,7 +145,7 @@ def _record(path: str, options: BendingRing | BendingCage, fields: tuple[tuple[s
 
 
 def _tell(name: str, ring: ElasticRing, options: BendingRing | BendingCage, height: float, ledger: Ledger) -> None:
-    """Say what damps the waves, and where a section is no thin one."""
+    """Report the damping of waves and thick sections."""
     if "damping_ratio" not in options.model_fields_set:
         ledger.assume(f"waves of the {name} are damped by {options.damping_ratio:g} of critical")
     if height > _THICK * ring.radius:

@@ -32,7 +32,10 @@ _CLASS_OIL = {"thermal_conductivity": 0.137, "specific_heat": 1930.0}
 
 @dataclass(frozen=True)
 class PartMaterial:
-    """A material as the contact laws see it, and what its thermal growth needs."""
+    """Material for the contact laws.
+
+    With the properties for thermal growth.
+    """
 
     material: Material
     thermal_expansion: float  # [1/K]
@@ -49,7 +52,10 @@ UNKNOWN = PartMaterial(Material("unknown", *[math.nan] * 5), math.nan)
 def resolve_material(
     part: str, case: Case, catalogue: Catalogue, ledger: Ledger, usual: str | None = None
 ) -> PartMaterial:
-    """Return the material of a part (UNKNOWN after a problem); `usual` is the name where the case has none."""
+    """Return the material of a part.
+
+    UNKNOWN after a problem; `usual` is the name where the case has none.
+    """
     where = f"materials.{part}"
     choice = getattr(case.materials, part) or usual
     if choice is None:
@@ -75,7 +81,10 @@ def resolve_material(
 def resolve_lubricant(
     lubricant: Lubricant, catalogue: Catalogue, ledger: Ledger
 ) -> tuple[LubricantRow | None, Oil | None]:
-    """Return the lubricant's row and its oil at the case's temperature."""
+    """Return the lubricant's row and its oil.
+
+    The oil has the case's temperature.
+    """
     row = _inline_row(lubricant)
     if row is None:
         row = ledger.ask("lubricant.name", lambda: catalogue.lubricant(lubricant.name))
@@ -101,12 +110,18 @@ def resolve_lubricant(
 
 
 def is_grease(row: LubricantRow) -> bool:
-    """Tell whether a lubricant is a grease: it has an NLGI class."""
+    """Tell whether a lubricant is a grease.
+
+    A grease has an NLGI class.
+    """
     return "nlgi" in row.properties
 
 
 def _tell_grease(row: LubricantRow, lubricant: Lubricant, ledger: Ledger) -> None:
-    """Record what is a grease's alone, and say what the model leaves out of it."""
+    """Record what only a grease has.
+
+    Report what the model leaves out of it.
+    """
     for name, quantity in _OF_GREASE.items():
         if name in row.properties:
             ledger.row(f"lubricant.{name}", row.properties[name], quantity)
@@ -117,13 +132,19 @@ def _tell_grease(row: LubricantRow, lubricant: Lubricant, ledger: Ledger) -> Non
 
 
 def lubrication_of(lubricant: Lubricant, row: LubricantRow | None) -> Lubrication:
-    """Return how the oil gets to the balls: as the case says, or a bath for an oil."""
+    """Return the lubrication method.
+
+    As the case has it, or a bath for an oil.
+    """
     usual: Lubrication = "grease" if row is not None and is_grease(row) else "oil bath"
     return lubricant.lubrication or usual
 
 
 def _check_lubrication(lubricant: Lubricant, row: LubricantRow | None, ledger: Ledger) -> None:
-    """Record how the oil gets to the balls; note where it does not go with the lubricant."""
+    """Record the lubrication method.
+
+    Note a method that does not fit the lubricant.
+    """
     if lubricant.lubrication is None:
         return
     ledger.given("lubricant.lubrication", lubricant.lubrication)
@@ -134,7 +155,10 @@ def _check_lubrication(lubricant: Lubricant, row: LubricantRow | None, ledger: L
 
 
 def resolve_oil_level(lubricant: Lubricant, row: LubricantRow | None, ball_diameter: float, ledger: Ledger) -> float:
-    """Return the level of the oil above the lowest point of the pitch circle [m]; below every ball without a bath."""
+    """Return the oil level [m].
+
+    Above the lowest point of the pitch circle; below every ball without a bath.
+    """
     given, lubrication = "oil_level" in lubricant.model_fields_set, lubrication_of(lubricant, row)
     _check_lubrication(lubricant, row, ledger)
     if row is not None and is_grease(row):
@@ -154,7 +178,10 @@ def resolve_oil_level(lubricant: Lubricant, row: LubricantRow | None, ball_diame
 
 
 def _inline_row(lubricant: Lubricant) -> LubricantRow | None:
-    """Return the row that the case itself writes; its law's parameters stand in [parameters]."""
+    """Return the lubricant of the case itself.
+
+    Its law's parameters are in [parameters].
+    """
     own = lubricant.properties
     if own is None:
         return None
@@ -182,7 +209,10 @@ _BODY = (
 def body_material(
     choice: str | InlineMaterial, where: str, catalogue: Catalogue, ledger: Ledger
 ) -> BodyMaterial | None:
-    """Return the material of a shaft, wheel or body; a name that the catalogue lacks is noted at `where`."""
+    """Return the material of a body.
+
+    A shaft, wheel or body; a name that the catalogue lacks is noted at `where`.
+    """
     if isinstance(choice, InlineMaterial):
         return BodyMaterial(*(getattr(choice, name) for name in _BODY))
     row = ledger.ask(where, lambda: catalogue.material(choice))

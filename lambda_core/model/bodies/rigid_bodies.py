@@ -51,7 +51,10 @@ _FAR_BEYOND = 1000.0  # times the static ratings: pressures ten times those that
 
 
 def rigid_bodies(case: MachineCase, catalogue: Catalogue, ledger: Ledger) -> tuple[RigidBody, ...]:
-    """Return the bodies other than the shaft, masses given or from their shapes."""
+    """Return the bodies other than the shaft.
+
+    Masses are given or follow from their shapes.
+    """
     return tuple(_rigid(name, given, catalogue, ledger) for name, given in case.bodies.items())
 
 
@@ -89,7 +92,10 @@ def _rigid(name: str, given: MachineBody, catalogue: Catalogue, ledger: Ledger) 
 
 
 def refuse_far(where: str, dof: str, motion: TimeFunction, ledger: Ledger) -> None:
-    """Note a motion of a seat or a body that goes farther than any does."""
+    """Note a motion that is too far.
+
+    It is one of a seat or a body.
+    """
     if not peak(motion) <= _FARTHEST:
         quantity = "angle" if dof.startswith("tilt") else "length"
         far = show(peak(motion), quantity, 3)
@@ -99,7 +105,10 @@ def refuse_far(where: str, dof: str, motion: TimeFunction, ledger: Ledger) -> No
 
 
 def connections(case: MachineCase, stand: Places, ledger: Ledger) -> tuple[MachineSpring, ...]:
-    """Return springs, dampers and bushings, along the axes of the case."""
+    """Return springs, dampers and bushings.
+
+    Along the axes of the case.
+    """
     found = []
     for name, given in case.connections.items():
         if f"connections.{name}" not in stand.of or given.is_by_law:
@@ -117,7 +126,10 @@ def connections(case: MachineCase, stand: Places, ledger: Ledger) -> tuple[Machi
 
 
 def _refuse_springs_on_parts(name: str, given: Connection, ends: tuple[Carrier, ...], ledger: Ledger) -> None:
-    """Note springs where only a law can act: at a cage, and against the rotation of an outer ring."""
+    """Note springs where only a law can act.
+
+    They are at a cage, and against the rotation of an outer ring.
+    """
     parts = [end for end in ends if isinstance(end, BearingPart)]
     if any(part.part == "cage" for part in parts):
         ledger.problem(
@@ -146,7 +158,10 @@ def _elastic_support(case: MachineCase, stand: Places) -> list[MachineSpring]:
 
 
 def shaft_hold(case: MachineCase, stand: Places, ledger: Ledger) -> ShaftHold | None:
-    """Return where the ground holds the shaft without giving way; None where it is free."""
+    """Return the rigid ground constraints of the shaft.
+
+    None where it is free.
+    """
     prescribed: list[TimeFunction | None] = []
     for dof in POSE:
         given: Dof = getattr(case.shaft.support, dof)
@@ -159,7 +174,10 @@ def shaft_hold(case: MachineCase, stand: Places, ledger: Ledger) -> ShaftHold | 
 
 
 def resistance(case: MachineCase, stand: Places, ledger: Ledger) -> Resistance | None:
-    """Return what brakes the rotation of the shaft; None where nothing does."""
+    """Return the resistance to the shaft's rotation.
+
+    None where there is none.
+    """
     damping = case.shaft.support.spin.damping
     if not damping or SUPPORT not in stand.of:
         return None
@@ -173,7 +191,10 @@ def resistance(case: MachineCase, stand: Places, ledger: Ledger) -> Resistance |
 def resolve_links(
     case: MachineCase, stand: Places, registry: ModelSource, ledger: Ledger
 ) -> tuple[tuple[MachineLink, ...], dict[str, dict[str, ChosenLaw]]]:
-    """Return connections by laws, and the laws as a model names them."""
+    """Return connections by laws, and the laws.
+
+    The laws have the model's names.
+    """
     links, laws = [], {}
     for name, given in case.connections.items():
         where = f"connections.{name}"
@@ -200,14 +221,20 @@ def resolve_links(
 
 
 def _along(place: Place) -> FloatArray:
-    """Return how motions along the axes of the case are motions along those of a place, shape (6, 6)."""
+    """Return the motion transformation to a place.
+
+    From the axes of the case to those of the place, shape (6, 6).
+    """
     return np.asarray(np.kron(np.eye(2), place.axes.T))
 
 
 def all_loads(
     case: MachineCase, stand: Places, body: ElasticBody, bodies: Sequence[RigidBody], gears: Mapping[str, GearForces]
 ) -> tuple[FloatArray, tuple[tuple[int, TimeFunction], ...]]:
-    """Return forces and moments at t = 0 on shaft nodes and bodies, and those that change with their rows."""
+    """Return forces and moments at t = 0.
+
+    On shaft nodes and bodies, and those that change with their rows.
+    """
     size = body.mass.shape[0]
     found: FloatArray = np.zeros(size + NODE * len(bodies))
     varying: dict[int, list[TimeFunction]] = {}
@@ -230,7 +257,10 @@ def all_loads(
 
 
 def loads_on_parts(case: MachineCase, stand: Places) -> dict[BearingPart, tuple[TimeFunction, ...]]:
-    """Return force and moment on outer rings and cages about their centres, those of all loads on each."""
+    """Return force and moment on rings and cages.
+
+    On outer rings and cages about their centres, those of all loads on each.
+    """
     found: dict[BearingPart, list[TimeFunction]] = {}
     for name, load in case.loads.items():
         place = stand.of[f"loads.{name}"]
@@ -249,7 +279,10 @@ def say_idle_loads(
     housing: FloatArray | None,
     ledger: Ledger,
 ) -> None:
-    """Note loads on outer rings along which nothing can move; say that cages are loaded in motion only."""
+    """Note loads without effect on outer rings.
+
+    Nothing can move along them; cages are loaded in motion only, which is reported.
+    """
     held = {bearing.name: bearing for bearing in bearings}
     for part, load in loads.items():
         bearing = held[part.bearing]
@@ -272,7 +305,10 @@ def say_idle_loads(
 
 
 def _about_centre(load: PointLoad, place: Place, arm: FloatArray) -> list[TimeFunction]:
-    """Return force and moment of a load about a point from which its place is at `arm` [m]."""
+    """Return force and moment about a point.
+
+    From it the load's place is at `arm` [m].
+    """
     share = carried(arm).T @ _along(place).T  # of each component at the place in each row of its body
     functions = _components(load)
     return [added(*(scaled(f, float(c)) for f, c in zip(functions, share[i], strict=True))) for i in range(NODE)]
@@ -291,7 +327,10 @@ def _components(load: PointLoad) -> list[TimeFunction]:
 def refuse_far_beyond(
     case: MachineCase, gears: Mapping[str, GearForces], bearings: Sequence[MountedBearing], ledger: Ledger
 ) -> None:
-    """Note gears and loads that no contact law was made for, before balls are pressed through rings."""
+    """Note gears and loads beyond all contact laws.
+
+    The check comes before balls are pressed through rings.
+    """
     static = sum(bearing.static_rating for bearing in bearings)
     sizes = {
         f"gears.{name}.{'torque' if case.gears[name].power is None else 'power'}": (max(map(abs, forces.force)), "N")

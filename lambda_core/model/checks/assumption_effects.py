@@ -39,7 +39,10 @@ _OPEN, _KNOWN, _SMALL = range(3)
 
 
 def weight(assumption: str) -> int:
-    """Return 0 for what nobody knows, 1 for published values, 2 for numerical settings."""
+    """Return the weight of an assumption.
+
+    0 for unknown values, 1 for published values, 2 for numerical settings.
+    """
     return _SMALL if _NUMERICAL.search(assumption) else _KNOWN if _PUBLISHED.search(assumption) else _OPEN
 
 
@@ -51,7 +54,9 @@ def effect(assumption: str) -> str:
 
 
 def by_effect(assumptions: Sequence[str], *, everything: bool = False) -> list[tuple[str, list[str]]]:
-    """Group assumptions by what they affect: load and life first, then friction, film and the rest.
+    """Group assumptions by what they affect.
+
+    Load and life first, then friction, film and the rest.
 
     Parameters
     ----------
@@ -71,7 +76,7 @@ def by_effect(assumptions: Sequence[str], *, everything: bool = False) -> list[t
 
 
 def _joined(sentences: Sequence[str]) -> list[str]:
-    """Join parameters of one law, and leave out where values come from."""
+    """Join parameters of one law without sources."""
     found: dict[str, list[str]] = {}
     for sentence in sentences:
         parameter, graded = _PARAMETER.match(sentence), _GRADED.match(sentence)

@@ -14,12 +14,17 @@ _REFERRED = ("markers", "bodies", "bearings")
 
 
 def is_shape_known(found: Iterable[Problem]) -> bool:
-    """Tell whether the pieces of the shaft are what the file says, not a stand-in for them."""
+    """Tell whether the shaft's pieces are known.
+
+    They are those of the file, not a stand-in for them.
+    """
     return not any(related(problem.where, f"shaft.{name}") for problem in found for name in ("sections", "reduced"))
 
 
 def independent(found: Sequence[Problem], later: Iterable[Problem], tables: Mapping[str, Any]) -> list[Problem]:
-    """Return the problems of a later stage that do not follow from those that were found before.
+    """Return the independent problems of a later stage.
+
+    They do not follow from those that were found before.
 
     A later stage sees the case without what was wrong. What it says of that, of a stand-in, or of parts that refer to
     something wrong is no mistake of their own.
@@ -44,7 +49,10 @@ def independent(found: Sequence[Problem], later: Iterable[Problem], tables: Mapp
 
 
 def _wrong_names(found: Sequence[Problem], tables: Mapping[str, Any]) -> set[str]:
-    """Return the names of markers, bodies and bearings with something wrong, and of markers on such bodies."""
+    """Return the names with something wrong.
+
+    Of markers, bodies and bearings, and of markers on such bodies.
+    """
     places = [problem.where.split(".") for problem in found]
     wrong = {place[1] for place in places if place[0] in _REFERRED and len(place) > 1}
     for table in _REFERRED:
@@ -57,7 +65,10 @@ def _wrong_names(found: Sequence[Problem], tables: Mapping[str, Any]) -> set[str
 
 
 def _references(tables: Mapping[str, Any], place: Sequence[str]) -> set[str]:
-    """Return the names that the part at a place refers to."""
+    """Return the names that a part refers to.
+
+    The part is at a place.
+    """
     part: Any = tables
     for key in place[:2]:
         part = part.get(key) if isinstance(part, Mapping) else None

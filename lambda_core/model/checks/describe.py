@@ -21,7 +21,10 @@ _BODY_NAMES = {"inner_ring": "inner ring", "outer_ring": "outer ring", "cage": "
 
 
 class ValueReport(BaseModel):
-    """One frozen value with its origin; `text` is the value with its unit."""
+    """One frozen value with its origin.
+
+    `text` is the value with its unit.
+    """
 
     path: str
     text: str
@@ -31,7 +34,9 @@ class ValueReport(BaseModel):
 
 
 class CaseReport(BaseModel):
-    """What ``check`` says of a valid case; its dump is the machine interface (version 1).
+    """Report of ``check`` on a valid case.
+
+    Its dump is the machine interface (version 1).
 
     Attributes
     ----------
@@ -62,7 +67,9 @@ class CaseReport(BaseModel):
     values: list[ValueReport]
 
     def text(self, everything: bool = False) -> str:
-        """Return the lines for people: the verdict, what the case is, warnings, assumptions by effect.
+        """Return the lines of the report.
+
+        The verdict, a summary of the case, warnings, assumptions by effect.
 
         Parameters
         ----------
@@ -78,14 +85,20 @@ class CaseReport(BaseModel):
 
 
 def verdict_line(name: str, warnings: Sequence[str], assumptions: Sequence[str]) -> str:
-    """Return in one line that a case is valid, and what to look at."""
+    """Return the verdict in one line.
+
+    The case is valid; the line names what to look at.
+    """
     counts = [(warnings, "warning"), (assumptions, "assumption")]
     told = (f"{len(some)} {word}{'s' * (len(some) != 1)}" for some, word in counts if some)
     return f"{name}: {', '.join(('no errors', *told))}"
 
 
 def assumption_block(assumptions: Sequence[str], *, everything: bool = False) -> list[str]:
-    """Return assumptions by what they affect; by default those that leave something open, without their sources."""
+    """Return assumptions by what they affect.
+
+    By default those that leave something open, without their sources.
+    """
     if everything:
         return _block("assumed", [text for _, some in by_effect(assumptions, everything=True) for text in some])
     shown = by_effect(assumptions)
@@ -125,7 +138,10 @@ def value_reports(model: BearingModel) -> list[ValueReport]:
 
 
 def headline(model: BearingModel) -> list[str]:
-    """Return the lines that say what the model is: bearing and oil; loads, speed and depth; laws of plugins."""
+    """Return the lines that describe the model.
+
+    Bearing and oil; loads, speed and depth; laws of plugins.
+    """
     g = model.geometry
     temperature = f"{from_si(model.oil.temperature, 'temperature'):.4g} degC"
     first = [
@@ -160,7 +176,10 @@ def _clearance(model: BearingModel) -> str:
 
 
 def function_text(function: TimeFunction, quantity: str) -> str:
-    """Write a time function in a few words, for example "harmonic 0.1 mm at 100 Hz"."""
+    """Write a time function in a few words.
+
+    For example "harmonic 0.1 mm at 100 Hz".
+    """
     if not function.terms:
         return _value_text(0.0, quantity)
     return " + ".join(_term_text(term, quantity) for term in function.terms)
@@ -203,7 +222,10 @@ def _loads(body: Body) -> list[str]:
 
 
 def _acts_downwards(term: Term) -> bool:
-    """Say whether a term of the force along z is a radial load as cases write it: positive downwards."""
+    """Tell whether a force along z acts downwards.
+
+    It is then a radial load as cases write it: positive downwards.
+    """
     numbers = {"ramp": term.values[:2], "table": term.values[1::2]}.get(term.kind, term.values[:1])
     return math.fsum(numbers) < 0.0
 
@@ -224,7 +246,10 @@ def _bodies(model: BearingModel) -> dict[str, str]:
 
 
 def _bending_text(model: BearingModel, name: str) -> str:
-    """Say with how many waves a ring bends, and how fast; nothing of a rigid body."""
+    """Describe the waves of a ring.
+
+    Their numbers and frequencies; nothing for a rigid body.
+    """
     waves = next((waves for body, waves in model.elastic.items() if body == name), None)
     if waves is None:
         return ""
@@ -254,7 +279,10 @@ def _value_text(value: float | str, quantity: str) -> str:
 
 
 def _model_lines(models: dict[str, dict[str, str]]) -> list[str]:
-    """Return one line per role; elements that share a model are not repeated."""
+    """Return one line per role.
+
+    Elements that share a model are not repeated.
+    """
     by_role: dict[str, dict[str, list[str]]] = {}
     for element, roles in models.items():
         for role, name in roles.items():

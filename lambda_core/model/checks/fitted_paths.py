@@ -17,7 +17,9 @@ _KIND = "number of this case"
 
 
 def fit_problems(fit: FitOrigin | None, known: Mapping[str, ResolvedValue | str | float]) -> list[Problem]:
-    """Return what is wrong with paths and units of fitted values.
+    """Return problems of fitted values.
+
+    They are those of paths and units.
 
     A value at a wrong path has no effect, and the range of the right one counts in its place.
 
@@ -39,7 +41,9 @@ def fit_problems(fit: FitOrigin | None, known: Mapping[str, ResolvedValue | str 
 def machine_fit_problems(
     fit: FitOrigin | None, tables: Mapping[str, Any], models: Mapping[str, BearingModel]
 ) -> list[Problem]:
-    """Return what is wrong with paths and units of the fitted values of a machine.
+    """Return problems of a machine's fitted values.
+
+    They are those of paths and units.
 
     They are those of parameters that its bearings have, or of numbers that stand in its tables.
     """
@@ -55,7 +59,10 @@ def machine_fit_problems(
 
 
 def _written(tables: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, str | float]]:
-    """Yield the numbers, with and without units, that stand in tables."""
+    """Yield the numbers in tables.
+
+    They are with and without units.
+    """
     for name, value in tables.items():
         if isinstance(value, Mapping):
             yield from _written(value, f"{before}{name}.")
@@ -66,7 +73,10 @@ def _written(tables: Mapping[str, Any], before: str = "") -> Iterator[tuple[str,
 def known_numbers(
     laws: Mapping[str, Mapping[str, ChosenLaw]], values: Iterable[ResolvedValue]
 ) -> dict[str, ResolvedValue | str | float]:
-    """Return the numbers of a bearing's case that a fit may vary, by path: with their quantity, or as written."""
+    """Return the fittable numbers of a case.
+
+    By path, with their quantity, or as written; the case is one of a bearing.
+    """
     own = (value for value in values if value.path.split(".")[0] in FITTED_TABLES and isinstance(value.value, float))
     return {**dict(_of_laws(laws)), **{value.path: value for value in own}}
 
@@ -80,7 +90,10 @@ def _of_laws(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> Iterator[tuple[str,
 
 
 def _unit_problem(row: FittedValue, known: ResolvedValue | str | float) -> str:
-    """Return what is wrong with the unit of a fitted value; empty when nothing is."""
+    """Return the problem of a fitted value's unit.
+
+    It is empty when there is none.
+    """
     text = f"{row.value!r} {row.unit}" if row.unit else row.value
     try:
         if isinstance(known, ResolvedValue):

@@ -27,7 +27,10 @@ _GIGA = 1e9
 
 
 class OilPoint(BaseModel):
-    """State of the oil at one temperature and pressure, in the units of the names."""
+    """State of the oil at one point.
+
+    Temperature and pressure are in the units of the names.
+    """
 
     temperature_degC: float
     pressure_GPa: float
@@ -38,7 +41,10 @@ class OilPoint(BaseModel):
 
 
 class OilCoefficients(BaseModel):
-    """What follows at one temperature: pressure coefficients by their definitions, and the temperature coefficient."""
+    """Coefficients of an oil at one temperature.
+
+    Pressure coefficients by their definitions, and the temperature coefficient.
+    """
 
     temperature_degC: float
     alpha_tangent_per_GPa: float  # d ln(eta)/dp at p = 0
@@ -60,7 +66,10 @@ class OilTable(BaseModel):
 
 
 class OilLaw:
-    """A rheology law with one lubricant's parameters: ln(eta) and rho at any pressure and temperature."""
+    """Rheology law with one lubricant's parameters.
+
+    ln(eta) and rho at any pressure and temperature.
+    """
 
     def __init__(self, row: LubricantRow, models: Registry, name: str | None = None) -> None:
         known = row.parameters.get("rheology", {})
@@ -72,7 +81,10 @@ class OilLaw:
         self._kernel = flat_kernel(self.model)
 
     def state(self, pressure: float, temperature: float) -> tuple[float, float]:
-        """Return ln(eta / Pa s) and rho [kg/m3] at a pressure [Pa] and temperature [K]."""
+        """Return ln(eta / Pa s) and rho [kg/m3].
+
+        At a pressure [Pa] and temperature [K].
+        """
         ln_eta, rho = np.full(1, np.nan), np.full(1, np.nan)
         status = self._kernel(np.array([pressure]), np.array([temperature]), self._par, ln_eta, rho)
         if status != 1 or not (math.isfinite(ln_eta[0]) and math.isfinite(rho[0])):
@@ -160,7 +172,7 @@ def _celsius(temperature: float) -> float:
 
 
 def coefficients_of(law: OilLaw, temperature: float) -> OilCoefficients:
-    """Return what follows from an oil law at one temperature [K]."""
+    """Return an oil law's coefficients at a temperature [K]."""
     log_viscosity, step = law.log_viscosity(temperature), 0.01
     warmer, colder = (law.state(0.0, temperature + sign * step)[0] for sign in (1.0, -1.0))
     return OilCoefficients(
@@ -173,7 +185,10 @@ def coefficients_of(law: OilLaw, temperature: float) -> OilCoefficients:
 
 
 def _permittivity(row: LubricantRow, models: Registry) -> tuple[str, Callable[[float, float, float], float]] | None:
-    """The oil's first permittivity law with data, as a function of pressure, temperature and density."""
+    """Return the oil's first permittivity law with data.
+
+    It is a function of pressure, temperature and density.
+    """
     known = row.parameters.get("permittivity", {})
     name = next((name for name in ("bode", *known) if name in known), None)
     if name is None:

@@ -39,7 +39,9 @@ SMALLEST_HEATING_FACTOR = 0.5
 
 
 def operating_warnings(model: BearingModel, *, on_shaft: bool = False) -> list[str]:
-    """Return a sentence for everything in a case that lies beyond what bearing, oil and laws are made for.
+    """Return warnings of exceeded limits.
+
+    A sentence for everything in a case beyond the limits of bearing, oil and laws.
 
     Parameters
     ----------
@@ -66,12 +68,18 @@ def operating_warnings(model: BearingModel, *, on_shaft: bool = False) -> list[s
 
 
 def permissible_tilt(kind: str) -> float:
-    """Return the angle between the rings that bearings of a kind take [rad]."""
+    """Return the permissible tilt of a kind [rad].
+
+    It is the angle between the rings.
+    """
     return kinds()[kind].tilt
 
 
 def tilt_warning(tilt: float, kind: str, what: str = "the inner ring tilts by", *, on_shaft: bool = False) -> list[str]:
-    """Return a sentence where the angle between the rings [rad] is above what bearings of a kind take."""
+    """Return a warning of too much tilt.
+
+    The angle between the rings [rad] is above what bearings of a kind take.
+    """
     found = kinds()[kind]
     if tilt <= found.tilt:
         return []
@@ -84,12 +92,18 @@ def tilt_warning(tilt: float, kind: str, what: str = "the inner ring tilts by", 
 
 
 def known_value(model: BearingModel, path: str) -> float | None:
-    """Return a resolved number by its path, SI; None where there is none."""
+    """Return a resolved number by path, SI.
+
+    None where there is none.
+    """
     return next((v.value for v in model.values if v.path == path and isinstance(v.value, float)), None)
 
 
 def relative_speed(model: BearingModel) -> float:
-    """Return an upper bound of the rings' relative speed [rad/s]; where both turn, they may turn against each other."""
+    """Return the upper bound of relative speed [rad/s].
+
+    Where both rings turn, they may turn against each other.
+    """
     return peak(model.inner_ring.dofs["spin"].motion) + peak(model.outer_ring.dofs["spin"].motion)
 
 
@@ -98,14 +112,19 @@ def _speed(model: BearingModel) -> Iterator[str]:
 
 
 def speed_warning(speed: float, limit: float | None) -> Iterator[str]:
-    """Say where a speed is above the limiting one of the catalogue [rad/s]."""
+    """Warn of a speed above the limiting one.
+
+    It is that of the catalogue [rad/s].
+    """
     if limit is not None and speed > limit:
         rpm, most = (f"{value * 30.0 / math.pi:.0f} rpm" for value in (speed, limit))
         yield f"{rpm} is above the limiting speed of the bearing in the catalogue, {most}"
 
 
 def applied_load(model: BearingModel) -> tuple[float, float] | None:
-    """Return the largest radial and axial load on the inner ring [N]; None where its place decides them.
+    """Return the largest applied load [N].
+
+    Radial and axial on the inner ring; None where its place decides them.
 
     The weight of inner ring and shaft counts, as far as gravity is across or along the axis.
     """
@@ -131,7 +150,10 @@ def _mode(body: Body, dof: str) -> str:
 
 
 def ratings(model: BearingModel) -> tuple[float, float]:
-    """Return C and C_0 [N]: the catalogue's, or from the geometry (ISO 281, ISO 76)."""
+    """Return C and C_0 [N].
+
+    The catalogue's, or from the geometry (ISO 281, ISO 76).
+    """
     g = model.geometry
     size, angle = (g.ball_count, g.ball_diameter, g.pitch_diameter), g.contact_angle
     dynamic, static = known_value(model, "bearing.dynamic_rating"), known_value(model, "bearing.static_rating")
@@ -142,12 +164,15 @@ def ratings(model: BearingModel) -> tuple[float, float]:
 
 
 def is_preloaded(model: BearingModel) -> bool:
-    """Return whether a negative clearance presses every ball, which then needs no load to roll."""
+    """Tell whether the bearing is preloaded.
+
+    A negative clearance presses every ball, which then needs no load to roll.
+    """
     return model.geometry.clearance < 0.0
 
 
 def _unbacked(model: BearingModel, load: float, rating: float) -> Iterator[str]:
-    """Say where a ring that nothing backs carries a heavy load."""
+    """Warn of a heavily loaded ring without support."""
     for body, waves in model.elastic.items():
         if body != "cage" and waves.ring.bedding == 0.0:
             yield (
@@ -163,7 +188,10 @@ def _load(model: BearingModel) -> list[str]:
 
 
 def load_warnings(model: BearingModel, radial: float, axial: float) -> Iterator[str]:
-    """Say what is beyond ratings and other limits of the load that a bearing carries, radially and axially [N]."""
+    """Warn of loads beyond ratings and limits.
+
+    The bearing carries them, radially and axially [N].
+    """
     dynamic, static = ratings(model)
     g = model.geometry
     gamma, kind = g.ball_diameter * math.cos(g.contact_angle) / g.pitch_diameter, (g.contact_angle, g.rated_rows)
@@ -197,7 +225,10 @@ def _force(newton: float) -> str:
 
 
 def _tilt(model: BearingModel) -> list[str]:
-    """Judge tilts that the case prescribes; those that follow from the loads are known after solving."""
+    """Judge tilts that the case prescribes.
+
+    Those that follow from the loads are known after solving.
+    """
     states = [body.dofs[dof] for body in (model.inner_ring, model.outer_ring) for dof in ("tilt_y", "tilt_z")]
     prescribed = [peak(state.motion) if state.mode == "prescribed" else 0.0 for state in states]
     about_y, about_z = prescribed[0] + prescribed[2], prescribed[1] + prescribed[3]
@@ -236,7 +267,9 @@ def _heating(model: BearingModel) -> Iterator[str]:
 
 
 def heating_factor(model: BearingModel) -> float | None:
-    """Return the factor of inlet heating on the film at the inner ring, None where the laws give none.
+    """Return the factor of inlet heating.
+
+    On the film at the inner ring, None where the laws give none.
 
     The chosen law is asked at epicyclic rolling, u = D_w/4 (d_m/D_w) (1 - gamma^2) |Omega_i - Omega_o| with
     gamma = D_w/d_m (the mean of both surfaces where they roll without slip; Harris and Kotzalas, Rolling Bearing

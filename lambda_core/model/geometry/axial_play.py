@@ -10,7 +10,9 @@ from lambda_core.model.geometry.resolve_clearance import picked
 
 
 def axial_play(model: BearingModel, clearance: float) -> float:
-    """Return how far the inner ring moves from the middle until its elements touch, without load [m].
+    """Return the axial play to contact [m].
+
+    From the middle until the elements touch, without load.
 
     A (sin(alpha_0) - sin(alpha_s)) with cos(alpha_0) = cos(alpha_s) - G_r/(2 A), A = r_i + r_o - D_w, alpha_s the
     resting angle of four-point contact, else 0 (Harris and Kotzalas 2006, eq. 2.9 and ch. 2). Of one row. Rollers
@@ -30,5 +32,8 @@ def axial_play(model: BearingModel, clearance: float) -> float:
 
 
 def bought_clearance(given: Bearing, model: BearingModel) -> float:
-    """Return the clearance before mounting [m]; what fits and temperatures take of it adds to the preload."""
+    """Return the clearance before mounting [m].
+
+    The reduction by fits and temperatures adds to the preload.
+    """
     return model.geometry.clearance if model.mounting is None else picked(model.mounting.bought, given.clearance_pick)

@@ -13,7 +13,9 @@ TILTS = ("tilt_y", "tilt_z")
 
 
 def hold_tilts(case: Case, geometry: Geometry, ledger: Ledger) -> Case:
-    """Return the case with the tilts of a self-aligning bearing's inner ring locked where it does not speak of them.
+    """Return the case with locked tilts.
+
+    Those of a self-aligning bearing's inner ring where the case has no option for them.
 
     The sphere turns under the balls without resistance: nothing in the bearing decides its misalignment.
     """

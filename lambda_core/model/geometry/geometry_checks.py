@@ -78,7 +78,10 @@ def check_geometry(geometry: Geometry, races: tuple[float | None, float | None],
 
 
 def _check_sphere(g: Geometry, say: Callable[[str, str], None]) -> None:
-    """Refuse a sphere that the outer ring cannot hold, or that ends before the rows."""
+    """Refuse a sphere that does not fit.
+
+    The outer ring cannot hold it, or it ends before the rows.
+    """
     if not 0.5 * g.row_distance < 0.5 * g.width:
         say("bearing.contact_angle", f"puts the rows {mm(g.row_distance)} apart, wider than the ring of {mm(g.width)}")
     elif not g.shoulder_diameter_outer <= g.race_diameter_outer < g.outside_diameter:
@@ -90,7 +93,10 @@ def _check_sphere(g: Geometry, say: Callable[[str, str], None]) -> None:
 
 
 def _half_width(g: Geometry, ring: str) -> float:
-    """Return half the chord of a groove at its shoulders [m]; h (2 r - h) is its square."""
+    """Return half the chord of a groove [m].
+
+    At its shoulders; h (2 r - h) is its square.
+    """
     radius = getattr(g, f"groove_radius_{ring}")
     height = 0.5 * abs(getattr(g, f"shoulder_diameter_{ring}") - getattr(g, f"race_diameter_{ring}"))
     return math.sqrt(max(height * (2.0 * radius - height), 0.0))
@@ -115,7 +121,10 @@ def _check_races(g: Geometry, inner: float, outer: float, say: Callable[[str, st
 
 
 def check_clearance(g: Geometry, ledger: Ledger) -> None:
-    """Refuse a clearance with which the free contact angle, or the preload, is that of no real bearing."""
+    """Refuse a clearance of no real bearing.
+
+    The free contact angle, or the preload, would be impossible.
+    """
     if not math.isfinite(g.clearance):
         ledger.problem("bearing.clearance", "is not finite with these dimensions and temperatures")
         return

@@ -14,7 +14,9 @@ from lambda_core.elements.ball.geometry import Geometry
 
 
 def proportion_warnings(g: Geometry) -> Iterator[str]:
-    """Yield a sentence for every proportion that no bearing of the catalogue has.
+    """Yield warnings of unusual proportions.
+
+    No bearing of the catalogue has them.
 
     The angle of filling is 2 (Z - 1) arcsin(D_w/d_m): Z balls that touch each other, from the first centre to the last.
     """

@@ -33,7 +33,9 @@ Races = tuple[float | None, float | None]
 def clearance_as_bought(
     bearing: Bearing, races: Races, ball: float, bore: float, catalogue: Catalogue, ledger: Ledger
 ) -> Limits | None:
-    """Return the limits of the radial internal clearance as bought [m], None after a problem.
+    """Return the limits of the bought clearance [m].
+
+    Radial internal clearance; None after a problem.
 
     Parameters
     ----------
@@ -82,7 +84,9 @@ def _from_class(bearing: Bearing, name: str, bore: float, catalogue: Catalogue, 
 
 
 def class_of_kind(table: KindClearance, bearing: Bearing, bore: float, where: str, ledger: Ledger) -> Limits | None:
-    """Return the limits of the clearance class of a kind that has its own [m], CN where none is named; None: a problem.
+    """Return the limits of a clearance class [m].
+
+    Of a kind that has its own; CN where none is named; None: a problem.
 
     Parameters
     ----------
@@ -118,7 +122,9 @@ def _class_above(name: str, bore: float, catalogue: Catalogue, ledger: Ledger) -
 
 
 def part_of_class(limits: Limits, above: Limits, part: str) -> Limits:
-    """Return the part of a clearance class that a letter behind it stands for.
+    """Return the part of a clearance class.
+
+    A letter behind the class stands for it.
 
     L lower half, H upper half, M the two middle quarters, P the upper half and the lower half of the next class
     (`above`); the convention of SKF's supplementary designations.
@@ -141,7 +147,10 @@ def picked(limits: Limits, pick: str) -> float:
 def resolve_mounting(
     case: Case, geometry: Geometry, bought: Limits, rings: Solid, balls: Solid, ledger: Ledger
 ) -> Mounting | None:
-    """Return what the clearance in operation follows from but the temperatures; None after a problem."""
+    """Return the data of the operating clearance.
+
+    Without the temperatures; None after a problem.
+    """
     fits, given = case.bearing.fits, case.bearing.temperatures
     shaft, housing = _seats(fits, geometry, ledger) if fits else (None, None)
     try:
@@ -163,7 +172,9 @@ def resolve_mounting(
 
 
 def clearance_in_operation(case: Case, geometry: Geometry, mounting: Mounting, ledger: Ledger) -> float:
-    """Return the radial internal clearance of the mounted, warm bearing [m], each step recorded.
+    """Return the operating radial clearance [m].
+
+    Of the mounted, warm bearing, each step recorded.
 
     Without [bearing.fits] and [bearing.temperatures] the clearance counts as that in operation.
     """
@@ -195,7 +206,10 @@ def _recorded(found: OperatingClearance, pick: str, ledger: Ledger) -> float:
 
 
 def _seats(fits: Fits, geometry: Geometry, ledger: Ledger) -> tuple[Seat | None, Seat | None]:
-    """Return the seats of both rings; a class is a ground seat, a value is the effective interference."""
+    """Return the seats of both rings.
+
+    A class is a ground seat, a value is the effective interference.
+    """
     shaft = _interference("shaft", fits.shaft, geometry.bore_diameter, ledger)
     housing = _interference("housing", fits.housing, geometry.outside_diameter, ledger)
     bore = fits.shaft_bore or math.nan
@@ -222,7 +236,10 @@ def _interference(part: str, text: str | None, diameter: float, ledger: Ledger) 
 
 
 def _temperatures(case: Case) -> Temperatures:
-    """Return the parts' temperatures; what is left open has the oil's, shaft and housing those of their rings."""
+    """Return the parts' temperatures.
+
+    Absent ones are the oil's; shaft and housing have those of their rings.
+    """
     given = case.bearing.temperatures
     if given is None:
         return Temperatures()

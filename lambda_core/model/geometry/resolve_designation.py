@@ -18,7 +18,9 @@ WHERE = "bearing.designation"
 
 
 def resolve_designation(case: Case, catalogue: Catalogue, ledger: Ledger) -> tuple[BearingRow | None, str, Case]:
-    """Return the bearing's row, the designation as written, and the case with what the suffixes decide.
+    """Return the bearing's row and designation.
+
+    The designation is as written; also return the case with what the suffixes decide.
 
     Where the case says something itself, it counts and the suffix does not. The row is None when the bearing is
     written inline or unknown (then a problem is noted).
@@ -39,7 +41,10 @@ def resolve_designation(case: Case, catalogue: Catalogue, ledger: Ledger) -> tup
 
 
 def _with_suffixes(case: Case, read: Designation, ledger: Ledger) -> Case:
-    """Return the case with what the suffixes decide; everything else of them is noted."""
+    """Return the case with what the suffixes decide.
+
+    Their other meanings are noted.
+    """
     taken: dict[str, str] = {}
     for written, suffix in read.suffixes:
         if suffix.kind == "note":
@@ -54,7 +59,10 @@ def _with_suffixes(case: Case, read: Designation, ledger: Ledger) -> Case:
 
 
 def _clearance(case: Case, written: str, suffix: Suffix, ledger: Ledger) -> Case:
-    """Take the clearance class, unless the case has a clearance or both raceway diameters."""
+    """Take the clearance class.
+
+    Only where the case has neither a clearance nor both raceway diameters.
+    """
     name = {"C0": "CN"}.get(written, f"C{written[2]}" if written.startswith("P") else written)
     inline = case.bearing.geometry
     if case.bearing.clearance:
@@ -120,6 +128,9 @@ def _left(case: Case, written: str, suffix: Suffix, other: str, ledger: Ledger) 
 def _filled(
     case: Case, section: str, update: dict[str, Any], value: str, written: str, suffix: Suffix, ledger: Ledger
 ) -> Case:
-    """Return the case with options of a section set, and freeze what the suffix stood for."""
+    """Return the case with options of a section.
+
+    Freeze what the suffix stood for.
+    """
     ledger.record(f"{WHERE}: {written}", value, "", suffix.meaning, "given")
     return case.model_copy(update={section: getattr(case, section).model_copy(update=update)})

@@ -27,14 +27,20 @@ INNER = ("ball_count", "ball_diameter")
 
 @dataclass
 class Picker:
-    """Takes each dimension from the case, else from the catalogue row, and notes the origin."""
+    """Picker of dimensions.
+
+    From the case, else from the catalogue row; it notes the origin.
+    """
 
     inline: InlineGeometry
     row: BearingRow | None
     ledger: Ledger
 
     def take(self, name: str) -> float | None:
-        """Return one dimension in SI, None when neither the case nor the catalogue has it."""
+        """Return one dimension in SI.
+
+        None when neither the case nor the catalogue has it.
+        """
         path, quantity = f"bearing.{name}", "" if name == "ball_count" else "length"
         written = getattr(self.inline, name)
         if written is not None:
@@ -58,7 +64,10 @@ class Picker:
         return f" (designs that fit its ratings: {shown})" if shown else ""
 
     def need(self, name: str) -> float:
-        """Return one dimension, noting a problem (and NaN) when it is missing."""
+        """Return one required dimension.
+
+        A missing one is noted as a problem, and is NaN.
+        """
         value = self.take(name)
         if value is None:
             where = f"bearing.geometry.{name}"
@@ -74,7 +83,9 @@ class Picker:
 def resolve_geometry(
     bearing: Bearing, row: BearingRow | None, catalogue: Catalogue, ledger: Ledger
 ) -> tuple[Geometry, Limits] | None:
-    """Return the geometry with the clearance as bought, and that clearance's limits.
+    """Return the geometry and the clearance's limits.
+
+    The geometry has the clearance as bought; the limits are those of this clearance.
 
     None when it cannot be built; the ledger says why.
     """
@@ -136,7 +147,10 @@ def resolve_geometry(
 def _of_kind(
     kind: BallKind, bearing: Bearing, row: BearingRow | None, distance: float, bore: float, ledger: Ledger
 ) -> Angles | None:
-    """Return angles and clearance of a bearing whose kind is written; None after a problem."""
+    """Return angles and clearance of a bearing.
+
+    Its kind is written; None after a problem.
+    """
     assert kind.resolve is not None  # a kind that can be written says what follows
     text = bearing.clearance
     return kind.resolve(
@@ -155,7 +169,10 @@ def _of_kind(
 
 
 def _with_shoulders(geometry: Geometry, picker: Picker) -> Geometry:
-    """Return the geometry with its shoulders; a sphere ends at the faces of its ring."""
+    """Return the geometry with its shoulders.
+
+    A sphere ends at the faces of its ring.
+    """
     size = geometry.ball_diameter, geometry.pitch_diameter
     kind = geometry.kind
     inner = shoulder(picker, "inner", *size, kind.shoulders)
@@ -168,7 +185,9 @@ def _with_shoulders(geometry: Geometry, picker: Picker) -> Geometry:
 
 
 def _contact_angle(bearing: Bearing, row: BearingRow | None, ledger: Ledger) -> float:
-    """Return the free contact angle of angular contact: the case's, else the row's; 0 of radial contact [rad].
+    """Return the free contact angle [rad].
+
+    Of angular contact the case's, else the row's; 0 of radial contact.
 
     A value of the clearance takes the place of the row's angle; a class is one of radial contact and is refused.
     """
@@ -190,14 +209,20 @@ def _contact_angle(bearing: Bearing, row: BearingRow | None, ledger: Ledger) -> 
 
 
 def _clearance_of_angle(angle: float, distance: float, ledger: Ledger) -> Limits:
-    """Return the clearance of a contact angle, 2 A (1 - cos(alpha_0)) (Harris and Kotzalas 2006, eq. 2.9)."""
+    """Return the clearance of a contact angle.
+
+    2 A (1 - cos(alpha_0)) (Harris and Kotzalas 2006, eq. 2.9).
+    """
     clearance = 2.0 * distance * (1.0 - math.cos(angle))
     ledger.record("bearing.clearance", clearance, "small_length", "from the free contact angle", "derived")
     return Limits(clearance, clearance)
 
 
 def _races(picker: Picker) -> tuple[float | None, float | None]:
-    """Return both raceway diameters; those of a catalogue row count only with the row's own balls and pitch."""
+    """Return both raceway diameters.
+
+    Those of a catalogue row count only with the row's own balls and pitch.
+    """
     inline = picker.inline
     edited = inline.ball_diameter is not None or inline.pitch_diameter is not None
     own = inline.race_diameter_inner is not None and inline.race_diameter_outer is not None
@@ -207,7 +232,9 @@ def _races(picker: Picker) -> tuple[float | None, float | None]:
 
 
 def _ratings(picker: Picker) -> None:
-    """Record limiting speed and load ratings for limits, life and catalogue methods.
+    """Record limiting speed and load ratings.
+
+    For limits, life and catalogue methods.
 
     A geometry of one's own has none of the row's ratings.
     """
@@ -224,7 +251,9 @@ def _ratings(picker: Picker) -> None:
 
 
 def with_clearance(geometry: Geometry, clearance: float) -> Geometry:
-    """Return the geometry with both raceways set so that the clearance is `clearance` [m].
+    """Return the geometry with a clearance [m].
+
+    Both raceways are set for `clearance`.
 
     Pitch and ball diameters stay; each raceway takes half: d_i = d_m - D_w - G/2,
     d_o = d_m + D_w + G/2, so that d_o - d_i - 2 D_w = G. Of a self-aligning bearing the sphere goes with it.
@@ -283,5 +312,8 @@ def _groove(picker: Picker, ring: str, ball: float) -> float:
 
 
 def is_of_grooves(text: str) -> bool:
-    """Return whether a path of a value, or an assumption, is about grooves or shoulders, which rollers have none of."""
+    """Tell whether a path is about grooves.
+
+    It is that of a value or an assumption; shoulders count; rollers have none of both.
+    """
     return text.startswith(("bearing.groove_", "bearing.shoulder_", "shoulder diameters:")) or " groove radius " in text

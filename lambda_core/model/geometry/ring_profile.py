@@ -13,12 +13,17 @@ from lambda_core.elements.ball.raceways import Raceway, raceways, row_places
 
 
 def geometry_of(known: dict[str, Any]) -> Geometry:
-    """Return the geometry that a result holds; results of old have fewer fields."""
+    """Return the geometry of a result.
+
+    Old results have fewer fields.
+    """
     return Geometry(**{field.name: known[field.name] for field in fields(Geometry) if field.name in known})
 
 
 def ring_profile(geometry: Geometry, ring: int) -> Callable[[float], float]:
-    """Return the distance of a ring's surface from its axis [m] over the place along the shaft [m].
+    """Return the profile of a ring's surface [m].
+
+    Distance from its axis over the place along the shaft.
 
     Parameters
     ----------
@@ -35,7 +40,10 @@ def ring_profile(geometry: Geometry, ring: int) -> Callable[[float], float]:
     )
 
     def surface(way: Raceway, x: float) -> float:
-        """Return the groove's surface; where it does not reach, a place far beyond the ball."""
+        """Return the groove's surface.
+
+        Where it does not reach, a place far beyond the ball.
+        """
         square = way.groove_radius**2 - (x - way.axial_offset) ** 2
         return way.groove_circle + toward * math.sqrt(square) if square > 0.0 else -toward * math.inf
 

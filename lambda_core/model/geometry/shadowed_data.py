@@ -35,7 +35,9 @@ def tell_shadows(
     laws: Mapping[str, Mapping[str, ChosenLaw]],
     ledger: Ledger,
 ) -> None:
-    """Add an assumption for each row in use, and each source of a value, that a plugin puts in front of another one.
+    """Record rows and sources that a plugin replaces.
+
+    An assumption for each row in use, and each source of a value.
 
     The list also has omitted rows of a plugin and a catalogue that failed.
 
@@ -80,7 +82,10 @@ def _is_used(shadow: Shadow, names: set[str], chosen: set[tuple[str, str]]) -> b
 
 
 def _texts(written: Any) -> Iterator[str]:
-    """Yield every text of a case: names of rows are among them."""
+    """Yield every text of a case.
+
+    Names of rows are among them.
+    """
     if isinstance(written, Mapping):
         for value in written.values():
             yield from _texts(value)

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 
 def given_parameters(what: str, model: type[BaseModel], texts: Mapping[str, Any], where: str, ledger: Ledger) -> Any:
-    """Return an instance of `model`, or None with every mistake in the ledger.
+    """Return an instance of `model`.
+
+    Or None with every mistake in the ledger.
 
     Parameters
     ----------
@@ -42,7 +44,10 @@ def given_parameters(what: str, model: type[BaseModel], texts: Mapping[str, Any]
 
 
 def record_parameters(parameters: BaseModel, texts: Mapping[str, Any], where: str, ledger: Ledger) -> dict[str, str]:
-    """Write every parameter into the ledger; returns where each came from, "case" or "default"."""
+    """Write every parameter into the ledger.
+
+    Return the origin of each, "case" or "default".
+    """
     origins = {key: "case" if key in texts else "default" for key in type(parameters).model_fields}
     for key, value in parameters.model_dump(mode="json").items():
         plain = value if isinstance(value, int | float | str) else str(value)
@@ -53,7 +58,9 @@ def record_parameters(parameters: BaseModel, texts: Mapping[str, Any], where: st
 def law_by_name(
     role: str, name: str, texts: Mapping[str, Any], where: str, registry: ModelSource, ledger: Ledger
 ) -> ChosenLaw | None:
-    """Return the law that a table of a case names, with its parameters; None with every mistake in the ledger.
+    """Return the law of a table, with parameters.
+
+    The table of a case names it; None with every mistake in the ledger.
 
     Parameters
     ----------

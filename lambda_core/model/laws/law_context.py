@@ -30,7 +30,10 @@ def effective_modulus(one: Material, other: Material) -> float:
 
 
 def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: Oil) -> Context:
-    """Return what the `prepare` of this force element's laws may look at."""
+    """Return the context for `prepare`.
+
+    It is that of this force element's laws.
+    """
     g = model.geometry
     speed = max_speed(model)
     raceways = {"ball_inner": model.inner_material, "ball_outer": model.outer_material}
@@ -94,11 +97,17 @@ def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: O
 
 
 def max_speed(model: BearingModel) -> float:
-    """Return the largest planned spin of either ring [rad/s]; 0 when both are free and start at rest."""
+    """Return the largest planned spin [rad/s].
+
+    Of either ring; 0 when both are free and start at rest.
+    """
     return max(peak(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
 
 
 def prepare(law: ChosenLaw, context: Context) -> FloatArray:
-    """Run a law's set-up; compiled code takes the address of one word even of laws without parameters."""
+    """Run a law's set-up.
+
+    Compiled code takes the address of one word even of laws without parameters.
+    """
     par = make_par(law.model, law.parameters, context)
     return par if par.size else np.zeros(1)

@@ -15,7 +15,10 @@ _WEAK = ("grade C)", "grade D)")  # how the origin of an estimate ends
 
 
 def law_sentences(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> list[str]:
-    """Return a sentence for each default and each weak value of the oil; `laws` by element and role."""
+    """Return a sentence per default and weak value.
+
+    The weak values are the oil's; `laws` by element and role.
+    """
     found = []
     for roles in laws.values():
         for role, law in roles.items():
@@ -42,7 +45,9 @@ def record_law(ledger: Ledger, element: str, role: str, law: ChosenLaw, chosen_b
 
 
 def default_sentences(role: str, law: ChosenLaw, written: Mapping[str, Any]) -> list[str]:
-    """Return a sentence for each parameter that neither the case nor the oil gives.
+    """Return a sentence for each default parameter.
+
+    Neither the case nor the oil gives it.
 
     `written` is what its parameters are in a file. The last word is the grade: published, unconfirmed, assumed, or
     numerical (a regularisation without physical meaning). A default that is absent stands for what the law computes,

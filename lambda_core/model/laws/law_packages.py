@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 
 def law_called(registry: ModelSource, role: str, name: str, *, given: bool) -> Law:
-    """Return the law of a name; what a case leaves open is filled by ours, whatever else has that name by now.
+    """Return the law of a name.
+
+    The program's own law fills an open choice, whatever else has that name by now.
 
     Raises
     ------
@@ -31,7 +33,9 @@ def law_called(registry: ModelSource, role: str, name: str, *, given: bool) -> L
 
 
 def with_packages(case: Case, registry: ModelSource) -> Case:
-    """Return the case with every law of a plugin under its qualified name, "carreau-traction:carreau".
+    """Return the case with qualified law names.
+
+    For every law of a plugin, "carreau-traction:carreau".
 
     So it means the same law in years, whatever else has that name by then. Names that cannot be found stay.
     """
@@ -55,7 +59,10 @@ def with_packages(case: Case, registry: ModelSource) -> Case:
 
 
 def _courses(value: Any, registry: ModelSource) -> Any:
-    """Return a part of a case with the laws of its time functions renamed."""
+    """Return a part of a case with renamed laws.
+
+    They are the laws of its time functions.
+    """
     if isinstance(value, list):
         return [_courses(each, registry) for each in value]
     if not isinstance(value, Mapping):
@@ -67,7 +74,10 @@ def _courses(value: Any, registry: ModelSource) -> Any:
 
 
 def _name(name: Any, role: str, registry: ModelSource) -> str:
-    """Return the qualified name of a law, "" where it is the one it is called by."""
+    """Return the qualified name of a law.
+
+    "" where it is the one it is called by.
+    """
     return _renamed({role: name}, registry).get(role, "") if name else ""
 
 
@@ -76,7 +86,10 @@ def _tables(section: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _renamed(models: Mapping[str, str], registry: ModelSource) -> dict[str, str]:
-    """Return the roles whose law has another qualified name than the one it is called by."""
+    """Return the roles whose law is renamed.
+
+    Its qualified name differs from the one it is called by.
+    """
     found = {}
     for role, name in models.items():
         try:
@@ -89,7 +102,7 @@ def _renamed(models: Mapping[str, str], registry: ModelSource) -> dict[str, str]
 
 
 def foreign_laws(model: BearingModel) -> list[Law]:
-    """Return the laws of a model that others than this program brought, each once."""
+    """Return a model's laws of plugins, once each."""
     circuit = model.electric.laws if model.electric is not None else {}
     laws = [law.model for roles in (*model.laws.values(), circuit) for law in roles.values()]
     found = {law.label: law for law in laws if project_of(law.distribution) not in ("", OWN)}
@@ -97,6 +110,9 @@ def foreign_laws(model: BearingModel) -> list[Law]:
 
 
 def laws_line(model: BearingModel) -> str:
-    """Return a line that names the laws of others and where each comes from, "" when there are none."""
+    """Return the line about laws of plugins.
+
+    It names each with its origin, "" when there are none.
+    """
     named = [f"{law.role} {law.name} ({law.distribution})" for law in foreign_laws(model)]
     return f"laws of others: {', '.join(named)}" if named else ""

@@ -24,7 +24,9 @@ _STEP_P, _STEP_T = 1e6, 0.5  # for the slopes of the viscosity [Pa], [K]
 
 
 def law_problems(model: BearingModel) -> tuple[Problem, ...]:
-    """Try the laws of plugins with the parameters of a case, and return what is wrong with each.
+    """Test plugin laws with a case's parameters.
+
+    Return the problems of each.
 
     The contacts stand at the angle 0 under an equal share of the load: what a law is asked is of the order of a run,
     not the same.
@@ -61,7 +63,10 @@ def law_problems(model: BearingModel) -> tuple[Problem, ...]:
 
 
 def _fault(model: BearingModel, element: str, law: ChosenLaw, frame: ContactFrame) -> str:
-    """Say what a law does wrong in one force element, or nothing."""
+    """Report a law's fault in one force element.
+
+    Or nothing.
+    """
     oil = model.oil
     try:
         if law.model.role != "rheology":
@@ -77,7 +82,10 @@ def _fault(model: BearingModel, element: str, law: ChosenLaw, frame: ContactFram
 
 
 def _at_the_start(model: BearingModel, element: str, law: ChosenLaw, par: FloatArray, context: Context) -> FloatArray:
-    """Return the parameters of a law with the states that it reads at their start."""
+    """Return a law's parameters with initial states.
+
+    It reads these states.
+    """
     keeper = model.laws[element][STATES]
     starts = {state.name: state.at_start(keeper.parameters, context) for state in keeper.model.states}
     found, names = par.copy(), names_behind(law.model)
@@ -87,14 +95,20 @@ def _at_the_start(model: BearingModel, element: str, law: ChosenLaw, par: FloatA
 
 
 def _frame(model: BearingModel) -> ContactFrame:
-    """Return contacts at the angle 0, with the loads of the case over the balls."""
+    """Return contacts at the angle 0.
+
+    With the loads of the case over the balls.
+    """
     forces = [term.values[0] for f in model.inner_ring.force for term in f.terms if term.kind == "constant"]
     load = max(math.hypot(*forces) if forces else 0.0, 1.0) / model.geometry.ball_count
     return ContactFrame((0.0, 0.0), (load, load))
 
 
 def _with_viscosity(model: BearingModel, element: str, frame: ContactFrame) -> Oil:
-    """Return the oil with what its rheology gives at the bulk temperature, called in plain Python."""
+    """Return the oil with its rheology's values.
+
+    At the bulk temperature, called in plain Python.
+    """
     law = model.laws[element]["rheology"]
     par = prepare(law, build_context(model, element, frame, model.oil))
     t = model.oil.temperature

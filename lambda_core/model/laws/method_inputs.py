@@ -19,13 +19,19 @@ from lambda_core.views.method import EquilibriumState, MethodInputs
 
 
 def carried_load(state: EquilibriumState) -> tuple[float, float]:
-    """Radial and axial load [N] that the balls carry at the inner ring: the sum of their contact forces."""
+    """Return the load [N] that the balls carry.
+
+    Radial and axial at the inner ring: the sum of their contact forces.
+    """
     axial, horizontal, vertical = _carried(state)
     return math.hypot(horizontal, vertical), abs(axial)
 
 
 def _carried(state: EquilibriumState) -> tuple[float, float, float]:
-    """Return the sum of the contact forces along x, y and z [N]."""
+    """Return the sum of the contact forces [N].
+
+    Along x, y and z.
+    """
     axial = sum(contact.load_inner * math.sin(contact.angle_inner) for contact in state.contacts)
     inward = [(contact.load_inner * math.cos(contact.angle_inner), contact.azimuth) for contact in state.contacts]
     horizontal = sum(force * math.cos(azimuth) for force, azimuth in inward)
@@ -34,7 +40,9 @@ def _carried(state: EquilibriumState) -> tuple[float, float, float]:
 
 
 def bearing_load(model: BearingModel, state: EquilibriumState) -> tuple[float, float]:
-    """Radial and axial load of the bearing [N]: what is applied where the ring is free, what it carries where held.
+    """Return the load of the bearing [N].
+
+    Radial and axial: the applied one where the ring is free, the carried one where it is held.
 
     Along a free axis without support that is force and weight, exactly; contact forces alone leave out the friction
     and the gyroscopic moments of the balls, which hold a part of it.
@@ -51,7 +59,9 @@ def bearing_load(model: BearingModel, state: EquilibriumState) -> tuple[float, f
 def permittivity_over_pressure(
     permittivity: Law, permittivity_par: FloatArray, rheology: Law, rheology_par: FloatArray, temperature: float
 ) -> Callable[[float], float]:
-    """Relative permittivity over pressure [Pa] at `temperature` [K], from the chosen laws as plain Python.
+    """Return the relative permittivity over pressure [Pa].
+
+    At `temperature` [K], from the chosen laws as plain Python.
 
     Parameters
     ----------

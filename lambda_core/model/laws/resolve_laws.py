@@ -38,7 +38,7 @@ LANDS = {"cage_inner": "inner ring", "cage_outer": "outer ring"}
 
 
 class ModelSource(Protocol):
-    """What the resolution needs of the registry."""
+    """Registry functions that the resolution needs."""
 
     def names(self, role: str) -> tuple[str, ...]:
         """Return the names of the models for `role`."""
@@ -49,7 +49,10 @@ class ModelSource(Protocol):
 
 @dataclass
 class LawResolver:
-    """Fills every role of every force element; problems go to the ledger."""
+    """Resolver that fills every role of every element.
+
+    Of every force element; problems go to the ledger.
+    """
 
     case: Case
     registry: ModelSource
@@ -61,7 +64,10 @@ class LawResolver:
     _used: dict[str, set[str]] = field(default_factory=dict)  # role -> parameters some model took
 
     def resolve(self) -> dict[str, dict[str, ChosenLaw]]:
-        """Return element -> role -> law, complete unless the ledger holds problems."""
+        """Return element -> role -> law.
+
+        Complete unless the ledger holds problems.
+        """
         self._check_names()
         laws: dict[str, dict[str, ChosenLaw]] = {}
         for element in self._elements():
@@ -75,12 +81,18 @@ class LawResolver:
         return laws
 
     def _elements(self) -> tuple[str, ...]:
-        """Return the force elements that there are: balls have pockets or, without a cage, each other."""
+        """Return the existing force elements.
+
+        Balls have pockets or, without a cage, each other.
+        """
         absent = "ball_ball" if self.case.depth.cage else "ball_cage"
         return tuple(element for element in ELEMENTS if element != absent)
 
     def _check_names(self) -> None:
-        """Note roles that an element does not have, in [forces.ELEMENT] and [parameters]."""
+        """Note roles that an element does not have.
+
+        In [forces.ELEMENT] and [parameters].
+        """
         for role in self.case.parameters:
             if role not in MOTION_ROLES:
                 self.ledger.problem(f"parameters.{role}", unknown_name("role", role, MOTION_ROLES))
@@ -156,7 +168,10 @@ class LawResolver:
         return ChosenLaw(chosen, parameters, origins)
 
     def _not_guided(self, element: str) -> str:
-        """Say why no land guides the cage in a force element."""
+        """Report why no land guides the cage.
+
+        In a force element.
+        """
         if element in LANDS:
             ring = LANDS[element]
             return f'"{LAND}" needs a cage that the {ring} guides, not the {self.guidance}: bodies.cage.guidance'
@@ -164,7 +179,10 @@ class LawResolver:
         return f'"{LAND}" is a contact of cage and ring, not of ball and pocket: choose it under {lands}'
 
     def _prescribes(self, chosen: Law, case_texts: Mapping[str, tuple[Any, str]]) -> bool:
-        """Say whether a supply law takes the film that the case prescribes, and what follows from it."""
+        """Report whether a supply law uses the prescribed film.
+
+        The case prescribes it; the consequences are reported, too.
+        """
         share, where = self.case.lubricant.starvation, "lubricant.starvation"
         if PRESCRIBED not in chosen.parameters.model_fields:
             self.ledger.problem(
@@ -182,7 +200,10 @@ class LawResolver:
         return True
 
     def _choice(self, element: str, role: str) -> tuple[str, str]:
-        """Return the model's name and the path where it was, or would be, chosen."""
+        """Return the model's name and its path.
+
+        The choice was, or would be, made at the path.
+        """
         own = getattr(getattr(self.case.forces, element).models, role)
         general = getattr(self.case.models, role)
         where = f"forces.{element}.models.{role}" if own else f"models.{role}"
@@ -200,13 +221,19 @@ class LawResolver:
         return (self._automatic(role) if name == "auto" and role == "rheology" else name), where
 
     def _chosen_by(self, element: str, role: str) -> Status:
-        """Say whether the case names this model, or names none and gets the one that fits."""
+        """Tell whether the case chooses this model.
+
+        It names this model, or names none and gets the one that fits.
+        """
         own = getattr(getattr(self.case.forces, element).models, role)
         general = None if element in LANDS or element == "ball_ball" else getattr(self.case.models, role)
         return "default" if (own or general) in (None, "auto") else "given"
 
     def _default(self, role: str) -> str:
-        """Return the built-in default; for a law of the oil, the one that the oil has data for."""
+        """Return the built-in default.
+
+        For a law of the oil, the one that the oil has data for.
+        """
         if role == "fluid_drag" and self.case.lubricant.lubrication in MIXTURES:
             return CAVITY_DRAG
         name = self.defaults[role]
@@ -225,7 +252,10 @@ class LawResolver:
         return self.lubricant.rheology if self.lubricant else NONE
 
     def _lubricant_rows(self, role: str, chosen: Law) -> Mapping[str, Any]:
-        """Return what the oil's data has for a law; data of one of ours is not for another's of the same name."""
+        """Return the oil's data for a law.
+
+        Data of one of ours is not for another's of the same name.
+        """
         known = self.lubricant.parameters.get(role, {}) if self.lubricant else {}
         if chosen.qualified in known or chosen.name not in known:
             return known.get(chosen.qualified, {})
@@ -236,7 +266,10 @@ class LawResolver:
         return known[chosen.name] if ours.qualified == chosen.qualified else {}
 
     def _case_texts(self, element: str, role: str, chosen: Law) -> dict[str, tuple[Any, str]]:
-        """Return parameter -> (text, path) of the case: the element's own before the general ones."""
+        """Return parameter -> (text, path) of the case.
+
+        The element's own before the general ones.
+        """
         texts: dict[str, tuple[Any, str]] = {}
         known = chosen.parameters.model_fields
         for key, text in self.case.parameters.get(role, {}).items():
@@ -276,7 +309,10 @@ class LawResolver:
             self.ledger.problem(where, message)
 
     def _lacking(self, role: str, chosen: Law, missing: list[str]) -> str:
-        """Say in one sentence what a law needs, and which laws the oil has data for."""
+        """Report what a law needs of the oil.
+
+        One sentence, with the laws that the oil has data for.
+        """
         assert self.lubricant is not None
         known = [name for name in self.lubricant.parameters.get(role, {}) if name != chosen.name]
         others = f"; it has data for {', '.join(known)}" if known else ""
@@ -294,7 +330,10 @@ class LawResolver:
         self.ledger.problem(where, f"{whose}is not a parameter of {role} {chosen.name}; it has: {known}")
 
     def _check_unused(self) -> None:
-        """Note general parameters that no chosen model of the role knows."""
+        """Note general parameters that no chosen model knows.
+
+        The models are those of the role.
+        """
         for role, texts in self.case.parameters.items():
             for key in texts:
                 if role in MOTION_ROLES and key not in self._used.get(role, set()):
@@ -315,7 +354,10 @@ class LawResolver:
         return found
 
     def _explain(self, laws: Mapping[str, Mapping[str, ChosenLaw]]) -> None:
-        """Turn defaults and weak lubricant data into sentences, one per value, with source and grade."""
+        """Turn defaults and weak data into sentences.
+
+        One per value, with source and grade; the data are the lubricant's.
+        """
         for element, roles in laws.items():
             for role, law in roles.items():
                 record_law(self.ledger, element, role, law, self._chosen_by(element, role))

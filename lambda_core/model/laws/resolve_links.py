@@ -24,7 +24,10 @@ End = tuple[BodyName | None, tuple[float, float, float]]
 def resolve_links(
     case: Case, registry: ModelSource, ledger: Ledger
 ) -> tuple[dict[str, Link], dict[str, dict[str, ChosenLaw]]]:
-    """Return the force elements by name, and their laws as the model names them; complete unless there are problems."""
+    """Return the force elements and their laws.
+
+    By name, as the model names them; complete unless there are problems.
+    """
     links: dict[str, Link] = {}
     laws: dict[str, dict[str, ChosenLaw]] = {}
     for name, element in case.elements.items():
@@ -47,7 +50,10 @@ def resolve_links(
 
 
 def resolve_markers(case: Case, ledger: Ledger) -> dict[str, Marker]:
-    """Return the named points of a bearing; what is wrong with them is noted."""
+    """Return the named points of a bearing.
+
+    Problems are noted.
+    """
     found = {}
     for name, marker in case.markers.items():
         body = _BODIES.get(marker.body)
@@ -62,7 +68,10 @@ def resolve_markers(case: Case, ledger: Ledger) -> dict[str, Marker]:
 
 
 def _end(case: Case, name: str, where: str, ledger: Ledger) -> End | None:
-    """Return the body and the place that a name stands for, None with a problem in the ledger."""
+    """Return the body and place of a name.
+
+    None with a problem in the ledger.
+    """
     if name in case.markers and name in (GROUND, *BODIES):
         ledger.problem(where, f'"{name}" is a marker and also a reserved name: rename the marker')
         return None

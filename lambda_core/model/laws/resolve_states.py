@@ -14,7 +14,10 @@ from lambda_core.model.ledger import Ledger
 def check_states(
     laws: Mapping[str, Mapping[str, ChosenLaw]], observers: Mapping[str, ChosenObserver], ledger: Ledger
 ) -> None:
-    """Note states that nobody keeps, that have two units, or the name of an observer's channel."""
+    """Note states that nobody keeps.
+
+    Also those that have two units, or the name of an observer's channel.
+    """
     known: dict[str, State] = {}
     for element in RACEWAYS:
         roles = laws.get(element, {})

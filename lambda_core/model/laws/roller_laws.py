@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 
 
 def written_parameters(law: Law, role: str, written: Mapping[str, Any], ledger: Ledger) -> BaseModel | None:
-    """Return the parameters of a law as a case gives them, the others by default; None after a problem."""
+    """Return a law's parameters as in a case.
+
+    The others by default; None after a problem.
+    """
     try:
         found: BaseModel = law.parameters.model_validate(dict(written))
     except ValidationError as error:
@@ -31,7 +34,9 @@ def written_parameters(law: Law, role: str, written: Mapping[str, Any], ledger: 
 
 
 def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[str, Any]:
-    """Return what a case says about the quasi-static friction of its rollers, by names of FrictionParameters.
+    """Return a case's friction data of rollers.
+
+    Quasi-static friction, by names of FrictionParameters.
 
     Of parameters that it does not have the assumptions tell.
     """
@@ -55,7 +60,10 @@ def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[
 
 
 def friction_of_model(model: BearingModel) -> dict[str, Any]:
-    """Return the same of a resolved model of rollers in motion: what stands in its case."""
+    """Return a model's friction data of rollers.
+
+    The model is resolved, with rollers in motion; its case has the data.
+    """
     laws, found = model.laws["ball_inner"], {}
     for role, (name, fields) in ROLLER_FRICTION.items():
         chosen = laws[role]

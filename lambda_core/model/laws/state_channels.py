@@ -17,7 +17,10 @@ if TYPE_CHECKING:
 
 
 def states_of(model: BearingModel, element: str) -> tuple[State, ...]:
-    """Return what every contact of one raceway keeps, in the order of its law."""
+    """Return the states of each contact.
+
+    Of one raceway, in the order of its law.
+    """
     return model.laws[element][ROLE].model.states
 
 
@@ -35,7 +38,10 @@ def arc_channels(model: BearingModel) -> tuple[Channel, ...]:
 
 
 def wave_channels(model: BearingModel) -> tuple[Channel, ...]:
-    """Return one channel for each number of waves of each elastic body, then how oval it is."""
+    """Return the channels of waves.
+
+    One for each number of waves of each elastic body, then its ovality.
+    """
     found = []
     for body, waves in model.elastic.items():
         name = BODIES[body].split(" with")[0]
@@ -51,7 +57,10 @@ def wave_channels(model: BearingModel) -> tuple[Channel, ...]:
 
 
 def element_channels(dim: str, what: str) -> tuple[Channel, ...]:
-    """Return the channels of force elements, named by `dim`, the dimension that counts them; `what` is for people."""
+    """Return the channels of force elements.
+
+    Named by `dim`, the dimension that counts them; `what` is for texts.
+    """
     return (
         Channel(f"{dim}_force", (dim, "axis"), "N", f"force of every {what} on the second of its bodies"),
         Channel(f"{dim}_moment", (dim, "axis"), "N m", f"couple of every {what} on the second of its bodies"),
@@ -60,7 +69,10 @@ def element_channels(dim: str, what: str) -> tuple[Channel, ...]:
 
 
 def result_channels(model: BearingModel) -> tuple[Channel, ...]:
-    """Return what every sample of a run of the model carries."""
+    """Return the channels of a run's samples.
+
+    Every sample of a run of the model carries them.
+    """
     own = arc_channels(model) if model.rollers is None else ROLLER_CHANNELS
     return (*CHANNELS, *own, *state_channels(model), *wave_channels(model), *_of_elements(model))
 

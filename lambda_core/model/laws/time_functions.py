@@ -15,7 +15,10 @@ from lambda_core.model.laws.interpolation import curve, extremes, table_term
 
 
 def time_function(signal: float | TimeTable | None) -> TimeFunction:
-    """Convert a value or table of a case; None and zero give the function without terms."""
+    """Convert a value or table of a case.
+
+    None and zero give the function without terms.
+    """
     if signal is None:
         return TimeFunction()
     if isinstance(signal, Sum):
@@ -46,7 +49,10 @@ def added(*functions: TimeFunction) -> TimeFunction:
 
 
 def scaled(function: TimeFunction, factor: float) -> TimeFunction:
-    """Return the function times `factor`; a zero factor gives the function without terms."""
+    """Return the function times `factor`.
+
+    A zero factor gives the function without terms.
+    """
     if factor == 0.0:
         return TimeFunction()
     return TimeFunction(tuple(replace(term, values=_scaled_values(term, factor)) for term in function.terms))
@@ -95,7 +101,10 @@ def _term_initial(term: Term) -> float:
 
 
 def planned_speed(function: TimeFunction) -> float:
-    """Return the value at t = 0; where that is 0 the largest one that is planned, with its sign."""
+    """Return the value at t = 0.
+
+    Where that is 0 the largest one that is planned, with its sign.
+    """
     values = [initial(function)]
     for term in function.terms:
         values += {"ramp": term.values[1:2], "table": term.values[1::2]}.get(term.kind, ())
@@ -103,12 +112,18 @@ def planned_speed(function: TimeFunction) -> float:
 
 
 def spin_at_start(body: Body) -> float:
-    """Return the speed at which a body is made to turn at t = 0, 0 where nothing makes it [rad/s]."""
+    """Return the prescribed spin at t = 0 [rad/s].
+
+    0 where nothing prescribes it.
+    """
     return initial(body.dofs[SPIN].motion) if body.dofs[SPIN].mode == "prescribed" else 0.0
 
 
 def highest_frequency(*functions: TimeFunction) -> float:
-    """Return the highest frequency of all terms that have one [Hz], 0 if there are none."""
+    """Return the highest frequency of all terms [Hz].
+
+    0 if none has one.
+    """
     places = {"harmonic": 1, "law": 3}
     terms = (term for function in functions for term in function.terms if term.kind in places and term.values[0])
     return max((term.values[places[term.kind]] for term in terms), default=0.0)

@@ -32,7 +32,10 @@ Course = tuple[str, float, float, float]  # element, f at t = 0, largest |f|, it
 
 
 def signals_of(case: Case) -> Iterator[tuple[str, float | TimeTable | None]]:
-    """Yield the path and the value of everything in a case that may change over time."""
+    """Yield path and value of all time functions.
+
+    Everything in a case that may change over time.
+    """
     yield "operation.speed", case.operation.speed
     yield "operation.torque", case.operation.torque
     for name in ("radial", "axial", "moment_y", "moment_z"):
@@ -51,7 +54,10 @@ Signals = Iterable[tuple[str, float | TimeTable | None]]
 
 
 def _by_law(signals: Signals) -> Iterator[tuple[str, ByLaw[Any]]]:
-    """Yield the signals, and terms of sums, that a law gives."""
+    """Yield the signals that a law gives.
+
+    Terms of sums are among them.
+    """
     for path, term in summands(signals):
         if isinstance(term, ByLaw):
             yield path, term
@@ -60,7 +66,9 @@ def _by_law(signals: Signals) -> Iterator[tuple[str, ByLaw[Any]]]:
 def resolve_time_laws(
     case: C, signals: Callable[[C], Signals], registry: ModelSource, ledger: Ledger
 ) -> tuple[C, dict[str, dict[str, ChosenLaw]]]:
-    """Return the case whose signals know their courses, and the laws as the model names them.
+    """Return the case with resolved time laws.
+
+    Its signals have their courses; also return the laws as the model names them.
 
     Parameters
     ----------
@@ -87,7 +95,9 @@ def resolve_time_laws(
 
 
 def _look(law: ChosenLaw, until: float) -> tuple[float, float, float]:
-    """Return f(0), the largest |f| and the highest frequency [Hz] of a law, looked at in plain Python.
+    """Return f(0), largest |f| and frequency [Hz].
+
+    The highest frequency of a law, which is called in plain Python.
 
     Of a sine of a frequency that changes slowly 2 pi times it is the root of |f''| over the largest |f|.
     """

@@ -10,7 +10,10 @@ ASSUMED = "normal cleanliness"  # of bearings whose case gives nothing: shown, a
 
 
 def contamination_of(case: Case, pitch_diameter: float, ledger: Ledger) -> float | None:
-    """Return e_C; of a level of contamination the lower end (ISO 281:2007, table 13); None where none is given."""
+    """Return the contamination factor e_C.
+
+    Of a level the lower end (ISO 281:2007, table 13); None where none is given.
+    """
     given = case.life.contamination
     if not isinstance(given, str):
         return given
@@ -20,5 +23,8 @@ def contamination_of(case: Case, pitch_diameter: float, ledger: Ledger) -> float
 
 
 def known_contamination(given: float | None, pitch_diameter: float) -> float:
-    """Return e_C as given, else the lower end of normal cleanliness (ISO 281:2007, table 13)."""
+    """Return e_C as given or normal.
+
+    The lower end of normal cleanliness (ISO 281:2007, table 13).
+    """
     return contamination_range(ASSUMED, pitch_diameter)[0] if given is None else given

@@ -39,7 +39,7 @@ _PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
 
 @dataclass(frozen=True)
 class MachineHeat:
-    """What the thermal network of a machine is made of.
+    """Thermal network of a machine.
 
     Attributes
     ----------
@@ -67,12 +67,18 @@ class MachineHeat:
 
     @property
     def assumptions(self) -> list[str]:
-        """What the network assumes, and what it fills in where the case says nothing."""
+        """Assumptions of the network.
+
+        Also the values that it adds where the case has none.
+        """
         return network_assumptions(self.section) if self.is_alone else _assumptions(self.section)
 
 
 def check_heat(case: MachineCase, ledger: Ledger) -> None:
-    """Note what is wrong with temperatures and surroundings, whatever the shaft is."""
+    """Note wrong temperatures and surroundings.
+
+    Whatever the shaft is.
+    """
     section = case.thermal
     check_surroundings(section, ledger)
     if section.conductances == "iso-15312" and not case.shaft.is_rigid:
@@ -99,7 +105,9 @@ def resolve_heat(
     materials: tuple[BodyMaterial, BodyMaterial],
     ledger: Ledger,
 ) -> MachineHeat:
-    """Return the network; what is wrong with nodes and links is noted.
+    """Return the network.
+
+    Problems of nodes and links are noted.
 
     Parameters
     ----------
@@ -144,7 +152,9 @@ def resolve_heat(
 
 
 def stretch(at: FloatArray, places: FloatArray, temperatures: FloatArray, material: BodyMaterial) -> FloatArray:
-    """Return how far places of a free shaft move along x as it grows, against x = 0 [m].
+    """Return the thermal displacement of places [m].
+
+    Places of a free shaft move along x as it grows, against x = 0.
 
     The integral of alpha (T - 20 degC) from 0 to x, T linear between places and constant beyond them.
 
@@ -165,7 +175,10 @@ def stretch(at: FloatArray, places: FloatArray, temperatures: FloatArray, materi
 
 
 def _assumptions(section: MachineThermal) -> list[str]:
-    """Return what the network of a shaft with its sections assumes."""
+    """Return the assumptions of a shaft's network.
+
+    The shaft has its sections.
+    """
     found = common_assumptions(section)
     if section.conductances != "none":
         if section.housing_area is None:
@@ -197,7 +210,10 @@ def _own_nodes(case: MachineCase) -> dict[str, ThermalNode]:
 
 
 def _shaft_nodes(case: MachineCase, body: ElasticBody) -> tuple[str, ...]:
-    """Return the names of the shaft's nodes: of a bearing, gear, disc or marker, of the ends, otherwise numbers."""
+    """Return the names of the shaft's nodes.
+
+    Of a bearing, gear, disc or marker, of the ends, otherwise numbers.
+    """
     named = [(name, gear.place) for name, gear in case.gears.items()]
     named += [(name, disc.place) for name, disc in case.discs.items()]
     if not body.is_rigid:
@@ -213,7 +229,7 @@ def _shaft_nodes(case: MachineCase, body: ElasticBody) -> tuple[str, ...]:
 
 
 def is_numbered(node: str) -> bool:
-    """Tell whether a node of the shaft is one that nothing names."""
+    """Tell whether a shaft's node has no name."""
     return node.startswith(_NUMBERED)
 
 
@@ -231,7 +247,7 @@ def _pairs(bearings: Mapping[str, Thermal], section: MachineThermal, shaft: Sequ
 
 
 def _check_computed(case: MachineCase, ledger: Ledger) -> None:
-    """Refuse temperatures that are given and to be found at once."""
+    """Refuse temperatures that are given and computed."""
     found = 'is computed with operation.temperatures = "computed"'
     for where, section in (("shaft", case.shaft), ("housing", case.housing)):
         for option in ("temperature", "temperatures"):

@@ -24,7 +24,10 @@ from lambda_core.model.settings.resolve_solver import (
 
 
 def changing(case: MachineCase) -> list[tuple[str, Any]]:
-    """Return the path of everything that loads or leads the shaft, and its value or course."""
+    """Return the path and value of time functions.
+
+    Everything that loads or moves the shaft, with its value or course.
+    """
     found: list[tuple[str, Any]] = [
         ("operation.speed", case.operation.speed),
         ("operation.torque", case.operation.torque),
@@ -40,7 +43,10 @@ def changing(case: MachineCase) -> list[tuple[str, Any]]:
 
 
 def refuse_settings(case: MachineCase, ledger: Ledger) -> None:
-    """Note settings that cannot be, whatever the shaft and its bearings are."""
+    """Note impossible settings.
+
+    Whatever the shaft and its bearings are.
+    """
     given = case.solver
     resolution(given, _excitation(case), "", ledger, is_silent=True)
     end = given.duration or given.max_duration
@@ -49,7 +55,9 @@ def refuse_settings(case: MachineCase, ledger: Ledger) -> None:
 
 
 def with_settings(case: MachineCase, model: MachineModel, ledger: Ledger) -> MachineModel:
-    """Return the machine with bearings that are all followed alike: vibrations where one of them asks for that.
+    """Return the machine with equal settings.
+
+    All bearings resolve vibrations where one of them asks for that.
 
     Parameters
     ----------
@@ -84,7 +92,10 @@ def _outer_speed(mounted: MountedBearing) -> float:
 
 
 def _excitation(case: MachineCase) -> float:
-    """Return the highest frequency at which anything is loaded or moved [Hz]; 0 where nothing is."""
+    """Return the highest excitation frequency [Hz].
+
+    Of loads and motions; 0 where there is none.
+    """
     signals = [signal for _, signal in changing(case)]
     for bearing in case.bearings.values():
         signals.append(bearing.outer_ring.spin.motion)

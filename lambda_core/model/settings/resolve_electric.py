@@ -24,7 +24,10 @@ if TYPE_CHECKING:
 
 
 def resolve_electric(options: Electric, registry: ModelSource, ledger: Ledger) -> ElectricModel:
-    """Return the circuit with its laws, complete unless the ledger holds problems."""
+    """Return the circuit with its laws.
+
+    Complete unless the ledger holds problems.
+    """
     laws = {}
     for role in ELECTRIC_ROLES:
         law = _law(role, options, registry, ledger)
@@ -45,7 +48,10 @@ def resolve_electric(options: Electric, registry: ModelSource, ledger: Ledger) -
 def resolve_machine_electric(
     options: MachineElectric | None, bearings: Sequence[str], registry: ModelSource, ledger: Ledger
 ) -> ElectricModel | None:
-    """Return the circuit of a machine with the laws of all its films; None where it has none."""
+    """Return the circuit of a machine.
+
+    With the laws of all its films; None where it has none.
+    """
     if options is None:
         return None
     for name in options.bearings:
@@ -55,7 +61,10 @@ def resolve_machine_electric(
 
 
 def with_circuits(models: Mapping[str, BearingModel], circuit: ElectricModel | None) -> dict[str, BearingModel]:
-    """Return the bearings of a machine, each with its own options of the machine's circuit."""
+    """Return the bearings with their circuits.
+
+    Each has its own options of the machine's circuit.
+    """
     if circuit is None or not isinstance(circuit.options, MachineElectric):
         return dict(models)
     options = circuit.options
@@ -82,7 +91,10 @@ def _law(role: str, options: Electric, registry: ModelSource, ledger: Ledger) ->
 
 
 def _arcs_can_burn(options: Electric, law: ChosenLaw, ledger: Ledger) -> None:
-    """Refuse arcs that the least breakdown voltage cannot feed: R i + U must be below it."""
+    """Refuse arcs that cannot burn.
+
+    The least breakdown voltage cannot feed them; R i + U must be below it.
+    """
     least = options.breakdown.least_voltage
     if law.model.prepare is not None:
         return  # what it makes of a bearing is seen when there is one
@@ -100,7 +112,10 @@ def _arcs_can_burn(options: Electric, law: ChosenLaw, ledger: Ledger) -> None:
 
 
 def assumed(laws: Mapping[str, ChosenLaw]) -> list[str]:
-    """Return what the laws leave to defaults, a sentence per value."""
+    """Return the defaults of the laws.
+
+    A sentence per value.
+    """
     return [
         sentence
         for role, law in laws.items()

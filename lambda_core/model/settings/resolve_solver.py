@@ -39,7 +39,10 @@ OVER_EXCITATION = 2.0  # frequency that is followed over the highest that is exc
 def resolve_solver(
     case: Case, geometry: Geometry, laws: Mapping[str, Mapping[str, ChosenLaw]], ledger: Ledger, *, is_static: bool
 ) -> SolverSettings:
-    """Return the settings of the integrator; what stands against them becomes a problem."""
+    """Return the settings of the integrator.
+
+    Objections become problems.
+    """
     given, fastest = case.solver, [peak(time_function(signal)) for signal in _spins(case)]
     turn = cage_period(geometry, *fastest)
     if math.isinf(turn) and given.duration is None and not is_static:
@@ -92,7 +95,7 @@ def settings(given: Solver, turn: float, frequency: float, resolve: float, ledge
 
 
 def say_cut(given: Solver, longest: float, ledger: Ledger) -> None:
-    """Say where steps are shorter than the case asks for [s]."""
+    """Report steps that are shorter than requested [s]."""
     if given.max_step is not None and given.max_step > longest:
         ledger.assume(
             f"steps are at most {show(longest, 'time', 3)}: solver.max_step is too long to resolve the vibrations"
@@ -100,7 +103,9 @@ def say_cut(given: Solver, longest: float, ledger: Ledger) -> None:
 
 
 def resolution(given: Solver, frequency: float, why: str, ledger: Ledger, *, is_silent: bool) -> float:
-    """Return the highest frequency that is to be followed [Hz], 0 where averages are the answer; says what it chose.
+    """Return the highest frequency to resolve [Hz].
+
+    0 where averages are the answer; the choice is reported.
 
     Vibrations are the answer where the case asks for them, has a raceway that is not nominal, or is excited faster
     than the shaft turns.
@@ -135,7 +140,10 @@ def resolution(given: Solver, frequency: float, why: str, ledger: Ledger, *, is_
 
 
 def surface_of_its_own(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> str:
-    """Return which raceway of a bearing is not nominal, in words, or nothing."""
+    """Return the raceway that is not nominal.
+
+    In words, or nothing.
+    """
     for element, roles in laws.items():
         if "surface" in roles and roles["surface"].model.name != "none":
             return f"{element} has the surface law {roles['surface'].model.name}"
@@ -143,7 +151,10 @@ def surface_of_its_own(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> str:
 
 
 def excited_faster(what: str, frequency: float, speed: float) -> str:
-    """Return in words that `what` is excited faster [Hz] than anything turns [rad/s], or nothing."""
+    """Report an excitation faster than all rotations.
+
+    `what` is excited faster [Hz] than anything turns [rad/s]; or nothing.
+    """
     if frequency > speed / (2.0 * math.pi) * (1.0 + _ROUNDED):
         return f"the {what} is excited at {show(frequency, 'frequency')}"
     return ""
@@ -155,7 +166,9 @@ def _spins(case: Case) -> tuple[Any, Any]:
 
 
 def cage_period(geometry: Geometry, inner: float, outer: float = 0.0) -> float:
-    """Return the duration of one epicyclic turn of the cage at the highest planned speeds [rad/s]; inf at rest [s].
+    """Return the duration of a cage turn [s].
+
+    One epicyclic turn at the highest planned speeds [rad/s]; inf at rest.
 
     omega_c = (Omega_i (1 - D_w/d_m) + Omega_o (1 + D_w/d_m))/2, contact angle 0.
     """
@@ -165,7 +178,10 @@ def cage_period(geometry: Geometry, inner: float, outer: float = 0.0) -> float:
 
 
 def _say_what_folds(case: Case, highest: float, ledger: Ledger) -> None:
-    """Say where samples are too far apart for the highest frequency that is followed or excited."""
+    """Report samples that are too far apart.
+
+    For the highest frequency that is resolved or excited.
+    """
     interval = case.output.interval
     if interval is not None and highest * LEAST_PER_PERIOD * interval > 1.0:
         ledger.assume(
@@ -175,7 +191,9 @@ def _say_what_folds(case: Case, highest: float, ledger: Ledger) -> None:
 
 
 def end_in_sight(given: Solver, interval: float | None, end: float, turn: float, ledger: Ledger) -> None:
-    """Refuse what no machine finishes: too long a time, too many steps or samples in it.
+    """Refuse what no machine finishes.
+
+    Too long a time, too many steps or samples in it.
 
     Parameters
     ----------

@@ -39,7 +39,9 @@ _SURROUNDINGS = (173.15, 773.15)  # [K]
 
 @dataclass(frozen=True)
 class NodeSet:
-    """Nodes of a network, what joins them, and what the case says of them.
+    """Nodes of a network and their links.
+
+    With the options of the case.
 
     Attributes
     ----------
@@ -65,7 +67,10 @@ class NodeSet:
     start: float
 
     def isolated(self) -> list[str]:
-        """Return the nodes from which no way leads to a held temperature, in order."""
+        """Return the nodes without a held temperature.
+
+        No way leads from them to a held temperature; in order.
+        """
         return isolated(self.names, self.pairs, self.held)
 
 
@@ -82,7 +87,10 @@ def nodes_alone(thermal: Thermal) -> NodeSet:
 
 
 def node_names(thermal: Thermal) -> tuple[str, ...]:
-    """Return the names of all nodes: the bearing's own, the oil supply where oil flows, the case's further ones."""
+    """Return the names of all nodes.
+
+    The bearing's own, the oil supply where oil flows, the case's further ones.
+    """
     own = (*OWN_NODES, *([SUPPLY] if thermal.oil_flow > 0.0 else []))
     return (*own, *(name for name in thermal.nodes if name not in own))
 
@@ -102,7 +110,10 @@ def held_temperatures(thermal: Thermal) -> dict[str, float]:
 
 
 def isolated(names: Iterable[str], pairs: Iterable[Pair], held: Iterable[str]) -> list[str]:
-    """Return the nodes from which no way leads to a held temperature, in order."""
+    """Return the nodes without a held temperature.
+
+    No way leads from them to a held temperature; in order.
+    """
     reached, links = set(held), list(pairs)
     while True:
         more = {b for a, b in links if a in reached} | {a for a, b in links if b in reached}
@@ -112,7 +123,10 @@ def isolated(names: Iterable[str], pairs: Iterable[Pair], held: Iterable[str]) -
 
 
 def check_thermal(case: Case, ledger: Ledger) -> None:
-    """Note everything that makes the thermal network of a case impossible."""
+    """Note everything impossible in a thermal network.
+
+    It is that of a case.
+    """
     thermal = case.thermal
     names = node_names(thermal)
     check_surroundings(thermal, ledger)
@@ -131,7 +145,10 @@ def check_thermal(case: Case, ledger: Ledger) -> None:
 
 
 def network_assumptions(thermal: Thermal) -> list[str]:
-    """Return what the network of a bearing alone assumes, and what it fills in where the case says nothing."""
+    """Return the assumptions of a bearing's network.
+
+    The bearing is alone; values that the case lacks are among them.
+    """
     found = common_assumptions(thermal)
     if thermal.conductances in ("harris", "palmgren"):
         if thermal.housing_area is None:
@@ -145,7 +162,10 @@ def network_assumptions(thermal: Thermal) -> list[str]:
 
 
 def common_assumptions(thermal: Thermal) -> list[str]:
-    """Return what every network assumes, and what it fills in of surroundings and oil."""
+    """Return the assumptions of every network.
+
+    Values of surroundings and oil that the case lacks are among them.
+    """
     given = thermal.model_fields_set
     found = [
         "heat of sheared films and of rolling goes into the two surfaces by their effusivities, of hysteresis by their "
@@ -177,7 +197,10 @@ def check_surroundings(thermal: Thermal, ledger: Ledger) -> None:
 
 
 def check_nodes(nodes: Mapping[str, ThermalNode], supplies: Iterable[str], ledger: Ledger) -> None:
-    """Note nodes that the case cannot change, and starts of nodes that are held."""
+    """Note nodes that the case cannot change.
+
+    And starts of nodes that are held.
+    """
     if "ambient" in nodes:
         ledger.problem("thermal.nodes.ambient", "is held at thermal.ambient: change that option option")
     for supply in supplies:
@@ -204,7 +227,10 @@ def check_links(thermal: Thermal, names: tuple[str, ...], ledger: Ledger) -> boo
 
 
 def _check_computed(case: Case, ledger: Ledger) -> None:
-    """Refuse temperatures that are given and to be found at once; say what finding them assumes."""
+    """Refuse temperatures that are given and computed.
+
+    Report what computing them assumes.
+    """
     for sentence in network_assumptions(case.thermal):
         ledger.assume(sentence)
     given = case.bearing.temperatures

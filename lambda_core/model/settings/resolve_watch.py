@@ -17,7 +17,7 @@ Kind = TypeVar("Kind", Observer, Event)
 
 
 class WatchSource(Protocol):
-    """What the resolution needs of the registry."""
+    """Registry functions that the resolution needs."""
 
     def observer(self, name: str) -> Observer:
         """Return one observer; LambdaError when there is none."""
@@ -27,7 +27,10 @@ class WatchSource(Protocol):
 
 
 def resolve_observers(case: Case, registry: WatchSource, ledger: Ledger) -> dict[str, ChosenObserver]:
-    """Return the observers of a case by name, complete unless the ledger holds problems."""
+    """Return the observers of a case by name.
+
+    Complete unless the ledger holds problems.
+    """
     found: dict[str, ChosenObserver] = {}
     owners: dict[str, str] = {}
     for name, texts in case.observers.items():
@@ -49,7 +52,10 @@ def resolve_observers(case: Case, registry: WatchSource, ledger: Ledger) -> dict
 
 
 def resolve_events(case: Case, registry: WatchSource, ledger: Ledger) -> dict[str, ChosenEvent]:
-    """Return the events of a case by name, complete unless the ledger holds problems."""
+    """Return the events of a case by name.
+
+    Complete unless the ledger holds problems.
+    """
     found: dict[str, ChosenEvent] = {}
     for name, given in case.events.items():
         where, texts = f"events.{name}", {key: text for key, text in given.items() if key != ACTION}
@@ -69,7 +75,10 @@ def resolve_events(case: Case, registry: WatchSource, ledger: Ledger) -> dict[st
 
 
 def _parameters(item: Observer | Event, where: str, texts: Mapping[str, Any], ledger: Ledger) -> Any:
-    """Return validated parameters, or None with the problems in the ledger."""
+    """Return validated parameters.
+
+    Or None with the problems in the ledger.
+    """
     what = "observer" if isinstance(item, Observer) else "event"
     return given_parameters(f"the {what} {item.name}", item.parameters, texts, where, ledger)
 

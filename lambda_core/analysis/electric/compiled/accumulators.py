@@ -21,7 +21,10 @@ def dot(n, one, other):
 
 @helper
 def energy(n, q, v):
-    """Return the energy q v / 2 of charged nodes [J]."""
+    """Return the energy of charged nodes [J].
+
+    It is q v / 2.
+    """
     return 0.5 * dot(n, q, v)
 
 
@@ -35,19 +38,25 @@ def _sum(n, q):
 
 @helper
 def _stored(n, winding, volt, q, v):
-    """Return the energy of the nodes and of the winding's field [J]."""
+    """Return the energy of nodes and winding [J].
+
+    It includes the winding's field.
+    """
     return energy(n, q, v) + winding * volt * (0.5 * volt - v[L.ROTOR])
 
 
 @helper
 def is_recorded(sums, now):
-    """Tell whether a moment is inside the window of the record."""
+    """Tell whether the record's window holds a moment."""
     return sums.window[0] <= now <= sums.window[1]
 
 
 @shared_helper
 def record(sums, now, volt, v, current):
-    """Write one row of the record while it is inside its window and there is room."""
+    """Write one row of the record.
+
+    Only while it is inside its window and there is room.
+    """
     row = int(sums.total[L.T_TRACE])
     if row < sums.trace.shape[0] and is_recorded(sums, now):
         trace = sums.trace[row]
@@ -59,7 +68,9 @@ def record(sums, now, volt, v, current):
 
 @shared_helper
 def begin_sums(n, winding, volt, q, v, sums):
-    """Begin to count, once the films stand the voltages that they have.
+    """Begin to count below the breakdown voltages.
+
+    The films can then hold the voltages that they have.
 
     The start is that of films which never break down. One that does not stand it breaks down at once, at a voltage
     that would not have come about: neither this discharge nor the voltage before it is one of the operation.
@@ -81,7 +92,10 @@ def end_sums(n, winding, volt, q, v, total):
 
 @shared_helper
 def store(sums, rows, ball, sample):
-    """Append what a discharge did, the contact that broke down first before the other; 0 when the table is full."""
+    """Append a discharge to the table.
+
+    The contact that broke down first comes before the other; return 0 when the table is full.
+    """
     total, events = sums.total, sums.events
     both = rows[0, L.E_PEAK] > 0.0 and rows[1, L.E_PEAK] > 0.0
     turned = both and rows[1, L.E_TIME] < rows[0, L.E_TIME]

@@ -18,13 +18,19 @@ _AS_WEAK = 2.0  # times the least current
 
 @helper
 def is_joined(node, full):
-    """Tell whether metal joins a ball to a ring, so that charge flows through it in the time of a discharge."""
+    """Tell whether metal joins a ball to a ring.
+
+    Charge then flows through it in the time of a discharge.
+    """
     return full.conductance[node, node] * SHORT > full.capacitance[node, node]
 
 
 @helper
 def _choose(n, shared, ball, everyone, full, members, place):
-    """Write which nodes take part, the ball behind the rings; return how many."""
+    """Write the nodes that take part, return their count.
+
+    The ball comes after the rings.
+    """
     for ring in range(shared):
         members[ring] = ring
     members[shared] = shared + ball
@@ -41,7 +47,10 @@ def _choose(n, shared, ball, everyone, full, members, place):
 
 @shared_helper
 def take_part(n, shared, ball, everyone, full, nodes, part, own, members, place):
-    """Write the network of the nodes that take part in a discharge; return how many there are."""
+    """Write the network of a discharge's nodes.
+
+    Return the number of nodes.
+    """
     m = _choose(n, shared, ball, everyone, full, members, place)
     c, g = full.capacitance, full.conductance
     for i in range(m):
@@ -74,7 +83,10 @@ def give_back(n, m, shared, full, nodes, part, own, members, place):
 
 @helper
 def channel_voltage(ring, shared, v, arcs):
-    """Return the voltage of a contact of the ball: potential of the ring less that of the ball [V]."""
+    """Return the voltage of a contact [V].
+
+    It is the potential of the ring less that of the ball.
+    """
     return potential(arcs.terminal[ring], v) - v[shared]
 
 
@@ -86,7 +98,10 @@ def channel_current(voltage, ring, state):
 
 @shared_helper
 def open_channel(ring, ball, now, net, v, held, arcs):
-    """Let a channel conduct, in the direction that its voltage drives; return the status of its law, 0: it cannot."""
+    """Let a channel conduct in its voltage's direction.
+
+    Return the status of its law; 0 if it cannot conduct.
+    """
     voltage, out = channel_voltage(ring, net.shared, v, arcs), arcs.out
     state, row, par = arcs.state, arcs.rows[ring], arcs.par[2 * net.bearing[ball] + ring]
     status = arcs.law(abs(voltage), held.film[ball, ring], held.area[ball, ring], par, out)
@@ -106,7 +121,10 @@ def open_channel(ring, ball, now, net, v, held, arcs):
 
 @helper
 def quench(ring, now, shared, v, arcs):
-    """Let an arc die, and the other one with it that is in series with it and as weak; tell whether none is left."""
+    """Let an arc die.
+
+    The other one dies with it if it is in series with it and as weak; tell whether none is left.
+    """
     state = arcs.state
     for which in range(2):
         if state.burns[which] == 0.0:
@@ -120,7 +138,10 @@ def quench(ring, now, shared, v, arcs):
 
 @helper
 def conduct(m, shared, arcs, part, own):
-    """Write the conductances with the open channels, and the currents of their falls into the nodes [A]."""
+    """Write conductances and fall currents of open channels.
+
+    The currents of their falls flow into the nodes [A].
+    """
     state = arcs.state
     for i in range(m):
         own.fall[i] = 0.0

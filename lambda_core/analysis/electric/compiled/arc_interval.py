@@ -29,7 +29,10 @@ _SPENT = 1.0  # times the fastest mode's time: the ball that an arc discharges h
 
 @helper
 def _past(ring, m, part, y, arcs):
-    """Return how far a contact of the ball is past its next change: >= 0 past it."""
+    """Return the distance past a contact's next change.
+
+    It is >= 0 past the change of a contact of the ball.
+    """
     voltage, state = dot(m, part.channel[ring], y), arcs.state
     if state.burns[ring] == 0.0:
         return abs(voltage) / arcs.stand[ring] - 1.0
@@ -39,14 +42,19 @@ def _past(ring, m, part, y, arcs):
 
 @helper
 def _worst(m, part, y, arcs):
-    """Return how far the first change of either contact is past, and which contact it is about."""
+    """Return the distance past the first change.
+
+    Also return the contact of this change.
+    """
     inner, outer = _past(0, m, part, y, arcs), _past(1, m, part, y, arcs)
     return (outer, 1) if outer > inner else (inner, 0)
 
 
 @helper
 def _nearer(ring, past, m, part, own, arcs):
-    """Return how far the change lies from the amplitudes `own.after` [s], by Newton's rule; arcs decay: on a logarithm.
+    """Return the distance of the change from now.
+
+    It counts from the amplitudes `own.after` [s], by Newton's rule; arcs decay, so on a logarithm.
 
     It aims half the allowance behind the change.
     """
@@ -63,7 +71,9 @@ def _nearer(ring, past, m, part, own, arcs):
 
 @helper
 def _moment(m, part, own, arcs, low, high, past, ring):
-    """Return when between two times a contact of the ball changes, on the far side, and which one.
+    """Return the moment of a contact's next change.
+
+    Between two times, on the far side, and which contact of the ball.
 
     Newton's rule inside a bracket; `past` and `ring` are those of `own.after`, the amplitudes at the later time.
     """
@@ -87,7 +97,10 @@ def _moment(m, part, own, arcs, low, high, past, ring):
 
 @helper
 def _peak(m, part, y, arcs):
-    """Keep the peaks of the open channels' currents, and return the larger one now [A]."""
+    """Keep the peaks of the open channels' currents.
+
+    Return the larger current now [A].
+    """
     largest = 0.0
     for ring in range(2):
         if arcs.state.burns[ring] != 0.0:
@@ -108,7 +121,9 @@ def _decay_to(m, own, dt):
 
 @helper
 def _others(low, at, m, n, net, ball, alone, elapsed, full, nodes, part, own, held, films, arcs):
-    """Return when between two times the film of another ball breaks down [s], -1: none does.
+    """Return the moment of another ball's breakdown [s].
+
+    Between two times; -1 if none breaks down.
 
     Where no bearing has more voltage than the discharge began at, nothing can have happened. While an arc leads through
     an insulated bearing, only the others without insulation keep a voltage that the arc does not bound.
@@ -134,7 +149,9 @@ def _until_change(
     first, limit, now, volt, slope, spent, m, n, net, ball, alone, elapsed, full, nodes, part, own, held, films, arcs,
     sums,
 ):  # fmt: skip
-    """Return the part of `limit` until something changes [s], and what (NOTHING: nothing does).
+    """Return the time until something changes [s].
+
+    It is a part of `limit`; also return what changes (NOTHING: nothing does).
 
     A channel that has just opened carries more than the least current, so the search starts before the change.
 
@@ -179,7 +196,10 @@ def _until_change(
 
 @helper
 def _accumulate(m, dt, part, own, arcs, total):
-    """Add up heat, arc energies and charges over dt, at whose end the amplitudes are `own.after`."""
+    """Add up heat, arc energies and charges over dt.
+
+    The amplitudes at its end are `own.after`.
+    """
     state, rows = arcs.state, arcs.rows
     products(m, own.decay, own.amplitude, own.drive, dt, own.after, own.area, own.middle, part.product)
     for ring in range(2):
@@ -207,7 +227,10 @@ def _accumulate(m, dt, part, own, arcs, total):
 
 @helper
 def _channels(m, shared, part, arcs):
-    """Write the voltage of both contacts of the ball per amplitude of each mode."""
+    """Write both contact voltages of the ball.
+
+    Per amplitude of each mode.
+    """
     for ring in range(2):
         for a in range(m):
             part.channel[ring, a] = potential(arcs.terminal[ring], part.shape[a]) - part.shape[a, shared]

@@ -39,15 +39,21 @@ channels_t = numba.types.NamedUniTuple(array1, len(Channels._fields), Channels)
 
 
 def law_of(role):
-    """Return the type of a pointer to a law of a role."""
+    """Return the pointer type of a role's law."""
     return numba.types.FunctionType(role_signature(ROLES[role]))
 
 
 def helper(function):
-    """Compile a helper into its callers; never cached by itself, they are."""
+    """Compile a helper into its callers.
+
+    It is never cached by itself; its callers are.
+    """
     return numba.njit(**OPTIONS, **inlined.OPTIONS)(function)
 
 
 def shared_helper(function):
-    """Compile a helper that is called from several places as a function of its own."""
+    """Compile a helper as a function of its own.
+
+    It is called from several places.
+    """
     return numba.njit(**{**OPTIONS, **inlined.OPTIONS, "forceinline": False})(function)

@@ -23,7 +23,7 @@ _MOST_CHANGES = 1000
 
 @helper
 def _cut(now, arcs):
-    """End the arcs that still burn in the table of discharges."""
+    """End the arcs that still burn in the table."""
     for ring in range(2):
         if arcs.state.burns[ring] != 0.0:
             arcs.rows[ring, L.E_DURATION] = now - arcs.rows[ring, L.E_TIME]
@@ -31,7 +31,9 @@ def _cut(now, arcs):
 
 @helper
 def discharge(n, net, ball, ring, elapsed, everyone, full, nodes, part, own, held, films, arcs, source, sums):
-    """Follow a discharge that begins now in one contact; return a status of the integration.
+    """Compute a discharge that begins in one contact.
+
+    Return a status of the integration.
 
     Parameters
     ----------

@@ -12,7 +12,9 @@ from lambda_core.analysis.electric.compiled.modes import decay_functions, propag
 
 @shared_helper
 def periodic(n, decay, s, winding, times, volts, y, drive, after, area, mean):
-    """Write the amplitudes `y` with which a period of the source ends where it began, nothing breaking down.
+    """Write the amplitudes `y` of a periodic state.
+
+    A period of the source ends where it began, without a breakdown.
 
     From nothing, a period leaves y(T) = -lambda I with I the integral of y, as the source ends where it began; with a
     start y_0 that comes back, y_0 (1 - exp(-lambda T)) = -lambda I, so y_0 = -(I/T) lambda T/(1 - exp(-lambda T)). A

@@ -10,7 +10,10 @@ from lambda_core.analysis.electric.compiled.patches import NO_PATCH
 
 @helper
 def _between(table, i, x, out):
-    """Write a row of a table of samples, interpolated linearly between samples i and i + 1."""
+    """Write an interpolated row of a sample table.
+
+    Linear between samples i and i + 1.
+    """
     for j in range(out.shape[0]):
         for ring in range(2):
             out[j, ring] = (1.0 - x) * table[i, j, ring] + x * table[i + 1, j, ring]
@@ -18,7 +21,10 @@ def _between(table, i, x, out):
 
 @helper
 def _closed(film, i, out):
-    """Take out the film of contacts that have none at one end of the interval: half a film would break down at once."""
+    """Remove films that exist at one end only.
+
+    Half a film would break down at once.
+    """
     for j in range(out.shape[0]):
         for ring in range(2):
             if film[i, j, ring] <= 0.0 or film[i + 1, j, ring] <= 0.0:
@@ -27,7 +33,10 @@ def _closed(film, i, out):
 
 @shared_helper
 def hold(i, part, substeps, t, tables, held, known):
-    """Write the contacts of one part of the interval behind sample i."""
+    """Write the contacts of one part of the interval.
+
+    The interval follows sample i.
+    """
     middle = (part + 0.5) / substeps
     _between(tables.capacitance, i, middle, held.capacitance)
     _between(tables.conductance, i, middle, held.conductance)
@@ -44,7 +53,10 @@ def hold(i, part, substeps, t, tables, held, known):
 
 @helper
 def longest(held):
-    """Return a step in which no contact that may break down rolls over more than one patch [s]."""
+    """Return a step within one patch of every contact [s].
+
+    No contact that may break down rolls over more than one patch.
+    """
     fastest = 0.0
     for j in range(held.film.shape[0]):
         for ring in range(2):

@@ -31,7 +31,10 @@ def assemble(net, machine, bearings, cap, cond, c, g):
 
 @helper
 def _rings(b, net, bearings, c, g):
-    """Add what lies between the rings of a bearing past its balls, and its outer ring and the frame."""
+    """Add the capacitances and conductances of a bearing's rings.
+
+    Between its rings past its balls, and between its outer ring and the frame.
+    """
     rings, node = bearings.rings[b], net.ring[b]
     c[ROTOR, ROTOR] += rings
     if node >= 0:
@@ -62,7 +65,7 @@ def _ball(j, net, twins, cap, cond, c, g):
 
 @helper
 def _to_cage(node, b, net, bearings):
-    """Return the capacitance of a node against the cage of a bearing [F]."""
+    """Return a node's capacitance against a cage [F]."""
     if node == ROTOR:
         return bearings.cage_inner[b]
     if node < net.shared:
@@ -72,7 +75,10 @@ def _to_cage(node, b, net, bearings):
 
 @helper
 def _cage(b, n, net, bearings, c):
-    """Add a cage that conducts and touches nothing: its node, without charge, is eliminated (star to mesh)."""
+    """Add a conducting cage that touches nothing.
+
+    Its node, without charge, is eliminated (star to mesh).
+    """
     balls = 0
     for j in range(n - net.shared):
         if net.bearing[j] == b:
@@ -87,7 +93,10 @@ def _cage(b, n, net, bearings, c):
 
 @helper
 def shares(n, shared, c, share):
-    """Write c_ri/c_ii of every ball i: a ball that keeps its charge follows ring r by minus this part of its change."""
+    """Write c_ri/c_ii of every ball i.
+
+    A ball that keeps its charge follows ring r by minus this part of its change.
+    """
     for ring in range(shared):
         for i in range(shared, n):
             share[ring, i] = c[ring, i] / c[i, i]
@@ -95,7 +104,10 @@ def shares(n, shared, c, share):
 
 @helper
 def leaks(n, g, s, workspace, out):
-    """Write the current to ground through the conductances per amplitude of each mode."""
+    """Write the leakage current per mode amplitude.
+
+    It flows to ground through the conductances.
+    """
     for i in range(n):
         workspace[i] = 0.0
         for k in range(n):
@@ -108,17 +120,26 @@ def leaks(n, g, s, workspace, out):
 
 @helper
 def potential(node, v):
-    """Return the potential of a node; that of the frame is 0 [V]."""
+    """Return the potential of a node [V].
+
+    That of the frame is 0.
+    """
     return v[node] if node >= 0 else 0.0
 
 
 @helper
 def across(net, v, ball, side):
-    """Return the voltage of a contact: potential of the ring less that of the ball [V]."""
+    """Return the voltage of a contact [V].
+
+    It is the potential of the ring less that of the ball.
+    """
     return potential(ROTOR if side == 0 else net.outer[ball], v) - v[net.shared + ball]
 
 
 @helper
 def across_bearing(ring, v):
-    """Return the potential of the inner ring less that of an outer ring [V], GROUND: less that of the frame."""
+    """Return the potential of the inner ring [V].
+
+    Relative to an outer ring; with GROUND relative to the frame.
+    """
     return v[ROTOR] - v[ring] if ring >= 0 else v[ROTOR]

@@ -20,7 +20,10 @@ SLOW = 1e-2  # below, the decay functions are summed: x^6/5040 is beyond double 
 
 @shared_helper
 def factorise(n, c, low):
-    """Write the Cholesky factor of the capacitances; return 0 where they are not positive."""
+    """Write the Cholesky factor of the capacitances.
+
+    Return 0 where they are not positive.
+    """
     for i in range(n):
         for j in range(i + 1):
             total = c[i, j]
@@ -37,7 +40,9 @@ def factorise(n, c, low):
 
 @shared_helper
 def modes(n, low, g, b, s, decay):
-    """Find the modes of a network of n nodes from the Cholesky factor of its capacitances; `b` is workspace.
+    """Find the modes of a network of n nodes.
+
+    From the Cholesky factor of its capacitances; `b` is workspace.
 
     Jacobi's rotations of L^-1 G L^-T keep small decay rates accurate next to large ones (Demmel and Veselic 1992, SIAM
     J. Matrix Anal. 13, 1204): oil leaks in seconds where touching metal does in picoseconds.
@@ -66,7 +71,10 @@ def modes(n, low, g, b, s, decay):
 
 @shared_helper
 def _rotate(n, b, s):
-    """Turn b into a diagonal matrix by Jacobi's rotations; s holds the rotations, row by row."""
+    """Turn b into a diagonal matrix by Jacobi's rotations.
+
+    s holds the rotations, row by row.
+    """
     trace = 0.0
     for i in range(n):
         for j in range(n):
@@ -105,7 +113,10 @@ def _rotate(n, b, s):
 
 @helper
 def decay_functions(x):
-    """Return exp(-x), (1 - exp(-x))/x and (1 - (1 - exp(-x))/x)/x."""
+    """Return three decay functions of x.
+
+    exp(-x), (1 - exp(-x))/x and (1 - (1 - exp(-x))/x)/x.
+    """
     if x < SLOW:
         second = 0.5 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120 - x * (1 / 720 - x / 5040))))
         first = 1.0 - x * second
@@ -117,7 +128,10 @@ def decay_functions(x):
 
 @shared_helper
 def propagate(n, decay, y, drive, dt, after, area):
-    """Move the modes on by dt under a constant drive; `area` is the integral of y over dt."""
+    """Move the modes on by dt.
+
+    The drive is constant; `area` is the integral of y over dt.
+    """
     for a in range(n):
         gone, first, second = decay_functions(decay[a] * dt)
         after[a] = y[a] * gone + drive[a] * dt * first
@@ -133,7 +147,9 @@ def halfway(decay, y, drive, dt):
 
 @helper
 def heat(n, decay, y, drive, dt, after):
-    """Return the energy that the conductances turn into heat in dt [J]: the integral of the sum of lambda y^2.
+    """Return the heat of the conductances in dt [J].
+
+    It is the integral of the sum of lambda y^2.
 
     Slow modes by Simpson's rule (relative error x^4/2880 < 4e-12), the others in closed form.
 
@@ -160,7 +176,9 @@ def heat(n, decay, y, drive, dt, after):
 
 @helper
 def products(n, decay, y, drive, dt, after, area, middle, found):
-    """Write the integrals over dt of the products of two amplitudes.
+    """Write the products' integrals of two amplitudes.
+
+    The integrals are over dt.
 
     d(y_a y_b)/dt = -(lambda_a + lambda_b) y_a y_b + b_a y_b + b_b y_a, integrated; for two slow modes, where this
     would be a difference of nearly equal numbers, Simpson's rule as in `heat`.

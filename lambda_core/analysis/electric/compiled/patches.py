@@ -13,7 +13,9 @@ NO_PATCH = -(2**62)
 
 @shared_helper
 def _draw(ball, ring, patch, held, films):
-    """Ask the law of the role breakdown what a film stands on a patch [V]; < 0 where it refuses.
+    """Return the breakdown voltage of a patch [V].
+
+    The law of the role breakdown gives it; < 0 where it refuses.
 
     It gets two random numbers of the patch, keyed by seed, ball, ring and patch.
     """
@@ -32,7 +34,9 @@ def _draw(ball, ring, patch, held, films):
 
 @helper
 def threshold(ball, ring, elapsed, held, films):
-    """Return the voltage that the film of one contact stands on the patch that it is on [V], < 0: the law refuses.
+    """Return the breakdown voltage of one contact [V].
+
+    It is that of its film on its present patch; < 0 when the law refuses.
 
     Parameters
     ----------
@@ -47,7 +51,9 @@ def threshold(ball, ring, elapsed, held, films):
 
 @helper
 def first_breakdown(net, v, v1, held, elapsed, films):
-    """Return the part of the step after which a film breaks down (2: none does, < 0: refused), its ball and its ring.
+    """Return the first breakdown of a step.
+
+    The part of the step after which a film breaks down (2: none does, < 0: refused), its ball and its ring.
 
     Between the ends of a step the voltages are straight lines.
     """
@@ -72,7 +78,10 @@ def first_breakdown(net, v, v1, held, elapsed, films):
 
 @helper
 def stood_by(ball, elapsed, held, films, stand):
-    """Write what the films of one ball stand [V], infinite where there is none; < 0 where the law refuses, or 0."""
+    """Write the breakdown voltages of one ball [V].
+
+    Infinite where there is no film; return < 0 where the law refuses, or 0.
+    """
     for ring in range(2):
         stand[ring] = math.inf
         if held.film[ball, ring] > 0.0:

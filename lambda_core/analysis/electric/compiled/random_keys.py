@@ -15,7 +15,10 @@ _SPACING = 2.0**-53
 
 @helper
 def _mix(word):
-    """Return the word scrambled: the finaliser of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, figure 16)."""
+    """Return the scrambled word.
+
+    By the finaliser of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, figure 16).
+    """
     word = (word ^ (word >> _30)) * _MIX_1
     word = (word ^ (word >> _27)) * _MIX_2
     return word ^ (word >> _31)
@@ -23,7 +26,10 @@ def _mix(word):
 
 @shared_helper
 def uniform(seed, ball, ring, patch, stream):
-    """Return a number in (0, 1) that is the same whenever and wherever this key is asked for."""
+    """Return a reproducible number in (0, 1).
+
+    It depends on the key alone.
+    """
     word = _mix(np.uint64(seed) + _GOLDEN)
     word = _mix((word ^ np.uint64(2 * ball + ring)) + _GOLDEN)
     word = _mix((word ^ np.uint64(patch)) + _GOLDEN)

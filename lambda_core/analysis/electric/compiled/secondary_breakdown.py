@@ -16,7 +16,10 @@ _ROOT, _PLACE = 60, 1e-9  # steps of the search at most; how well the moment is 
 
 @shared_helper
 def watch(ball, elapsed, held, films, limit):
-    """Write what the films of the other balls stand, on the patches that they are on `elapsed` after `held` began."""
+    """Write the other balls' breakdown voltages.
+
+    Of their films, on the patches that they are on `elapsed` after `held` began.
+    """
     for j in range(held.film.shape[0]):
         for ring in range(2):
             limit[ring, j] = 0.0
@@ -26,7 +29,9 @@ def watch(ball, elapsed, held, films, limit):
 
 @shared_helper
 def past_breakdown(n, net, full, nodes, limit, v, arcs):
-    """Return how far the film of another ball is past its breakdown, relative: >= 0 past it.
+    """Return another film's relative excess over its breakdown.
+
+    It is >= 0 when the film of another ball is past it.
 
     Only bearings count whose voltage is above that at which the discharge began.
 
@@ -55,7 +60,10 @@ def past_breakdown(n, net, full, nodes, limit, v, arcs):
 
 @helper
 def breakdown_ahead(m, n, net, dt, full, nodes, part, own, arcs):
-    """Return how far the film of another ball is past its breakdown after dt."""
+    """Return another film's excess over its breakdown.
+
+    After dt, for the film of another ball.
+    """
     propagate(m, own.decay, own.amplitude, own.drive, dt, own.after, own.area)
     voltages(m, part.shape, own.after, own.ahead)
     return past_breakdown(n, net, full, nodes, part.limit, own.ahead, arcs)
@@ -63,7 +71,9 @@ def breakdown_ahead(m, n, net, dt, full, nodes, part, own, arcs):
 
 @shared_helper
 def first_moment(m, n, net, low, high, high_past, full, nodes, part, own, arcs):
-    """Return when between two times the film of another ball breaks down [s], on the far side.
+    """Return the moment of another film's breakdown [s].
+
+    Between two times, on the far side, for the film of another ball.
 
     False position after the Illinois rule; `high_past` is how far it is past its breakdown at the later time.
     """

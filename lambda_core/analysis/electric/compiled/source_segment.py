@@ -10,7 +10,10 @@ from lambda_core.analysis.electric.compiled.array_types import helper
 
 @helper
 def slope_at(now, source):
-    """Move `place` to the segment of the source at `now`; return its slope [V/s] and its end [s]."""
+    """Move `place` to the source's segment at `now`.
+
+    Return its slope [V/s] and its end [s].
+    """
     place, time, volt = source.place, source.time, source.volt
     while place[0] < time.size - 2 and time[place[0] + 1] <= now:
         place[0] += 1
@@ -22,7 +25,10 @@ def slope_at(now, source):
 
 @helper
 def voltage_at(now, source):
-    """Return the source's voltage on the segment that `place` is at [V]."""
+    """Return the source's voltage at `place` [V].
+
+    `place` is on a segment of the source.
+    """
     k, time, volt = source.place[0], source.time, source.volt
     if now >= time[k + 1]:
         return volt[k + 1]
@@ -31,7 +37,9 @@ def voltage_at(now, source):
 
 @helper
 def source_work(n, winding, volt, slope, dt, before, after, s, area):
-    """Return the work of the source over dt [J]: the integral of V C_w d(V - U).
+    """Return the work of the source over dt [J].
+
+    It is the integral of V C_w d(V - U).
 
     The part with U is taken by parts, so that it is exact with the exact integral of U.
     """

@@ -55,7 +55,10 @@ integrate_sig = i8(
 
 @helper
 def _prepare(n, net, machine, bearings, full, nodes, held):
-    """Find the modes of the full network; return 0 when a node has no capacitance."""
+    """Find the modes of the full network.
+
+    Return 0 when a node has no capacitance.
+    """
     assemble(net, machine, bearings, held.capacitance, held.conductance, full.capacitance, full.conductance)
     if factorise(n, full.capacitance, full.factor) == 0:
         return 0
@@ -67,7 +70,9 @@ def _prepare(n, net, machine, bearings, full, nodes, held):
 
 @helper
 def _enter(n, machine, rest_t, rest_v, full, nodes, source, total):
-    """Bring the network into an interval: with the charges of a long operation at first, then with those that it has.
+    """Bring the network into an interval.
+
+    With the charges of a long operation at first, then with those that it has.
 
     Where capacitances change, charges stay and surfaces do work.
     """
@@ -89,7 +94,10 @@ def _enter(n, machine, rest_t, rest_v, full, nodes, source, total):
 
 @helper
 def _accept(n, volt, slope, dt, full, nodes, source, sums, i):
-    """Take a step whose end is known, and write down what it did."""
+    """Accept a step and record it.
+
+    Its end is known.
+    """
     total, winding = sums.total, source.winding
     total[L.T_OHMIC] += heat(n, nodes.decay, nodes.amplitude, nodes.drive, dt, nodes.after)
     before, after = nodes.potential[L.ROTOR], nodes.ahead[L.ROTOR]
@@ -115,7 +123,9 @@ def _move(n, dt, full, nodes):
 
 @helper
 def _segment(i, n, net, begin, stop, step, settles, everyone, full, nodes, part, own, held, films, arcs, source, sums):
-    """Integrate to the next corner of the source, change of the contacts or breakdown, and through the discharge there.
+    """Integrate to the next change.
+
+    It is a corner of the source, a change of the contacts or a breakdown, and then the discharge there.
 
     Parameters
     ----------
@@ -166,7 +176,10 @@ def _segment(i, n, net, begin, stop, step, settles, everyone, full, nodes, part,
 
 @helper
 def _begin(first, n, nodes, source, total, t):
-    """Begin with a rotor that only the source has charged, or where the last stretch ended."""
+    """Begin a stretch.
+
+    The source alone has charged the rotor, or the last stretch ended there.
+    """
     if first == 0:
         return
     total[L.T_TIME], total[L.T_SETTLING] = t[0], 1.0
@@ -181,7 +194,9 @@ def integrate(
     full, nodes, part, own, held, state, known, drawn, break_out, arc_out, rows, stand,
     members, place, extremes, events, trace, window, total,
 ):  # fmt: skip
-    """Integrate the network of the bearings of a shaft through a stretch of time; an entry point.
+    """Integrate the shaft's network through a time span.
+
+    This is an entry point of the compiled code.
 
     Parameters
     ----------

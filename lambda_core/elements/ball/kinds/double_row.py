@@ -37,7 +37,10 @@ def _written(inline: Any) -> bool:
 
 
 def _thrusts(geometry: Geometry, row: int) -> tuple[int, ...]:
-    """Return which thrust the groove of a row takes: back to back, the row on the left takes one to +x."""
+    """Return the thrust of a row's groove.
+
+    Back to back, the row on the left takes one to +x.
+    """
     left = 1 if geometry.arrangement == "O" else -1
     return (left if row == 0 else -left,)
 
@@ -47,7 +50,10 @@ def _words(geometry: Geometry, free: str) -> str:
 
 
 def _resolve(given: Given) -> Angles | None:
-    """Return angles, clearance and distance of the rows; None after a problem."""
+    """Return angles, clearance and distance of the rows.
+
+    None after a problem.
+    """
     if not is_consistent(given, _NAME, _ARRANGEMENTS):
         return None
     free, centres, ledger = contact_angle(given), given.centres, given.ledger

@@ -60,7 +60,10 @@ def _words(geometry: Geometry, free: str) -> str:
 
 
 def _resolve(given: Given) -> Angles | None:
-    """Return angles and clearance of a four-point contact bearing; None after a problem."""
+    """Return angles and clearance of four-point contact.
+
+    None after a problem.
+    """
     bearing, distance, ledger = given.bearing, given.centres, given.ledger
     shim = given.inline.shim_angle
     free = _free_angle(given)
@@ -99,7 +102,10 @@ def _free_angle(given: Given) -> float | None:
 
 
 def _with_shims(given: Given, shim: float, free: float | None, radial: float | None) -> Resting | None:
-    """Return the rest of a given shim angle: from the free angle, or from a clearance in its place."""
+    """Return the other values of a shim angle.
+
+    They follow from the free angle, or from a clearance in its place.
+    """
     bearing, distance, ledger = given.bearing, given.centres, given.ledger
     play = radial is not None or bearing.axial_clearance is not None
     if play and bearing.contact_angle is not None:
@@ -131,7 +137,10 @@ def _checked(cosine: float, shim: float, radial: float, ledger: Any) -> Resting 
 
 
 def _without_shims(given: Given, free: float, radial: float | None) -> Resting | None:
-    """Return the shim angle that leaves a clearance at the free angle: a radial one, an axial one, or a class."""
+    """Return the shim angle of a clearance.
+
+    The clearance is that at the free angle: a radial one, an axial one, or a class.
+    """
     distance, ledger = given.centres, given.ledger
     if radial is not None:
         cosine = math.cos(free) + 0.5 * radial / distance

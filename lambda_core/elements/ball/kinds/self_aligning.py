@@ -41,7 +41,10 @@ def _written(inline: Any) -> bool:
 
 
 def _thrusts(_: Geometry, row: int) -> tuple[int, ...]:
-    """Return which thrust the groove of a row takes: the row on the left takes one to -x."""
+    """Return the thrust of a row's groove.
+
+    The row on the left takes one to -x.
+    """
     return (-1 if row == 0 else 1,)
 
 
@@ -81,7 +84,10 @@ def _resolve(given: Given) -> Angles | None:
 
 
 def on_sphere(geometry: Geometry, clearance: float) -> Geometry:
-    """Return a self-aligning bearing with its sphere and the distance of its rows for a radial clearance [m]."""
+    """Return a self-aligning bearing with its sphere.
+
+    The distance of its rows gives a radial clearance [m].
+    """
     ball, pitch, angle = geometry.ball_diameter, geometry.pitch_diameter, geometry.contact_angle
     reach = (0.5 * pitch + 0.25 * clearance) / math.cos(angle)  # of the balls' centres from the bearing's
     sphere = reach + 0.5 * ball
@@ -96,7 +102,10 @@ def on_sphere(geometry: Geometry, clearance: float) -> Geometry:
 
 
 def sphere_edge(geometry: Geometry) -> float:
-    """Return the diameter at which the sphere ends at the faces of the outer ring [m]."""
+    """Return the sphere's diameter at the faces [m].
+
+    The sphere ends at the faces of the outer ring.
+    """
     return 2.0 * math.sqrt(max(geometry.groove_radius_outer**2 - 0.25 * geometry.width**2, 0.0))
 
 
