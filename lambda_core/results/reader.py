@@ -200,7 +200,7 @@ class Result:
             return integral_table(group, self._status(file).rows.records)
 
     def revolutions(self) -> FloatArray:
-        """Return the integrals at whole cage revolutions, t = 0 first."""
+        """Return the integrals at whole cage revolutions from start."""
         with opened(self.path) as file:
             group = file[layout.BEARINGS][self._chosen()][layout.REVOLUTIONS_GROUP]
             return integral_table(group, self._status(file).rows.revolutions.get(self.bearing, 0))

@@ -13,7 +13,10 @@ _ROLLER = "roller"  # called by pointer: in no other code
 
 
 def compiled_sources() -> tuple[Path, ...]:
-    """Return the files and folders whose Python every machine needs compiled."""
+    """Return the sources of every machine's code.
+
+    Files and folders of compiled Python.
+    """
     others = (_DRIVERS, _ROLLER)
     return tuple(
         path
@@ -23,10 +26,16 @@ def compiled_sources() -> tuple[Path, ...]:
 
 
 def roller_sources() -> tuple[Path, ...]:
-    """Return the files and folders whose Python machines with rollers need compiled."""
+    """Return the sources of rollers' code.
+
+    Files and folders of compiled Python for machines with rollers.
+    """
     return (*compiled_sources(), _SOLVER / _ROLLER)
 
 
 def physics_sources() -> tuple[Path, ...]:
-    """Return the folders that lead from a case to forces and motion."""
+    """Return the folders of the physics.
+
+    They lead from a case to forces and motion.
+    """
     return tuple(_SOLVER.parent / room for room in ("domain", "formulas", "elements", "model", "solver"))

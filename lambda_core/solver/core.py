@@ -12,7 +12,10 @@ from lambda_core.laws.pack import pack
 
 @dataclass(frozen=True)
 class Unit:
-    """One entry point: for calls from Python, and as a pointer for other compiled code."""
+    """One entry point of compiled code.
+
+    For calls from Python, and as a pointer for other compiled code.
+    """
 
     call: Callable[..., int]
     pointer: Any
@@ -20,7 +23,9 @@ class Unit:
 
 @dataclass(frozen=True)
 class Core:
-    """Compiled functions of the core; pointers are for other compiled code.
+    """Compiled functions of the core.
+
+    Pointers are for other compiled code.
 
     Parameters
     ----------
@@ -67,7 +72,10 @@ class Core:
 
     @cached_property
     def probe(self) -> Any:
-        """One raceway contact on its own, which views of its field take."""
+        """Probe of one raceway contact alone.
+
+        Views of its field use it.
+        """
         return self.find("probe").call
 
 
@@ -75,7 +83,10 @@ _loaded: dict[str, Core] = {}  # by where the code comes from
 
 
 def core(announce: Callable[[str], None] | None = None) -> Core:
-    """Return the compiled core; `announce` is called with a sentence before anything is compiled."""
+    """Return the compiled core.
+
+    `announce` is called with a sentence before anything is compiled.
+    """
     packed = pack()
     origin = packed.key if packed else ""
     if origin not in _loaded:
@@ -84,7 +95,9 @@ def core(announce: Callable[[str], None] | None = None) -> Core:
 
 
 def begin(announce: Callable[[str], None] | None = None, units: Iterable[str] | None = None) -> None:
-    """Begin to compile what is not on disk, where there is no pack.
+    """Begin to compile missing code.
+
+    It is not on disk, and there is no pack.
 
     Parameters
     ----------

@@ -74,13 +74,19 @@ def missing() -> list[str]:
 
 
 def build(name: str, announce: Callable[[str], None] | None = None) -> Any:
-    """Compile one unit into the cache, or load it; returns its dispatcher."""
+    """Compile one unit or load it.
+
+    Into the cache; return its dispatcher.
+    """
     function, signature, sources = _unit(name)
     return compile_host(function, signature, sources, announce, **_OPTIONS.get(name, {})).dispatcher
 
 
 def _unit(name: str) -> tuple[Any, Any, tuple[Path, ...]]:
-    """Return function, signature and sources of a unit, which may be one of rollers."""
+    """Return a unit's function, signature and sources.
+
+    It may be one of rollers.
+    """
     if name in UNITS:
         return (*UNITS[name], SOURCES)
     from lambda_core.solver.roller import units
@@ -89,7 +95,10 @@ def _unit(name: str) -> tuple[Any, Any, tuple[Path, ...]]:
 
 
 def build_group(names: str) -> None:
-    """Compile units, separated by commas, into the cache; the whole work of a process."""
+    """Compile units into the cache.
+
+    They are separated by commas; this is all the work of a process.
+    """
     end_with_parent()
     gc.disable()  # most of what a compiler makes lives until it ends: looking for the rest takes a sixth of the time
     for name in names.split(","):
@@ -97,7 +106,9 @@ def build_group(names: str) -> None:
 
 
 def begin(announce: Callable[[str], None] | None = None, units: Iterable[str] | None = None) -> None:
-    """Begin to compile what is not on disk, in processes of their own; :func:`wait` waits for them.
+    """Begin to compile missing code in processes.
+
+    It is not on disk; :func:`wait` waits for them.
 
     A unit whose process fails is compiled by :func:`call_and_pointer`, where its error is seen.
 
@@ -145,7 +156,9 @@ def wait() -> None:
 
 
 def call_and_pointer(name: str, announce: Callable[[str], None] | None = None) -> tuple[Any, Pointer]:
-    """Return the machine code of a unit as a Python callable, and as an address for other compiled code.
+    """Return a unit's callable and address.
+
+    Machine code as a Python callable, and as an address for other compiled code.
 
     A dispatcher would work out the types of its arguments at every call, a millisecond for the bundle; here they are
     always the same, made by lambda_core.solver.drivers.solver_context.

@@ -7,7 +7,10 @@ from lambda_core.solver.layout import helper
 
 @helper
 def report(fault, role, status, place, i0, i1, i2, i3):
-    """Record the first fault of an evaluation: role, the kernel's status, raceway or land, inputs."""
+    """Record the first fault of an evaluation.
+
+    Role, the kernel's status, raceway or land, inputs.
+    """
     if fault.role < 0:
         fault.role = role
         fault.status = status

@@ -35,7 +35,10 @@ def record_t(kind: np.dtype[Any]) -> Any:
 
 
 def table_t(kind: np.dtype[Any]) -> Any:
-    """Return the type of an array of records in compiled code."""
+    """Return the type of a record array.
+
+    In compiled code.
+    """
     return types.Array(record_t(kind), 1, "C")
 
 
@@ -65,7 +68,9 @@ _ANY_ORDER = {"reassoc", "contract", "nsz"}
 
 
 def vector_helper(function):
-    """Compile a helper whose loops over cells may be summed in any order, so that they vectorise.
+    """Compile a helper with vectorised loops.
+
+    Sums over cells may have any order.
 
     Only the order of sums, fused multiply-adds and the sign of zero are set free: NaN and infinity keep their meaning.
     """
@@ -73,27 +78,42 @@ def vector_helper(function):
 
 
 def rows_helper(function):
-    """Compile a vector helper whose arrays are all apart: rows of a block, of which none is given twice."""
+    """Compile a vector helper of separate arrays.
+
+    They are rows of a block, of which none is given twice.
+    """
     return numba.njit(**{**OPTIONS, **inlined.APART, "fastmath": _ANY_ORDER})(function)
 
 
 def ordered_rows_helper(function):
-    """Compile a helper whose arrays are all apart, and whose sums keep their order."""
+    """Compile a helper with ordered sums.
+
+    Its arrays are all separate.
+    """
     return numba.njit(**{**OPTIONS, **inlined.APART})(function)
 
 
 def helper(function):
-    """Compile a helper of the core into its callers; never cached by itself, they are."""
+    """Compile a helper into its callers.
+
+    It belongs to the core and is never cached by itself; its callers are.
+    """
     return numba.njit(**OPTIONS, **inlined.OPTIONS)(function)
 
 
 def large_helper(function):
-    """Compile a large helper as a function that its callers call: one copy of it in the code of an entry point."""
+    """Compile a large helper as a function.
+
+    Its callers call one copy of it in the code of an entry point.
+    """
     return numba.njit(**OPTIONS, **inlined.LARGE)(function)
 
 
 def allocating_helper(function):
-    """Compile a helper that makes arrays of its own, off the hot path."""
+    """Compile a helper that allocates arrays.
+
+    It is off the hot path.
+    """
     return numba.njit(**{**OPTIONS, **inlined.OPTIONS, "forceinline": False, "_nrt": True})(function)
 
 
@@ -106,13 +126,19 @@ def part(par, span):
 
 @numba.njit(inline="always")
 def of(lane, first, count):
-    """Return the numbers of contacts from place `first` on, a view."""
+    """Return the contacts' numbers from `first` on.
+
+    A view.
+    """
     return lane[first : first + count]
 
 
 @helper
 def first_of(row, j):
-    """Return where the states of ball j of a row begin in the state vector."""
+    """Return the first state of ball j.
+
+    Its place in the state vector, for a ball of a row.
+    """
     return row.first_state + row.size * (j - row.first_ball)
 
 
@@ -129,7 +155,10 @@ cells_of = numba.njit(inline="always")(named_cells)
 
 @numba.njit(inline="always")
 def losses_of(rates, n):
-    """Return the losses of n raceways in an array of powers, by name."""
+    """Return the losses of n raceways.
+
+    In an array of powers, by name.
+    """
     return Losses(
         rates[:n], rates[n : 2 * n], rates[2 * n : 3 * n], rates[3 * n : 4 * n], rates[4 * n : 5 * n],
         rates[5 * n : 6 * n],
@@ -138,5 +167,8 @@ def losses_of(rates, n):
 
 @numba.njit(inline="always")
 def running_of(rates):
-    """Return what stands behind the raceways' losses in an array of powers: a table of one record."""
+    """Return the powers behind the losses.
+
+    In an array of powers, behind those of the raceways: a table of one record.
+    """
     return rates[rates.size - RUNNING_SIZE :].view(R.RUNNING)

@@ -8,7 +8,10 @@ from lambda_core.solver.layout import helper, rows_helper
 
 @rows_helper
 def inner_product(row, other, n):
-    """Return the inner product of the first n entries of two rows, summed in any order: terms do not wait."""
+    """Return the inner product of two rows.
+
+    Of their first n entries, summed in any order: terms do not wait.
+    """
     total = 0.0
     for i in range(n):
         total += row[i] * other[i]
@@ -17,14 +20,20 @@ def inner_product(row, other, n):
 
 @rows_helper
 def take_multiple(row, factor, other, n):
-    """Take a multiple of the first n entries of another row from a row."""
+    """Take a row's multiple from a row.
+
+    The first n entries.
+    """
     for i in range(n):
         row[i] -= factor * other[i]
 
 
 @helper
 def lu_factor(m, pivots):
-    """Factor m in place with row pivoting; returns 0 when singular."""
+    """Factor m in place.
+
+    With row pivoting: return 0 when singular.
+    """
     n = m.shape[0]
     for k in range(n):
         best, row = abs(m[k, k]), k
@@ -65,7 +74,9 @@ filled_up = helper(filled)
 
 @helper
 def factor_turned(upper, lower, inverse, pivots):
-    """Factor a matrix whose transpose is in `upper`, rows filled up, with column pivoting; returns 0 when singular.
+    """Factor a matrix given by its transpose.
+
+    The transpose is in `upper`, rows filled up; column pivoting; return 0 when singular.
 
     Multipliers go to `lower`, the inverse of the diagonal to `inverse`. Rows are gone through from where a whole vector
     begins: entries left of the diagonal stay zero.
@@ -97,7 +108,9 @@ def factor_turned(upper, lower, inverse, pivots):
 
 @helper
 def solve_turned(upper, lower, inverse, pivots, b, found):
-    """Solve for b with the factors of :func:`factor_turned`, in place; rows are filled up, and stay so.
+    """Solve for b in place.
+
+    With the factors of :func:`factor_turned`: rows are filled up, and stay so.
 
     What a sweep has found waits in `found`: a number that was just written among others holds up whoever reads all.
     """

@@ -19,7 +19,10 @@ f8, i8 = np.float64, np.int64
 
 
 def record(*fields: tuple[Any, ...]) -> np.dtype[Any]:
-    """Return the type of a record whose fields are attributes, in compiled code and in Python."""
+    """Return the type of a record.
+
+    Its fields are attributes, in compiled code and in Python.
+    """
     return np.dtype((np.record, np.dtype(list(fields), align=True)))
 
 

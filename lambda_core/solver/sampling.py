@@ -61,7 +61,9 @@ def _show(kin, contact, sample):
 
 @helper
 def _light_capacitance(delta, kin, raceway, j, laws, bundle):
-    """Return the capacitance [F] of an open contact or the least one of a light contact, 0 of others; -1 on a fault.
+    """Return the capacitance [F] of light contacts.
+
+    Of an open contact or the least one of a light contact, 0 of others; -1 on a fault.
 
     Open contacts come no closer than the film that the oil would leave where they touched, so that capacitance is
     continuous where they do. Beyond the reach of the kinematics the film counts for nothing.
@@ -79,7 +81,9 @@ def _light_capacitance(delta, kin, raceway, j, laws, bundle):
 
 @helper
 def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
-    """Write the channels of one contact; zeros and the gap's capacitance when it is open.
+    """Write the channels of one contact.
+
+    Zeros and the gap's capacitance when it is open.
 
     Adds its forces to those of ball and ring and its losses to `rates`, as the right-hand side does.
     """
@@ -120,7 +124,10 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
 
 @helper
 def _pocket_forces(balls, row, bundle, pockets):
-    """Write the forces of the pockets of a row on its balls."""
+    """Write the pocket forces on balls.
+
+    Of a row.
+    """
     scratch, cage, on_cage = bundle.scratch[0], bundle.bodies_now[row.cage], bundle.body_wrenches[row.cage]
     g, out = scratch.guide, scratch.out[:]
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
@@ -154,7 +161,9 @@ def _land_forces(bundle, forces):
 
 @helper
 def _contact_channels(balls, row, bundle, shorted, contacts, losses, rates):
-    """Write the channels of the raceway contacts of a row; returns the capacitance of its balls, or -1.
+    """Write the raceway contacts' channels.
+
+    Of a row; return the capacitance of its balls, or -1.
 
     Contacts of a ball with one ring are parallel, its rings in series; raceways of a ring follow each other.
     """

@@ -15,7 +15,9 @@ from lambda_core.solver.layout import helper
 
 @helper
 def inverse_root(x):
-    """Return 1/sqrt(x) of a normal x > 0 to two units in the last place, NaN of NaN.
+    """Return 1/sqrt(x) of a normal x > 0.
+
+    To two units in the last place, NaN of NaN.
 
     From half the exponent, then Newton's steps (Muller 2016, Elementary Functions, 3rd ed., chapter 2): products are
     done in half the time of a root and a division, which a loop over cells would wait for.
@@ -72,7 +74,10 @@ def cross(a, b):
 
 @helper
 def point_velocity(v, w, arm):
-    """Return v + w x arm, the velocity of a point of a body."""
+    """Return v + w x arm.
+
+    The velocity of a point of a body.
+    """
     return (
         v[0] + w[1] * arm[2] - w[2] * arm[1],
         v[1] + w[2] * arm[0] - w[0] * arm[2],
@@ -82,7 +87,10 @@ def point_velocity(v, w, arm):
 
 @helper
 def combine(k, a, b, c):
-    """Return the vector with components k along the axes a, b, c."""
+    """Return the vector of components k.
+
+    Along the axes a, b, c.
+    """
     return (
         k[0] * a[0] + k[1] * b[0] + k[2] * c[0],
         k[0] * a[1] + k[1] * b[1] + k[2] * c[1],
@@ -92,7 +100,10 @@ def combine(k, a, b, c):
 
 @helper
 def combine_onto(start, k, a, b, c):
-    """Return start plus the vector with components k along the axes a, b, c, summed from the left."""
+    """Return start plus the vector of k.
+
+    Components along the axes a, b, c, summed from the left.
+    """
     return (
         start[0] + k[0] * a[0] + k[1] * b[0] + k[2] * c[0],
         start[1] + k[0] * a[1] + k[1] * b[1] + k[2] * c[1],
@@ -102,19 +113,28 @@ def combine_onto(start, k, a, b, c):
 
 @helper
 def components(v, a, b, c):
-    """Return the components of v along the axes a, b, c."""
+    """Return v's components along a, b, c.
+
+    They are axes.
+    """
     return dot(v, a), dot(v, b), dot(v, c)
 
 
 @helper
 def turning(v, c, s):
-    """Return the components x, r, t at the azimuth of cosine c and sine s of an inertial vector."""
+    """Return the turning components x, r, t.
+
+    At the azimuth of cosine c and sine s, of an inertial vector.
+    """
     return v[0], v[1] * c + v[2] * s, -v[1] * s + v[2] * c
 
 
 @helper
 def inertial(v, c, s):
-    """Return the components x, y, z of a vector given in the turning frame."""
+    """Return the inertial components x, y, z.
+
+    Of a vector given in the turning frame.
+    """
     return v[0], v[1] * c - v[2] * s, v[1] * s + v[2] * c
 
 
@@ -167,7 +187,9 @@ _ROUND = 6755399441055744.0  # 1.5 * 2^52: adding it leaves the nearest integer 
 
 @helper
 def cosine_sine(angle):
-    """Return cosine and sine of an angle, within 2e-16 and the spacing of numbers as large as the angle.
+    """Return an angle's cosine and sine.
+
+    Within 2e-16 and the spacing of numbers as large as the angle.
 
     Taylor's series on an eighth of a turn to either side, remainder 5e-17 (Muller 2016, Elementary Functions, 3rd ed.,
     chapter 11, for the reduction): branch-free, a third of the time of two calls of the C library.

@@ -95,7 +95,9 @@ class Series:
 
 @dataclass(frozen=True)
 class Mark:
-    """A labelled straight line across a panel at one value of one axis.
+    """Labelled straight line across a panel.
+
+    At one value of one axis.
 
     Attributes
     ----------
@@ -210,7 +212,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class ViewData:
-    """What one view shows.
+    """Data of one view.
 
     Attributes
     ----------
@@ -233,14 +235,20 @@ class ViewData:
     notes: tuple[str, ...] = field(default=())
 
     def as_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON; numbers that do not exist are null."""
+        """Return plain data for JSON.
+
+        Numbers that do not exist are null.
+        """
         found = plain(self)
         assert isinstance(found, dict)
         return {"version": 1, **found}
 
 
 def plain(value: Any) -> Any:
-    """Return dataclasses and arrays as what JSON can say; NaN and infinity as None, empty entries left out."""
+    """Return dataclasses and arrays as JSON values.
+
+    NaN and infinity as None, empty entries left out.
+    """
     if is_dataclass(value) and not isinstance(value, type):
         found = {f.name: getattr(value, f.name) for f in fields(value)}
         return {name: plain(item) for name, item in found.items() if not _empty(item)}

@@ -38,7 +38,10 @@ GROUP_UNITS: dict[str, tuple[str, ...]] = {
 
 
 class NotApplicable(LambdaError):
-    """A method cannot answer for this case; the sentence says why, the other methods go on."""
+    """Method that cannot answer for this case.
+
+    The sentence has the reason; the other methods go on.
+    """
 
     exit_code = 3
 
@@ -67,7 +70,10 @@ class EquilibriumState:
 
 @dataclass(frozen=True)
 class MethodInputs:
-    """Everything a method may look at: plain SI numbers, frozen. None means that the case does not say."""
+    """Inputs of a method.
+
+    Plain SI numbers, frozen; None means that the case has no value.
+    """
 
     title: str  # the bearing for people: "6319 (Syla2026)"
     series: str  # "60", "62", "63", "64", "618", "619", "70", "72", "73" or "" when unknown
@@ -105,7 +111,10 @@ class MethodInputs:
 
     @property
     def mean_diameter(self) -> float:
-        """Mean diameter d_m = (d + D)/2 of the catalogues [m], not the pitch diameter."""
+        """Mean diameter d_m [m].
+
+        (d + D)/2 of the catalogues, not the pitch diameter.
+        """
         return 0.5 * (self.bore_diameter + self.outside_diameter)
 
     @property
@@ -121,7 +130,10 @@ class MethodInputs:
 
 @dataclass(frozen=True)
 class RollerMethodInputs:
-    """Everything a method may look at of a roller bearing: plain SI numbers, frozen."""
+    """Inputs of a method for rollers.
+
+    Plain SI numbers, frozen.
+    """
 
     title: str  # the bearing for people: "NU 208 (SKF)"
     bearing: RollerBearing  # its inner geometry, at operating clearance
@@ -145,7 +157,10 @@ class RollerMethodInputs:
 
 @dataclass(frozen=True)
 class MethodRow:
-    """One number of a method, in a unit of its group (:data:`GROUP_UNITS`)."""
+    """One number of a method.
+
+    In a unit of its group (:data:`GROUP_UNITS`).
+    """
 
     group: Group  # "friction", "capacitance", "life", "rating", "kinematics", "stiffness", "load"
     name: str  # "total", "rolling", "sliding", ...; equal names of two methods stand side by side
@@ -162,7 +177,10 @@ class MethodRow:
 
 @dataclass(frozen=True)
 class MethodTable:
-    """What a method returns: rows, and what it had to assume."""
+    """Result of a method.
+
+    Rows, and its assumptions.
+    """
 
     rows: tuple[MethodRow, ...]  # in the order in which they are shown
     assumptions: tuple[str, ...] = ()
@@ -183,7 +201,10 @@ class MethodTable:
 
 
 def rollers_only(inputs: MethodInputs) -> MethodTable:
-    """Refuse ball bearings: the `evaluate` of a method about rollers alone."""
+    """Refuse ball bearings.
+
+    It is the `evaluate` of a method about rollers alone.
+    """
     raise NotApplicable("is about roller bearings")
 
 
@@ -227,7 +248,10 @@ class Method:
 
 @dataclass(frozen=True)
 class MethodAnswer:
-    """One method's answer to one case: a table, or the sentence why there is none."""
+    """One method's answer to one case.
+
+    A table, or the sentence why there is none.
+    """
 
     method: Method
     table: MethodTable | None
@@ -236,7 +260,10 @@ class MethodAnswer:
 
 
 def evaluate_methods(methods: Iterable[Method], inputs: MethodInputs | RollerMethodInputs) -> tuple[MethodAnswer, ...]:
-    """Ask every method; one that does not apply, or fails, answers with its reason and does not stop the others."""
+    """Ask every method.
+
+    One that does not apply, or fails, answers with its reason and does not stop the others.
+    """
     answers = []
     for method in methods:
         what = f'the method "{method.name}" ({method.distribution})'
@@ -260,7 +287,10 @@ def evaluate_methods(methods: Iterable[Method], inputs: MethodInputs | RollerMet
 
 
 def _asked(method: Method, inputs: MethodInputs | RollerMethodInputs) -> MethodTable:
-    """Ask a method about balls or rollers; NotApplicable where it is about balls alone."""
+    """Ask a method about balls or rollers.
+
+    NotApplicable where it is about balls alone.
+    """
     if not isinstance(inputs, RollerMethodInputs):
         return method.evaluate(inputs)
     if method.evaluate_rollers is None:

@@ -36,7 +36,9 @@ _OWN_DIMENSIONS = ("ball", "marker")  # as long as the case has balls and marker
 
 @dataclass(frozen=True)
 class Integral:
-    """A channel that is the time integral of another channel of the same observer, 0 at the start (trapezium rule).
+    """Channel that integrates another channel over time.
+
+    Both belong to one observer; 0 at the start (trapezium rule).
 
     Attributes
     ----------
@@ -159,7 +161,10 @@ class Event:
 
 
 def source_key(function: Callable[..., Any]) -> str:
-    """Return a hash of the source file that a function stands in; of its name where there is none."""
+    """Return the hash of a function's source file.
+
+    Of its name where there is none.
+    """
     path = inspect.getsourcefile(inspect.unwrap(function)) if inspect.isfunction(function) else None
     text = Path(path).read_bytes() if path and Path(path).is_file() else repr(function).encode()
     return hashlib.sha256(text).hexdigest()

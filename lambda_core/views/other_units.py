@@ -10,7 +10,9 @@ from lambda_core.views.chart import Arrows, Axis, Field, Mark, Panel, Series, Vi
 
 
 def in_units(data: ViewData, units: UnitSystem) -> ViewData:
-    """Return the data of a view with axes, fields, marks and notes in other units.
+    """Return a view's data in other units.
+
+    Axes, fields, marks and notes.
 
     Parameters
     ----------

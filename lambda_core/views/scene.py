@@ -72,7 +72,9 @@ class Scene:
         return self.time.size
 
     def load_vectors(self) -> FloatArray:
-        """Return the normal forces of the balls on the rings, shape (frames, balls, 2, 3) [N].
+        """Return the ball forces on the rings [N].
+
+        Normal forces, shape (frames, balls, 2, 3).
 
         On the outer ring outwards, on the inner ring inwards; a positive contact angle turns the force on the outer
         ring towards +x.

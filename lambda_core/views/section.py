@@ -36,7 +36,7 @@ Content = Sequence[str | ReportTable]
 
 @dataclass(frozen=True)
 class Section:
-    """A section that a plugin adds to the report of a run.
+    """Section of a plugin in a run's report.
 
     Attributes
     ----------

@@ -45,17 +45,23 @@ class Column:
 
     @property
     def numeric(self) -> bool:
-        """Whether every value that exists is a number."""
+        """True if every existing value is a number."""
         return not any(isinstance(value, str) for value in self.values)
 
     @property
     def is_part(self) -> bool:
-        """Whether it is a part of another response: of the friction torque, or a component of a displacement."""
+        """True for a part of another response.
+
+        Of the friction torque, or a component of a displacement.
+        """
         return re.search(r"(?<!_per)_(Nmm|um|mrad)\.\w+$", self.name) is not None
 
     @property
     def label(self) -> str:
-        """What people read: the meaning, or the last words of the path."""
+        """Label of the column.
+
+        The meaning, or the last words of the path.
+        """
         return self.meaning or self.name.rpartition(".")[2].replace("_", " ")
 
     def numbers(self) -> FloatArray:
@@ -63,11 +69,17 @@ class Column:
         return np.array([np.nan if v is None or isinstance(v, str) else float(v) for v in self.values])
 
     def ends(self) -> FloatArray:
-        """Return the ends of the band, shape (rows, 2); NaN where there is none."""
+        """Return the ends of the band.
+
+        Shape (rows, 2); NaN where there is none.
+        """
         return np.array([(np.nan, np.nan) if ends is None else ends for ends in self.band])
 
     def band_text(self, row: int, units: UnitSystem = SI) -> str:
-        """Return the ends of the band of a row, rounded to what it leaves a meaning; a dash where there is none."""
+        """Return the ends of a row's band.
+
+        Rounded to the meaningful digits; a dash where there is none.
+        """
         ends = self.band[row]
         if ends is None:
             return NONE
@@ -77,7 +89,7 @@ class Column:
 
 @dataclass(frozen=True)
 class StudyTable:
-    """What a study has found so far.
+    """Results of a study so far.
 
     Attributes
     ----------
@@ -108,15 +120,24 @@ class StudyTable:
         return len(self.states)
 
     def response(self, name: str) -> Column:
-        """Return one response; UsageError with the nearest names when the study has no such."""
+        """Return one response.
+
+        UsageError with the nearest names when the study has no such.
+        """
         return _find("response of this study", name, self.responses)
 
     def parameter(self, name: str) -> Column:
-        """Return one parameter; UsageError with the nearest names when the study has no such."""
+        """Return one parameter.
+
+        UsageError with the nearest names when the study has no such.
+        """
         return _find("parameter of this study", name, self.parameters)
 
     def rows(self) -> list[dict[str, Any]]:
-        """Return one plain dict per point, for tables of any kind."""
+        """Return one plain dict per point.
+
+        For tables of any kind.
+        """
         return [
             {
                 "point": index + 1,

@@ -24,7 +24,10 @@ Subject = Literal["result", "results", "study", "machine"]
 
 
 class RunData(Protocol):
-    """What a view may look at of one run (see :class:`lambda_core.results.reader.Result`)."""
+    """Data of a run for a view.
+
+    See :class:`lambda_core.results.reader.Result`.
+    """
 
     path: Path
     title: str
@@ -33,13 +36,19 @@ class RunData(Protocol):
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """Channels over time, those of observers among them: names, dimensions, units, meanings."""
+        """Channels over time with those of observers.
+
+        Names, dimensions, units, meanings.
+        """
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """Return one channel, first axis time, SI."""
 
     def blocks(self, names: Sequence[str], start: float = 0.0) -> Iterator[dict[str, NDArray[np.float64]]]:
-        """Yield several channels in blocks of rows, from time `start` [s]."""
+        """Yield several channels in blocks of rows.
+
+        From time `start` [s].
+        """
 
     def sample(self, row: int, names: Sequence[str]) -> dict[str, NDArray[np.float64]]:
         """Return several channels at one instant."""
@@ -68,7 +77,9 @@ class RunData(Protocol):
 
 @dataclass(frozen=True)
 class MachineData:
-    """What a view may look at of a machine at its operating point.
+    """Data of a machine for a view.
+
+    At its operating point.
 
     Attributes
     ----------
@@ -86,14 +97,20 @@ class MachineData:
 
 
 class Figure(Protocol):
-    """What a drawing returns: a matplotlib figure, or anything that can be saved like one."""
+    """Result of a drawing.
+
+    A matplotlib figure, or anything that can be saved like one.
+    """
 
     def savefig(self, fname: str | Path | IO[bytes], *, format: str, **options: Any) -> None:
         """Write the figure."""
 
 
 class Options(BaseModel):
-    """Base of a view's options: text from the command line is converted, unknown names are an error."""
+    """Base of a view's options.
+
+    Text from the command line is converted, unknown names are an error.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 

@@ -38,7 +38,10 @@ RacewayLaws: Any = namedtuple("RacewayLaws", R.RACEWAY_ROLES)  # type: ignore[mi
 
 
 class RollerCode(NamedTuple):
-    """Pointers to what rows of rollers are computed with, see lambda_core.solver.row_code."""
+    """Pointers to the code of roller rows.
+
+    See lambda_core.solver.row_code.
+    """
 
     evaluate: Any
     jacobian: Any
@@ -49,7 +52,10 @@ class RollerCode(NamedTuple):
 
 @by_reference(INTEGERS2)
 class Laws(NamedTuple):
-    """All kernels of the model: tables of their addresses, read with raceway_laws, guide_law, drag_law, and so on."""
+    """All kernels of the model.
+
+    Tables of their addresses, read with raceway_laws, guide_law, drag_law, and so on.
+    """
 
     raceways: Any  # int64 (sets of laws, roles of a raceway contact)
     guides: Any  # int64 (laws, 1): of pockets, of balls with each other, of lands
@@ -59,7 +65,10 @@ class Laws(NamedTuple):
 
 
 class Losses(NamedTuple):
-    """Power that raceway contacts dissipate, by mechanism: each an array with one entry per raceway [W]."""
+    """Losses of raceway contacts by mechanism.
+
+    Each an array with one entry per raceway [W].
+    """
 
     sliding: Any
     spin: Any
@@ -82,7 +91,10 @@ def power_count(bundle: Bundle) -> int:
 
 
 class Grid(NamedTuple):
-    """Cells on the unit ellipse, each an array with one entry per cell."""
+    """Cells on the unit ellipse.
+
+    Each an array with one entry per cell.
+    """
 
     across: Any  # place across rolling over a
     along: Any  # place along rolling over b
@@ -93,7 +105,9 @@ class Grid(NamedTuple):
 
 
 class Cells(NamedTuple):
-    """What the cells of contacts hold, each an array with one entry per cell, contact by contact.
+    """Values of the contacts' cells.
+
+    Each an array with one entry per cell, contact by contact.
 
     Pressure and what follows depends on the kinematics alone.
     """
@@ -209,18 +223,27 @@ class Bundle(NamedTuple):
 
 
 def elements_in(bundle: Bundle, states: Any) -> Any:
-    """Return the rolling elements of a bearing that is alone in state vectors, (..., size), a view (..., elements)."""
+    """Return the rolling elements in state vectors.
+
+    Of a bearing that is alone, (..., size), a view (..., elements).
+    """
     kind = ELEMENTS[int(bundle.rows["size"][0])]
     return states[..., : int(bundle.system["tail"][0])].view(kind)
 
 
 def named_balls(y: Any, row: Any) -> Any:
-    """Return the balls of a row in a state vector, a view: a table of records.BALL."""
+    """Return the balls of a row by name.
+
+    A view of a state vector: a table of records.BALL.
+    """
     return y[row.first_state : row.first_state + NB * row.balls].view(R.BALL)
 
 
 def named_cells(block: Any, first: int, count: int, width: int) -> Cells:
-    """Return the rows of Bundle.cells by name, of contacts from the first-th on, with `width` cells each."""
+    """Return the rows of Bundle.cells by name.
+
+    Of contacts from the first-th on, with `width` cells each.
+    """
     a, b = first * width, (first + count) * width
     return Cells(
         block[0][a:b], block[1][a:b], block[2][a:b], block[3][a:b], block[4][a:b], block[5][a:b], block[6][a:b],

@@ -14,7 +14,10 @@ LANES = 8  # numbers that a processor works on at once, at most
 
 
 def filled(n: int) -> int:
-    """Return the length of a row of n numbers that is filled up with zeros, so that none is left over."""
+    """Return the padded length of a row.
+
+    n numbers are padded with zeros, so that none is left over.
+    """
     return -(-n // LANES) * LANES
 
 
@@ -32,7 +35,10 @@ class Condensed(NamedTuple):
 
 
 class RollerBlocks(NamedTuple):
-    """Pointers to what factors and solves rows of rollers, see lambda_core.solver.row_code."""
+    """Pointers to the factors' code of roller rows.
+
+    See lambda_core.solver.row_code.
+    """
 
     factor: Any
     solve: Any
@@ -47,7 +53,10 @@ class RollerBlocks(NamedTuple):
     rollers=INTEGERS2,
 )
 class Factors(NamedTuple):
-    """Inverses of the ball blocks and LU factors of the Schur complement; `size` is that of the largest block."""
+    """Inverses of ball blocks and Schur factors.
+
+    LU factors of the Schur complement; `size` is that of the largest block.
+    """
 
     inverse: Any  # (Z, size, size): (A_j^-1)^T
     pivots: Any  # int64 (size,)
@@ -83,7 +92,9 @@ def make_condensed(positions: int, speeds: int) -> Condensed:
 
 
 def make_factors(reach: Reach, n: int, coupled: int, size: int, rollers: Any) -> Factors:
-    """Allocate for the rows of balls that `reach` describes, n shared states and `coupled` balls that may touch.
+    """Allocate factors for rows of balls.
+
+    `reach` describes the rows; n shared states and `coupled` balls that may touch.
 
     No element has more than `size` states; `rollers` are the addresses of RollerBlocks.
     """

@@ -89,7 +89,10 @@ COUNT = np.dtype(
     count=Array(COUNT),
 )
 class Memory(NamedTuple):
-    """Everything the integrator remembers; saved as it is for a continuation."""
+    """Memory of the integrator.
+
+    It is saved as it is for a continuation.
+    """
 
     y: Any  # (n,) at `control.time`
     y1: Any  # (n,) one step before
@@ -137,7 +140,9 @@ class Handle(NamedTuple):
 def make_memory(
     y0: np.ndarray, scale: np.ndarray, tolerance: float, bundle: Any, capacity: int = 256, *, stages: int = 0
 ) -> Memory:
-    """Allocate for the initial state y0 and absolute scales, both (n,), of the bearing in `bundle`.
+    """Allocate the memory of the integrator.
+
+    For the initial state y0 and absolute scales, both (n,), of the bearing in `bundle`.
 
     `stages` are those of a one-step formula; a multistep formula has none.
     """
@@ -172,7 +177,10 @@ def make_memory(
 
 
 def inertias(bundle: Any) -> np.ndarray:
-    """Return what each state carries kinetic energy with, shape (n,): mass, moment of inertia, 0 for positions."""
+    """Return the inertia of each state.
+
+    Shape (n,): mass, moment of inertia, 0 for positions.
+    """
     elements = np.zeros(int(bundle.system["tail"][0]))
     for row in bundle.rows:
         first, size = int(row["first_state"]), int(row["size"])
@@ -189,7 +197,9 @@ def inertias(bundle: Any) -> np.ndarray:
 
 
 def places(bundle: Any) -> np.ndarray:
-    """Return the index of the position that belongs to a speed, shape (n,), or -1.
+    """Return the position index of each speed.
+
+    Shape (n,), or -1.
 
     Only where normal forces act: a ball's x and r, a body's x, y, z.
     """

@@ -43,7 +43,10 @@ BEFORE, AFTER = 0, 1  # places of X_j,j-1 and X_j,j+1 in the blocks of ball j
     index=INTEGERS,
 )
 class Blocks(NamedTuple):
-    """Jacobian blocks and workspaces; those of a ball have the columns of its own bodies, in their places."""
+    """Jacobian blocks and workspaces.
+
+    Those of a ball have the columns of its own bodies, in their places.
+    """
 
     reach: Reach  # the own bodies of each row
     a: Any  # (Z, size, size), of the largest block
@@ -78,7 +81,10 @@ class Blocks(NamedTuple):
 
 
 def may_touch(bundle: Any) -> bool:
-    """Tell whether balls may touch each other: those of a row without a cage, where such contacts are followed."""
+    """Tell whether balls may touch each other.
+
+    Those of a row without a cage, where such contacts are computed.
+    """
     return bool(bundle.system["guides_on"][0]) and not bundle.rows["caged"].all()
 
 

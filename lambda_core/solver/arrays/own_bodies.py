@@ -15,7 +15,10 @@ from lambda_core.solver.arrays.bundle import INTEGERS, INTEGERS2, NS, SVX
     **dict.fromkeys(("first", "states", "count", "width", "positions", "middles", "ends", "speeds", "among"), INTEGERS),
 )
 class Reach(NamedTuple):
-    """The own bodies of each row of balls, and where their states stand."""
+    """Own bodies of each row of balls.
+
+    With the places of their states.
+    """
 
     first: Any  # int64 (rows + 1,): first ball of each row, in the end the number of balls
     states: Any  # int64 (rows + 1,): where its states begin in the state vector, in the end the shared ones
@@ -33,7 +36,10 @@ class Reach(NamedTuple):
 
 
 def _own_bodies(bundle: Any, row: Any) -> list[int]:
-    """Return the bodies that the balls of a row touch, in order."""
+    """Return the bodies that a row touches.
+
+    By its balls, in order.
+    """
     begin = int(row["first_raceway"])
     raceways = bundle.raceways[begin : begin + int(row["raceways"])]
     touched = {int(body) for body in raceways["body"]}
@@ -45,7 +51,10 @@ def _own_bodies(bundle: Any, row: Any) -> list[int]:
 
 
 def make_reach(bundle: Any) -> Reach:
-    """Return what each row of the tables in a bundle reaches."""
+    """Return the reach of each row.
+
+    It is a row of the tables in a bundle.
+    """
     own = [_own_bodies(bundle, row) for row in bundle.rows]
     rows, places = len(own), max(len(bodies) for bodies in own)
     positions = np.full(NS * bundle.bodies.size, -1, dtype=np.int64)

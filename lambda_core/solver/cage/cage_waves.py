@@ -22,7 +22,10 @@ _NEWTON, _FOUND = 20, 1e-14  # iterations from there on, and the last step that 
 
 @helper
 def _displacement(first, last, cosine, sine, bundle):
-    """Return displacements outwards and along the circumference, and their rates, at an azimuth in the material."""
+    """Return displacements and rates at an azimuth.
+
+    Outwards and along the circumference, in the material.
+    """
     c, s, order = cosine, sine, 1.0
     w, v, w_rate, v_rate = 0.0, 0.0, 0.0, 0.0
     for i in range(first, last):
@@ -38,7 +41,10 @@ def _displacement(first, last, cosine, sine, bundle):
 
 @helper
 def carry_pocket(azimuth, row, bundle, g):
-    """Move a pocket, at an azimuth in the cage's material, with the cage's waves."""
+    """Move a pocket with the cage's waves.
+
+    At an azimuth in the cage's material.
+    """
     g.wave_cosine, g.wave_sine = math.cos(azimuth), math.sin(azimuth)
     g.facing_radial, g.facing_tangential = 1.0, 0.0
     w, v, w_rate, v_rate = _displacement(row.waves[0], row.waves[1], g.wave_cosine, g.wave_sine, bundle)
@@ -52,7 +58,10 @@ def carry_pocket(azimuth, row, bundle, g):
 
 @helper
 def _outline(first, last, azimuth, bundle):
-    """Return the displacement outwards at an azimuth in the material, and its first two derivatives with it [m]."""
+    """Return the outward displacement at an azimuth.
+
+    In the material, with its first two derivatives [m].
+    """
     w, slope, bend, order = 0.0, 0.0, 0.0, 1.0
     for i in range(first, last):
         order += 1.0
@@ -66,7 +75,9 @@ def _outline(first, last, azimuth, bundle):
 
 @helper
 def _narrowest(land, y, z, turned, bundle):
-    """Return the azimuth, in the ring's frame, where a cage that is off the ring's axis by y, z comes nearest the land.
+    """Return the azimuth of the narrowest gap.
+
+    In the ring's frame, of a cage that is off the ring's axis by y, z, against the land.
 
     The way towards the land, side (y cos + z sin + w), is largest there: looked for from place to place and then by
     Newton's method. Of a cage more oval than its clearance only the nearest of its contacts with the land is found.
@@ -96,7 +107,9 @@ def _narrowest(land, y, z, turned, bundle):
 
 @helper
 def carry_land(land, cage, bundle, g):
-    """Turn place and velocity of a cage at a station of its land into those of a round cage that touches alike.
+    """Turn a wavy cage into a round one.
+
+    Place and velocity at a station of its land; the round cage touches alike.
 
     It comes as near, at the azimuth where the bent one comes nearest, and its surface there has the same velocity.
     """
@@ -115,7 +128,9 @@ def carry_land(land, cage, bundle, g):
 
 @helper
 def guide_pushes(first, last, g, out, sign, pushes):
-    """Write the generalised forces of a guide on the waves of its cage, cosine and sine in turn [N].
+    """Write a guide's forces on the waves.
+
+    Generalised forces on its cage, cosine and sine in turn [N].
 
     Parameters
     ----------
@@ -140,7 +155,10 @@ def guide_pushes(first, last, g, out, sign, pushes):
 
 @helper
 def push_cage(first, last, sign, bundle):
-    """Add the guide in scratch to the forces on the waves of its cage."""
+    """Add the guide in scratch to wave forces.
+
+    They act on the waves of its cage.
+    """
     scratch = bundle.scratch[0]
     pushes = scratch.out[6:]  # behind the force
     guide_pushes(first, last, scratch.guide, scratch.out[:], sign, pushes)

@@ -28,7 +28,10 @@ def _no_force(out):
 
 @helper
 def pocket_columns(ball, j, row, bundle, bl):
-    """Add the pocket of ball j; a pocket without force is skipped."""
+    """Add the pocket of ball j.
+
+    A pocket without force is skipped.
+    """
     scratch, viscosity, fm, p = bundle.scratch[0], row.oil.viscosity, bl.wrenches, bl.reach.place[row.number, row.cage]
     cage, g, out, fault = bundle.bodies_now[row.cage], scratch.guide, scratch.out[:], scratch.fault
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
@@ -69,7 +72,10 @@ def pocket_columns(ball, j, row, bundle, bl):
 
 @helper
 def _pocket_pushes(row, bundle, slopes, column, step, bl):
-    """Add the change of a pocket's push on the waves of its cage, over a step, to one column of their force slopes."""
+    """Add a pocket's slope on the waves.
+
+    Change over a step of its push on its cage's waves, to one column of their force slopes.
+    """
     guide_pushes(row.waves[0], row.waves[1], bundle.scratch[0].guide, bundle.scratch[0].out[:], -1.0, bl.pushes[1])
     for i in range(row.waves[1] - row.waves[0]):
         p = bl.reach.place[row.number, bundle.waves[row.waves[0] + i].body]
@@ -78,7 +84,10 @@ def _pocket_pushes(row, bundle, slopes, column, step, bl):
 
 @helper
 def _pocket_waves(ball, cage, j, row, law, par, bundle, bl):
-    """Add what the waves of an elastic cage change of the pocket of ball j."""
+    """Add the waves' effect on ball j's pocket.
+
+    They are those of an elastic cage.
+    """
     scratch, fm, p = bundle.scratch[0], bl.wrenches, bl.reach.place[row.number, row.cage]
     g, out = scratch.guide, scratch.out[:]
     for i in range(row.waves[0], row.waves[1]):
@@ -101,7 +110,10 @@ def _pocket_waves(ball, cage, j, row, law, par, bundle, bl):
 
 @helper
 def neighbour_columns(ball, other, row, bundle, bl):
-    """Add the ball-ball contact to the first ball's own slopes; write those with the other's states into bl.beyond."""
+    """Add the ball-ball contact to the slopes.
+
+    The first ball's own; those with the other's states go into bl.beyond.
+    """
     scratch, viscosity, fm = bundle.scratch[0], row.oil.viscosity, bl.wrenches
     g, out, fault = scratch.guide, scratch.out[:], scratch.fault
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
@@ -173,7 +185,10 @@ def _land_columns(land, bundle, bl):
 
 @helper
 def _land_slopes(land, bundle, column, step, bl):
-    """Add the change of a land's forces on cage, ring and the cage's waves, over a step, to one column."""
+    """Add a land's force slopes to one column.
+
+    Change over a step on cage, ring and the cage's waves.
+    """
     fm = bl.wrenches
     add_slope(bl.shared[land.cage], column, fm[2], fm[0], step)
     add_slope(bl.shared[land.ring], column, fm[3], fm[1], step)
@@ -184,7 +199,10 @@ def _land_slopes(land, bundle, column, step, bl):
 
 @helper
 def _land_waves(land, cage, ring, law, par, bundle, bl):
-    """Add what the waves of an elastic cage change of a land."""
+    """Add the waves' effect on a land.
+
+    They are those of an elastic cage.
+    """
     scratch, fm = bundle.scratch[0], bl.wrenches
     g, out = scratch.guide, scratch.out[:]
     for i in range(land.waves[0], land.waves[1]):
@@ -205,7 +223,10 @@ def _land_waves(land, cage, ring, law, par, bundle, bl):
 
 @helper
 def land_columns(bundle, row, bl):
-    """Add every land of a row of balls, of all where `row` is -1."""
+    """Add every land of a row.
+
+    Of all rows of balls where `row` is -1.
+    """
     for i in range(bundle.lands.size):
         if row >= 0 and bundle.lands[i].row != row:
             continue

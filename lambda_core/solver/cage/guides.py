@@ -50,7 +50,10 @@ def turning_body(body):
 
 @helper
 def write_frame(axis, phi, g):
-    """Write axis, radial and tangential unit vectors of a body at angle phi about its axis."""
+    """Write a body's unit vectors at angle phi.
+
+    Axis, radial and tangential, about its axis.
+    """
     ax, ay, az = axis
     c1 = 1.0 + ax
     y0, y1, y2 = -ay, 1.0 - ay * ay / c1, -ay * az / c1
@@ -63,13 +66,19 @@ def write_frame(axis, phi, g):
 
 @helper
 def _project(v, g):
-    """Return the components of an inertial vector along the frame's axes."""
+    """Return a vector's components along the axes.
+
+    The vector is inertial, the axes are those of the frame.
+    """
     return components(v, g.axial, g.radial, g.tangential)
 
 
 @helper
 def pocket_state(ball, cage, j, row, bundle, g):
-    """Write position and velocity of the row's ball j relative to its pocket, in the pocket's frame."""
+    """Write ball j's state in its pocket.
+
+    Position and velocity relative to the pocket, in its frame, of the row's ball.
+    """
     axis, omega = turning_body(cage)
     write_frame(axis, cage.angle + row.pocket_phase + 2.0 * math.pi * (j - row.first_ball) / row.balls, g)
     c, s = cosine_sine(ball.azimuth)
@@ -86,7 +95,10 @@ def pocket_state(ball, cage, j, row, bundle, g):
 
 @helper
 def land_state(cage, ring, land, bundle, g):
-    """Write the position of a station of the cage's axis relative to the ring's, and its velocity."""
+    """Write the state of a land's station.
+
+    Position of a station of the cage's axis relative to the ring's, and its velocity.
+    """
     offset = land.offset
     axis, omega = turning_body(cage)
     ring_axis, ring_omega = turning_body(ring)
@@ -104,7 +116,10 @@ def land_state(cage, ring, land, bundle, g):
 
 @helper
 def neighbour_state(ball, other, g):
-    """Write position and velocity of a ball relative to its neighbour, axes of the inertial frame."""
+    """Write a ball's state relative to its neighbour.
+
+    Position and velocity, axes of the inertial frame.
+    """
     store(g.axial, (1.0, 0.0, 0.0))
     store(g.radial, (0.0, 1.0, 0.0))
     store(g.tangential, (0.0, 0.0, 1.0))
@@ -125,7 +140,10 @@ def neighbour_state(ball, other, g):
 
 @helper
 def guide_force(law, par, g, viscosity, out, fault, place):
-    """Call a cage law on a guide record: out = force[3], point[3] in the frame; 1 when well."""
+    """Call a cage law on a guide record.
+
+    out = force[3], point[3] in the frame; 1 when well.
+    """
     out[:6] = np.nan
     status = law(g.place[:], g.velocity[:], g.rotation[:], viscosity, par, out)
     total = 0.0
@@ -138,7 +156,10 @@ def guide_force(law, par, g, viscosity, out, fault, place):
 
 @helper
 def _law_at_rest(law, par, share, g, viscosity, out, still):
-    """Write the law's force at rest at `share` of the way to the record's place."""
+    """Write the law's force at rest.
+
+    At `share` of the way to the record's place.
+    """
     store(still.place, scale(share, g.place))
     store(still.velocity, (0.0, 0.0, 0.0))
     store(still.rotation, (0.0, 0.0, 0.0))
@@ -147,7 +168,9 @@ def _law_at_rest(law, par, share, g, viscosity, out, still):
 
 @helper
 def guide_loss(law, par, g, viscosity, out, still):
-    """Return the power dissipated in a cage contact [W]: all work less that of the elastic force.
+    """Return the loss of a cage contact [W].
+
+    All work less that of the elastic force.
 
     The elastic force is the law's force at rest. Call after guide_force, whose result `out` keeps.
     """
@@ -163,14 +186,19 @@ def guide_loss(law, par, g, viscosity, out, still):
 
 @helper
 def _force_along(law, par, share, g, viscosity, out, still):
-    """Write the law's force at rest at `share` of the way to the record's place; returns its component along r."""
+    """Return the force at rest along r.
+
+    Write it at `share` of the way to the record's place; return its component along r.
+    """
     _law_at_rest(law, par, share, g, viscosity, out, still)
     return dot(out, g.place)
 
 
 @helper
 def guide_energy(law, par, g, viscosity, out, still, start):
-    """Return the elastic energy of a cage contact [J]: work against the force at rest on the way to its place r.
+    """Return a cage contact's elastic energy [J].
+
+    Work against the force at rest on the way to its place r.
 
     The way begins at `start` r, where there is no force: 0 in a pocket, beyond first touch for two balls. First
     touch is found by bisection, since the play is often a hundred times the penetration.
@@ -196,14 +224,20 @@ def guide_energy(law, par, g, viscosity, out, still, start):
 
 @helper
 def force_and_point(g, out):
-    """Return the force that a law wrote and its point of action from the guiding body's centre, inertial."""
+    """Return the force and point of a law.
+
+    Its point of action from the guiding body's centre, inertial.
+    """
     f = combine((out[0], out[1], out[2]), g.axial, g.radial, g.tangential)
     return f, combine_onto(g.origin, (out[3], out[4], out[5]), g.axial, g.radial, g.tangential)
 
 
 @helper
 def pocket_apply(ball, cage, g, out, on_ball, on_cage):
-    """Add the force of a pocket to ball (axes x, r, t) and cage (inertial), equal and opposite."""
+    """Add a pocket's force to ball and cage.
+
+    Ball (axes x, r, t) and cage (inertial), equal and opposite.
+    """
     c, s = cosine_sine(ball.azimuth)
     f, p = force_and_point(g, out)
     centre = subtract((ball.x, ball.radius * c, ball.radius * s), cage.position)
@@ -215,7 +249,10 @@ def pocket_apply(ball, cage, g, out, on_ball, on_cage):
 
 @helper
 def land_apply(cage, ring, g, out, on_cage, on_ring):
-    """Add the force of a land to cage and ring (inertial), equal and opposite."""
+    """Add a land's force to cage and ring.
+
+    Inertial, equal and opposite.
+    """
     f, p = force_and_point(g, out)
     increase(on_cage.force, f)
     increase(on_cage.moment, cross(subtract(add(p, ring.position), cage.position), f))
@@ -225,7 +262,10 @@ def land_apply(cage, ring, g, out, on_cage, on_ring):
 
 @helper
 def neighbour_apply(azimuth, arm, out, sign, on_ball):
-    """Add a ball-ball force (inertial, times sign) acting at `arm` from the ball's centre."""
+    """Add a ball-ball force.
+
+    Inertial, times sign, at `arm` from the ball's centre.
+    """
     c, s = cosine_sine(azimuth)
     f = scale(sign, out)
     increase(on_ball.force, turning(f, c, s))
@@ -234,5 +274,8 @@ def neighbour_apply(azimuth, arm, out, sign, on_ball):
 
 @helper
 def first_arm(g, out):
-    """Return the point of action of a ball-ball force from the first ball's centre."""
+    """Return the point of a ball-ball force.
+
+    From the first ball's centre.
+    """
     return out[3] - g.place[0], out[4] - g.place[1], out[5] - g.place[2]

@@ -16,7 +16,10 @@ _gap_capacitance = helper(gap_capacitance)
 
 @helper
 def bulk_permittivity(raceway, laws, bundle):
-    """Return the relative permittivity of the oil at no pressure and the oil's temperature."""
+    """Return the oil's relative permittivity without pressure.
+
+    At the oil's temperature.
+    """
     par, where, cells = bundle.par, raceway.parameters, cells_of(bundle.cells, 0, 1, bundle.grid.shape[1])
     p, temp, rho, eps = cells.pressure[:1], cells.temperature[:1], cells.density[:1], cells.friction[:1]
     p[0], temp[0] = 0.0, raceway.oil.temperature
@@ -27,7 +30,9 @@ def bulk_permittivity(raceway, laws, bundle):
 
 @helper
 def contact_capacitance(raceway, kin, laws, bundle, grid, cells, shorted, touching, sample):
-    """Write the capacitance of the Hertzian area and of the contact [F], which is at least that of two that touch.
+    """Write the capacitances of a contact [F].
+
+    Of the Hertzian area and of the contact, which is at least that of two that touch.
 
     `grid` and `cells` are those of the contact in scratch: an ellipse's, or the slices of a line.
     """
@@ -66,7 +71,9 @@ def contact_capacitance(raceway, kin, laws, bundle, grid, cells, shorted, touchi
 
 @helper
 def touching_film(raceway, kin, bundle):
-    """Return the central film [m] that entrained oil leaves between ball and raceway where they just touch, or -1.
+    """Return the film [m] at first touch.
+
+    Central film of entrained oil where ball and raceway just touch, or -1.
 
     Hertz's contact and with it the law of the film end where the approach is that of the surfaces' roughness: the film
     there stands for all lighter contacts. Writes over the contact in scratch.
@@ -81,6 +88,9 @@ def touching_film(raceway, kin, bundle):
 
 @helper
 def open_capacitance(raceway, gap, bulk):
-    """Return the capacitance [F] of a ball and a raceway at a distance [m]; no closer than their roughness."""
+    """Return the capacitance [F] of an open contact.
+
+    Ball and raceway at a distance [m]; no closer than their roughness.
+    """
     distance = max(gap, raceway.roughness)
     return bulk * _gap_capacitance(distance, raceway.radius_x, raceway.radius_y, raceway.ball_radius)

@@ -37,13 +37,18 @@ from lambda_core.solver.vec import (
 
 @helper
 def axis_x(ay, az):
-    """Return the x component of a unit axis from its other two."""
+    """Return a unit axis's x component.
+
+    From its other two.
+    """
     return math.sqrt(max(1.0 - ay * ay - az * az, 1e-12))
 
 
 @helper
 def _from_axis(ball, ring, c, s):
-    """Return the ring's axis, the ball's centre from the ring's, its part along the axis and that across it.
+    """Return the ball's place from a ring.
+
+    The ring's axis, the ball's centre from the ring's, its part along the axis and that across it.
 
     c and s are cosine and sine of the ball's azimuth.
     """
@@ -57,7 +62,9 @@ def _from_axis(ball, ring, c, s):
 
 @helper
 def surface_lift(ball, ring, raceway, bundle, kin):
-    """Look up the raceway's surface under a ball, for `contact_kinematics` to take: call it first where one is in use.
+    """Look up the raceway's surface under a ball.
+
+    For `contact_kinematics` to take: call it first where one is in use.
 
     Writes kin.lift, the height, and kin.rise_t, kin.rise_s, its slopes with the ball centre's place along t and s; NaN
     when the law refused. In the quasi-static equilibrium raceways are nominal but for the waves of elastic rings.
@@ -98,7 +105,10 @@ def surface_lift(ball, ring, raceway, bundle, kin):
 
 @helper
 def near(raceway, system):
-    """Return the gap below which ball and raceway feel each other [m]; films push only where something moves."""
+    """Return the gap of first forces [m].
+
+    Below it ball and raceway act on each other; films push only where something moves.
+    """
     return raceway.reach if system.guides_on == 1 else 0.0
 
 
@@ -153,7 +163,10 @@ def contact_kinematics(ball, ring, raceway, kin):
 
 @helper
 def _velocities(ball, ring, axis, centre, azimuth, frame, lengths, reach, arm, kin):
-    """Write the velocities at a contact: normal, slip, relative rotation, entrainment."""
+    """Write the velocities at a contact.
+
+    Normal, slip, relative rotation, entrainment.
+    """
     c, s = azimuth
     t, s_, n = frame
     rho, length, nr = lengths
@@ -185,7 +198,9 @@ def _velocities(ball, ring, axis, centre, azimuth, frame, lengths, reach, arm, k
 
 @helper
 def touch(ball, ring, raceway, bundle, kin):
-    """Identify the contact of a ball with a raceway, on its surface where that is not nominal; returns the penetration.
+    """Return a ball's penetration of a raceway.
+
+    Identifies the contact, on its surface where that is not nominal.
 
     See contact_kinematics.
     """
@@ -204,13 +219,18 @@ def _wrenches(raceway, first, count, bundle):
 
 @helper
 def contact_wrench(raceway, place, bundle):
-    """Run the laws of the contact at a place of scratch, into contact and wrench there; returns 1, or 0 on a fault."""
+    """Run the laws of one contact.
+
+    At a place of scratch, into contact and wrench there; returns 1, or 0 on a fault.
+    """
     return _wrenches(raceway, place, 1, bundle)
 
 
 @helper
 def contact_wrenches(raceway, first, count, bundle):
-    """Run the laws of contacts together, into contacts and wrenches at their places of scratch.
+    """Run the laws of several contacts together.
+
+    Into contacts and wrenches at their places of scratch.
 
     Returns 1, or 0 on a fault: scratch.fault names the first contact that has one when it is alone.
     """
@@ -234,7 +254,9 @@ def contact_angle(kin, raceway):
 
 @helper
 def apply_wrench(kin, wrench, on_ball, on_ring):
-    """Turn a contact wrench into force and moment on ball and ring, equal and opposite.
+    """Turn a contact wrench into force and moment.
+
+    On ball and ring, equal and opposite.
 
     Parameters
     ----------

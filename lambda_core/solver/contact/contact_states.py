@@ -18,13 +18,19 @@ from lambda_core.solver.layout import helper, part, raceway_laws
 
 @helper
 def first_state(raceway, j):
-    """Return where the states of the contact of ball j begin among those of all contacts."""
+    """Return the first state of a contact.
+
+    Its place among those of all contacts, for ball j.
+    """
     return raceway.first_state + j * raceway.states
 
 
 @helper
 def hand_states(raceway, j, bundle):
-    """Write the states of the contact of ball j where the laws of its raceway read them."""
+    """Write a contact's states for its laws.
+
+    The contact of ball j; the laws of its raceway read them.
+    """
     first = first_state(raceway, j)
     for i in range(raceway.slots[0], raceway.slots[1]):
         slot = bundle.slots[i]
@@ -33,7 +39,10 @@ def hand_states(raceway, j, bundle):
 
 @helper
 def lost_in(losses, k):
-    """Return the power that raceway k dissipates, of all balls so far [W]."""
+    """Return the power lost in raceway k.
+
+    Of all balls so far [W].
+    """
     return (
         losses.sliding[k] + losses.spin[k] + losses.boundary[k]
         + losses.rolling[k] + losses.hysteresis[k] + losses.damping[k]
@@ -42,7 +51,10 @@ def lost_in(losses, k):
 
 @helper
 def _rates(t, raceway, kin, contact, power, law, par, out, n, fault):
-    """Call the law of a contact that is closed, or with `power` below zero open."""
+    """Call the law of a contact.
+
+    The contact is closed, or with `power` below zero open.
+    """
     out[:n] = np.nan
     bulk = raceway.oil.temperature
     if power < 0.0:
@@ -65,7 +77,10 @@ def _rates(t, raceway, kin, contact, power, law, par, out, n, fault):
 
 @helper
 def _stop_at_bounds(raceway, par_end, n, bundle, out):
-    """Set rates to zero that would carry a state past the bound at which it is."""
+    """Set rates past a bound to zero.
+
+    They would carry a state past the bound at which it is.
+    """
     for i in range(raceway.slots[0], raceway.slots[1]):
         slot = bundle.slots[i]
         s = slot.place - (par_end - n)
@@ -77,7 +92,9 @@ def _stop_at_bounds(raceway, par_end, n, bundle, out):
 
 @helper
 def state_rates(t, raceway, j, power, bundle):
-    """Write the rates of the states of a contact, and their slopes with them; returns 1 when well.
+    """Write the rates of a contact's states.
+
+    And their slopes with them; returns 1 when well.
 
     Parameters
     ----------

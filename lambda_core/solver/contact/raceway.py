@@ -17,7 +17,9 @@ ENLARGED = 1e-5  # by how much of itself the slip of the last contact is enlarge
 
 @helper
 def pipeline(raceway, first, count, enlarged, laws, par, system, grid_table, block, scratch):
-    """Run the whole pipeline of contacts, or of films that nothing presses yet; see raceway_wrenches.
+    """Run the pipeline of contacts or films.
+
+    Films are those that nothing presses yet; see raceway_wrenches.
 
     With `enlarged` = 1 the slip in every cell of the last contact is larger by ENLARGED of itself.
     """
@@ -51,7 +53,9 @@ def pipeline(raceway, first, count, enlarged, laws, par, system, grid_table, blo
 
 
 def raceway_wrenches(raceway, first, count, laws, par, system, grid, cells, scratch):
-    """Run the whole pipeline of contacts of one raceway; an entry point of its own, called by pointer.
+    """Run the pipeline of one raceway's contacts.
+
+    A separate entry point, called by pointer.
 
     Parameters
     ----------

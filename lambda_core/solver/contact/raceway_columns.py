@@ -17,7 +17,10 @@ from lambda_core.solver.vec import clear
 
 @helper
 def _wrenches_near(scratch, bl):
-    """Write what the contact does to ball and ring at the neighbouring kinematics."""
+    """Write the wrenches at neighbouring kinematics.
+
+    On ball and ring.
+    """
     kin, wrench = scratch.kinematics[1], scratch.wrench[1]
     wrench_at(kin, scratch.kinematics[0], scratch.wrench[0], bl.slope[0], wrench)
     clear(bl.wrenches[2])
@@ -26,7 +29,10 @@ def _wrenches_near(scratch, bl):
 
 @helper
 def _contact_columns(ball, j, ring, raceway, row, bundle, bl):
-    """Add one raceway contact of ball j to the force slopes; scratch holds its kinematics and wrench."""
+    """Add one raceway contact to the slopes.
+
+    The force slopes of ball j; scratch holds its kinematics and wrench.
+    """
     scratch, p = bundle.scratch[0], bl.reach.place[row.number, raceway.body]
     apart = -near(raceway, bundle.system[0])
     index, on_ring = bl.reach.index[row.number], bl.parts[j, p]
@@ -69,7 +75,9 @@ def _contact_columns(ball, j, ring, raceway, row, bundle, bl):
 
 @helper
 def _push_slopes(raceway, r, bundle, slopes, column, step, bl):
-    """Add the change of a contact's push on the waves of its ring, over a step, to one column of their force slopes.
+    """Add a contact's slope on the waves.
+
+    Change over a step of its push on its ring's waves, to one column of their force slopes.
 
     The push where it was stands in bl.pushes[0]; scratch holds what is near it.
     """
@@ -82,7 +90,10 @@ def _push_slopes(raceway, r, bundle, slopes, column, step, bl):
 
 @helper
 def _wave_columns(ball, j, ring, raceway, row, bundle, bl):
-    """Add what the waves of an elastic ring change of a contact, and what changes the contact's push on them."""
+    """Add the waves' effect on a contact.
+
+    They are those of an elastic ring; also what changes the contact's push on them.
+    """
     scratch, r = bundle.scratch[0], row.number
     p, kin, fm = bl.reach.place[r, raceway.body], scratch.kinematics[1], bl.wrenches
     near_ball, near_ring = bl.ball.view(BALL), bl.body.view(BODY_STATE)
@@ -126,7 +137,10 @@ def _wave_columns(ball, j, ring, raceway, row, bundle, bl):
 
 @helper
 def raceway_columns(ball, j, row, bundle, bl):
-    """Add the raceway contacts of ball j to the force slopes."""
+    """Add ball j's raceway contacts to the slopes.
+
+    The force slopes.
+    """
     scratch = bundle.scratch[0]
     kin = scratch.kinematics[0]
     for k in range(row.first_raceway, row.first_raceway + row.raceways):

@@ -10,7 +10,10 @@ from lambda_core.solver.vec import scale, store
 
 @vector_helper
 def _sum_cells(half_curvature, a, b, grid, cells):
-    """Return the resultant of the shear on the ball over a b: forces along t and s, couples about t, s, n."""
+    """Return the shear's resultant on the ball.
+
+    Over a b: forces along t and s, couples about t, s, n.
+    """
     tau, inverse, vt, vs = cells.shear, cells.inverse_slip, cells.slip_t, cells.slip_s
     across, along, area = grid.across, grid.along, grid.area
     ft, fs, mt, ms, mn = 0.0, 0.0, 0.0, 0.0, 0.0
@@ -29,7 +32,10 @@ def _sum_cells(half_curvature, a, b, grid, cells):
 
 @helper
 def sum_wrench(raceway, kin, system, grid, contact, cells, wrench):
-    """Integrate the shear over the ellipse and add the scalar laws: wrench on the ball."""
+    """Return the wrench on the ball.
+
+    Integral of the shear over the ellipse, with the scalar laws.
+    """
     a, b = contact.semi_axis_a, contact.semi_axis_b
     ft, fs, mt, ms, mn = _sum_cells(0.5 / raceway.radius_deformed, a, b, grid, cells)
     store(wrench.force, (ft * (a * b), fs * (a * b), -(contact.load + contact.damping_force)))
@@ -39,7 +45,9 @@ def sum_wrench(raceway, kin, system, grid, contact, cells, wrench):
 
 @helper
 def rolling_speeds(raceway, kin):
-    """Return the speeds that rolling resistance and hysteresis dissipate with [m/s].
+    """Return the dissipating speeds of rolling losses [m/s].
+
+    Of rolling resistance and hysteresis.
 
     In pure rolling both are the mean surface velocity; defined by the work of their forces so that
     each loss is non-negative whatever the slip.

@@ -20,7 +20,10 @@ from lambda_core.solver.vec import cosine_sine
 
 @helper
 def widen(raceway, azimuth, bundle, kin):
-    """Write the radial displacement of an elastic raceway, its slope and rate, at an azimuth in its material [rad]."""
+    """Write an elastic raceway's displacement at an azimuth.
+
+    Radial displacement, its slope and rate; azimuth in its material [rad].
+    """
     first_c, first_s = cosine_sine(azimuth)
     kin.wave_cosine, kin.wave_sine = first_c, first_s
     cosine, sine = first_c, first_s
@@ -35,7 +38,10 @@ def widen(raceway, azimuth, bundle, kin):
 
 @helper
 def wave_pushes(raceway, kin, wrench, pushes):
-    """Write the generalised forces of a contact on the waves of its raceway, cosine and sine in turn [N]."""
+    """Write a contact's forces on the waves.
+
+    Generalised forces on the waves of its raceway, cosine and sine in turn [N].
+    """
     push = -wrench.force[2] * kin.outward
     cosine, sine = kin.wave_cosine, kin.wave_sine
     for i in range(raceway.waves[1] - raceway.waves[0]):
@@ -48,7 +54,10 @@ def wave_pushes(raceway, kin, wrench, pushes):
 
 @helper
 def push_waves(raceway, place, bundle):
-    """Add the raceway contact at a place of scratch to the forces on the waves of its ring."""
+    """Add a raceway contact to wave forces.
+
+    At a place of scratch, on the waves of its ring.
+    """
     scratch = bundle.scratch[0]
     pushes = scratch.out[:]
     wave_pushes(raceway, scratch.kinematics[place], scratch.wrench[place], pushes)
@@ -66,7 +75,9 @@ def add_pushes(first, last, pushes, bundle):
 
 @helper
 def add_push_slope(slopes, i, column, step, pushes):
-    """Add the change of the push on wave i over a step to one column of the slopes of its force, (6, n).
+    """Add a push's slope on wave i.
+
+    Change over a step, to one column of the slopes of its force, (6, n).
 
     The push where it was stands in pushes[0], what is near it in pushes[1].
     """
@@ -76,7 +87,9 @@ def add_push_slope(slopes, i, column, step, pushes):
 
 @helper
 def turn_waves(bundle):
-    """Add the Coriolis forces on the waves of turning rings (Bryan 1890); they have no power.
+    """Add the Coriolis forces on the waves.
+
+    Of turning rings (Bryan 1890); they have no power.
 
     The inward pull of rotation is left out: of order (spin/frequency)^2.
     """

@@ -50,7 +50,10 @@ def _well(out, n, results):
 
 @helper
 def _blank(out, n, results):
-    """Fill the first results of n contacts with NaN, so that those that a law leaves out are seen."""
+    """Fill first results of contacts with NaN.
+
+    Of n contacts, so that those that a law leaves out are seen.
+    """
     for k in range(n):
         for i in range(results):
             out[STRIDE * k + i] = np.nan
@@ -58,7 +61,10 @@ def _blank(out, n, results):
 
 @helper
 def _full(count):
-    """Return how many contacts a law is called for: half a vector and more costs what a full one does."""
+    """Return the contacts per call of a law.
+
+    Half a vector and more costs what a full one does.
+    """
     rest = count % _VECTOR
     return count + _VECTOR - rest if 2 * rest >= _VECTOR else count
 
@@ -72,7 +78,10 @@ def _repeat(lane, first, count, n):
 
 @helper
 def _motion(first, count, n, scratch):
-    """Write penetration and mean surface velocity of contacts into their lanes."""
+    """Write penetration and surface velocity into lanes.
+
+    Mean surface velocity of contacts.
+    """
     lanes = scratch.lanes
     for k in range(first, first + count):
         kin = scratch.kinematics[k]
@@ -85,7 +94,10 @@ def _motion(first, count, n, scratch):
 
 @helper
 def _loads(raceway, first, count, n, laws, par, scratch):
-    """Call the law of the load for contacts of which the first is closed, as the others are; 0 on a fault."""
+    """Call the law of the load.
+
+    For contacts of which the first is closed, as the others are; 0 on a fault.
+    """
     lanes, out, ring = scratch.lanes, scratch.out[:], raceway.number
     rx, ry, e = raceway.radius_x, raceway.radius_y, raceway.modulus
     if scratch.kinematics[first].penetration > 0.0:
@@ -111,7 +123,10 @@ def _loads(raceway, first, count, n, laws, par, scratch):
 
 @helper
 def _damping(raceway, first, count, n, laws, par, scratch):
-    """Write damping forces of contacts whose lanes are full; 0 on a fault."""
+    """Write damping forces of contacts.
+
+    Their lanes are full; 0 on a fault.
+    """
     lanes, out, oil = scratch.lanes, scratch.out[:], raceway.oil
     rx, ry, e = raceway.radius_x, raceway.radius_y, raceway.modulus
     _blank(out, n, 1)
@@ -133,7 +148,7 @@ def _damping(raceway, first, count, n, laws, par, scratch):
 
 @helper
 def normal_stage(raceway, first, count, laws, par, system, scratch):
-    """Elastic load, contact ellipse and damping force."""
+    """Write elastic load, ellipse and damping force."""
     n = _full(count)
     _motion(first, count, n, scratch)
     if _loads(raceway, first, count, n, laws, par, scratch) != 1:
@@ -147,7 +162,10 @@ def normal_stage(raceway, first, count, laws, par, system, scratch):
 
 @helper
 def line_damping(raceway, place, laws, par, scratch):
-    """Write the damping force of a line contact, whose loads are those of its slices; 0 on a fault."""
+    """Write the damping force of a line.
+
+    Its loads are those of its slices; 0 on a fault.
+    """
     lanes, contact = scratch.lanes, scratch.contact[place]
     _motion(place, 1, 1, scratch)
     lanes.load[place], lanes.semi_a[place], lanes.semi_b[place] = contact.load, contact.semi_axis_a, contact.semi_axis_b
@@ -156,7 +174,10 @@ def line_damping(raceway, place, laws, par, scratch):
 
 @helper
 def _rolling(first, count, n, scratch):
-    """Write what the stages of the film take of loads and motion into lanes."""
+    """Write the film stages' inputs into lanes.
+
+    They are loads and motion.
+    """
     lanes = scratch.lanes
     for k in range(first, first + count):
         kin, contact = scratch.kinematics[k], scratch.contact[k]
@@ -177,7 +198,10 @@ def _rolling(first, count, n, scratch):
 
 @helper
 def _films(raceway, first, count, n, laws, par, scratch):
-    """Write films: isothermal, as heat in the inlet and missing oil leave them; 0 on a fault."""
+    """Write films.
+
+    Isothermal, as heat in the inlet and missing oil leave them; 0 on a fault.
+    """
     ring, where, oil = raceway.number, raceway.parameters, raceway.oil
     lanes, out, fault = scratch.lanes, scratch.out[:], scratch.fault
     rx, ry, e = raceway.radius_x, raceway.radius_y, raceway.modulus
@@ -231,7 +255,10 @@ def _films(raceway, first, count, n, laws, par, scratch):
 
 @helper
 def _asperities(raceway, first, count, n, laws, par, scratch):
-    """Write the share of asperities in the load, and of film and asperities in the shear stress; 0 on a fault."""
+    """Write the shares of asperities and film.
+
+    In the load, and in the shear stress; 0 on a fault.
+    """
     ring, where = raceway.number, raceway.parameters
     lanes, out, fault = scratch.lanes, scratch.out[:], scratch.fault
     ratio, results = of(lanes.film_parameter, first, n), of(out, 0, STRIDE * n)
@@ -297,7 +324,10 @@ def _losses(raceway, first, count, n, laws, par, scratch):
 
 @helper
 def film_stage(raceway, first, count, laws, par, scratch):
-    """Film thickness, asperity share, rolling resistance and hysteresis."""
+    """Compute film, asperity share and rolling losses.
+
+    Film thickness, rolling resistance and hysteresis.
+    """
     n = _full(count)
     _rolling(first, count, n, scratch)
     if _films(raceway, first, count, n, laws, par, scratch) != 1:

@@ -37,7 +37,10 @@ def _slip_rows(
 
 @helper
 def slip_field(raceway, kin, system, grid, contact, cells):
-    """Slip of every cell with the spread of slip inside the cell, and its pressure."""
+    """Write slip and pressure of every cell.
+
+    With the spread of slip inside the cell.
+    """
     _slip_rows(
         contact.semi_axis_a, contact.semi_axis_b, contact.max_pressure, kin.slip_t, kin.slip_s,
         kin.rotation_t, kin.rotation_s, kin.rotation_n,
@@ -49,7 +52,7 @@ def slip_field(raceway, kin, system, grid, contact, cells):
 
 @rows_helper
 def _close_loop(film_stress, solid_stress, inlet, area, p, tau0, tau, hot, mu):
-    """Close the loop of temperature and traction and add the asperities.
+    """Close the temperature-traction loop with asperities.
 
     tau between its values at the inlet's and at the hot temperature: shear stress linear in temperature, temperature
     rise linear in shear stress. tau0 and mu become the shares of film and asperities in the shear stress, tau the sum.
@@ -81,7 +84,10 @@ def _finite_rows(a, b, c, d, e, f):
 
 @helper
 def _shear_fault(raceway, first, cells, scratch):
-    """Report the first kernel of shear_stage, in the order of their calls, whose result is not finite."""
+    """Report the first non-finite kernel of shear_stage.
+
+    In the order of their calls.
+    """
     slip, p, hot, ring, fault = cells.slip, cells.pressure, cells.temperature, raceway.number, scratch.fault
     contact = scratch.contact[first]
     pmax, h = contact.max_pressure, contact.film_central
@@ -102,7 +108,10 @@ def _shear_fault(raceway, first, cells, scratch):
 
 @helper
 def _begin(block, end):
-    """Fill rows that laws write, and what stands behind them, with NaN; the density is written over and over."""
+    """Fill the laws' rows with NaN.
+
+    And what stands behind them; the density is written over and over.
+    """
     for row in range(RESULTS):
         for i in range(end + 1):
             block[row, i] = np.nan
@@ -111,7 +120,10 @@ def _begin(block, end):
 
 @helper
 def _outside(raceway, first, block, end, scratch):
-    """Report the first law, in the order of their calls, that wrote behind the end of its output; returns whether."""
+    """Report the first law beyond its output.
+
+    It wrote behind the end, in the order of their calls; return whether there is one.
+    """
     roles = (RHEOLOGY, TRACTION, CONTACT_TEMPERATURE, RHEOLOGY, TRACTION, BOUNDARY_FRICTION)
     found = block[RESULTS, end] != 0.0
     for row in range(len(roles)):
@@ -133,7 +145,10 @@ def _outside(raceway, first, block, end, scratch):
 
 @helper
 def _sweeps(raceway, first, count, laws, par, cells, scratch):
-    """Call the laws of the film's shear and of the asperities' friction for all cells of contacts; 0 on a fault."""
+    """Call the shear laws for all cells.
+
+    Of the film's shear and of the asperities' friction, for contacts; 0 on a fault.
+    """
     slip, p, temp, rho, film = cells.slip, cells.pressure, cells.inlet, cells.density, cells.film
     cold, ln_eta = cells.ln_eta_inlet, cells.ln_eta
     tau, tau0, hot, mu = cells.shear, cells.shear_inlet, cells.temperature, cells.friction
@@ -168,7 +183,9 @@ def _sweeps(raceway, first, count, laws, par, cells, scratch):
 
 @helper
 def shear_stage(raceway, first, count, laws, par, grid, block, scratch):
-    """Shear stress of film and asperities in every cell of contacts, of which contact `first` has the first cells.
+    """Write the shear stress of every cell.
+
+    Of film and asperities, for contacts of which contact `first` has the first cells.
 
     Temperature and traction form a loop (T -> eta -> tau -> T). Two sweeps: at the inlet temperature,
     and at the temperature that this shear would cause; between them the shear stress is

@@ -55,7 +55,10 @@ def _slip_column(a, b, curvature, along, across, spread, grid, cells, tau2, step
 
 @helper
 def _slip_columns(raceway, kin, grid, contact, cells, tau2, step, slope):
-    """Write d(wrench)/d(slip, relative rotation) from the shear at slightly larger slip."""
+    """Write d(wrench)/d(slip, relative rotation).
+
+    From the shear at slightly larger slip.
+    """
     a, b = contact.semi_axis_a, contact.semi_axis_b
     c = 1.0 / raceway.radius_deformed
     wt, ws, wn = kin.rotation_t, kin.rotation_s, kin.rotation_n
@@ -70,7 +73,10 @@ def _slip_columns(raceway, kin, grid, contact, cells, tau2, step, slope):
 
 @helper
 def _rolling_columns(raceway, kin, system, contact, slope):
-    """Add the derivative of the directions of rolling resistance and hysteresis."""
+    """Add the derivative of rolling directions.
+
+    Of rolling resistance and hysteresis.
+    """
     rx = raceway.radius_x
     roll, bend = rolling_speeds(raceway, kin)
     f2 = system.roll_floor * system.roll_floor
@@ -110,7 +116,10 @@ def _deepen(kin):
 
 @helper
 def _rolls_along(kin):
-    """Return whether entrainment is along rolling, not across it as where a ball at rest is pushed sideways."""
+    """Tell whether entrainment is along rolling.
+
+    It is across where a ball at rest is pushed sideways.
+    """
     return abs(kin.entrainment_t) >= abs(kin.entrainment_s)
 
 
@@ -142,7 +151,9 @@ def _clear_all(slope):
 
 
 def contact_tangent(raceway, laws, par, system, grid_table, block, scratch, slope):
-    """Write d(wrench)/d(kinematics), a TANGENT, and the wrench itself; an entry point of its own, called by pointer.
+    """Write d(wrench)/d(kinematics) and the wrench.
+
+    A TANGENT; a separate entry point, called by pointer.
 
     Runs the pipeline of the contact at place 0 of scratch and of the same contact at neighbouring kinematics together:
     with a larger penetration, a larger entrainment, and a larger normal velocity and slip.
@@ -185,7 +196,10 @@ def _add_slope(wrench, column, amount):
 
 @helper
 def wrench_at(kin, kin0, wrench0, slope, wrench):
-    """Write the wrench to first order at kinematics `kin` near `kin0`."""
+    """Write the wrench to first order.
+
+    At kinematics `kin` near `kin0`.
+    """
     store(wrench.force, wrench0.force)
     store(wrench.moment, wrench0.moment)
     _add_slope(wrench, slope.penetration, kin.penetration - kin0.penetration)

@@ -27,7 +27,9 @@ GROUND = -1  # number of the ground among the bodies that a link connects
 
 @dataclass(frozen=True)
 class Member:
-    """A rigid body with its degrees of freedom, loads and supports.
+    """Rigid body with degrees of freedom.
+
+    And loads and supports.
 
     Attributes
     ----------
@@ -42,7 +44,9 @@ class Member:
 
 @dataclass(frozen=True)
 class AssembledBearing:
-    """A bearing: its model, the laws as they are compiled and frozen, and the members that carry its parts.
+    """Bearing in an assembly.
+
+    Its model, the laws as they are compiled and frozen, and the members that carry its parts.
 
     Attributes
     ----------
@@ -69,7 +73,9 @@ class AssembledBearing:
 
 @dataclass(frozen=True)
 class AssembledLink:
-    """A force element between two points on two members, or on a member and the ground.
+    """Force element between points of two members.
+
+    Or of a member and the ground.
 
     Attributes
     ----------
@@ -162,7 +168,7 @@ class Assembly:
 
 @dataclass(frozen=True)
 class BearingSpan:
-    """Where a bearing stands in tables and states.
+    """Span of a bearing in tables and states.
 
     Attributes
     ----------
@@ -190,7 +196,10 @@ class BearingSpan:
 
 
 def assembly_of(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> Assembly:
-    """Return a bearing that is alone: its rings and cage on supports of their own, and its force elements."""
+    """Return the assembly of a bearing alone.
+
+    Its rings and cage on supports of their own, and its force elements.
+    """
     bodies = (model.inner_ring, model.outer_ring, model.cage_body)
     numbers = list(BODIES)
     return Assembly(

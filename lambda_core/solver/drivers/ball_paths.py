@@ -31,7 +31,9 @@ Solve = Callable[[FloatArray], StaticReport]
 
 
 def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport, solve: Solve) -> StaticReport:
-    """Let balls move along their paths, axially and radially, and find the friction's equilibrium again, in place.
+    """Move balls along their paths.
+
+    Axially and radially; find the friction's equilibrium again, in place.
 
     A ball that is carried across the grooves while it goes round drags the rings sideways where it slips; at rest it
     would drag them twice as much. Under a radial or an axial load alone there is no axial path and nothing to do. The
@@ -81,7 +83,9 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
 
 
 def _mixed(points: list[FloatArray], differences: list[FloatArray]) -> FloatArray:
-    """Return the next step of a fixed-point iteration from its points and what they miss the fixed point's map by.
+    """Return the fixed-point iteration's next step.
+
+    From its points and what they miss the fixed point's map by.
 
     The combination of the last differences that is least foretells where they vanish.
     """
@@ -99,7 +103,9 @@ def _mixed(points: list[FloatArray], differences: list[FloatArray]) -> FloatArra
 def _step_along(
     bundle: L.Bundle, state: FloatArray, moving: FloatArray, step: FloatArray, solve: Solve
 ) -> tuple[StaticReport, FloatArray] | None:
-    """Change the balls' axial and radial velocities by a step or a part of it and find the equilibrium, in place.
+    """Change the balls' axial and radial velocities.
+
+    By a step or a part of it; find the equilibrium, in place.
 
     Returns the report and the part; None, and the state as it was, where no equilibrium follows.
     """
@@ -116,7 +122,9 @@ def _step_along(
 
 
 def path_velocities(balls: NDArray[Any]) -> FloatArray:
-    """Return axial and radial velocity of each ball of a row from where its neighbours are.
+    """Return each ball's axial and radial velocity.
+
+    Of a row, from where its neighbours are.
 
     In steady running every ball comes by where its neighbour is now, so that place is a function of azimuth, x(psi),
     and dx/dt = omega dx/dpsi. The balls of a row are evenly spaced: the derivative is that of the trigonometric
@@ -137,7 +145,10 @@ def path_velocities(balls: NDArray[Any]) -> FloatArray:
 
 
 def _slope(values: FloatArray) -> FloatArray:
-    """Return the derivative with respect to azimuth of what is known at evenly spaced azimuths."""
+    """Return the derivative with respect to azimuth.
+
+    The values are known at evenly spaced azimuths.
+    """
     waves = np.fft.rfft(values)
     order = np.arange(waves.size)
     if values.size % 2 == 0:

@@ -30,7 +30,10 @@ _SAME_ANGLE = 1e-4  # [rad] change of the frozen contact angle that asks for ano
 
 
 def held(model: BearingModel, pose: Sequence[float]) -> BearingModel:
-    """Return the model with its inner ring held at a pose and its outer ring at rest."""
+    """Return the model with held rings.
+
+    The inner ring at a pose, the outer ring at rest.
+    """
     inner = {
         **model.inner_ring.dofs,
         **{name: DofState("prescribed", TimeFunction.constant(float(v))) for name, v in zip(POSE, pose, strict=True)},
@@ -45,7 +48,9 @@ def held(model: BearingModel, pose: Sequence[float]) -> BearingModel:
 
 
 class Reaction(ABC):
-    """A bearing that answers a pose of its inner ring, and what surrounds it where it is alone.
+    """Bearing that answers its inner ring's pose.
+
+    With its surroundings where it is alone.
 
     Attributes
     ----------
@@ -58,7 +63,10 @@ class Reaction(ABC):
     _announce: Announce
 
     def equilibrium(self) -> Equilibrium:
-        """Return the equilibrium with friction, at the last pose or of the bearing alone."""
+        """Return the equilibrium with friction.
+
+        At the last pose or of the bearing alone.
+        """
         if self.alone is None:
             return self.at_pose()
         return solve(self.alone, self._kernels, self._announce, strict=False)
@@ -69,7 +77,9 @@ class Reaction(ABC):
 
 
 class BearingReaction(Reaction):
-    """A bearing by the pose of its inner ring; the balls find their places between the rings, without friction.
+    """Ball bearing by its inner ring's pose.
+
+    The balls find their places between the rings, without friction.
 
     Parameters
     ----------
@@ -100,7 +110,9 @@ class BearingReaction(Reaction):
         return assemble(model, self._kernels, self._frame, oils)
 
     def reaction(self, pose: Sequence[float]) -> FloatArray:
-        """Return force and moment of the bearing on its inner ring at a pose, shape (5,) [N, N m].
+        """Return force and moment at a pose.
+
+        Of the bearing on its inner ring, shape (5,) [N, N m].
 
         Raises
         ------
@@ -119,18 +131,27 @@ class BearingReaction(Reaction):
         return np.delete(wrench, 3)
 
     def stiffness(self) -> FloatArray:
-        """Return d(reaction)/d(pose) with its sign turned at the last pose, shape (5, 5)."""
+        """Return -d(reaction)/d(pose) at the last pose.
+
+        Shape (5, 5).
+        """
         if self._freed is None:
             self._freed = freed(self._context)
         return stiffness_at(self._context, self._freed, self._state, self._pose.tolist())
 
     @property
     def frame(self) -> ContactFrame:
-        """Contact angles and loads at which radii and films are frozen."""
+        """Contact angles and loads of frozen radii.
+
+        Films are frozen there, too.
+        """
         return self._frame
 
     def refresh(self) -> bool:
-        """Freeze radii and films at the contact angles of the last pose; False where they stood there already."""
+        """Freeze radii and films at the last pose.
+
+        At its contact angles; False where they stood there already.
+        """
         contacts, _ = contact_channels(core(), self._context, self._state)
         new = mean_frame(self.model.geometry, contacts, self._frame)
         change = max(abs(a - b) for a, b in zip(new.angles, self._frame.angles, strict=True))
@@ -141,5 +162,8 @@ class BearingReaction(Reaction):
         return True
 
     def at_pose(self) -> Equilibrium:
-        """Return the equilibrium at the last pose with the friction of the balls."""
+        """Return the last pose's equilibrium with friction.
+
+        The friction of the balls.
+        """
         return solve(held(self.model, self._pose.tolist()), self._kernels, self._announce, strict=False)

@@ -27,7 +27,10 @@ _in_order: set[tuple[str, str, str]] = set()
 
 
 class Kernels:
-    """Compiled kernels of a model's laws; pointers and code stay alive with this object."""
+    """Compiled kernels of a model's laws.
+
+    Pointers and code stay alive with this object.
+    """
 
     def __init__(self, model: BearingModel, announce: Announce = None) -> None:
         self._laws, self._contacts = model.laws, contacts_of(model)
@@ -48,7 +51,10 @@ class Kernels:
         return {f"{e}/{r}/{self._laws[e][r].model.name}": k.key for (e, r), k in sorted(self.compiled.items())}
 
     def pointers(self) -> L.Laws:
-        """Return the addresses of the laws in the solver's order: one set per raceway; pocket, inner and outer land."""
+        """Return the laws' addresses in order.
+
+        The solver's order: one set per raceway; pocket, inner and outer land.
+        """
 
         def law(element: str, role: str) -> Any:
             return self.compiled[element, role].pointer
@@ -66,7 +72,9 @@ class Kernels:
 
 
 def check_laws(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> None:
-    """Try every law out with the parameters of this run before any compiled code calls it.
+    """Test every law with this run's parameters.
+
+    Before any compiled code calls it.
 
     A law is tried once by a process for each choice of parameters: many runs of it take no longer for that.
 
@@ -94,13 +102,18 @@ def _try_out(fresh: dict[tuple[str, str, str], Choice]) -> None:
 
 
 def derive_oils(model: BearingModel, kernels: Kernels, frame: ContactFrame) -> Oils:
-    """Return the oil of each raceway contact, with the constants that its rheology gives."""
+    """Return the oil of each raceway contact.
+
+    With the constants that its rheology gives.
+    """
     inner, outer = (_derive_oil(model, kernels, frame, element) for element in RACEWAYS)
     return inner, outer
 
 
 def _derive_oil(model: BearingModel, kernels: Kernels, frame: ContactFrame, element: str) -> Oil:
-    """Return the oil with viscosity, density, alpha_p and beta from the rheology kernel of one contact.
+    """Return the oil with its rheology's constants.
+
+    Viscosity, density, alpha_p and beta from the rheology kernel of one contact.
 
     alpha_p is the tangent d ln(eta)/dp at p = 0, beta is -d ln(eta)/dT at the bulk temperature.
     """

@@ -27,7 +27,9 @@ from lambda_core.solver.drivers.solver_context import SolverContext
 
 @dataclass(frozen=True)
 class ContactField:
-    """One ball - raceway contact, cells on a structured mesh of shape (strips, rows), SI.
+    """One ball-raceway contact in cells, SI.
+
+    On a structured mesh of shape (strips, rows).
 
     Attributes
     ----------
@@ -70,7 +72,9 @@ class ContactField:
 
 
 def contact_state(sample: Mapping[str, FloatArray], ball: int, ring: str) -> tuple[FloatArray, FloatArray]:
-    """Return the states of one ball (9,) and one ring (12,) from the channels of one sample.
+    """Return the states of ball and ring.
+
+    One ball (9,) and one ring (12,) from the channels of one sample.
 
     Parameters
     ----------
@@ -100,7 +104,9 @@ def contact_state(sample: Mapping[str, FloatArray], ball: int, ring: str) -> tup
 def contact_field(
     context: SolverContext, ball: FloatArray, body: FloatArray, place: int, strips: int = 61, rows: int = 41
 ) -> ContactField:
-    """Run the contact pipeline of one ball and one raceway on a fine grid.
+    """Run the contact pipeline on a fine grid.
+
+    Of one ball and one raceway.
 
     Parameters
     ----------

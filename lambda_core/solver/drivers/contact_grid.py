@@ -14,12 +14,17 @@ _FEW = 512  # cells whose rows a processor keeps at hand
 
 
 def contacts_at_once(cells: int) -> int:
-    """Return for how many contacts of so many cells laws are called at once."""
+    """Return the contacts per call of laws.
+
+    Each contact has so many cells.
+    """
     return max(SWEEPS, min(BATCH, _FEW // cells))
 
 
 def cell_block(cells: int, contacts: int) -> FloatArray:
-    """Return room for so many contacts of so many cells each, layout.Bundle.cells.
+    """Return memory for contacts with cells.
+
+    So many contacts of so many cells each, layout.Bundle.cells.
 
     Rows begin with a line of the cache: a vector that lies across two lines is read and written twice.
     """
@@ -30,7 +35,9 @@ def cell_block(cells: int, contacts: int) -> FloatArray:
 
 
 def unit_grid(strips: int, rows: int) -> FloatArray:
-    """Divide the unit ellipse into strips and rows; weights carry area and load exactly.
+    """Divide the unit ellipse into strips and rows.
+
+    Weights carry area and load exactly.
 
     Returns
     -------
@@ -64,5 +71,8 @@ def unit_grid(strips: int, rows: int) -> FloatArray:
 
 
 def _disc_area(x: FloatArray) -> FloatArray:
-    """Return the area of the unit disc to the left of x, up to a constant."""
+    """Return the unit disc's area left of x.
+
+    Up to a constant.
+    """
     return x * np.sqrt(np.maximum(1.0 - x * x, 0.0)) + np.arcsin(x)

@@ -22,7 +22,10 @@ _STEP = 1e-6  # of a state's scale, for the slopes of its rates
 
 
 def state_arrays(assembly: Assembly, tables: Tables) -> dict[str, Any]:
-    """Return the arrays of layout.Bundle that hold the states of contacts, every state at its start."""
+    """Return the arrays of contact states.
+
+    Those of layout.Bundle, every state at its start.
+    """
     models = [bearing.model for bearing in assembly.bearings]
     counts = [model.geometry.ball_count for model in models for _ in raceways(model.geometry)]
     starts = []
@@ -41,7 +44,10 @@ def state_arrays(assembly: Assembly, tables: Tables) -> dict[str, Any]:
 
 
 def state_tail(model: BearingModel) -> FloatArray:
-    """Return the scales of all states of contacts of a bearing."""
+    """Return the scales of all contact states.
+
+    Of a bearing.
+    """
     rows = [
         np.tile([state.scale for state in states_of(model, raceway.element)], model.geometry.ball_count)
         for raceway in raceways(model.geometry)
@@ -50,7 +56,9 @@ def state_tail(model: BearingModel) -> FloatArray:
 
 
 def channels_of_states(model: BearingModel, tails: FloatArray) -> dict[str, FloatArray]:
-    """Return the channels of states of contacts from the ends of n state vectors, shape (n, balls, 2).
+    """Return the channels of contact states.
+
+    From the ends of n state vectors, shape (n, balls, 2).
 
     Of four-point contact (n, balls, 4), by arc. NaN for a raceway whose law does not keep the state.
     """
@@ -69,7 +77,9 @@ def channels_of_states(model: BearingModel, tails: FloatArray) -> dict[str, Floa
 
 
 def hand_over(model: BearingModel, bundle: Any, sample: Mapping[str, FloatArray], ball: int, place: int) -> None:
-    """Write the states that a contact has in a sample where the laws of its raceway read them.
+    """Write a sample's contact states for laws.
+
+    The laws of the contact's raceway read them.
 
     Parameters
     ----------

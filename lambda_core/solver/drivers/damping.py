@@ -32,7 +32,9 @@ _LEAST_SHAKE = 1.0  # [rad/s] slowest vibration; slower than balls creep there i
 
 
 def damping_matrix(equilibrium: Equilibrium, frequency: float) -> FloatArray:
-    """Return what opposes a vibration of the inner ring against the outer one, in step with its velocity.
+    """Return the vibration damping of the inner ring.
+
+    It opposes a vibration against the outer one, in step with its velocity.
 
     The ring is shaken at an angular frequency w; every ball follows by its own linearised motion b' = A b + B u with
     friction, films, contact damping and inertia, azimuths at rest, the cage left out; so do the waves of elastic rings,
@@ -70,13 +72,19 @@ def damping_matrix(equilibrium: Equilibrium, frequency: float) -> FloatArray:
 
 
 def _freed(found: SolverContext) -> SolverContext:
-    """Return the context of the same bearing whose inner ring is free, also to turn, without other force elements."""
+    """Return the context with a free inner ring.
+
+    The same bearing; the ring is free to turn, too; no other force elements.
+    """
     free = found.model.inner_ring.freed(_FREED)
     return assemble(dataclasses.replace(found.model, inner_ring=free, links={}), found.kernels, found.frame, found.oils)
 
 
 def _moved(equilibrium: Equilibrium, context: SolverContext) -> FloatArray:
-    """Return the equilibrium in the layout of the freed ring, the cage where the motion begins: it touches no ball."""
+    """Return the equilibrium in the freed layout.
+
+    The cage is where the motion begins: it touches no ball.
+    """
     old = equilibrium.context
     shared = old.bundle.shared.copy()  # as the last evaluation left it: prescribed degrees of freedom included
     shared[old.bundle.active] = old.shared_part(initial_state(equilibrium))
@@ -95,7 +103,10 @@ def _fill(context: SolverContext, state: FloatArray) -> None:
 
 
 def _response(context: SolverContext, shake: float) -> NDArray[np.complex128]:
-    """Return the forces and moments on the inner ring over its motion exp(i w t), shape (6, 6)."""
+    """Return the inner ring's response matrix.
+
+    Forces and moments over its motion exp(i w t), shape (6, 6).
+    """
     blocks, body = context.blocks, context.model.inner_ring
     rows = [L.NS * INNER + k for k in _STATES], [L.NS * INNER + k for k in _RATES]
     inertia = np.array([body.mass] * 3 + [body.polar_inertia] + [body.transverse_inertia] * 2)
@@ -126,7 +137,10 @@ def _response(context: SolverContext, shake: float) -> NDArray[np.complex128]:
 
 
 def _wave_states(context: SolverContext) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the states of the waves of elastic rings: among all shared ones, and among those that a ball touches."""
+    """Return the waves' states of elastic rings.
+
+    Among all shared ones, and among those that a ball touches.
+    """
     rows, reach = context.bundle.waves, context.blocks.reach
     bodies = rows["body"][rows["ring"] != CAGE]
     bent = np.array([L.NS * int(body) + k for body in bodies for k in _WAVE], dtype=np.int64)

@@ -60,7 +60,9 @@ _INPUTS = ("bodies", "par", "tie_stiffness", "terms", "table")  # tables that sa
 
 @dataclass(frozen=True)
 class MotionStart(Generic[Sampled, Summed_co]):
-    """Where a motion begins, and how it is integrated and read.
+    """Start of a motion.
+
+    How it is integrated and read.
 
     Attributes
     ----------
@@ -158,11 +160,16 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         return self._readings.bearings
 
     def parts(self) -> tuple[Core, SolverContext, Memory, Scratch]:
-        """Return what takes steps and looks at states, for code that is to do so elsewhere."""
+        """Return what takes steps and reads states.
+
+        For code that is to do so elsewhere.
+        """
         return self._core, self.context, self._memory, Scratch.of(1, self.context)
 
     def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
-        """Integrate until `time` >= `until` [s] or `pause` says so; samples gather in the buffer meanwhile.
+        """Integrate until `time` >= `until` [s].
+
+        Or until `pause` is true; samples gather in the buffer meanwhile.
 
         `pause` is called some ten times a second, between two steps on the way there; when it returns True, `advance`
         returns early.
@@ -183,7 +190,10 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         return Advance(False, f"the time step fell below {SMALLEST_STEP:g} s at t = {self.time:.6g} s")
 
     def advance_exactly(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
-        """Integrate until `time` == `until` [s]: steps on the way there are cut to end at it."""
+        """Integrate until `time` == `until` [s].
+
+        Steps on the way there are cut to end at it.
+        """
         self._memory.control["stop"] = until
         try:
             return self.advance(until, pause)
@@ -197,12 +207,15 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         return self._readings.joined(blocks)
 
     def forget_samples(self) -> None:
-        """Empty the buffer of samples without looking at them."""
+        """Empty the buffer of samples."""
         self._memory.count["samples_waiting"] = 0
         self._drained.clear()
 
     def buffered(self) -> tuple[FloatArray, FloatArray]:
-        """Return times and states of the samples that no one has taken yet, shapes (n,) [s] and (n, size)."""
+        """Return the buffered samples.
+
+        Times and states that no one has taken yet, shapes (n,) [s] and (n, size).
+        """
         n = int(self._memory.count["samples_waiting"][0])
         return self._memory.sample_t[:n].copy(), self._memory.sample_y[:n].copy()
 
@@ -219,14 +232,20 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         return {name: values[0] for name, values in found.items()}
 
     def kept_states(self, number: int = 0) -> FloatArray:
-        """Return what the contacts of a bearing keep, by laws of the role contact_state, at `time`."""
+        """Return the contacts' states at `time`.
+
+        Of a bearing, kept by laws of the role contact_state.
+        """
         span, y = self.bearings[number].span, self._memory.y
         first = y.size - self.context.bundle.states.size + span.first_state
         kept: FloatArray = y[first : first + span.states].copy()
         return kept
 
     def spent(self) -> tuple[float, float]:
-        """Return the energy lost to friction [J] and the relative angle of the rings [rad] since the start."""
+        """Return friction loss [J] and angle [rad].
+
+        The relative angle of the rings; both since the start.
+        """
         values = self._memory.integrals
         lost = sum(values[: values.size - L.BESIDE_LOSSES].tolist())
         return lost, float(running(values)["relative_speed"])
@@ -250,7 +269,9 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         return self._readings.integrals(self._memory.integrals, self._memory.y, self._energy() - self._start_energy)
 
     def statistics(self) -> dict[str, float]:
-        """Return counters of the integrator: steps, rejected, newton_iterations, rhs_calls, jacobians and so on.
+        """Return counters of the integrator.
+
+        Steps, rejected, newton_iterations, rhs_calls, jacobians and so on.
 
         With `steps_to_the_fourth`, the sum of the fourth powers of the steps [s4], and `iteration_work`, the work that
         early ends of Newton's iteration put in or took, counted positive [J].
@@ -260,12 +281,18 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         return {**counted, "steps_to_the_fourth": float(steps), "iteration_work": float(rest)}
 
     def modes(self) -> list[tuple[float, float]]:
-        """Return frequency [Hz] and damping ratio of the modes of rings, shaft and bodies at `time`."""
+        """Return the modes at `time`.
+
+        Frequency [Hz] and damping ratio, of rings, shaft and bodies.
+        """
         bundle, blocks = self.context.bundle, self.context.blocks
         return ring_modes(bundle, blocks, self._memory.inertia, until=self._modes_until)
 
     def fingerprint(self) -> bytes:
-        """Return the numbers that the motion is made of: another case or code has others."""
+        """Return the numbers that identify the motion.
+
+        Another case or code has others.
+        """
         tables = [getattr(self.context.bundle, name) for name in _INPUTS]
         start = [self._readings.state()["angles"], np.array([self._start_energy, self.sample_interval])]
         return b"".join(table.tobytes() for table in (*tables, *start))
@@ -312,7 +339,10 @@ class MotionEngine(Generic[Sampled, Summed_co]):
             self.given.view(np.float64)[:] = state["given"]
 
     def _groups(self) -> dict[str, Any]:
-        """Return what remembers a motion, by the names that a checkpoint has for it."""
+        """Return the memory of a motion.
+
+        By the names that a checkpoint has for it.
+        """
         context = self.context
         return {
             "memory": self._memory, "factors": context.factors, "blocks": context.blocks,
@@ -371,7 +401,9 @@ class BearingEngine(MotionEngine[Channels, Sums]):
         return self.channels_now()
 
     def reactions(self) -> FloatArray:
-        """Return what the bearing puts on its bodies where :meth:`now` looked last, shape (bodies, 6).
+        """Return the bearing's reactions on its bodies.
+
+        Where :meth:`now` looked last, shape (bodies, 6).
 
         Force x, y, z [N] and moment x, y, z about the body's centre [N m] of all contacts and force elements on it:
         without its loads, weight and support.
@@ -396,7 +428,7 @@ class BearingEngine(MotionEngine[Channels, Sums]):
 def bearing_start(
     equilibrium: Equilibrium, model: BearingModel, given: Sequence[str] = ()
 ) -> MotionStart[Channels, Sums]:
-    """Return the start of the motion of a bearing that is alone.
+    """Return the start of a bearing alone.
 
     Parameters
     ----------
@@ -418,7 +450,9 @@ def bearing_start(
 
 
 def initial_state(equilibrium: Equilibrium) -> FloatArray:
-    """Return the state that the dynamics start from: equilibrium with every ball at the cage's speed.
+    """Return the initial state of the dynamics.
+
+    Equilibrium with every ball at the cage's speed.
 
     The cage stands centred on the balls and turns with them; its pockets are where the balls are. That of a
     self-aligning bearing leans with the inner ring, as the rows do.

@@ -15,7 +15,9 @@ ROLE = "force_element"
 
 
 def element_forces(context: SolverContext, times: FloatArray, flat: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return what every force element does to the second of its bodies, in the order of the assembly.
+    """Return every force element's wrench.
+
+    On the second of its bodies, in the order of the assembly.
 
     Parameters
     ----------
@@ -52,13 +54,18 @@ def element_forces(context: SolverContext, times: FloatArray, flat: FloatArray) 
 
 
 def named_forces(dim: str, wrenches: FloatArray, powers: FloatArray) -> dict[str, FloatArray]:
-    """Return forces and powers by the names of their channels; `dim` is the dimension that counts the elements."""
+    """Return forces and powers by channel name.
+
+    `dim` is the dimension that counts the elements.
+    """
     found = {f"{dim}_force": wrenches[:, :, :3], f"{dim}_moment": wrenches[:, :, 3:], f"{dim}_power": powers}
     return {name: np.ascontiguousarray(values) for name, values in found.items()}
 
 
 def _apart(first: np.ndarray, second: np.ndarray, row: Any) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return place, tilt, velocity and angular velocity of the second point seen from the first body, shape (n, 3).
+    """Return the second point's relative state.
+
+    Place, tilt, velocity and angular velocity seen from the first body, shape (n, 3).
 
     As the compiled :func:`lambda_core.solver.motion.links.link_state`, for all samples at once.
     """
@@ -72,7 +79,10 @@ def _apart(first: np.ndarray, second: np.ndarray, row: Any) -> tuple[FloatArray,
 
 
 def _turning(body: np.ndarray) -> tuple[FloatArray, FloatArray]:
-    """Return axis, radial and tangential direction as columns, shape (n, 3, 3), and the angular velocity, (n, 3)."""
+    """Return the turning frame and its velocity.
+
+    Axis, radial and tangential direction as columns, shape (n, 3, 3), and the angular velocity, (n, 3).
+    """
     (ay, az), (wy, wz) = body["tilt"].T, body["tilt_velocity"].T
     ax = np.sqrt(np.maximum(1.0 - ay * ay - az * az, 1e-12))
     axis = np.stack([ax, ay, az], axis=1)

@@ -19,14 +19,14 @@ WORK_PER_CALL = 500  # Newton iterations: some hundredths of a second
 
 @dataclass(frozen=True)
 class Advance:
-    """How one call of :meth:`MotionEngine.advance` ended."""
+    """End of one :meth:`MotionEngine.advance`."""
 
     ok: bool
     message: str  # a sentence with model, distribution, ball, ring, time and inputs when not ok
 
 
 def usual_interval(model: BearingModel, orbit: float) -> float:
-    """Return the time between samples where none is asked for [s].
+    """Return the default time between samples [s].
 
     Parameters
     ----------

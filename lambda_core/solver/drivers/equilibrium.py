@@ -101,7 +101,10 @@ class Equilibrium:
     phase: float = 0.0
 
     def loads_by_row(self) -> tuple[list[float], list[float]]:
-        """Return the loads on inner and outer raceways row by row, of four-point contact by pairs of arcs [N]."""
+        """Return the raceway loads row by row [N].
+
+        Inner and outer, of four-point contact by pairs of arcs.
+        """
         load = self.arcs[:, ~are_ribs(self.context.model.geometry), _LOAD]
         sides = load.shape[1] // 2
         return load[:, :sides].T.ravel().tolist(), load[:, sides:].T.ravel().tolist()
@@ -179,7 +182,10 @@ def solution(
     phase: float,
     converged: bool = True,
 ) -> Equilibrium:
-    """Return what a state of equilibrium says; `channels` as :func:`contact_channels` returns them."""
+    """Return the solution of an equilibrium's state.
+
+    `channels` as :func:`contact_channels` returns them.
+    """
     arcs, losses = channels
     inner, outer = context.bundle.bodies_now[INNER], context.bundle.bodies_now[OUTER]
     x, y, z, tilt_y, tilt_z = (float(v) for v in (*inner.position, -inner.tilt[1], inner.tilt[0]))
@@ -250,7 +256,9 @@ def _attempt(
     step: float,
     driven: NDArray[np.int64] | None,
 ) -> tuple[int, StaticReport]:
-    """Run the continuation from `state`, in place, until it ends or has done its iterations.
+    """Run the continuation from `state`, in place.
+
+    Until it ends or has done its iterations.
 
     `step` is the first one in pseudo-time [s].
     """
@@ -284,7 +292,10 @@ def _attempt(
 
 
 def without_friction(compiled: Core, context: SolverContext, state: FloatArray) -> SolverError | None:
-    """Find the equilibrium of the normal forces, in place; return what is missing where unloaded balls still creep."""
+    """Find the equilibrium of normal forces, in place.
+
+    Return the residual where unloaded balls still creep.
+    """
     try:
         continue_static(compiled, context, state, friction=False)
     except EquilibriumError as error:
@@ -295,7 +306,9 @@ def without_friction(compiled: Core, context: SolverContext, state: FloatArray) 
 
 
 def _with_friction(compiled: Core, context: SolverContext, state: FloatArray, *, strict: bool) -> StaticReport:
-    """Find the friction's equilibrium from that without, in place; by way of warmer oil where it has to be found.
+    """Find the friction's equilibrium, in place.
+
+    From that without friction; by way of warmer oil where it has to be found.
 
     Where there is none, the message lists what lies beyond the limits of bearing, oil and laws.
     """
@@ -330,7 +343,10 @@ def _no_equilibrium(context: SolverContext, report: StaticReport, *, friction: b
 
 
 def _limitless(context: SolverContext) -> str:
-    """Say which traction law gives shear stresses that no oil has, or nothing."""
+    """Report a traction law without limit.
+
+    It gives shear stresses that no oil has; or nothing.
+    """
     for element in ("ball_inner", "ball_outer"):
         law = context.model.laws[element]["traction"]
         ratio = stress_ratio(law.model, context.parameters(element, "traction"))
@@ -340,7 +356,10 @@ def _limitless(context: SolverContext) -> str:
 
 
 def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return contact channels by raceway (balls, contacts of a ball, 16) and losses (16,) [W] at a state."""
+    """Return contact channels and losses at a state.
+
+    By raceway (balls, contacts of a ball, 16), losses (16,) [W].
+    """
     g, bundle, powers = context.model.geometry, context.bundle, L.power_count(context.bundle)
     z = g.balls
     contacts = np.zeros((1, z, len(raceways_of_a_ball(g)), len(CONTACT_CHANNELS)))
@@ -359,7 +378,10 @@ def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) 
 
 
 def mean_frame(geometry: Geometry, contacts: FloatArray, before: ContactFrame) -> ContactFrame:
-    """Return load-weighted contact angles (absolute) and mean loads of the loaded contacts of each ring."""
+    """Return mean angles and loads of loaded contacts.
+
+    Load-weighted, angles absolute, of each ring.
+    """
     angles, loads, rings, ribs = [], [], rings_of_contacts(geometry), are_ribs(geometry)
     for i in range(2):
         own = contacts[:, (rings == i) & ~ribs]
@@ -373,13 +395,19 @@ _WHOLE = ("force_element", "time_function")  # roles that belong to no ball
 
 
 def _state_of(context: SolverContext, element: str) -> str:
-    """Return the name of the first state that a contact of this element keeps."""
+    """Return the first kept state's name.
+
+    Of a contact of this element.
+    """
     states = context.model.laws[element]["contact_state"].model.states
     return states[0].name if states else "state"
 
 
 def fault_sentence(context: SolverContext, time: float | None = None) -> str:
-    """Say which kernel refused, in which bearing of several, where, and with what inputs."""
+    """Report the kernel that refused.
+
+    With the bearing (of several), the place and the inputs.
+    """
     fault = context.bundle.scratch[0].fault
     if fault.role < 0:
         return "the time step became too small"
@@ -408,7 +436,10 @@ def fault_sentence(context: SolverContext, time: float | None = None) -> str:
 
 
 def _states_read(context: SolverContext, role: str, law: Law, place: int) -> list[tuple[str, float]]:
-    """Return the states of the contact that a law read when it refused, by name."""
+    """Return the states that a law read.
+
+    Those of the contact when it refused, by name.
+    """
     if not law.reads:
         return []
     end = int(context.bundle.raceways[place]["parameters"][role][1])
@@ -417,7 +448,10 @@ def _states_read(context: SolverContext, role: str, law: Law, place: int) -> lis
 
 
 def _faulty(assembly: Assembly, role: str, ball: int, place: int) -> tuple[int, str, int]:
-    """Return the bearing whose law refused, the force element, and which of the bearing's balls it was."""
+    """Return the bearing, element and ball at fault.
+
+    Their law refused.
+    """
     spans = assembly.spans()
     if role == "force_element":
         return assembly.links[place].bearing, assembly.links[place].element, 0

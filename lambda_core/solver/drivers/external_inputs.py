@@ -60,7 +60,9 @@ def given_names(model: BearingModel, couple: Coupling) -> tuple[str, ...]:
 
 
 def make_room(context: SolverContext, names: Sequence[str]) -> Any:
-    """Add signals that are given from outside to the loads and motions of a context.
+    """Add external signals to loads and motions.
+
+    Those of a context.
 
     A given load adds to those of the case and is 0 at first; a given motion takes the place of the case's and
     begins at its value at t = 0.
@@ -88,7 +90,9 @@ def check_known(couple: str) -> None:
 
 
 def start(model: BearingModel, couple: Coupling, announce: Any = None) -> tuple[BearingModel, Equilibrium]:
-    """Return the model as it is coupled, and the equilibrium that its motion starts from.
+    """Return the coupled model and its equilibrium.
+
+    Its motion starts from the equilibrium.
 
     With ``motion`` both rings are held where the loads of the case have brought them.
 
@@ -116,7 +120,10 @@ def start(model: BearingModel, couple: Coupling, announce: Any = None) -> tuple[
 
 
 def _poses(found: Equilibrium) -> FloatArray:
-    """Return x, y, z, tilt_y, tilt_z of both rings in an equilibrium, shape (2, 5) [m, rad]."""
+    """Return both rings' poses in an equilibrium.
+
+    x, y, z, tilt_y, tilt_z, shape (2, 5) [m, rad].
+    """
     rings = found.context.bundle.bodies_now[:2]
     return np.column_stack([rings["position"], -rings["tilt"][:, 1], rings["tilt"][:, 0]])
 

@@ -28,7 +28,10 @@ _LOAD, _ANGLE = CONTACT_CHANNELS.index("load"), CONTACT_CHANNELS.index("contact_
 
 
 def first_frame(model: BearingModel) -> ContactFrame:
-    """Guess contact angle and load from the external loads at t = 0; rollers touch at the angles of their cones."""
+    """Guess contact angle and load at t = 0.
+
+    From the external loads; rollers touch at the angles of their cones.
+    """
     force = [initial(f) for f in model.inner_ring.force]
     force = [f + model.inner_ring.mass * a for f, a in zip(force, model.gravity, strict=True)]
     total = math.sqrt(sum(f * f for f in force))
@@ -40,7 +43,9 @@ def first_frame(model: BearingModel) -> ContactFrame:
 
 
 def free_contact_angle(model: BearingModel) -> float:
-    """Return the contact angle when the axial play is just taken up, without load [rad].
+    """Return the free contact angle [rad].
+
+    The axial play is just taken up, without load.
 
     cos(alpha_0) = cos(alpha_s) - G_r/(2 A), A = r_i + r_o - D_w, with the resting angle alpha_s, 0 of single arcs that
     face each other (Harris and Kotzalas 2006, eq. 2.9 and ch. 2 on four-point contact).
@@ -51,7 +56,10 @@ def free_contact_angle(model: BearingModel) -> float:
 
 
 def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
-    """Return balls evenly spaced, one of them lowest (moved on by `phase` pitches), the inner ring in contact."""
+    """Return evenly spaced balls in contact.
+
+    One of them is lowest (moved on by `phase` pitches); the inner ring is in contact.
+    """
     model = context.model
     g = model.geometry
     force = [initial(f) for f in model.inner_ring.force]
@@ -93,7 +101,9 @@ def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
 
 
 def roll(model: BearingModel, frame: ContactFrame, balls: NDArray[Any], contacts: FloatArray | None = None) -> None:
-    """Set orbital speeds and spins to pure rolling at the frozen contact angle, in place.
+    """Set the balls to pure rolling, in place.
+
+    Orbital speeds and spins, at the frozen contact angle.
 
     With two arcs or rows the axis of each ball lies between the normals of its `contacts`, shape (balls, contacts, 16).
     """

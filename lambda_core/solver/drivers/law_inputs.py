@@ -11,7 +11,10 @@ Oils = tuple[Oil, Oil]  # the oil as the rheology of each of these contacts has 
 
 
 def oil_of(oils: Oils, element: str) -> Oil:
-    """Return the oil that a force element takes: that of its ring, the inner one's where there is none."""
+    """Return the oil of a force element.
+
+    That of its ring, the inner one's where there is none.
+    """
     for names in (RACEWAYS, tuple(RIBS)):
         if element in names:
             return oils[names.index(element)]
@@ -19,20 +22,32 @@ def oil_of(oils: Oils, element: str) -> Oil:
 
 
 def contacts_of(model: BearingModel) -> tuple[str, ...]:
-    """Return the force elements of contacts with rings in the solver's order: raceways, then ribs of rollers."""
+    """Return the ring contacts' elements in order.
+
+    The solver's order: raceways, then ribs of rollers.
+    """
     return (*RACEWAYS, *(element for element in RIBS if element in model.laws))
 
 
 def links(model: BearingModel) -> tuple[str, ...]:
-    """Return the force elements between bodies in the solver's order, as the laws of a model name them."""
+    """Return the elements between bodies in order.
+
+    The solver's order, as the laws of a model name them.
+    """
     return tuple(element for element in model.laws if element.startswith(ELEMENT_PREFIX))
 
 
 def times(model: BearingModel) -> tuple[str, ...]:
-    """Return the loads and motions that a law gives, in the solver's order, as the laws of a model name them."""
+    """Return the time laws in order.
+
+    Loads and motions in the solver's order, as the laws of a model name them.
+    """
     return tuple(element for element in model.laws if element.startswith(TIME_PREFIX))
 
 
 def guides(model: BearingModel) -> tuple[str, str, str]:
-    """Return the force elements that take the solver's places of pocket, inner and outer land."""
+    """Return the guides' force elements.
+
+    They take the solver's places of pocket, inner and outer land.
+    """
     return ("ball_cage" if model.depth.cage else "ball_ball", "cage_inner", "cage_outer")

@@ -23,7 +23,7 @@ _FARTHEST = 1e-3  # approach that no contact of a bearing reaches [m]
 
 @dataclass(frozen=True)
 class LineField:
-    """One contact of a roller with a raceway, slice by slice, SI.
+    """One roller-raceway contact in slices, SI.
 
     Attributes
     ----------
@@ -45,7 +45,9 @@ class LineField:
 
 
 def lean_of(sample: Mapping[str, FloatArray], roller: int, ring: str) -> float:
-    """Return the tilt of a roller against a ring in the plane of the bearing's axis, outwards at +x [rad].
+    """Return a roller's tilt against a ring [rad].
+
+    In the plane of the bearing's axis, outwards at +x.
 
     Parameters
     ----------
@@ -60,7 +62,9 @@ def lean_of(sample: Mapping[str, FloatArray], roller: int, ring: str) -> float:
 
 
 def line_field(model: BearingModel, ring: str, load: float, lean: float) -> LineField:
-    """Return the slices of a line contact that carry a load together, by the law and profile of the model.
+    """Return the slices of a loaded line contact.
+
+    They carry a load together, by the law and profile of the model.
 
     The approach of a slice is that of the roller's middle with its lean, less the drop of the profile there; angles are
     small. The approach of the middle follows from the load.
@@ -88,7 +92,10 @@ def line_field(model: BearingModel, ring: str, load: float, lean: float) -> Line
     radii, shift = context.radius_x * (1.0 - taper * place), side * lean * place - drop
 
     def slices(middle: float) -> FloatArray:
-        """Return load over length, half width and pressure of all slices, (3, n)."""
+        """Return load, half width and pressure of slices.
+
+        Load over length, all slices, (3, n).
+        """
         found = np.zeros((3, SLICES))
         for k in np.flatnonzero(middle + shift > 0.0):
             delta = float(middle + shift[k])

@@ -46,7 +46,9 @@ class SolvedLink:
 
 
 class LinkForce:
-    """A connection whose law acts between two bodies, on the unknowns of an equilibrium.
+    """Connection with a law between two bodies.
+
+    On the unknowns of an equilibrium.
 
     Parameters
     ----------
@@ -68,7 +70,10 @@ class LinkForce:
         self._drawn = np.subtract(link.second.point, link.first.point)
 
     def force(self, motions: FloatArray) -> FloatArray:
-        """Return the force on the unknowns at motions of shaft, rings and bodies [N, N m]."""
+        """Return the force on the unknowns [N, N m].
+
+        At motions of shaft, rings and bodies.
+        """
         return np.asarray(self._acts.T @ self._wrench(self._apart @ motions))
 
     def slope(self, motions: FloatArray) -> FloatArray:
@@ -93,7 +98,10 @@ class LinkForce:
         )  # fmt: skip
 
     def _wrench(self, apart: FloatArray, swing: FloatArray | None = None) -> FloatArray:
-        """Return force and moment on the second point, by how it has moved and how fast it moves."""
+        """Return force and moment on the second point.
+
+        By its displacement and velocity.
+        """
         velocity = np.zeros(NODE) if swing is None else swing
         out = np.full(NODE, np.nan)
         turned = np.array([0.0, apart[4], apart[5]])
@@ -116,7 +124,10 @@ def _spin(model: MachineModel, body: Carrier) -> float:
 def _moves(
     model: MachineModel, rows: Rows, body: Carrier, carrier: Sequence[float], point: Sequence[float]
 ) -> FloatArray:
-    """Return how a point moves and turns as part of a body, by the shaft's node at `carrier`, shape (6, size)."""
+    """Return a point's motion with a body.
+
+    By the shaft's node at `carrier`, shape (6, size).
+    """
     found: FloatArray = np.zeros((NODE, rows.size))
     if body == SHAFT:
         node = model.body.nearest(float(carrier[0]))
@@ -128,7 +139,9 @@ def _moves(
 
 
 def link_forces(model: MachineModel, rows: Rows, rings: Sequence[Ring], kernels: Kernels) -> list[LinkForce]:
-    """Return the connections of a machine that have a law; the first bearing has the laws, compiled in `kernels`.
+    """Return a machine's connections with a law.
+
+    The first bearing has the laws, compiled in `kernels`.
 
     Those of cages act in motion only: an equilibrium has no cage.
     """

@@ -78,7 +78,10 @@ def lump(model: MachineModel) -> LumpedShaft:
 
 
 def _places(model: MachineModel) -> FloatArray:
-    """Return where lumps stand [m]: of a shaft from outside at the nodes that it names, by default at all."""
+    """Return the places of lumps [m].
+
+    Of an imported shaft at the nodes that it names, by default at all.
+    """
     body = model.body
     held = [*(b.position for b in model.bearings), *model.held_places]
     mains = _distinct([*held, *(place for _, place in model.discs)])
@@ -95,7 +98,10 @@ def _places(model: MachineModel) -> FloatArray:
 
 
 def unbalance_of_lumps(model: MachineModel, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
-    """Return the unbalance of every lump [kg m] and its azimuth at t = 0 [rad]."""
+    """Return every lump's unbalance [kg m] and azimuth.
+
+    The azimuth is at t = 0 [rad].
+    """
     total = np.zeros(shaft.positions.size, dtype=complex)
     for unbalance in model.unbalances:
         total[shaft.at(unbalance.position)] += unbalance.amount * np.exp(1j * unbalance.angle)
@@ -123,7 +129,10 @@ def _with_ends(model: MachineModel, mains: FloatArray, long: float) -> FloatArra
 
 
 def _between(model: MachineModel, mains: FloatArray) -> FloatArray:
-    """Add lumps between those that are needed, at nodes of the beam."""
+    """Add lumps between the required ones.
+
+    At nodes of the beam.
+    """
     nodes, found = model.body.positions, [float(mains[0])]
     for begin, end in itertools.pairwise(mains):
         wide = _diameter(model, 0.5 * (begin + end))
@@ -148,7 +157,9 @@ def _pieces(places: FloatArray) -> list[tuple[int, int]]:
 
 
 def _parabolas(places: FloatArray, marks: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return what every lump counts at marks along the shaft, and the slopes of that, shape (marks, lumps).
+    """Return every lump's weight along the shaft.
+
+    At marks, with the slopes of that, shape (marks, lumps).
 
     Beyond the first and the last lump the line through these and their neighbours goes on; where two pieces meet the
     slope is the mean of theirs.
@@ -169,7 +180,10 @@ def _parabolas(places: FloatArray, marks: FloatArray) -> tuple[FloatArray, Float
 
 
 def _field(body: ElasticBody, values: FloatArray, slopes: FloatArray) -> FloatArray:
-    """Return motions in the plane of y and the tilt about z, shape (rows, n), that bend all sections along."""
+    """Return motions that bend all sections along.
+
+    In the plane of y and the tilt about z, shape (rows, n).
+    """
     found: FloatArray = np.zeros((body.mass.shape[0], values.shape[1]))
     found[1 : NODE * body.positions.size : NODE] = values
     found[5 : NODE * body.positions.size : NODE] = slopes
@@ -177,7 +191,9 @@ def _field(body: ElasticBody, values: FloatArray, slopes: FloatArray) -> FloatAr
 
 
 def _inertias(body: ElasticBody, places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return mass [kg], polar and transverse inertia [kg m2] of every lump, discs left out.
+    """Return mass and inertia of every lump.
+
+    [kg], polar and transverse [kg m2], discs left out.
 
     Of the mass matrix: masses by the parabolas, polar inertia in a straight line between neighbours. What ends beyond
     the outermost lumps lack of the moment of inertia these get - a mass at a distance d beyond a lump, the next one h
@@ -204,7 +220,10 @@ def _inertias(body: ElasticBody, places: FloatArray) -> tuple[FloatArray, FloatA
 
 
 def _condensed(body: ElasticBody, places: FloatArray, coupling: int | None) -> tuple[FloatArray, FloatArray]:
-    """Return how all nodes follow the lumps and one more row, the coupling's, and the stiffness between these."""
+    """Return the condensation to lumps.
+
+    How all nodes follow the lumps and one more row, the coupling's, and the stiffness between these.
+    """
     size = body.stiffness.shape[0]
     coupling_row = [] if coupling is None else [coupling]
     kept = np.concatenate([*(np.arange(size)[body.rows(float(place))] for place in places), coupling_row]).astype(int)

@@ -61,7 +61,10 @@ class MemberNumbers:
     count: int
 
     def carrier(self, machine: MachineModel, body: Carrier) -> tuple[int, tuple[float, float, float]]:
-        """Return the member that is a rigid body or a part of a bearing, and where its centre is drawn [m]."""
+        """Return a carrying member and its place [m].
+
+        It is a rigid body or a part of a bearing; the place is where its centre is drawn.
+        """
         if isinstance(body, BearingPart):
             return self.part(machine, body), (machine.bearings[machine.index(body)].position, 0.0, 0.0)
         return int(self.bodies[body - 1]), machine.bodies[body - 1].centre
@@ -89,13 +92,19 @@ def member_numbers(machine: MachineModel, shaft: LumpedShaft) -> MemberNumbers:
 
 
 def with_free_bodies(model: BearingModel) -> BearingModel:
-    """Return a bearing whose rings and cage are free in every direction, without force elements of its own."""
+    """Return a bearing with free bodies.
+
+    Rings and cage are free in every direction, without force elements of their own.
+    """
     bodies = {name: getattr(model, name).freed(DOFS) for name in ("inner_ring", "outer_ring", "cage_body")}
     return dataclasses.replace(model, **bodies, links={})
 
 
 def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Frozen]) -> Assembly:
-    """Return the assembly of a machine, with the laws of each bearing as they are frozen."""
+    """Return the assembly of a machine.
+
+    With the laws of each bearing as they are frozen.
+    """
     numbers = member_numbers(machine, shaft)
     members, ties = machine_members(machine, shaft)
     bearings = [
@@ -109,7 +118,10 @@ def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Fro
 
 
 def machine_members(machine: MachineModel, shaft: LumpedShaft) -> tuple[tuple[Member, ...], Ties]:
-    """Return everything of a machine that has a motion, and what ties it together."""
+    """Return a machine's members and ties.
+
+    Everything that has a motion, and what ties it together.
+    """
     numbers = member_numbers(machine, shaft)
     members = _lumps(machine, shaft, numbers)
     for i, bearing in enumerate(machine.bearings):
@@ -127,7 +139,10 @@ def machine_members(machine: MachineModel, shaft: LumpedShaft) -> tuple[tuple[Me
 
 
 def _as_supports(ties: Ties, members: dict[int, Member]) -> Ties:
-    """Give members what holds them alone against the ground where they are drawn; return the remaining ties."""
+    """Turn ground ties into supports.
+
+    They hold members alone where they are drawn; return the remaining ties.
+    """
     stiffness, damping = ties.stiffness.copy(), ties.damping.copy()
     for row, (number, direction) in enumerate(zip(ties.member.tolist(), ties.direction.tolist(), strict=True)):
         if direction == _ABOUT_X or ties.rest[row] or ties.joins_others(row):
@@ -145,7 +160,10 @@ def _as_supports(ties: Ties, members: dict[int, Member]) -> Ties:
 
 
 def _links(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) -> tuple[AssembledLink, ...]:
-    """Return the connections by laws, which stand among those of the first bearing."""
+    """Return the connections by laws.
+
+    The laws are among those of the first bearing.
+    """
     found, azimuths = [], dict(zip(numbers.lumps.tolist(), unbalance_of_lumps(machine, shaft)[1], strict=True))
     for link in machine.links:
         (first, own), (second, other) = (_end(machine, shaft, numbers, place) for place in (link.first, link.second))
@@ -159,7 +177,10 @@ def _links(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) ->
 
 
 def _unturned(arm: FloatArray, angle: float) -> tuple[float, float, float]:
-    """Return an arm in the frame of a member that is turned about x by an angle at t = 0 [rad]: its unbalance's."""
+    """Return an arm in a turned member's frame.
+
+    About x by an angle at t = 0 [rad]: its unbalance's.
+    """
     x, y, z = arm.tolist()
     c, s = math.cos(angle), math.sin(angle)
     return x, c * y + s * z, c * z - s * y
@@ -168,7 +189,10 @@ def _unturned(arm: FloatArray, angle: float) -> tuple[float, float, float]:
 def _end(
     machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers, place: Place
 ) -> tuple[int, tuple[float, float, float]]:
-    """Return the member that carries a place, and where its origin is drawn [m]."""
+    """Return a place's member and origin [m].
+
+    The origin is where the member is drawn.
+    """
     if place.body == GROUND:
         return GROUND, (0.0, 0.0, 0.0)
     if place.body == SHAFT:
@@ -178,7 +202,10 @@ def _end(
 
 
 def _lumps(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) -> dict[int, Member]:
-    """Return the lumps of the shaft, with the inner rings that they carry."""
+    """Return the shaft's lumps with inner rings.
+
+    They carry the rings.
+    """
     unbalances, loads = unbalance_of_lumps(machine, shaft)[0], _loads_on_lumps(machine, shaft)
     found = {}
     for k, number in enumerate(numbers.lumps.tolist()):
@@ -205,13 +232,19 @@ def _lumps(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) ->
 
 
 def _turned(machine: MachineModel, others: DofState) -> dict[str, DofState]:
-    """Return the degrees of freedom of a member that the coupling turns, by its speed or by a torque."""
+    """Return the coupled member's degrees of freedom.
+
+    The coupling turns it, by its speed or by a torque.
+    """
     mode: Literal["free", "prescribed"] = "prescribed" if machine.torque is None else "free"
     return {**dict.fromkeys(DOFS, others), SPIN: DofState(mode, machine.speed_over_time)}
 
 
 def _outer_ring(machine: MachineModel, i: int, model: BearingModel) -> Body:
-    """Return an outer ring in its seat: springs and elastic housings tie it, and it is free between them."""
+    """Return an outer ring in its seat.
+
+    Springs and elastic housings tie it, and it is free between them.
+    """
     seating, dofs = machine.bearings[i].seating, {SPIN: machine.bearings[i].model.outer_ring.dofs[SPIN]}
     is_housed = machine.housing is not None and machine.bearings[i].carrier == GROUND
     for name, stiffness, lead in zip(POSE, seating.stiffness, seating.prescribed, strict=True):
@@ -273,7 +306,10 @@ def _loads_on_bodies(machine: MachineModel) -> list[Load]:
 
 
 def _ties(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) -> Ties:
-    """Return what ties members: shaft, housing, seats, springs and dampers, and what holds rigid bodies."""
+    """Return the ties of members.
+
+    Shaft, housing, seats, springs and dampers, and what holds rigid bodies.
+    """
     lumps, turns = numbers.lumps, np.arange(NODE)
     lead = [numbers.count - 1] if shaft.driven == lumps.size else []
     rings, bodies = np.array(numbers.outer_rings), numbers.bodies

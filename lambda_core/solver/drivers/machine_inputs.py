@@ -35,7 +35,9 @@ _NOTHING = 1e-15  # share of a load from which on it is rounding
 
 @dataclass
 class MachineInputs:
-    """What another program gives to a machine, and the terms of loads and motions that follow it.
+    """External inputs of a machine.
+
+    With the terms of loads and motions that follow them.
 
     Attributes
     ----------
@@ -58,7 +60,7 @@ class MachineInputs:
 
     @property
     def turns(self) -> bool:
-        """Whether the speed of the shaft is given."""
+        """True if the shaft's speed is given."""
         return SHAFT_SPIN in self.names
 
     def give(self, name: str, value: float, rate: float, acceleration: float, time: float) -> None:
@@ -79,7 +81,10 @@ class MachineInputs:
         self.values[number], self.since[number] = values, time
 
     def _at(self, number: int, time: float) -> tuple[float, float, float]:
-        """Return value, rate and acceleration of a name at a time."""
+        """Return value, rate and acceleration of a name.
+
+        At a time.
+        """
         value, rate, acceleration = self.values[number].tolist()
         if rate == acceleration == 0.0:
             return value, 0.0, 0.0
@@ -91,7 +96,10 @@ class MachineInputs:
         return {"values": self.values.copy(), "since": self.since.copy()}
 
     def restore(self, state: Mapping[str, FloatArray]) -> None:
-        """Go back to what :meth:`state` returned; the terms are those of the engine's own state."""
+        """Go back to what :meth:`state` returned.
+
+        The terms are those of the engine's own state.
+        """
         self.values[...], self.since[...] = state["values"], state["since"]
 
 
@@ -106,7 +114,9 @@ def check_coupling(machine: MachineModel, couple: Coupling) -> None:
 
 
 def machine_inputs(machine: MachineModel, shaft: LumpedShaft, context: SolverContext) -> MachineInputs:
-    """Add what another program gives to the loads and motions of a machine.
+    """Add external inputs to a machine.
+
+    To its loads and motions.
 
     A load adds to those of the case and is 0 at first; the speed takes the place of the case's, where that is constant.
     """
@@ -136,7 +146,10 @@ def machine_inputs(machine: MachineModel, shaft: LumpedShaft, context: SolverCon
 
 
 def load_places(machine: MachineModel) -> dict[str, Place]:
-    """Return where loads can be given, by the names of the case."""
+    """Return the places of external loads.
+
+    By the names of the case.
+    """
     wheels = {name for name, *_ in machine.wheels}
     found = {
         f"{'gears' if name in wheels else 'loads'}.{name}": Place(SHAFT, (float(at), 0.0, 0.0), np.eye(3))
@@ -148,7 +161,10 @@ def load_places(machine: MachineModel) -> dict[str, Place]:
 def _all_loads(
     machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers
 ) -> Iterator[tuple[str, dict[int, float]]]:
-    """Yield names of loads, with the signals that each adds to and the weights there."""
+    """Yield names of loads with their signals.
+
+    The signals that each adds to and the weights there.
+    """
     for name, place in load_places(machine).items():
         for axis, word in enumerate(_WORDS):
             if word == "moment_x" and place.body == SHAFT and not machine.twists:
@@ -159,7 +175,10 @@ def _all_loads(
 def _signals(
     machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers, place: Place, axis: int
 ) -> dict[int, float]:
-    """Return the signals that a load along one axis adds to, and the weights there."""
+    """Return the signals of a load.
+
+    Along one axis, with the weights there.
+    """
     if place.body == SHAFT:
         lumps = numbers.lumps
         at, moves = carried_by_shaft(machine.body, place.point)

@@ -64,7 +64,10 @@ class MachineStart:
 
     @property
     def drive_torque(self) -> float:
-        """Mean torque of the coupling without friction [N m]; nan where torques change or one drives the shaft."""
+        """Mean frictionless torque of the coupling [N m].
+
+        NaN where torques change or one drives the shaft.
+        """
         is_given = self.machine.has_changing_torque or self.machine.torque is not None
         return math.nan if is_given else self.state.drive_torque
 
@@ -72,7 +75,9 @@ class MachineStart:
 def machine_start(
     machine: MachineModel, announce: Announce = None, *, is_given: bool = False, leads_cages: bool = False
 ) -> MachineStart:
-    """Return a machine at t = 0, in its quasi-static equilibrium.
+    """Return a machine in equilibrium at t = 0.
+
+    The equilibrium is quasi-static.
 
     Parameters
     ----------
@@ -97,7 +102,10 @@ def machine_start(
 
 
 def changed_start(start: MachineStart, machine: MachineModel) -> MachineStart:
-    """Return the start of another model of a machine, in the state and with the contact frames of the first."""
+    """Return the start of a changed model.
+
+    Of a machine, in the state and with the contact frames of the first.
+    """
     alone = [
         assemble(with_free_bodies(one.model), old.kernels, old.frame, derive_oils(one.model, old.kernels, old.frame))
         for one, old in zip(machine.bearings, (found.context for found in start.equilibria), strict=True)
@@ -110,7 +118,10 @@ def _begun(
     machine: MachineModel, shaft: LumpedShaft, state: ShaftState, equilibria: tuple[Equilibrium, ...],
     alone: list[SolverContext], *, is_given: bool, leads_cages: bool = False,
 ) -> MachineStart:  # fmt: skip
-    """Return a machine at t = 0 in an equilibrium, each bearing with a context of its own."""
+    """Return a machine at t = 0.
+
+    In an equilibrium, each bearing with a context of its own.
+    """
     assembly = machine_assembly(machine, shaft, [(one.kernels, one.frame, one.oils) for one in alone])
     context = context_of(_with_guided_cages(assembly, equilibria, state.outer) if leads_cages else assembly)
     names = [bearing.name for bearing in machine.bearings]
@@ -158,7 +169,10 @@ class MachineEngine(MotionEngine[MachineSamples, list[Sums]]):
         self.start = start
 
     def now(self) -> MachineSamples:
-        """Return every channel of the machine and of its bearings at `time`."""
+        """Return every channel at `time`.
+
+        Of the machine and of its bearings.
+        """
         found = self.start.readings.seen(np.array([self.time]), self._memory.y.reshape(1, -1))
         machine, *bearings = (
             {name: values[0] for name, values in channels.items()} for channels in (found.machine, *found.bearings)
@@ -167,7 +181,7 @@ class MachineEngine(MotionEngine[MachineSamples, list[Sums]]):
 
     @property
     def machine(self) -> MachineModel:
-        """What moves."""
+        """Model in motion."""
         return self.start.machine
 
 
@@ -183,7 +197,10 @@ def machine_engine(machine: MachineModel, announce: Announce = None) -> MachineE
 
 
 def _with_guided_cages(assembly: Assembly, equilibria: tuple[Equilibrium, ...], outer: FloatArray) -> Assembly:
-    """Return an assembly whose cages follow the balls: centred on them, at their mean orbital speed."""
+    """Return an assembly with guided cages.
+
+    They follow the balls: centred on them, at their mean orbital speed.
+    """
     members = list(assembly.members)
     for bearing, found, pose in zip(assembly.bearings, equilibria, outer, strict=True):
         number = bearing.members[CAGE]
@@ -196,7 +213,10 @@ def _with_guided_cages(assembly: Assembly, equilibria: tuple[Equilibrium, ...], 
 
 
 def _free(found: SolverContext) -> SolverContext:
-    """Return the context of the same bearing whose bodies are free in every direction."""
+    """Return the context with free bodies.
+
+    The same bearing; its bodies are free in every direction.
+    """
     return assemble(with_free_bodies(found.model), found.kernels, found.frame, found.oils)
 
 
@@ -204,7 +224,10 @@ def _start_state(
     machine: MachineModel, shaft: LumpedShaft, context: SolverContext, bearings: tuple[ReadBearing, ...],
     state: ShaftState, equilibria: tuple[Equilibrium, ...],
 ) -> FloatArray:  # fmt: skip
-    """Return the state that the motion begins with: equilibrium, every ball at its cage's speed."""
+    """Return the initial state of the motion.
+
+    Equilibrium, every ball at its cage's speed.
+    """
     bodies, numbers = np.zeros(context.bundle.bodies.size, R.BODY_STATE), member_numbers(machine, shaft)
     flat = bodies.view(np.float64)
     moved = np.array([state.displacement[machine.body.rows(float(x))] for x in shaft.positions])
@@ -228,7 +251,10 @@ def _start_state(
 
 
 def _place_cage(bodies: np.ndarray, own: np.ndarray, span: BearingSpan, found: Equilibrium, outer: FloatArray) -> None:
-    """Write the states of the cage and of the waves of elastic parts, from those of the bearing alone."""
+    """Write the states of cage and waves.
+
+    Of elastic parts, from those of the bearing alone.
+    """
     cage = own[CAGE]
     cage["position"] += outer[:3]
     bodies[span.bodies[CAGE]] = cage
@@ -241,7 +267,10 @@ def _place_cage(bodies: np.ndarray, own: np.ndarray, span: BearingSpan, found: E
 
 
 def _carried(balls: np.ndarray, pose: FloatArray) -> np.ndarray:
-    """Move balls along with an outer ring by a small pose."""
+    """Move balls with an outer ring.
+
+    By a small pose.
+    """
     x, y, z = balls["x"], balls["radius"] * np.cos(balls["azimuth"]), balls["radius"] * np.sin(balls["azimuth"])
     about_y, about_z = pose[3], pose[4]
     balls["x"] = x + pose[0] + about_y * z - about_z * y
@@ -253,7 +282,10 @@ def _carried(balls: np.ndarray, pose: FloatArray) -> np.ndarray:
 
 
 def _standing(machine: MachineModel, shaft: LumpedShaft, context: SolverContext) -> FloatArray:
-    """Return the whole shared state where nothing that is prescribed changes, but for what is free."""
+    """Return the complete shared state at rest.
+
+    Prescribed values do not change, and free ones are missing.
+    """
     numbers = member_numbers(machine, shaft)
     flat = np.zeros(context.bundle.shared.size)
     flat.view(R.BODY_STATE)["spin"][numbers.lumps] = machine.speed
@@ -272,12 +304,18 @@ def _standing(machine: MachineModel, shaft: LumpedShaft, context: SolverContext)
 
 
 def _pose(body: Body) -> FloatArray:
-    """Return where a body is held at t = 0, in the order of POSE; 0 where it is free or locked."""
+    """Return a body's held pose at t = 0.
+
+    In the order of POSE; 0 where it is free or locked.
+    """
     return np.array([initial(body.dofs[dof].motion) if body.dofs[dof].mode == "prescribed" else 0.0 for dof in POSE])
 
 
 class MemberChannels:
-    """Motions of shaft, bodies and markers from the states of members."""
+    """Motions of shaft, bodies and markers.
+
+    From the states of members.
+    """
 
     def __init__(self, machine: MachineModel, shaft: LumpedShaft) -> None:
         self._machine, self._shaft = machine, shaft
@@ -299,7 +337,10 @@ class MemberChannels:
                 self._of_bodies[k, :, first : first + NODE] = carried(arm)[:_AXES]
 
     def _body(self, body: int | BearingPart) -> tuple[int, tuple[float, float, float]]:
-        """Return the number of a body among rigid bodies, outer rings and cages, and where its centre is drawn [m]."""
+        """Return a body's number and place [m].
+
+        Among rigid bodies, outer rings and cages; the place is where its centre is drawn.
+        """
         if not isinstance(body, BearingPart):
             return body - 1, self._machine.bodies[body - 1].centre
         number = self._parts.index(self._numbers.part(self._machine, body))
@@ -307,7 +348,10 @@ class MemberChannels:
         return len(self._machine.bodies) + number, (position, 0.0, 0.0)
 
     def __call__(self, times: FloatArray, flat: FloatArray) -> Channels:
-        """Return the channels from the whole shared state of samples, shape (n, 12 bodies)."""
+        """Return the channels from shared states.
+
+        The complete shared state of samples, shape (n, 12 bodies).
+        """
         bodies = flat.view(R.BODY_STATE)
         lumps, twist = bodies[:, self._numbers.lumps], self._twist(flat)
         rigid = _motions(bodies[:, self._numbers.bodies])
@@ -321,12 +365,18 @@ class MemberChannels:
         }
 
     def _with_parts(self, bodies: np.ndarray, rigid: FloatArray) -> FloatArray:
-        """Return the motions of rigid bodies, then of outer rings and cages without their rotation."""
+        """Return the motions of bodies and parts.
+
+        Rigid bodies, then outer rings and cages without their rotation.
+        """
         parts = bodies[:, self._parts]
         return np.concatenate([rigid, _motions(parts, np.zeros(parts.shape))], axis=1)
 
     def _twist(self, flat: FloatArray) -> FloatArray:
-        """Return how far the lumps have turned beyond the coupling, shape (n, lumps) [rad]."""
+        """Return the lumps' twist [rad].
+
+        How far they have turned beyond the coupling, shape (n, lumps).
+        """
         angles = flat.view(R.BODY_STATE)["angle"]
         found: FloatArray = angles[:, self._numbers.lumps] - self._azimuths
         if not self._machine.twists:
@@ -335,7 +385,10 @@ class MemberChannels:
         return np.asarray(found - lead)
 
     def _markers(self, lumps: FloatArray, bodies: FloatArray) -> FloatArray:
-        """Return x, y, z of every marker, shape (n, markers, 3), from motions of shape (n, lumps or bodies, 6)."""
+        """Return x, y, z of every marker.
+
+        Shape (n, markers, 3), from motions of shape (n, lumps or bodies, 6).
+        """
         n = len(lumps)
         found: FloatArray = np.einsum("maj,nj->nma", self._of_lumps, lumps.reshape(n, -1))
         found += np.einsum("maj,nj->nma", self._of_bodies, bodies.reshape(n, -1))
@@ -343,7 +396,10 @@ class MemberChannels:
 
 
 def _motions(bodies: np.ndarray, twist: FloatArray | None = None) -> FloatArray:
-    """Return x, y, z and turns about x, y, z of bodies in samples, shape (n, bodies, 6), `twist` in place of angles."""
+    """Return the bodies' motions in samples.
+
+    x, y, z and turns about x, y, z, shape (n, bodies, 6), `twist` in place of angles.
+    """
     about = bodies["angle"] if twist is None else twist
     turns = [about[..., None], -bodies["tilt"][..., 1:], bodies["tilt"][..., :1]]
     return np.concatenate([bodies["position"], *turns], axis=-1)

@@ -17,7 +17,10 @@ _MOST = 8  # modes that are reported
 
 
 def dense(blocks: Blocks) -> FloatArray:
-    """Return the block-arrow Jacobian as one matrix: what a ball does not reach stays zero."""
+    """Return the block-arrow Jacobian as one matrix.
+
+    What a ball does not reach stays zero.
+    """
     reach, tail = blocks.reach, int(blocks.reach.states[-1])
     size = tail + blocks.d.shape[0]
     matrix = np.zeros((size, size))
@@ -41,7 +44,9 @@ def dense(blocks: Blocks) -> FloatArray:
 def ring_modes(
     bundle: Any, blocks: Blocks, inertia: FloatArray, *, until: float | None = None
 ) -> list[tuple[float, float]]:
-    """Return frequency [Hz] and damping ratio [-] of the modes of the rings, by frequency.
+    """Return the modes of the rings.
+
+    Frequency [Hz] and damping ratio [-], by frequency.
 
     A mode belongs to the rings where half of its kinetic energy or more is theirs. Those of the Jacobian blocks are
     those of the last steps: loaded balls go round, and the modes with them.

@@ -22,7 +22,9 @@ from lambda_core.solver.drivers.solver_context import assemble
 def solve_near(
     model: BearingModel, near: Equilibrium, kernels: Kernels | None = None, *, is_of_laws: bool = True
 ) -> Equilibrium:
-    """Find the equilibrium of a changed model from that of a solved one.
+    """Find a changed model's equilibrium.
+
+    From that of a solved one.
 
     Contact frame, first state, and the balls that the cage drives are those of the solution, which saves most of the
     work of :func:`solve`, and keeps balls that no ring loads in the same of several steady motions. A model whose state

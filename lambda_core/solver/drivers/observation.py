@@ -26,7 +26,10 @@ from lambda_core.solver.records import CONTACT_CHANNELS
 
 
 class Scratch(NamedTuple):
-    """What compiled code writes about n samples; see compiled.observe.observe."""
+    """Memory for compiled observation of n samples.
+
+    See compiled.observe.observe.
+    """
 
     contacts: FloatArray
     pockets: FloatArray
@@ -73,7 +76,10 @@ def observe(core_: Core, context: SolverContext, times: FloatArray, states: Floa
 def channels_of(
     ok: int, context: SolverContext, times: FloatArray, states: FloatArray, scratch: Scratch
 ) -> dict[str, FloatArray]:
-    """Return what was written about samples by the names of the channels."""
+    """Return observed samples by channel name.
+
+    The samples were written before.
+    """
     if ok != 1:
         raise SolverError(fault_sentence(context))
     n, geometry = times.size, context.model.geometry

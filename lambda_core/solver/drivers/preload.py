@@ -32,12 +32,17 @@ class Preload:
 
 
 def first_contact(bearing: MountedBearing) -> float:
-    """Return where the inner ring touches, against the middle of the outer one, in operation [m]."""
+    """Return the place of first contact [m].
+
+    Of the inner ring against the middle of the outer one, in operation.
+    """
     return bearing.takes * axial_play(bearing.model, bearing.model.geometry.clearance) if bearing.takes else 0.0
 
 
 def preloads(model: MachineModel, kernels: SharedKernels | None = None) -> dict[str, Preload]:
-    """Return the preload of each bearing that takes thrust from one side.
+    """Return the preload of each one-sided bearing.
+
+    It takes thrust from one side.
 
     The machine is solved once more without loads and weight. For a pair on a rigid shaft, the approaches of both sum to
     that of the preload: where one is back at its first contact the other carries the approach of both, and the
@@ -64,7 +69,10 @@ def preloads(model: MachineModel, kernels: SharedKernels | None = None) -> dict[
 
 
 def _lift_off(model: MachineModel, state: ShaftState, index: int) -> float | None:
-    """Return the thrust on `index` at which its opposite is back at first contact."""
+    """Return the thrust of first contact.
+
+    The thrust on `index` at which its opposite is back at first contact.
+    """
     bearing = model.bearings[index]
     opposite = [i for i, other in enumerate(model.bearings) if other.takes == -bearing.takes]
     same = [other for other in model.bearings if other.takes == bearing.takes]

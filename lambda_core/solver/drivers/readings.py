@@ -54,7 +54,7 @@ class ReadBearing:
 
 
 class Readings(Protocol[Sampled, Summed_co]):
-    """What is read from the states of a motion."""
+    """Readings of a motion's states."""
 
     @property
     def bearings(self) -> tuple[ReadBearing, ...]:
@@ -65,19 +65,31 @@ class Readings(Protocol[Sampled, Summed_co]):
         """Tell whether integrals need all samples up to now."""
 
     def begin(self, y: FloatArray, time: float) -> None:
-        """Take a state as the one from which angles are counted."""
+        """Take a state as zero of angles."""
 
     def sampled(self, times: FloatArray, states: FloatArray) -> Sampled:
-        """Return what is read at samples, which follow those of the last call."""
+        """Return what is read at samples.
+
+        They follow those of the last call.
+        """
 
     def joined(self, blocks: list[Sampled]) -> Sampled:
-        """Return blocks one after the other in time, of which there may be none, as one."""
+        """Return blocks joined in time.
+
+        There may be none.
+        """
 
     def channels(self, number: int, time: float, y: FloatArray) -> Channels:
-        """Return every channel of a bearing at a state, the first axis for time."""
+        """Return every channel of a bearing.
+
+        At a state, the first axis for time.
+        """
 
     def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> Summed_co:
-        """Return the running integrals, `stored` the energy taken up since the start [J]."""
+        """Return the running integrals.
+
+        `stored` is the energy taken up since the start [J].
+        """
 
     def state(self) -> dict[str, FloatArray]:
         """Return what a continuation needs."""
@@ -97,11 +109,14 @@ class BearingReadings:
         self._start = np.zeros(2)
 
     def begin(self, y: FloatArray, time: float) -> None:
-        """Take a state as the one from which angles are counted."""
+        """Take a state as zero of angles."""
         self._start = self._angles(y)
 
     def _angles(self, y: FloatArray) -> FloatArray:
-        """Return cage angle (mean of the balls when there is no cage) and inner spin angle, to the outer ring [rad]."""
+        """Return cage and inner ring angles [rad].
+
+        Cage angle (mean of the balls when there is no cage) and inner spin angle, to the outer ring.
+        """
         context = self._context
         bodies = np.zeros(context.bundle.bodies.size, R.BODY_STATE)
         bodies.view(np.float64)[context.bundle.active] = context.shared_part(y)
@@ -111,7 +126,10 @@ class BearingReadings:
         return np.array([cage - outer, inner - outer])
 
     def sampled(self, times: FloatArray, states: FloatArray) -> Channels:
-        """Return every channel at samples: channel -> array, first axis is time."""
+        """Return every channel at samples.
+
+        Channel -> array, first axis is time.
+        """
         return observe(core(), self._context, times, states)
 
     def joined(self, blocks: list[Channels]) -> Channels:
@@ -160,7 +178,10 @@ class BearingReadings:
 
 @dataclass(frozen=True)
 class MachineSamples:
-    """What was sampled: of the machine, and of every bearing as a run of it alone has it."""
+    """Samples of a machine.
+
+    Of the machine, and of every bearing as a run of it alone has it.
+    """
 
     machine: Channels
     bearings: list[Channels]
@@ -198,11 +219,13 @@ class MachineReadings:
         self._last_time = 0.0
 
     def begin(self, y: FloatArray, time: float) -> None:
-        """Take a state as the one from which angles are counted."""
+        """Take a state as zero of angles."""
         self._start, self._last_time = self._angles(y), time
 
     def _angles(self, y: FloatArray) -> FloatArray:
-        """Return the angles of all cages (means of the balls without cages), then those of all inner rings [rad].
+        """Return all cage and inner ring angles [rad].
+
+        Cages (means of the balls without cages), then inner rings.
 
         Against the outer rings.
         """
@@ -218,7 +241,10 @@ class MachineReadings:
         return found
 
     def sampled(self, times: FloatArray, states: FloatArray) -> MachineSamples:
-        """Return what is read at samples, which follow those of the last call."""
+        """Return what is read at samples.
+
+        They follow those of the last call.
+        """
         found = self.seen(times, states)
         for i, channels in enumerate(found.bearings):
             self._add_up(i, channels)
@@ -226,7 +252,10 @@ class MachineReadings:
         return found
 
     def seen(self, times: FloatArray, states: FloatArray) -> MachineSamples:
-        """Return every channel at states, which add nothing to the integrals."""
+        """Return every channel at states.
+
+        They add nothing to the integrals.
+        """
         flat = self.shared(times, states)
         found = [self._observed(one, times, states, flat) for one in self.bearings]
         machine = {
@@ -240,7 +269,10 @@ class MachineReadings:
         return MachineSamples(machine, [channels for channels, _ in found])
 
     def joined(self, blocks: list[MachineSamples]) -> MachineSamples:
-        """Return blocks one after the other in time as one; without blocks there is no channel but an empty time."""
+        """Return blocks joined in time.
+
+        Without blocks there is no channel but an empty time.
+        """
         if not blocks:
             return MachineSamples({"time": np.zeros(0)}, [{} for _ in self.bearings])
         each = [_joined([block.bearings[i] for block in blocks]) for i in range(len(self.bearings))]
@@ -252,7 +284,10 @@ class MachineReadings:
         return self._observed(self.bearings[number], times, states, self.shared(times, states))[0]
 
     def shared(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        """Return the whole shared state of samples, shape (n, 12 bodies)."""
+        """Return the complete shared state of samples.
+
+        Shape (n, 12 bodies).
+        """
         bundle = self._context.bundle
         if self._standing is None:
             return np.array([self._evaluated(float(t), y) for t, y in zip(times, states, strict=True)])
@@ -262,7 +297,10 @@ class MachineReadings:
         return flat
 
     def _evaluated(self, t: float, state: FloatArray) -> FloatArray:
-        """Return the whole shared state at a sample, with what is prescribed."""
+        """Return the complete shared state at a sample.
+
+        With what is prescribed.
+        """
         bundle, slope, rates = self._context.bundle, np.zeros(state.size), np.zeros(L.power_count(self._context.bundle))
         if core().evaluate(t, np.ascontiguousarray(state), bundle, slope, rates, 0) != 1:
             raise SolverError(fault_sentence(self._context, t))
@@ -271,7 +309,10 @@ class MachineReadings:
     def _observed(
         self, one: ReadBearing, times: FloatArray, states: FloatArray, flat: FloatArray
     ) -> tuple[Channels, FloatArray]:
-        """Return every channel of a bearing, and force and moment of its contacts on the shaft, (n, 6)."""
+        """Return a bearing's channels and reaction.
+
+        Force and moment of its contacts on the shaft, (n, 6).
+        """
         context, span, n = one.context, one.span, times.size
         kept = states.shape[1] - self._context.bundle.states.size + span.first_state
         own = flat.reshape(n, -1, L.NS)[:, list(span.bodies)].reshape(n, -1)[:, context.bundle.active]
@@ -288,7 +329,10 @@ class MachineReadings:
         return channels_of(1, context, times, y, scratch), wrenches
 
     def _add_up(self, i: int, channels: Channels) -> None:
-        """Go on with the integrals of what only samples say, by the trapezium rule."""
+        """Add to the integrals of samples.
+
+        Only samples have their values; trapezium rule.
+        """
         columns = [channels["loss"][:, LOSSES.index(name)] for name in _SHARED]
         speed = channels["body_spin"][:, INNER] - channels["body_spin"][:, OUTER]
         rates = np.column_stack([*columns, channels["input_torque"] * speed, channels["body_position"][:, INNER]])
@@ -301,7 +345,9 @@ class MachineReadings:
         self._last[i] = rates[-1]
 
     def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> list[Sums]:
-        """Return the running integrals of every bearing since the start, as a run of it alone has them.
+        """Return every bearing's running integrals.
+
+        Since the start, as a run of it alone has them.
 
         What its raceways dissipate is exact; pocket, land, drag and bending are known exactly for all bearings together
         and are parted by their samples. Energy is balanced for the machine: input is that of the machine less what the

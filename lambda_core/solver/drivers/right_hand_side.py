@@ -46,7 +46,10 @@ def _slope_and_rates(t, y, out, handle):
 
 
 def _dense(t, y, out, handle):
-    """Write the Jacobian as a dense matrix; returns 1, or what the kernels said."""
+    """Write the Jacobian as a dense matrix.
+
+    Returns 1, or the status of the kernels.
+    """
     memory = handle.memory
     for i in range(memory.new.size):
         memory.new[i] = y[i]
@@ -102,7 +105,10 @@ _SIGNATURES: dict[Any, Any] = {
 
 
 def compiled(function: Any, signature: Any) -> Any:
-    """Compile a function of a handle; what it is called with is written down in `signature`."""
+    """Compile a function of a handle.
+
+    `signature` has the types of its arguments.
+    """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", NumbaExperimentalFeatureWarning)
         return njit(signature, error_model="numpy")(function)
@@ -114,7 +120,9 @@ def _compiled(function: Any) -> Any:
 
 
 class Handle:
-    """A model's compiled functions at the cost of a microsecond per call.
+    """Compiled functions of a model for fast calls.
+
+    A call costs a microsecond.
 
     Parameters
     ----------
@@ -129,22 +137,33 @@ class Handle:
         self._handle = context.handle(self._memory)
 
     def slope(self, t: float, y: FloatArray, out: FloatArray) -> int:
-        """Write dy/dt, shapes (n,); returns 1, or 0 where a kernel refused. `y` may be anything that can be read."""
+        """Write dy/dt.
+
+        Shapes (n,); returns 1, or 0 where a kernel refused. `y` may be anything that can be read.
+        """
         return int(_compiled(_slope)(t, _frozen(y), out, self._handle))
 
     def slope_and_rates(self, t: float, y: FloatArray, out: FloatArray) -> int:
-        """Write dy/dt and, behind it, the rates of the running integrals, as `slope` does.
+        """Write dy/dt and the integrals' rates.
+
+        The rates follow dy/dt, as `slope` does.
 
         `y` may have the running integrals behind the states; nothing depends on them.
         """
         return int(_compiled(_slope_and_rates)(t, _frozen(y), out, self._handle))
 
     def jacobian(self, t: float, y: FloatArray, out: FloatArray) -> int:
-        """Write d(dy/dt)/dy into the first n rows and columns of a matrix, 0 elsewhere."""
+        """Write d(dy/dt)/dy into a matrix.
+
+        Into its first n rows and columns, 0 elsewhere.
+        """
         return int(_compiled(_dense)(t, _frozen(y), out, self._handle))
 
     def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        """Return the rates of the running integrals, shape (times, powers) [W, rad/s, m]."""
+        """Return the rates of the running integrals.
+
+        Shape (times, powers) [W, rad/s, m].
+        """
         out = np.zeros((times.size, L.power_count(self.context.bundle)))
         if _compiled(_rates)(times, np.ascontiguousarray(states), out, self._handle) != 1:
             raise RuntimeError("a kernel refused a state that an integrator had accepted")
@@ -152,7 +171,10 @@ class Handle:
 
 
 def _frozen(y: FloatArray) -> FloatArray:
-    """Return a view that only reads: CVODE's own arrays are such, and one kind of argument is compiled once."""
+    """Return a read-only view.
+
+    CVODE's own arrays are such, and one kind of argument is compiled once.
+    """
     y = y.view()
     y.flags.writeable = False
     return y

@@ -12,7 +12,9 @@ from lambda_core.solver.drivers.machine_assembly import machine_members
 
 
 def bearing_on_rigid_shaft(machine: MachineModel) -> BearingModel | None:
-    """Return the only bearing of a machine with all that surrounds it; None where more than that moves.
+    """Return a machine's only bearing with its surroundings.
+
+    None where more than that moves.
 
     Its rings and cage are the members that move: shaft and discs count to the inner ring. The tables of both are the
     same, so that the friction of the balls is in equilibrium with the loads, too.
@@ -37,13 +39,16 @@ def bearing_on_rigid_shaft(machine: MachineModel) -> BearingModel | None:
 
 
 def _body(place: Place) -> BodyName | None:
-    """Return the body of a bearing alone that carries a place; None for the ground."""
+    """Return the body that carries a place.
+
+    Of a bearing alone; None for the ground.
+    """
     if isinstance(place.body, BearingPart):
         return place.body.part
     return None if place.body == GROUND else "inner_ring"
 
 
 def _from(position: float, place: Place) -> tuple[float, float, float]:
-    """Return where a place is from the middle of a bearing [m]."""
+    """Return a place from a bearing's middle [m]."""
     x, y, z = place.point
     return x - position, y, z

@@ -21,17 +21,25 @@ _SUMMED = tuple(CONTACT_CHANNELS.index(name) for name in ("capacitance_hertz", "
 
 
 def rings_of_contacts(geometry: Geometry) -> NDArray[np.int64]:
-    """Return the ring of each contact of a ball, 0 inner, 1 outer."""
+    """Return the ring of each contact.
+
+    Of a ball, 0 inner, 1 outer.
+    """
     return np.array([raceway.ring for raceway in raceways_of_a_ball(geometry)])
 
 
 def are_ribs(geometry: Geometry) -> NDArray[np.bool_]:
-    """Return which contacts of a roller are those with ribs; of balls none."""
+    """Mark the contacts with ribs.
+
+    Of a roller; of balls none.
+    """
     return np.array([raceway.end != 0 for raceway in raceways_of_a_ball(geometry)])
 
 
 def contacts_by_ring(geometry: Geometry, contacts: FloatArray) -> FloatArray:
-    """Return the contacts of each ball with its rings, shape (..., Z, 2, channels), from those with its raceways.
+    """Return contacts by ring from raceways.
+
+    Of each ball, shape (..., Z, 2, channels).
 
     Of two arcs the one that carries more is shown, with the capacitance and the loss of both; of rollers the raceway,
     with the losses of the ring's ribs.
@@ -49,7 +57,10 @@ def contacts_by_ring(geometry: Geometry, contacts: FloatArray) -> FloatArray:
 
 
 def loads_of_ribs(geometry: Geometry, contacts: FloatArray) -> FloatArray:
-    """Return the loads of the ribs on each roller, shape (..., Z, 4) as channels.RIBS has them [N]."""
+    """Return the rib loads on rollers [N].
+
+    On each roller, shape (..., Z, 4) as channels.RIBS has them.
+    """
     found = np.zeros((*contacts.shape[:-2], len(RIBS)))
     for place, raceway in enumerate(raceways_of_a_ball(geometry)):
         if raceway.end:
@@ -59,7 +70,10 @@ def loads_of_ribs(geometry: Geometry, contacts: FloatArray) -> FloatArray:
 
 
 def losses_by_ring(geometry: Geometry, powers: FloatArray) -> FloatArray:
-    """Return losses as channels.LOSSES has them, shape (..., 16), from those of every raceway and the rest."""
+    """Return losses by ring.
+
+    As channels.LOSSES has them, shape (..., 16), from those of every raceway and the rest.
+    """
     rings = np.array([raceway.ring for raceway in raceways(geometry)])
     if rings.size == len(RINGS):
         return powers
@@ -70,7 +84,9 @@ def losses_by_ring(geometry: Geometry, powers: FloatArray) -> FloatArray:
 
 
 def losses_of_raceways(geometry: Geometry, powers: FloatArray, first: int) -> dict[str, float]:
-    """Return what the raceways of one of several bearings dissipate, as channels.LOSSES has it; the rest is 0.
+    """Return one bearing's losses of raceways.
+
+    It is one of several, as channels.LOSSES has it; the rest is 0.
 
     Parameters
     ----------

@@ -33,7 +33,9 @@ _MIRROR = np.array([-1.0, 1.0, 1.0, -1.0, -1.0])  # of a pose or a wrench, at th
 
 
 class RollerReaction(Reaction):
-    """A roller bearing by the pose of its inner ring; the rollers find their places, without friction.
+    """Roller bearing by its inner ring's pose.
+
+    The rollers find their places, without friction.
 
     Parameters
     ----------
@@ -62,12 +64,18 @@ class RollerReaction(Reaction):
 
     @property
     def holds_along(self) -> bool:
-        """Whether ribs or cones hold the shaft along x on one side at least."""
+        """True if ribs or cones hold the shaft.
+
+        Along x on one side at least.
+        """
         return not all(thrust_problem(self.rollers, side) for side in (1.0, -1.0))
 
     @property
     def state(self) -> RollerEquilibrium:
-        """At the last pose, in the axes of the rollers: a along the thrust that they take."""
+        """State at the last pose.
+
+        In the axes of the rollers: a along the thrust that they take.
+        """
         return self._balanced(self._pose) if self._state is None else self._state
 
     def _balanced(self, pose: FloatArray) -> RollerEquilibrium:
@@ -86,7 +94,9 @@ class RollerReaction(Reaction):
         return self._state
 
     def reaction(self, pose: Sequence[float]) -> FloatArray:
-        """Return force and moment of the bearing on its inner ring at a pose, shape (5,) [N, N m].
+        """Return force and moment at a pose.
+
+        Of the bearing on its inner ring, shape (5,) [N, N m].
 
         Raises
         ------
@@ -99,7 +109,10 @@ class RollerReaction(Reaction):
         return -self._turned * state.loads
 
     def stiffness(self) -> FloatArray:
-        """Return d(reaction)/d(pose) with its sign turned at the last pose, shape (5, 5)."""
+        """Return -d(reaction)/d(pose) at the last pose.
+
+        Shape (5, 5).
+        """
         found: FloatArray = self.state.stiffness * np.outer(self._turned, self._turned)
         return found
 
@@ -108,7 +121,9 @@ class RollerReaction(Reaction):
         return False
 
     def at_pose(self) -> Equilibrium:
-        """Return the equilibrium at the last pose with the friction of the rollers by the laws of the model.
+        """Return the last pose's equilibrium with friction.
+
+        The friction of the rollers by the laws of the model.
 
         Friction skews the rollers of a tilted ring, and the way there starts from a straight one: straight into the
         tilted pose it is lost in some places.

@@ -17,7 +17,9 @@ from lambda_core.model.laws.time_functions import initial
 
 
 def press_rollers(model: BearingModel, rollers: RollerBearing, bodies: NDArray[Any], places: NDArray[Any]) -> None:
-    """Move free directions of the inner ring, and the rollers, to where the convex equilibrium has them, in place.
+    """Move ring and rollers to equilibrium, in place.
+
+    Free directions of the inner ring, and the rollers, to where the convex equilibrium has them.
 
     A guess: it counts the centrifugal force of rolling, and nothing of friction. Without an equilibrium all stays where
     it is, and the continuation says what is missing.
@@ -63,7 +65,10 @@ def press_rollers(model: BearingModel, rollers: RollerBearing, bodies: NDArray[A
 
 
 def roll_rollers(rollers: RollerBearing, inner: float, outer: float, places: NDArray[Any]) -> None:
-    """Set orbital speeds and spins to rolling without sliding between rings of these speeds [rad/s], in place."""
+    """Set the rollers to pure rolling, in place.
+
+    Orbital speeds and spins without sliding between rings of these speeds [rad/s].
+    """
     motion, axis = rolling_motion(rollers, inner, outer), rollers.faces * rollers.angles.roller
     spin = -math.copysign(motion.spin, inner - outer)
     places["velocity"][:, 2] = motion.cage * places["radius"]

@@ -29,12 +29,18 @@ _BAR = 0.9  # length of the bars that rollers touch, over the effective length: 
 
 
 def states_of_an_element(model: BearingModel) -> int:
-    """Return how many states each ball or roller of a bearing has."""
+    """Return the state count of an element.
+
+    Each ball or roller of a bearing has so many.
+    """
     return (BALL if model.rollers is None else ROLLER).states
 
 
 def spin_in_space(rollers: RollerBearing | None, spin: FloatArray) -> FloatArray:
-    """Return spins (..., 3), axial, radial, tangential, from those of the state; rollers have theirs about own axes."""
+    """Return spins (..., 3) in turning axes.
+
+    Axial, radial, tangential, from those of the state; rollers have theirs about own axes.
+    """
     if rollers is None:
         return spin.copy()
     axis = rollers.faces * rollers.angles.roller  # the large end points to -x where they face x
@@ -44,7 +50,9 @@ def spin_in_space(rollers: RollerBearing | None, spin: FloatArray) -> FloatArray
 
 
 def write_line(record: Any, rollers: RollerBearing, ring: int, line: int) -> None:
-    """Write what a raceway of rollers has in another way than one of balls.
+    """Write the fields of a rollers' raceway.
+
+    Those that differ from a raceway of balls.
 
     The clearance is shared by both rings, as are those of balls. To laws R_y is the effective length.
     """
@@ -61,13 +69,19 @@ def write_line(record: Any, rollers: RollerBearing, ring: int, line: int) -> Non
 
 
 def rib_of(rollers: RollerBearing, ring: int, end: int) -> Rib:
-    """Return a rib of a ring at the end of the rollers towards +x or -x."""
+    """Return a rib of a ring.
+
+    At the end of the rollers towards +x or -x.
+    """
     name = ("inner", "outer")[ring]
     return next(rib for rib in rollers.ribs if (rib.ring, rollers.faces * rib.end) == (name, end))
 
 
 def write_rib(record: Any, rollers: RollerBearing, ring: int, end: int) -> None:
-    """Write what a rib has in another way than a raceway of balls; R_x is along sliding."""
+    """Write the fields of a rib.
+
+    Those that differ from a raceway of balls; R_x is along sliding.
+    """
     rib = rib_of(rollers, ring, end)
     record["kind"], record["side"] = RIB.number, end
     record["axial_offset"], record["rib_radius"] = rollers.faces * rib.place[0] + end * rib.gap, rib.contact.distance
@@ -78,7 +92,10 @@ def write_rib(record: Any, rollers: RollerBearing, ring: int, end: int) -> None:
 
 
 def write_row(record: Any, rollers: RollerBearing, cage: Cage) -> None:
-    """Write what a row of rollers has in another way than one of balls; large ends of cones that face x point to -x."""
+    """Write the fields of a rollers' row.
+
+    Those that differ from a row of balls; large ends of cones that face x point to -x.
+    """
     polar, transverse = rollers.inertias
     record["kind"], record["ball_radius"] = R.ROLLERS, 0.5 * rollers.diameter
     record["ball_inertia"], record["transverse_inertia"] = polar, transverse
@@ -91,13 +108,18 @@ def write_row(record: Any, rollers: RollerBearing, cage: Cage) -> None:
 
 
 def lines_of(models: Sequence[BearingModel]) -> FloatArray:
-    """Return Bundle.lines of all bearings with rollers: inner raceway, then outer."""
+    """Return Bundle.lines of all roller bearings.
+
+    Inner raceway, then outer.
+    """
     found = [_lines(model.rollers) for model in models if model.rollers is not None]
     return np.concatenate(found) if found else np.zeros((0, L.LINE_ROWS, 0))
 
 
 def _lines(rollers: RollerBearing) -> FloatArray:
-    """Return places along the contact, widths, drops and reduced radii, (2, LINE_ROWS, SLICES).
+    """Return the slices' tables of a line.
+
+    Places along the contact, widths, drops and reduced radii, (2, LINE_ROWS, SLICES).
 
     Places count along s = n x t, which is x of the outer raceway and -x of the inner one.
     """
@@ -113,7 +135,10 @@ _kept: dict[str, Any] = {}  # code of rollers: tables of addresses do not keep i
 
 
 def roller_code(compiled: Core, has_rollers: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the addresses of RollerCode and RollerBlocks, compiled when a machine first has rollers."""
+    """Return the addresses of rollers' code.
+
+    Of RollerCode and RollerBlocks, compiled when a machine first has rollers.
+    """
     names = [*L.RollerCode._fields], [*RollerBlocks._fields]
     if not has_rollers:
         return np.zeros((0, len(names[0])), dtype=np.int64), np.zeros((0, len(names[1])), dtype=np.int64)

@@ -83,17 +83,25 @@ class ShaftState:
 
     @property
     def motions(self) -> FloatArray:
-        """Of shaft, outer rings and bodies, in the rows of structure.static_rows."""
+        """Motions of shaft, outer rings and bodies.
+
+        In the rows of structure.static_rows.
+        """
         return np.concatenate([self.displacement, self.outer.ravel(), self.bodies.ravel()])
 
     def pose(self, model: MachineModel, index: int) -> FloatArray:
-        """Return the pose of a bearing's inner ring against its outer one, shape (5,)."""
+        """Return a bearing's relative pose.
+
+        Of its inner ring against its outer one, shape (5,).
+        """
         rows = model.body.rows(model.bearings[index].position).start + np.array(PLACES)
         return np.asarray(self.displacement[rows] - self.outer[index])
 
 
 class _System:
-    """The unknowns of shaft, outer rings and other bodies in one vector, and the forces on them.
+    """Unknowns of a machine and their forces.
+
+    Shaft, outer rings and other bodies in one vector.
 
     The shaft's are the pose of the node that the coupling holds and, of all others, what they move relative to a rigid
     shaft with that pose. Elastic forces then are those of deflections alone: however stiff the shaft is, its motion as
@@ -156,11 +164,17 @@ class _System:
         self.carried = 0.0  # largest reaction of a bearing at the last state [N]
 
     def poses(self, q: FloatArray) -> FloatArray:
-        """Return the pose of every inner ring against its outer one, shape (bearings, 5)."""
+        """Return every inner ring's relative pose.
+
+        Against its outer one, shape (bearings, 5).
+        """
         return np.asarray(self.reach @ q)
 
     def residual(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return what is unbalanced [N, N m] and the reactions of the bearings on the shaft."""
+        """Return residual and bearing reactions.
+
+        The residual is unbalanced [N, N m]; the reactions act on the shaft.
+        """
         reactions = np.array([ring.reaction(pose) for ring, pose in zip(self.rings, self.poses(q), strict=True)])
         self.carried = float(np.abs(reactions[:, :3]).max())
         pushed = np.asarray(np.einsum("bij,bi->j", self.reach, reactions))
@@ -174,7 +188,10 @@ class _System:
         return found
 
     def tangent(self, each: FloatArray, q: FloatArray) -> FloatArray:
-        """Return the stiffness of the machine with one of (5, 5) at every bearing."""
+        """Return the machine's stiffness.
+
+        With one of (5, 5) at every bearing.
+        """
         found = np.asarray(self.linear + sum(reach.T @ k @ reach for reach, k in zip(self.reach, each, strict=True)))
         for link in self.links:
             found = found + self.moves.T @ link.slope(self.moves @ q) @ self.moves
@@ -201,7 +218,10 @@ class _System:
 
 
 def seat_load(model: MachineModel, bearing: MountedBearing) -> FloatArray:
-    """Return force and moment on an outer ring at t = 0, in the order of POSE [N, N m]."""
+    """Return an outer ring's load at t = 0.
+
+    Force and moment in the order of POSE [N, N m].
+    """
     load = model.load_on(BearingPart(bearing.name, "outer_ring"))
     found = np.array([initial(load[row]) for row in PLACES])
     found[0] += bearing.seating.force
@@ -210,12 +230,18 @@ def seat_load(model: MachineModel, bearing: MountedBearing) -> FloatArray:
 
 
 def weight_of(model: MachineModel, ring: Body) -> FloatArray:
-    """Return the weight of a ring, x, y, z [N]; that of the rolling elements counts in motion only."""
+    """Return a ring's weight x, y, z [N].
+
+    That of the rolling elements counts in motion only.
+    """
     return ring.mass * np.array(model.gravity)
 
 
 def _carried(model: MachineModel, frame: NDArray[np.int64]) -> FloatArray:
-    """Return how all rows move with the unknowns: a node's pose, or the way relative to a rigid shaft."""
+    """Return the rows' motion by the unknowns.
+
+    A node's pose, or the way relative to a rigid shaft.
+    """
     found: FloatArray = np.eye(model.body.stiffness.shape[0])
     at = model.body.positions[frame[0] // NODE]
     for node, place in enumerate(model.body.positions):
@@ -226,7 +252,10 @@ def _carried(model: MachineModel, frame: NDArray[np.int64]) -> FloatArray:
 
 
 class SharedKernels:
-    """Compiled laws by their choice: bearings on one shaft mostly have the same, and laws are tried out once."""
+    """Compiled laws by their choice.
+
+    Bearings on one shaft mostly have the same, and laws are tested once.
+    """
 
     def __init__(self, announce: Announce = None) -> None:
         self._announce = announce
@@ -299,13 +328,19 @@ def _ring(bearing: MountedBearing, kernels: Kernels, announce: Announce) -> Ring
 
 
 def _springs(rings: list[Ring]) -> FloatArray:
-    """Return a stiffness of every bearing before its contacts are known, shape (bearings, 5, 5)."""
+    """Return a stiffness before contacts are known.
+
+    Of every bearing, shape (bearings, 5, 5).
+    """
     free = [isinstance(ring, RollerReaction) and not ring.holds_along for ring in rings]
     return np.array([np.diag(_GUESS * _LOOSE if is_free else _GUESS) for is_free in free])
 
 
 def _first_guess(system: _System) -> FloatArray:
-    """Return a state in which every loaded bearing is in contact: springs first, then the way to touching rings."""
+    """Return a first guess in contact.
+
+    Every loaded bearing is in contact: springs first, then the way to touching rings.
+    """
     model = system.model
     springs = _springs(system.rings)
     tangent, q = system.tangent(springs, system.start), system.start.copy()
@@ -328,7 +363,10 @@ def _first_guess(system: _System) -> FloatArray:
 
 
 def _newton(system: _System, q: FloatArray) -> tuple[FloatArray, int]:
-    """Return the state of balance next to `q`, and the number of iterations."""
+    """Return the balance next to `q`.
+
+    Also return the number of iterations.
+    """
     unbalanced, _ = system.residual(q)
     merit = system.merit(unbalanced)
     for iteration in range(_ITERATIONS):
@@ -347,7 +385,9 @@ def _newton(system: _System, q: FloatArray) -> tuple[FloatArray, int]:
 
 
 def _along(system: _System, q: FloatArray, move: FloatArray, unbalanced: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the state along a step where the potential no longer falls, to a share of its first slope.
+    """Return the state of least potential.
+
+    Along a step, to a share of its first slope.
 
     Forces of frictionless contacts have a potential; its slope along the step is the work of what is unbalanced. Where
     a gap closes along the way it turns over, and a secant finds where.
@@ -378,7 +418,10 @@ def _along(system: _System, q: FloatArray, move: FloatArray, unbalanced: FloatAr
 
 
 def _refuse_loose(system: _System) -> None:
-    """Refuse a shaft or a body that nothing holds in a direction in which something pulls it."""
+    """Refuse a loose shaft or body.
+
+    Nothing holds it in a direction in which something pulls it.
+    """
     held = system.tangent(_springs(system.rings), system.start)
     held = held[np.ix_(system.free, system.free)]
     pull = system.elastic(system.start)[system.free]
@@ -417,7 +460,10 @@ def _named(system: _System, row: int) -> tuple[str, str]:
 
 
 def _check_sides(model: MachineModel, reactions: FloatArray) -> None:
-    """Refuse a solution in which an angular contact bearing is pushed against its open side."""
+    """Refuse a bearing pushed to its open side.
+
+    It is an angular contact bearing in a solution.
+    """
     for bearing, reaction in zip(model.bearings, reactions, strict=True):
         if bearing.takes and reaction[0] * bearing.takes > 1e-6 * max(1.0, float(np.abs(reaction[:3]).max())):
             side = "+x" if bearing.takes > 0 else "-x"

@@ -56,7 +56,9 @@ def state_scales(assembly: Assembly, active: NDArray[np.int64]) -> FloatArray:
 
 @dataclass
 class SolverContext:
-    """Everything compiled code needs for one assembly at the contact frames of its bearings.
+    """Everything that compiled code needs.
+
+    For one assembly at the contact frames of its bearings.
 
     Equilibrium, motion, stiffness and other integrators all take it, and work in its memory one after another.
     """
@@ -93,16 +95,24 @@ class SolverContext:
 
     @property
     def frame(self) -> ContactFrame:
-        """At which radii and films of the only bearing are frozen."""
+        """Frame of the only bearing.
+
+        Radii and films are frozen at it.
+        """
         return self.bearing.frame
 
     @property
     def oils(self) -> Oils:
-        """Of the only bearing, as the rheology of each raceway has it."""
+        """Oils of the only bearing.
+
+        As the rheology of each raceway has them.
+        """
         return self.bearing.oils
 
     def handle(self, memory: Memory) -> Handle:
-        """Return what leads to all of it and to the integrator's memory, which compiled code takes as one argument.
+        """Return the handle for compiled code.
+
+        It leads to all of it and to the integrator's memory, as one argument.
 
         The formula of integration is the one that the memory has room for.
         """
@@ -112,24 +122,36 @@ class SolverContext:
         return Handle(*pointers, self.bundle, self.blocks, self.factors, memory)
 
     def raceway(self, element: str) -> Any:
-        """Return the record of a ring's raceway, of the first where it has several alike."""
+        """Return the record of a ring's raceway.
+
+        Of the first where it has several alike.
+        """
         found = (raceway.element for raceway in raceways(self.model.geometry))
         return self.bundle.raceways[next(i for i, name in enumerate(found) if name == element)]
 
     def parameters(self, element: str, role: str) -> FloatArray:
-        """Return the parameters of a raceway's law, a view of what compiled code reads."""
+        """Return the parameters of a raceway's law.
+
+        A view of what compiled code reads.
+        """
         begin, end = self.raceway(element)["parameters"][role]
         found: FloatArray = self.bundle.par[begin:end]
         return found
 
     def shared_part(self, state: FloatArray) -> FloatArray:
-        """Return the free entries of the bodies' states in a state vector, a view."""
+        """Return a state vector's free shared part.
+
+        A view of the entries of the bodies' states.
+        """
         end = self.size - self.bundle.states.size
         return state[end - self.bundle.active.size : end]
 
     @property
     def oil(self) -> Oil:
-        """The oil by the inner contact's rheology, which cage, drag and methods take."""
+        """Oil by the inner contact's rheology.
+
+        Cage, drag and methods use it.
+        """
         return self.oils[0]
 
     @property
@@ -139,12 +161,18 @@ class SolverContext:
 
 
 def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> SolverContext:
-    """Return the context of a bearing that is alone, for given frozen contact angles and mean loads."""
+    """Return the context of a bearing alone.
+
+    For given frozen contact angles and mean loads.
+    """
     return context_of(assembly_of(model, kernels, frame, oils))
 
 
 def context_of(assembly: Assembly) -> SolverContext:
-    """Return the context of an assembly: its tables, and room to work in."""
+    """Return the context of an assembly.
+
+    Its tables, and room to work in.
+    """
     tables, compiled, depth = build(assembly), core(), assembly.bearings[0].model.depth
     grid = unit_grid(depth.strips, depth.rows)
     bodies, balls = tables.bodies.size, int(tables.system[0]["balls"])

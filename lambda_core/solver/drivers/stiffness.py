@@ -25,7 +25,9 @@ _RATES = (L.SVX, L.SVY, L.SVZ, L.SWY, L.SWZ)
 
 
 def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
-    """Return d(load)/d(displacement) of the inner ring against the outer at the equilibrium.
+    """Return d(load)/d(displacement) at the equilibrium.
+
+    Of the inner ring against the outer.
 
     The balls follow: K = -(F_qq - F_qb F_bb^-1 F_bq), the Schur complement of the Jacobian of the contact forces
     F over the axial and radial positions b of the balls, q the ring's displacement and tilt. Centrifugal force and
@@ -51,7 +53,10 @@ def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
 
 
 def freed(found: SolverContext) -> SolverContext:
-    """Return the context of the same bearing whose inner ring is free, without supports and other force elements."""
+    """Return the context with a free inner ring.
+
+    The same bearing, without supports and other force elements.
+    """
     free = dataclasses.replace(found.model, inner_ring=found.model.inner_ring.freed(_FREED), links={})
     return assemble(free, found.kernels, found.frame, found.oils)
 
@@ -59,7 +64,9 @@ def freed(found: SolverContext) -> SolverContext:
 def stiffness_at(
     found: SolverContext, context: SolverContext, state: FloatArray, displacement: Sequence[float]
 ) -> FloatArray:
-    """Return the stiffness at a state of `found`, by the context of the freed ring, shape (5, 5).
+    """Return the stiffness at a state.
+
+    Of `found`, by the context of the freed ring, shape (5, 5).
 
     Raises
     ------
@@ -79,7 +86,10 @@ def stiffness_at(
 def _moved(
     found: SolverContext, context: SolverContext, state: FloatArray, displacement: Sequence[float]
 ) -> FloatArray:
-    """Return a state of `found` in the layout of the freed ring."""
+    """Return a state in the freed layout.
+
+    It is a state of `found`; the inner ring is free.
+    """
     tail = int(found.bundle.system["tail"][0])
     shared = np.zeros(context.bundle.shared.size)
     shared[found.bundle.active] = found.shared_part(state)
@@ -88,7 +98,10 @@ def _moved(
 
 
 def _fill_slopes(context: SolverContext, state: FloatArray) -> None:
-    """Fill the context's blocks with the Jacobian of the normal forces alone."""
+    """Fill blocks with the normal forces' Jacobian.
+
+    The blocks are the context's; no other forces count.
+    """
     compiled, bundle = core(), context.bundle
     system = bundle.system[0]
     system["friction_on"], system["guides_on"] = 0, 0
@@ -100,7 +113,10 @@ def _fill_slopes(context: SolverContext, state: FloatArray) -> None:
 
 
 def _eliminated(context: SolverContext) -> FloatArray:
-    """Return the stiffness left when the balls' positions and the waves of rings are eliminated, shape (5, 5)."""
+    """Return the condensed stiffness.
+
+    The balls' positions and the waves of rings are eliminated, shape (5, 5).
+    """
     blocks, body, waves = context.blocks, context.model.inner_ring, context.bundle.waves["body"]
     amplitudes = [L.NS * int(wave) + axis for wave in waves for axis in (L.SY, L.SZ)]
     columns = blocks.index[[*_STATES, *amplitudes]]

@@ -19,7 +19,7 @@ _RING = np.array(PLACES)
 
 @dataclass(frozen=True)
 class Rows:
-    """Where motions stand in a vector.
+    """Rows of motions in a vector.
 
     Attributes
     ----------
@@ -40,7 +40,10 @@ class Rows:
 
 
 def static_rows(model: MachineModel) -> Rows:
-    """Return the rows of the unknowns of an equilibrium: the shaft's, five of each ring, six of each body."""
+    """Return the rows of an equilibrium's unknowns.
+
+    The shaft's, five of each ring, six of each body.
+    """
     rings = model.body.stiffness.shape[0]
     bodies = rings + len(POSE) * len(model.bearings)
     return Rows(lambda x: model.body.rows(x).start, rings, bodies, bodies + NODE * len(model.bodies))
@@ -49,7 +52,10 @@ def static_rows(model: MachineModel) -> Rows:
 def point_on(
     model: MachineModel, rows: Rows, body: Carrier, point: Sequence[float]
 ) -> tuple[NDArray[np.int64], FloatArray]:
-    """Return the rows that move a point of a body, and how the point moves and turns with them, shape (6, rows)."""
+    """Return the rows that move a point.
+
+    A point of a body, and how it moves and turns with them, shape (6, rows).
+    """
     if body == GROUND:
         return np.zeros(0, dtype=np.int64), np.zeros((NODE, 0))
     at = np.asarray(point, dtype=float)
@@ -65,7 +71,10 @@ def point_on(
 def _point_on_part(
     model: MachineModel, rows: Rows, part: BearingPart, at: FloatArray
 ) -> tuple[NDArray[np.int64], FloatArray]:
-    """Return the same for a point of an outer ring; the rotation of a ring and a cage stand in no such vector."""
+    """Return the rows that move a ring's point.
+
+    Of an outer ring; the rotation of a ring and a cage is in no such vector.
+    """
     if part.part == "cage":
         return np.zeros(0, dtype=np.int64), np.zeros((NODE, 0))
     number = model.index(part)
@@ -74,7 +83,10 @@ def _point_on_part(
 
 
 def ring_in(model: MachineModel, rows: Rows, index: int) -> FloatArray:
-    """Return how an outer ring moves against what carries it, shape (5, size)."""
+    """Return a ring's motion against its carrier.
+
+    An outer ring, shape (5, size).
+    """
     bearing = model.bearings[index]
     found: FloatArray = np.zeros((len(POSE), rows.size))
     found[range(len(POSE)), rows.rings + len(POSE) * index + np.arange(len(POSE))] = 1.0
@@ -84,7 +96,10 @@ def ring_in(model: MachineModel, rows: Rows, index: int) -> FloatArray:
 
 
 def stretch(model: MachineModel, rows: Rows, spring: MachineSpring) -> FloatArray:
-    """Return how the body of a spring moves and turns against the other one at its place, shape (6, size)."""
+    """Return a spring's relative motion.
+
+    How its body moves and turns against the other one at its place, shape (6, size).
+    """
     found: FloatArray = np.zeros((NODE, rows.size))
     for sign, body in ((1.0, spring.place.body), (-1.0, spring.to)):
         own, moves = point_on(model, rows, body, spring.place.point)
@@ -93,7 +108,10 @@ def stretch(model: MachineModel, rows: Rows, spring: MachineSpring) -> FloatArra
 
 
 def structure(model: MachineModel, rows: Rows) -> tuple[FloatArray, FloatArray]:
-    """Return stiffness and damping of springs, seats that give way, and what holds bodies, shape (size, size)."""
+    """Return the structure's stiffness and damping.
+
+    Of springs, elastic seats, and what holds bodies, shape (size, size).
+    """
     stiffness, damping = np.zeros((rows.size, rows.size)), np.zeros((rows.size, rows.size))
     for spring in model.springs:
         reach = stretch(model, rows, spring)

@@ -16,7 +16,9 @@ _COUNTS = 0.01  # share of the steepest slope from which on a single harmonic ha
 
 
 def longest_step(context: SolverContext) -> float:
-    """Return the longest step of time that resolves the raceways' surfaces [s]; inf for nominal raceways.
+    """Return the longest step for surfaces [s].
+
+    It resolves the raceways' surfaces; inf for nominal raceways.
 
     The length over which a surface changes is its height over its slope: 1/k of a radian for k waves, and 1/k of every
     harmonic that has 1 % of the slope, for a short wave on a long one. Balls pass it with the speed of the cage
@@ -36,7 +38,10 @@ def longest_step(context: SolverContext) -> float:
 
 
 def _shortest(context: SolverContext, element: str, angle: float) -> float:
-    """Return the angle over which the surface, or one of its harmonics, changes [rad]; inf where it is flat."""
+    """Return the shortest angle of a surface [rad].
+
+    Over it the surface, or one of its harmonics, changes; inf where it is flat.
+    """
     law = context.kernels.compiled[element, "surface"].dispatcher
     par = context.parameters(element, "surface")
     found = np.zeros((_PLACES, 3))

@@ -48,7 +48,10 @@ _SPIN = len(DOFS) - 1
 
 
 class Tables(NamedTuple):
-    """What an assembly and its laws are made of; see layout.Bundle."""
+    """Tables of an assembly and its laws.
+
+    See layout.Bundle.
+    """
 
     system: Any
     bodies: Any
@@ -78,7 +81,10 @@ class _Parameters:
         self._contexts: dict[tuple[str, str], Context] = {}  # by bearing and force element
 
     def add(self, bearing: AssembledBearing, element: str, role: str) -> tuple[int, int]:
-        """Append the parameters of a law; returns where they begin and end."""
+        """Append the parameters of a law.
+
+        Return where they begin and end.
+        """
         place = (bearing.name, element)
         if place not in self._contexts:
             oil = oil_of(bearing.oils, element)
@@ -98,7 +104,7 @@ class _Parameters:
 
 
 class _Part(NamedTuple):
-    """What a bearing adds to the tables."""
+    """Tables of one bearing."""
 
     raceways: Any
     rows: Any
@@ -109,7 +115,10 @@ class _Part(NamedTuple):
 
 
 class _Offsets(NamedTuple):
-    """How many sets of laws and slots the bearings before have."""
+    """Law and slot counts of earlier bearings.
+
+    Sets of laws and slots.
+    """
 
     raceways: int = 0
     guides: int = 0
@@ -121,12 +130,18 @@ class _Offsets(NamedTuple):
 
 
 def running(powers: FloatArray) -> Any:
-    """Return what stands behind the raceways' losses by name: powers or integrals (..., n) -> records.RUNNING."""
+    """Return the powers behind the raceways' losses.
+
+    By name, powers or integrals (..., n) -> records.RUNNING.
+    """
     return powers[..., -L.RUNNING_SIZE :].view(R.RUNNING)[..., 0]
 
 
 def ball_mass(model: BearingModel) -> float:
-    """Return the mass of one ball, or of one roller [kg]."""
+    """Return the mass of one element [kg].
+
+    A ball or a roller.
+    """
     if model.rollers is not None:
         return model.rollers.mass
     return model.ball_material.density * math.pi * model.geometry.ball_diameter**3 / 6.0
@@ -163,7 +178,10 @@ def build(assembly: Assembly) -> Tables:
 
 
 def _refuse_other_grids(assembly: Assembly) -> None:
-    """Refuse bearings whose contacts are divided otherwise than those of the first."""
+    """Refuse bearings with another contact grid.
+
+    It differs from that of the first.
+    """
     first = assembly.bearings[0]
     for other in assembly.bearings[1:]:
         one, two = first.model.depth, other.model.depth
@@ -175,7 +193,10 @@ def _refuse_other_grids(assembly: Assembly) -> None:
 
 
 def _part(assembly: Assembly, i: int, span: BearingSpan, offsets: _Offsets, parameters: _Parameters) -> _Part:
-    """Return the entries of bearing `i`, parameters of its laws in the order in which these are added."""
+    """Return the entries of bearing `i`.
+
+    Parameters of its laws are in the order in which these are added.
+    """
     bearing = assembly.bearings[i]
     raceways = _raceways(bearing, span, offsets, parameters)
     waves = wave_rows(bearing.model, span.bodies)
@@ -221,7 +242,10 @@ def _bodies(assembly: Assembly) -> Any:
 
 
 def _active(bodies: Any) -> NDArray[np.int64]:
-    """Return the free entries of the shared state, with the angles of spins that are prescribed."""
+    """Return the free entries of shared state.
+
+    With the angles of spins that are prescribed.
+    """
     found: list[int] = []
     for b, body in enumerate(bodies):
         if not body["moves"]:
@@ -235,7 +259,10 @@ def _active(bodies: Any) -> NDArray[np.int64]:
 
 
 def _ties(assembly: Assembly) -> tuple[NDArray[np.int64], FloatArray, FloatArray, FloatArray]:
-    """Return the entries of the shared state that are tied, stiffness and damping between them, and their rest."""
+    """Return the ties of the shared state.
+
+    Its tied entries, stiffness and damping between them, and their rest.
+    """
     ties = assembly.ties
     used = np.flatnonzero(np.abs(ties.stiffness).sum(axis=1) + np.abs(ties.damping).sum(axis=1))
     tied, signs = L.NS * ties.member + STATES[ties.direction], SIGNS[ties.direction]
@@ -288,7 +315,9 @@ def _raceways(bearing: AssembledBearing, span: BearingSpan, offsets: _Offsets, p
 
 
 def _keep_states(model: BearingModel, raceways: Any, span: BearingSpan, before: int) -> Any:
-    """Give the states of contacts their places; returns where laws read them: behind their own parameters.
+    """Give the states of contacts their places.
+
+    Return where laws read them: behind their own parameters.
 
     Parameters
     ----------
@@ -357,7 +386,10 @@ def _lands(
 
 
 def land_number(bearing: int, ring: int) -> int:
-    """Return the number that stands for both stations of a land."""
+    """Return the number of a land.
+
+    Both stations of the land have it.
+    """
     return 2 * bearing + ring
 
 
@@ -367,7 +399,10 @@ def bearing_of_land(number: int) -> tuple[int, int]:
 
 
 def _links(assembly: Assembly, number: int, offsets: _Offsets, parameters: _Parameters) -> Any:
-    """Return the force elements between members whose laws are those of a bearing."""
+    """Return the force elements between members.
+
+    Their laws are those of a bearing.
+    """
     own = [(i, link) for i, link in enumerate(assembly.links) if link.bearing == number]
     found = np.zeros(len(own), R.LINK)
     for k, (record, (i, link)) in enumerate(zip(found, own, strict=True)):

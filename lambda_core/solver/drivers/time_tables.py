@@ -30,7 +30,10 @@ MOTION, FORCE, MOMENT, PER_BODY = 0, 6, 9, 12  # places of the signals of a body
 def add_terms(
     signal: int, function: TimeFunction, rows: list[NDArray[np.void]], table: list[float], laws: Sequence[str] = ()
 ) -> None:
-    """Append a time function's terms to the flat tables that compiled code reads."""
+    """Append a time function's terms to tables.
+
+    They are the flat tables that compiled code reads.
+    """
     for term in function.terms:
         row = np.zeros(1, R.TERM)
         row["signal"], row["kind"] = signal, _KINDS[term.kind]
@@ -48,7 +51,10 @@ def add_terms(
 
 
 def build_times(assembly: Assembly) -> tuple[NDArray[np.void], FloatArray]:
-    """Return loads and motions of all members as terms, records.TERM, and their table."""
+    """Return loads and motions as terms.
+
+    Of all members, records.TERM, and their table.
+    """
     rows: list[NDArray[np.void]] = []
     table: list[float] = []
     laws = [element for bearing in assembly.bearings for element in times(bearing.model)]
@@ -69,7 +75,10 @@ def build_times(assembly: Assembly) -> tuple[NDArray[np.void], FloatArray]:
 
 
 def _weightless(model: BearingModel, bodies: Sequence[int], gravity: Sequence[float]) -> NDArray[np.void]:
-    """Return loads, records.TERM, that hold up the bodies of waves: gravity bends no ring."""
+    """Return loads that hold up wave bodies.
+
+    records.TERM: gravity bends no ring.
+    """
     masses = [waves.ring.mass(order) for _, order, waves in waves_of(model)]
     rows = np.zeros((len(masses), len(AMPLITUDES)), R.TERM)
     rows["kind"] = R.CONSTANT

@@ -11,7 +11,9 @@ _PULLED = 1e-9  # of the loads: less of them along a loose motion is rounding
 
 
 def unconstrained_motion(stiffness: FloatArray, pull: FloatArray, arms: FloatArray, scale: float) -> FloatArray | None:
-    """Return how loads carry off what a stiffness does not hold; None where they find hold everywhere.
+    """Return the unconstrained motion under load.
+
+    A stiffness does not hold it; None where loads find hold everywhere.
 
     Parameters
     ----------

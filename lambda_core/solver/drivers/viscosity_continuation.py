@@ -28,7 +28,9 @@ Solve = Callable[[SolverContext, FloatArray], StaticReport]
 def by_viscosity_continuation(
     context: SolverContext, start: FloatArray, solve: Solve
 ) -> tuple[FloatArray, StaticReport] | None:
-    """Return the equilibrium of a context and its report, found by way of warmer oil; None where no way leads there.
+    """Return the equilibrium by way of warmer oil.
+
+    With its report, of a context; None where no way leads there.
 
     Parameters
     ----------
@@ -57,7 +59,10 @@ def by_viscosity_continuation(
 
 
 def _thinner(context: SolverContext, by: float) -> SolverContext:
-    """Return the same with warmer oil [K]; searches note in the same place which balls the cage drives."""
+    """Return the context with warmer oil [K].
+
+    Searches note in the same place which balls the cage drives.
+    """
     oil = context.model.oil
     model = dataclasses.replace(context.model, oil=dataclasses.replace(oil, temperature=oil.temperature + by))
     found = assemble(model, context.kernels, context.frame, derive_oils(model, context.kernels, context.frame))

@@ -23,7 +23,10 @@ _CAGE = list(BODIES).index("cage")
 
 
 def waves_of(model: BearingModel) -> list[tuple[int, int, RingWaves]]:
-    """Return ring or cage (number of its body), order and waves of every wave, in the order of their bodies."""
+    """Return body, order and waves.
+
+    Ring or cage (number of its body), of every wave, in the order of their bodies.
+    """
     bodies = list(BODIES)
     return [(bodies.index(body), n, waves) for body, waves in model.elastic.items() for n in waves.counts]
 
@@ -58,7 +61,9 @@ def wave_bodies(model: BearingModel) -> Any:
 
 
 def give_waves(table: Any, body: str, waves: Any, before: int) -> None:
-    """Write into every row of a table where the waves of its elastic body stand, which is named in a field.
+    """Write the places of waves into rows.
+
+    Every row of a table has a field that names its elastic body.
 
     Parameters
     ----------
@@ -71,14 +76,20 @@ def give_waves(table: Any, body: str, waves: Any, before: int) -> None:
 
 
 def waves_at(bundle: L.Bundle, model: BearingModel, free: FloatArray) -> dict[BodyName, FloatArray]:
-    """Return the amplitudes of every elastic body, shape (orders, 2) [m], from free entries of the shared state."""
+    """Return the amplitudes of elastic bodies [m].
+
+    Of each, shape (orders, 2), from free entries of the shared state.
+    """
     bodies = np.zeros((1, bundle.bodies.size), R.BODY_STATE)
     bodies[0].view(np.float64)[bundle.active] = free
     return {body: amplitudes[0] for body, amplitudes in _amplitudes(bodies, model).items()}
 
 
 def _amplitudes(bodies: Any, model: BearingModel) -> dict[BodyName, FloatArray]:
-    """Return the amplitudes of every elastic body, shape (n, orders, 2) [m], from states, shape (n, bodies)."""
+    """Return the amplitudes from states [m].
+
+    Of every elastic body, shape (n, orders, 2), from states of shape (n, bodies).
+    """
     first, found = len(BODIES), {}
     for body, waves in model.elastic.items():
         found[body] = bodies["position"][:, first : first + len(waves.counts), 1:].copy()
@@ -87,7 +98,10 @@ def _amplitudes(bodies: Any, model: BearingModel) -> dict[BodyName, FloatArray]:
 
 
 def wave_values(bodies: Any, model: BearingModel) -> dict[str, FloatArray]:
-    """Return the channels of elastic bodies from states of bodies, records.BODY_STATE of shape (n, bodies)."""
+    """Return the channels of elastic bodies.
+
+    From states of bodies, records.BODY_STATE of shape (n, bodies).
+    """
     found: dict[str, FloatArray] = {}
     for body, amplitudes in _amplitudes(bodies, model).items():
         for i, order in enumerate(model.elastic[body].counts):

@@ -35,13 +35,19 @@ _factor_balls, _renew_balls, _forward_balls, _back_balls = blocks_of(NB)
 
 @helper
 def _has_balls(reach, r):
-    """Return whether the elements of a row have as many states as a ball."""
+    """Tell whether a row has balls.
+
+    Its elements have as many states as a ball.
+    """
     return reach.states[r + 1] - reach.states[r] == NB * (reach.first[r + 1] - reach.first[r])
 
 
 @helper
 def _factor_row(bl, r, shift, gamma, fa, own):
-    """Take the shares of the elements of a row from `own`; returns 0 when a block is singular."""
+    """Take the elements' shares from `own`.
+
+    Of a row; return 0 when a block is singular.
+    """
     if _has_balls(bl.reach, r):
         return _factor_balls(bl, r, shift, gamma, fa, own)
     return roller_blocks(fa.rollers, 0).factor(WHOLE, bl, r, shift, gamma, fa, own)
@@ -49,7 +55,10 @@ def _factor_row(bl, r, shift, gamma, fa, own):
 
 @helper
 def _renew_row(bl, r, shift, fa, own):
-    """Factor anew the elements of a row whose blocks have changed; returns 0 when a block is singular."""
+    """Factor changed elements of a row anew.
+
+    Their blocks have changed; return 0 when a block is singular.
+    """
     if _has_balls(bl.reach, r):
         return _renew_balls(bl, r, shift, fa, own)
     return roller_blocks(fa.rollers, 0).factor(NEWER, bl, r, shift, fa.gamma[r], fa, own)
@@ -57,7 +66,10 @@ def _renew_row(bl, r, shift, fa, own):
 
 @helper
 def _few_are_newer(r, bl):
-    """Return whether giving back and taking again is less than factoring the whole row."""
+    """Tell whether a partial renewal is cheaper.
+
+    Giving back and taking again, against factoring the whole row.
+    """
     newer = 0
     for j in range(bl.reach.first[r], bl.reach.first[r + 1]):
         newer += bl.newer[j]
@@ -66,7 +78,10 @@ def _few_are_newer(r, bl):
 
 @helper
 def _add_row(bl, r, shift, gamma, fa):
-    """Add to the Schur complement what the contacts of a row have of it; returns 0 when a block is singular."""
+    """Add a row's contacts to the Schur complement.
+
+    Return 0 when a block is singular.
+    """
     own, n, columns = fa.own[r], bl.reach.width[r], bl.reach.columns[r]
     apart = abs(gamma / fa.gamma[r] - 1.0)
     if bl.changed[r] == 1 and apart <= _ALIKE and fa.joined.size == 0 and _few_are_newer(r, bl):
@@ -105,7 +120,10 @@ def arrow_factor(bl, shift, gamma, fa):
 
 @large_helper
 def arrow_solve(bl, fa, r):
-    """Solve in place for the right-hand side r, shape (9 Z + n,)."""
+    """Solve in place for r.
+
+    The right-hand side has shape (9 Z + n,).
+    """
     reach, own = bl.reach, fa.tail
     shared = r[reach.states[reach.width.size] :]
     for row in range(reach.width.size):

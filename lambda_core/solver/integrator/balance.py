@@ -47,7 +47,9 @@ def _quotient(mem, shared, k):
 
 @helper
 def _power_of_speed(mem, shared, k):
-    """Return the kinetic power per mass of a prescribed speed: D(v^2/2) of a BDF, v D(v) of a stage.
+    """Return a prescribed speed's power per mass.
+
+    Kinetic power: D(v^2/2) of a BDF, v D(v) of a stage.
 
     Such a speed is known, and its kinetic energy with it: v D(v) of the step across a jump would be twice as much.
     """
@@ -60,7 +62,10 @@ def _power_of_speed(mem, shared, k):
 
 @helper
 def _work_of_motion(body, now, wrench, inputs, first, shared, mem, running):
-    """Add one body's share; see _work_of_motions. Its state begins at `first`."""
+    """Add one body's share.
+
+    See _work_of_motions. Its state begins at `first`.
+    """
     for i in range(3):
         if body.mode[i] == PRESCRIBED:
             v = now.velocity[i]
@@ -85,7 +90,9 @@ def _work_of_motion(body, now, wrench, inputs, first, shared, mem, running):
 
 @helper
 def _work_of_motions(bundle, mem):
-    """Add to the input what differences of prescribed motions differ by from their derivatives.
+    """Add the work of prescribed motions.
+
+    To the input: their differences differ from their derivatives.
 
     A ring with prescribed motion has the kinetic power m D(v^2/2), a force F on it does the work F D(x): not m v dv/dt
     and F v, where a motion has a corner or changes fast. Translation, tilt, spin.
@@ -100,7 +107,9 @@ def _work_of_motions(bundle, mem):
 
 @helper
 def _work_of_loads(bundle, mem):
-    """Return what the last Newton correction changes of the power of loads and weights on what is free [W].
+    """Return the last correction's power of loads [W].
+
+    Change by Newton of the power of loads and weights on what is free.
 
     Of balls of a bypassed bearing: all corrections since its powers were computed.
     """
@@ -128,7 +137,10 @@ def _work_of_loads(bundle, mem):
 
 @helper
 def _prescribed_speeds(bundle):
-    """Return speed and circumferential speed of the raceways of rings with prescribed motion [m/s]."""
+    """Return raceway speeds of prescribed rings [m/s].
+
+    Speed and circumferential speed.
+    """
     speed, spin = 0.0, 0.0
     for k in range(bundle.raceways.size):
         raceway = bundle.raceways[k]
@@ -143,7 +155,10 @@ def _prescribed_speeds(bundle):
 
 @vector_helper
 def _power_of_residual(inertia, new, base, slope, per_gamma):
-    """Return the power of the residual D(y) - f at the last iterate [W]: of positions there is none."""
+    """Return the residual's power [W].
+
+    D(y) - f at the last iterate: of positions there is none.
+    """
     power = 0.0
     for i in range(new.size):
         power += new[i] * (inertia[i] * ((new[i] - base[i]) * per_gamma - slope[i]))
@@ -152,7 +167,9 @@ def _power_of_residual(inertia, new, base, slope, per_gamma):
 
 @vector_helper
 def _forces_of_residual(inertia, new, base, slope, per_gamma, first, count, size, per_radius):
-    """Return what the residual has of forces on elements, and of moments over their radius, all counted positive [N].
+    """Return the residual's forces on elements [N].
+
+    And moments over their radius, all counted positive.
 
     The states of `count` elements stand from `first` on, `size` each.
     """
@@ -168,7 +185,9 @@ def _forces_of_residual(inertia, new, base, slope, per_gamma, first, count, size
 
 @helper
 def _residual_work(bundle, mem):
-    """Return power of the residual D(y) - f at the last iterate [W], how much of it leads rings, and the spins' share.
+    """Return the residual's power and shares [W].
+
+    D(y) - f at the last iterate, how much of it moves prescribed rings, and the spins' share.
 
     Creep is stiff: within the error allowed per step the tractions of an iterate may be off by more than themselves,
     and what the step accelerates the balls by, D(v), is not f. The difference is a force R on each ball (moment M)
@@ -198,7 +217,9 @@ def _twice_energy(inertia, speed):
 
 @helper
 def floor_of(mem, h):
-    """Return the energy that a step may lose although nothing flows [J]: so much per time, however short steps are.
+    """Return the floor of a step's loss [J].
+
+    It may lose this energy although nothing flows: so much per time, however short steps are.
 
     By the step, a thousand short ones would lose a thousand times as much: more than a light bearing turns slowly by.
     Never less than rounding leaves of the kinetic energy: no step is short enough for that.
@@ -209,7 +230,9 @@ def floor_of(mem, h):
 
 @helper
 def allowed(mem, h, share, floor):
-    """Return the energy that a step may lose [J]: `share` tolerances of what flows, and the floor.
+    """Return the allowed loss of a step [J].
+
+    `share` tolerances of what flows, and the floor.
 
     What flows is put in or dissipated, whichever is more, now or on the average so far; where vibrations are the
     answer, also what goes to and fro between motion and springs.
@@ -228,7 +251,10 @@ def allowed(mem, h, share, floor):
 
 @vector_helper
 def _work_of_moves(inertia, slope, since):
-    """Return the work of forces on corrections, all counted positive [J]."""
+    """Return the work of forces on corrections [J].
+
+    All counted positive.
+    """
     total = 0.0
     for i in range(since.size):
         total += abs(inertia[i] * slope[i] * since[i])
@@ -237,7 +263,9 @@ def _work_of_moves(inertia, slope, since):
 
 @helper
 def leak_of_iterate(bundle, mem, h):
-    """Return the energy that the Newton iteration leaves unaccounted for, over what a step may lose.
+    """Return the iteration's relative leak.
+
+    The energy that Newton leaves unaccounted for, over what a step may lose.
 
     The powers are those of the last iterate, of bypassed bearings of an earlier one: off by the work of its forces
     on the corrections since at most, and by what of the residual's work is unattributed.
@@ -249,7 +277,9 @@ def leak_of_iterate(bundle, mem, h):
 
 @large_helper
 def finalise_step(bundle, mem):
-    """Bring positions and powers from the last iterate to the step's result.
+    """Finish positions and powers of a step.
+
+    From the last iterate to the step's result.
 
     A matrix factored for another gamma leaves D(x) - v, next to nothing; times the forces in the contacts it is energy.
     Loads, and what leads or drives rings: see _work_of_loads, _work_of_motions, _residual_work.
@@ -269,7 +299,10 @@ def finalise_step(bundle, mem):
 
 @vector_helper
 def _energy_of_bends(inertia, new, now, before, per_w):
-    """Return twice the kinetic energy of e = d_1/w - (u_1 - u_2) [J]."""
+    """Return twice a bend's kinetic energy [J].
+
+    Of e = d_1/w - (u_1 - u_2).
+    """
     total = 0.0
     for i in range(new.size):
         e = (new[i] - now[i]) * per_w - (now[i] - before[i])
@@ -279,7 +312,9 @@ def _energy_of_bends(inertia, new, now, before, per_w):
 
 @helper
 def _dissipated(mem, h):
-    """Return the kinetic energy that the scheme itself dissipates in this step [J].
+    """Return the scheme's own dissipation [J].
+
+    Kinetic energy in this step.
 
     With base = u_1 + a (u_1 - u_2) and d_k = u - u_k, gamma [D(u^2) - 2 u D(u)] = a d_2^2 - (1 + a) d_1^2: a difference
     of two norms, which the next steps give back, and a w e^2, e = d_1/w - (u_1 - u_2), w the ratio of the steps; all
@@ -292,7 +327,9 @@ def _dissipated(mem, h):
 
 @helper
 def _quadrature(mem, h, losses):
-    """Return the error of the dissipated energy in this step [J]: the BDF's increment against the trapezium's.
+    """Return the dissipated energy's error [J].
+
+    In this step: the BDF's increment against the trapezium's.
 
     Of the third derivative times h^3 the one misses (1 + w)^2/(6 w (1 + 2 w)), 2/9 in equal steps, the other -1/12.
     """
@@ -306,7 +343,9 @@ def _quadrature(mem, h, losses):
 
 @helper
 def leak_of_step(mem, h):
-    """Return the energy that the scheme loses in this step, over what a step may lose.
+    """Return the scheme's relative leak.
+
+    The energy that it loses in this step, over what a step may lose.
 
     What is dissipated adds up over as much time as the longest step takes: that one might lose it all at once, and so
     may a blow, of what the steps before have left. Errors of quadrature have either sign, and where a loss jumps no
@@ -323,7 +362,10 @@ def leak_of_step(mem, h):
 
 @helper
 def keep_allowance(mem, h):
-    """Keep for later steps what an accepted one has not lost of its share, at most the longest step's."""
+    """Keep unused allowance for later steps.
+
+    What an accepted one has not lost of its share, at most the longest step's.
+    """
     control = mem.control[0]
     most = allowed(mem, control.longest_step, LEAK, control.leak_floor)
     control.allowance = min(max(control.allowance + control.kept, 0.0), most)

@@ -24,7 +24,10 @@ _QUIET = 0.1  # error over what is allowed: nothing to mend
 
 @helper
 def _begin(evaluate, bundle, mem):
-    """Write dy/dt at the start into y1, and the shared state."""
+    """Write dy/dt at the start into y1.
+
+    And the shared state.
+    """
     if evaluate(mem.control[0].time, mem.y, bundle, mem.y1, mem.rates, 1) != Status.OK:
         return Status.REFUSED
     for i in range(mem.shared.size):
@@ -42,7 +45,9 @@ def _base_of_shared(mem):
 
 @helper
 def _predict(mem, h):
-    """Extrapolate to the next time; returns the share of the correction that is error.
+    """Extrapolate to the next time.
+
+    Return the share of the correction that is error.
 
     Writes base and gamma of the quotient D(u) = (u - base)/gamma, base = u_1 + back (u_1 - u_2).
     """
@@ -78,7 +83,10 @@ def _predict(mem, h):
 
 @helper
 def _interpolate(mem, t, h, at, row):
-    """Write the state at `at` in (t - h, t] from the parabola through the last three points."""
+    """Write the state at `at` by a parabola.
+
+    In (t - h, t], through the last three points.
+    """
     h1 = mem.control[0].last_step
     out = mem.sample_y[row]
     x = at - t
@@ -92,7 +100,10 @@ def _interpolate(mem, t, h, at, row):
 
 @helper
 def _error(mem, share):
-    """Return the error of the step in hand, over what is allowed: a share of its distance from the extrapolation."""
+    """Return the step's relative error.
+
+    Over what is allowed: a share of its distance from the extrapolation.
+    """
     for i in range(mem.change.size):
         mem.change[i] = share * (mem.new[i] - mem.predicted[i])
     return norm(mem.change, mem.weight)
@@ -100,7 +111,10 @@ def _error(mem, share):
 
 @helper
 def _swings(mem, h):
-    """Return whether nearly all that the scheme dissipates in this step is of speeds whose changes turned round."""
+    """Tell whether oscillation dissipates the energy.
+
+    Nearly all that the scheme dissipates in this step is of speeds whose changes turned round.
+    """
     w, swung, total = h / mem.control[0].last_step, 0.0, 0.0
     for i in range(mem.new.size):
         now, before = (mem.new[i] - mem.y[i]) / w, mem.y[i] - mem.y1[i]
@@ -133,7 +147,10 @@ def _attempt(evaluate, jacobian, h, bundle, bl, fa, mem):
 
 @helper
 def _shift(bundle, mem, h):
-    """Make the new point the current one, and the integrals with it."""
+    """Make the new point current.
+
+    And the integrals with it.
+    """
     add_to_integrals(mem)
     if mem.count[0].history >= 2:
         keep_allowance(mem, h)

@@ -21,7 +21,10 @@ from lambda_core.solver.motion.bearing_sums import AGAIN
 
 @helper
 def reset_moves(want, bundle, mem):
-    """Begin to add up the moves since this evaluation, of bearings bypassed since an earlier one."""
+    """Begin to add up the moves.
+
+    Since this evaluation, of bearings bypassed since an earlier one.
+    """
     since = mem.since
     if want != AGAIN:
         since[:] = 0.0
@@ -39,7 +42,10 @@ def reset_moves(want, bundle, mem):
 
 @helper
 def _moved(b, bundle, mem):
-    """Return the root mean square of the moves of bearing b since its evaluation, over the error allowed per step."""
+    """Return a bearing's rms of moves.
+
+    Of bearing b since its evaluation, over the error allowed per step.
+    """
     total, count, tail = 0.0, 0, bundle.system[0].tail
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
@@ -58,7 +64,9 @@ def _moved(b, bundle, mem):
 
 @helper
 def choose_bypassed(tolerance, bundle, bl, mem):
-    """Choose the bearings to bypass in the next iteration; returns the `want` to evaluate it with.
+    """Choose the bearings to bypass next.
+
+    In the next iteration; return the `want` to evaluate it with.
 
     None whose Jacobian is to be renewed: that is done where forces are computed. Never one alone, one whose balls touch
     each other, nor contacts that keep states, which are iterated with slopes of their own.
@@ -81,7 +89,10 @@ def choose_bypassed(tolerance, bundle, bl, mem):
 
 @helper
 def follow(gamma, bundle, bl, fa, mem):
-    """Add to the residual in mem.change what moves of bypassed bearings change of their rates, by their Jacobian."""
+    """Add bypassed bearings' changes of rates.
+
+    To the residual in mem.change, by their moves and their Jacobian.
+    """
     since, change, own, tail = mem.since, mem.change, fa.tail, bundle.system[0].tail
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
@@ -101,7 +112,10 @@ def follow(gamma, bundle, bl, fa, mem):
 
 @helper
 def _follow_element(gamma, first, size, j, bl, n, columns, own, since, change, tail):
-    """Add the share of element j, with `size` states from `first` on."""
+    """Add the share of element j.
+
+    With `size` states from `first` on.
+    """
     its = since[first : first + size]
     for i in range(size):
         change[first + i] += gamma * (inner_product(bl.a[j, i], its, size) + inner_product(bl.b[j, i], own, n))

@@ -24,13 +24,18 @@ from lambda_core.solver.layout import helper, rows_helper
 
 @rows_helper
 def _add(row, factor, other, n):
-    """Add a multiple of the first n entries of another row."""
+    """Add a multiple of a row's first entries.
+
+    The first n entries of another row.
+    """
     for i in range(n):
         row[i] += factor * other[i]
 
 
 def chains_of(size: int) -> tuple[Any, ...]:
-    """Return the functions that couple balls of `size` states, a constant for the compiler.
+    """Return the functions that couple balls.
+
+    Balls of `size` states, a constant for the compiler.
 
     find_chains, take_from_block, take_from_columns, take_from_rows, write_ahead, take_part.
     """
@@ -46,7 +51,10 @@ def chains_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def find_chains(bl, first, last, fa):
-        """Mark the balls first..last-1 that are joined to the next one; returns the ball at which a chain begins."""
+        """Mark balls joined to the next.
+
+        Balls first..last-1; return the ball at which a chain begins.
+        """
         begin = -1
         for j in range(first, last):
             after = j + 1 if j + 1 < last else first
@@ -60,7 +68,10 @@ def chains_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def take_from_block(bl, j, before, gamma, fa, m):
-        """Take from the diagonal block of ball j, transposed in m, what the ball before it has of it."""
+        """Take the previous ball's share from a block.
+
+        From the diagonal block of ball j, transposed in m.
+        """
         for i in range(size):
             for q in range(size):
                 f = -gamma * bl.cross[j, BEFORE, i, q]
@@ -71,7 +82,10 @@ def chains_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def take_from_columns(j, before, fa, m, x, n):
-        """Take from x = A^-1 B of ball j, n columns, what the ball before it has of B; m is its inverse, transposed."""
+        """Take the previous ball's share from columns.
+
+        From x = A^-1 B of ball j, n columns; m is its inverse, transposed.
+        """
         for q in range(size):
             for i in range(size):
                 f = 0.0
@@ -83,7 +97,10 @@ def chains_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def take_from_rows(before, fa, c, n):
-        """Take from C of a ball, transposed in c, what the ball before it has of it."""
+        """Take the previous ball's share from rows.
+
+        From C of a ball, transposed in c.
+        """
         for k in range(size):
             for q in range(size):
                 f = fa.ahead[before, q, k]
@@ -92,7 +109,10 @@ def chains_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def write_ahead(bl, j, gamma, fa, m):
-        """Write A_j^-1 X_j,j+1 of a ball that is joined to the next; m is its inverse, transposed."""
+        """Write A_j^-1 X_j,j+1 of a joined ball.
+
+        It is joined to the next; m is its inverse, transposed.
+        """
         for i in range(size):
             for k in range(size):
                 total = 0.0
@@ -102,7 +122,10 @@ def chains_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def take_part(matrix, part, its):
-        """Take a matrix times one ball's part of a solution from another's."""
+        """Take a matrix product from a part.
+
+        A matrix times one ball's part of a solution, from another's part.
+        """
         for i in range(size):
             total = 0.0
             for k in range(size):

@@ -19,7 +19,9 @@ from lambda_core.solver.lu import factor_turned, solve_turned, take_multiple
 
 @helper
 def _among_positions(m, reach):
-    """Factor the positions of every body in place, and divide the rows of positions by them: returns 0 when singular.
+    """Factor the positions of every body.
+
+    In place; divide the rows of positions by them: return 0 when singular.
 
     Their entries at speeds become how the positions follow the speeds.
     """
@@ -46,7 +48,10 @@ def _among_positions(m, reach):
 
 @helper
 def condense(m, reach, co):
-    """Factor m, of which the rows of positions are kept with it; returns 0 when singular."""
+    """Factor m, keeping the rows of positions.
+
+    They are kept with it; return 0 when singular.
+    """
     positions, middles, ends, speeds, among = reach.positions, reach.middles, reach.ends, reach.speeds, reach.among
     n = speeds.size
     if _among_positions(m, reach) != 1:

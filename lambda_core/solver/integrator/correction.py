@@ -24,7 +24,10 @@ def norm(v, weight):
 
 @helper
 def shared_norm(bundle, mem):
-    """Return the root mean square of the correction of the shared bodies, over the error allowed per step."""
+    """Return the shared correction's rms.
+
+    Of the shared bodies, over the error allowed per step.
+    """
     first = bundle.system[0].tail
     total = 0.0
     for i in range(first, first + bundle.active.size):
@@ -35,7 +38,10 @@ def shared_norm(bundle, mem):
 
 @helper
 def renew(jacobian, t, gamma, bundle, bl, fa, mem):
-    """Bring the Jacobian, if it is due, and the factors to the point evaluated last; returns a Status."""
+    """Renew Jacobian and factors when due.
+
+    At the point evaluated last; return a Status.
+    """
     control, count = mem.control[0], mem.count[0]
     if count.stale == 1:
         if jacobian(t, mem.new, bundle, bl) != Status.OK:
@@ -53,7 +59,10 @@ def renew(jacobian, t, gamma, bundle, bl, fa, mem):
 
 @helper
 def solve_correction(gamma, want, bundle, bl, fa, mem):
-    """Write the correction of the point evaluated last, with `want`, into mem.change; returns 0 where singular."""
+    """Write the last point's correction.
+
+    With `want`, into mem.change; return 0 where singular.
+    """
     change, n = mem.change, mem.new.size
     for i in range(n):
         change[i] = mem.base[i] + gamma * mem.slope[i] - mem.new[i]

@@ -43,7 +43,10 @@ def _start(bundle, mem):
 
 @helper
 def _evaluate(evaluate, t, gamma, bundle, mem):
-    """Evaluate at mem.new; returns the squared residual by the inertias, -1 where a law refuses."""
+    """Evaluate at mem.new.
+
+    Return the squared residual by the inertias, -1 where a law refuses.
+    """
     mem.count[0].rhs_calls += 1
     if evaluate(t, mem.new, bundle, mem.slope, mem.rates, 1) != Status.OK:
         return -1.0
@@ -56,7 +59,10 @@ def _evaluate(evaluate, t, gamma, bundle, mem):
 
 @helper
 def _search(evaluate, t, gamma, residual, bundle, mem):
-    """Move along the correction as far as the residual falls; returns what it is there, -1 where it does not fall."""
+    """Search along the correction.
+
+    As far as the residual falls: return its value there, -1 where it does not fall.
+    """
     new, change, begin, share = mem.new, mem.change, mem.last_change, 1.0
     for i in range(new.size):
         begin[i] = new[i]
@@ -72,7 +78,10 @@ def _search(evaluate, t, gamma, residual, bundle, mem):
 
 @helper
 def _mark_restless(gamma, residual, bundle, bl, mem):
-    """Have the Jacobian renewed for the balls that make most of the squared residual."""
+    """Mark the balls with the largest residual.
+
+    Their Jacobian is renewed; they make most of the squared residual.
+    """
     mem.count[0].stale = 1
     mem.count[0].ball_jacobians += 1
     for r in range(bundle.rows.size):
@@ -87,7 +96,10 @@ def _mark_restless(gamma, residual, bundle, bl, mem):
 
 @large_helper
 def solve_damped(evaluate, jacobian, t, h, tolerance, closer, bundle, bl, fa, mem):
-    """Solve new = base + gamma f(new) as newton.solve_step does; returns a Status: OK, NOT_CONVERGED, REFUSED."""
+    """Solve new = base + gamma f(new), damped.
+
+    As newton.solve_step does: return a Status: OK, NOT_CONVERGED, REFUSED.
+    """
     count, gamma = mem.count[0], mem.control[0].gamma
     if closer == 0:
         _start(bundle, mem)

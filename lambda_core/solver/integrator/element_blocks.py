@@ -17,14 +17,20 @@ from lambda_core.solver.lu import filled_up
 
 @helper
 def _in_turn(begin, i, first, last):
-    """Return the ball i places after `begin` in the ring first..last-1."""
+    """Return the i-th ball after `begin`.
+
+    In the ring first..last-1.
+    """
     j = begin + i
     return j if j < last else j - (last - first)
 
 
 @helper
 def _joined_before(reach, r, j, fa):
-    """Return the ball before ball j of row r where the two are joined, else -1."""
+    """Return the joined ball before j.
+
+    Of row r, where the two are joined, else -1.
+    """
     if fa.joined.size == 0:
         return -1
     before = j - 1 if j > reach.first[r] else reach.first[r + 1] - 1
@@ -32,7 +38,9 @@ def _joined_before(reach, r, j, fa):
 
 
 def blocks_of(size: int) -> tuple[Any, ...]:
-    """Return the functions that factor and solve a row of elements with `size` states, a constant for the compiler.
+    """Return the functions of element blocks.
+
+    They factor and solve a row of elements with `size` states, a constant for the compiler.
 
     factor_row, renew_row, solve_forward, solve_back.
     """
@@ -41,12 +49,18 @@ def blocks_of(size: int) -> tuple[Any, ...]:
 
     @numba.njit(inline="always")
     def _part_of(r, row, reach, j):
-        """Return the states of element j of a row in a vector, a view."""
+        """Return an element's states in a vector.
+
+        Element j of a row, a view.
+        """
         return r[reach.states[row] + size * (j - reach.first[row]) :][:size]
 
     @helper
     def _invert(m, pivots):
-        """Invert a ball block in place: Gauss and Jordan's elimination with row pivoting; returns 0 when singular."""
+        """Invert a ball block in place.
+
+        Gauss and Jordan's elimination with row pivoting; return 0 when singular.
+        """
         for k in range(size):
             best, row = abs(m[k, k]), k
             for i in range(k + 1, size):
@@ -76,7 +90,10 @@ def blocks_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def _share(sign, c, x, part, own, n):
-        """Take C A^-1 B of a ball from `own`, times a sign: forces move speeds, so that half of its rows are empty."""
+        """Take C A^-1 B of a ball.
+
+        From `own`, times a sign: forces move speeds, so that half of its rows are empty.
+        """
         for i in range(n):
             empty = True
             for k in range(size):
@@ -87,7 +104,9 @@ def blocks_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def _factor_ball(bl, j, before, shift, gamma, fa, own, n):
-        """Invert the block of ball j and take its share, of n columns, from `own`; returns 0 when singular.
+        """Invert ball j's block, take its share.
+
+        Of n columns, from `own`; return 0 when singular.
 
         `before` is the ball that it is joined to, -1 for none.
         """
@@ -122,7 +141,10 @@ def blocks_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def factor_row(bl, r, shift, gamma, fa, own):
-        """Take the shares of the balls of a row from `own`; returns 0 when a block is singular."""
+        """Take the balls' shares from `own`.
+
+        Of a row; return 0 when a block is singular.
+        """
         fa.gamma[r], bl.changed[r] = gamma, 0
         first, last = bl.reach.first[r], bl.reach.first[r + 1]
         if fa.joined.size > 0:
@@ -137,7 +159,10 @@ def blocks_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def _give_back(j, fa, own, n):
-        """Add to `own` again what ball j has taken from it."""
+        """Give ball j's share back to `own`.
+
+        It has taken it before.
+        """
         x, across, c = fa.x, fa.across[j], fa.c[j]
         for k in range(size):
             for q in range(n):
@@ -146,7 +171,10 @@ def blocks_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def renew_row(bl, r, shift, fa, own):
-        """Factor anew the balls of a row whose blocks have changed, for the g of the others; returns 0 if singular."""
+        """Factor changed balls of a row anew.
+
+        Their blocks have changed, for the g of the others; return 0 if singular.
+        """
         n, bl.changed[r] = bl.reach.width[r], 0
         for j in range(bl.reach.first[r], bl.reach.first[r + 1]):
             if bl.newer[j] == 1:
@@ -158,7 +186,10 @@ def blocks_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def solve_forward(row, reach, fa, r, own, n):
-        """Write A_j^-1 times each ball's part of the right-hand side, and take its share from `own`."""
+        """Solve the balls' parts forward.
+
+        Write A_j^-1 times each ball's part of the right-hand side, and take its share from `own`.
+        """
         part, first, last = fa.part, reach.first[row], reach.first[row + 1]
         for place in range(last - first):
             j = _in_turn(fa.begin[row], place, first, last)
@@ -175,7 +206,10 @@ def blocks_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def solve_back(row, reach, fa, r, own, n):
-        """Take from each ball's part what the shared part, in `own`, and the ball after it have of it."""
+        """Solve the balls' parts back.
+
+        Take from each the share of the shared part, in `own`, and of the ball after it.
+        """
         first, last = reach.first[row], reach.first[row + 1]
         for place in range(last - first - 1, -1, -1):
             j = _in_turn(fa.begin[row], place, first, last)

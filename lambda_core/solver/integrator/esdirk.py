@@ -30,14 +30,20 @@ _THROUGH = ((0, 0, 0), (_START, _LATE, 0), (_START, 0, 1), (_START, 0, 1), (_STA
 
 @helper
 def _put(table, row, values):
-    """Write values into a row; a slice would be copied with memory of its own."""
+    """Write values into a row.
+
+    A slice would be copied with memory of its own.
+    """
     for i in range(values.size):
         table[row, i] = values[i]
 
 
 @helper
 def _begin(evaluate, bundle, mem):
-    """Write the slopes at the start as those of the first stage, and the shared state."""
+    """Write the start's slopes and shared state.
+
+    The slopes are those of the first stage.
+    """
     if evaluate(mem.control[0].time, mem.y, bundle, mem.slope, mem.rates, 1) != Status.OK:
         return Status.REFUSED
     _put(mem.stages, 0, mem.slope)
@@ -49,7 +55,10 @@ def _begin(evaluate, bundle, mem):
 
 @helper
 def _node(row, ratio):
-    """Return the time of a row of slopes, in steps from the start of the step in hand; `ratio` to the last one."""
+    """Return the time of a slopes' row.
+
+    In steps from the start of the step in hand; `ratio` to the last one.
+    """
     if row < STAGES:
         return NODES[row]
     return -1.0 / ratio if row == _START else (NODES[_LATER] - 1.0) / ratio
@@ -57,7 +66,10 @@ def _node(row, ratio):
 
 @helper
 def _guess(mem, stage, ratio):
-    """Return the rows of slopes that a stage's slope is extrapolated from, and their weights (Lagrange)."""
+    """Return rows and weights of extrapolation.
+
+    For a stage's slope (Lagrange).
+    """
     if mem.count[0].history == 0:
         return 0, 0, 0, 1.0, 0.0, 0.0
     i, j, k = _THROUGH[stage]
@@ -69,7 +81,10 @@ def _guess(mem, stage, ratio):
 
 @helper
 def _prepare(mem, stage, h):
-    """Write base and gamma of a stage, and where its iteration begins."""
+    """Write a stage's base, gamma and guess.
+
+    Its iteration begins at the guess.
+    """
     control, stages = mem.control[0], mem.stages
     gamma = GAMMA * h
     control.gamma = gamma
@@ -91,7 +106,7 @@ def _prepare(mem, stage, h):
 
 @helper
 def _keep(bundle, mem, stage):
-    """Keep the slopes and powers of a stage that is solved."""
+    """Keep a solved stage's slopes and powers."""
     gamma = mem.control[0].gamma
     for i in range(mem.new.size):
         mem.stages[stage, i] = (mem.new[i] - mem.base[i]) / gamma
@@ -121,7 +136,9 @@ def _attempt(evaluate, jacobian, h, bundle, bl, fa, mem):
 
 @helper
 def _interpolate(mem, t, h, at, row):
-    """Write the state at `at` in (t - h, t] from places and slopes at the ends of this step and the last one.
+    """Write the state at `at`.
+
+    In (t - h, t], from places and slopes at the ends of this step and the last one.
 
     Newton's form with double nodes (Hermite), of order 5 where there is a last step, 3 in the first.
     """
@@ -148,7 +165,10 @@ def _interpolate(mem, t, h, at, row):
 
 @helper
 def _shift(bundle, mem, h):
-    """Make the new point the current one, and the integrals with it."""
+    """Make the new point current.
+
+    And the integrals with it.
+    """
     stages, last = mem.stages, STAGES - 1
     add_turn_over(mem, h)
     for j in range(STAGES):

@@ -28,7 +28,9 @@ _SWING = 0.04  # share of its square by which a correction turns round before th
 
 @helper
 def _move(mem, first, last, relax, again):
-    """Move the states first..last by their correction; where corrections swing to and fro, by the secant.
+    """Move states by their correction.
+
+    The states first..last; where corrections swing to and fro, by the secant.
 
     The correction c(x) is to vanish. Where it turned round, the root along the last move m is at
     c - theta (m + c - c_0), theta = c.(c - c_0)/|c - c_0|^2: Anderson 1965, J. ACM 12, 547, with one difference.
@@ -60,13 +62,19 @@ def _move(mem, first, last, relax, again):
 
 @helper
 def _relax(gamma, factored):
-    """Return the share of a correction that is moved: factors of another gamma miss by a known amount."""
+    """Return the moved share of a correction.
+
+    Factors of another gamma miss by a known amount.
+    """
     return 2.0 / (1.0 + gamma / factored)
 
 
 @helper
 def _move_all(bundle, fa, mem, want, again):
-    """Move every state by its correction, ball by ball; returns whether a ball's corrections swung to and fro."""
+    """Move every state by its correction.
+
+    Ball by ball: return whether a ball's corrections swung to and fro.
+    """
     tail, moving, control = bundle.system[0].tail, mem.new.size - bundle.states.size, mem.control[0]
     swung = False
     for r in range(bundle.rows.size):
@@ -85,7 +93,9 @@ def _move_all(bundle, fa, mem, want, again):
 
 @helper
 def _renew_slow(bundle, bl, mem, size):
-    """Have the Jacobian renewed for the balls that make most of the last change, of the given norm.
+    """Mark the balls that converge slowly.
+
+    Their Jacobian is renewed; they make most of the last change, of the given norm.
 
     Where no ball stands out the bodies that all share are slow, and it is renewed for all.
     """
@@ -112,7 +122,9 @@ def _renew_slow(bundle, bl, mem, size):
 
 @helper
 def solve_step(evaluate, jacobian, t, h, closer, bundle, bl, fa, mem):
-    """Solve new = base + gamma f(new); returns a Status: OK, NOT_CONVERGED, REFUSED.
+    """Solve new = base + gamma f(new).
+
+    Return a Status: OK, NOT_CONVERGED, REFUSED.
 
     With `closer` (1 or 0) the iteration goes on from where it stands, to a tenth of what it leaves otherwise.
 

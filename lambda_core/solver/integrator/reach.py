@@ -15,5 +15,8 @@ from lambda_core.solver.layout import helper
 
 @helper
 def is_split(reach, n):
-    """Return whether no row of balls reaches all of n shared states: several bearings share a shaft."""
+    """Tell whether several bearings share a shaft.
+
+    No row of balls then reaches all of n shared states.
+    """
     return reach.width[0] != n

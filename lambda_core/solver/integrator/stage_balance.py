@@ -15,7 +15,9 @@ from lambda_core.solver.records import PRESCRIBED
 
 @helper
 def leak_of_stages(mem, h):
-    """Return the energy that a step of several stages loses, over what a step may lose; see leak_of_step.
+    """Return a staged step's relative leak.
+
+    The energy that it loses, over what a step may lose; see leak_of_step.
 
     The scheme's own share is known from the matrix of its algebraic stability, and of either sign. The quadrature's
     is the difference of the formula and the one embedded in it.
@@ -39,7 +41,10 @@ def leak_of_stages(mem, h):
 
 @helper
 def add_turn_over(mem, h):
-    """Add the energy that the forces of a step's last stage move to and fro."""
+    """Add the last stage's alternating energy.
+
+    The forces of the stage move it to and fro.
+    """
     power = 0.0
     for i in range(mem.new.size):
         if mem.inertia[i] > 0.0:
@@ -49,7 +54,10 @@ def add_turn_over(mem, h):
 
 @helper
 def _settled(mem, end, inertia, k, h):
-    """Return the growth of a prescribed speed's kinetic energy in a step beyond that given to the stages [J]."""
+    """Return a prescribed speed's remaining energy [J].
+
+    Growth of its kinetic energy in a step beyond that given to the stages.
+    """
     start, given = mem.shared[k], 0.0
     for i in range(STAGES):
         v = start
@@ -61,7 +69,10 @@ def _settled(mem, end, inertia, k, h):
 
 @helper
 def settle_prescribed(bundle, mem, h):
-    """Add the kinetic energy of rings with prescribed motion to the input of a step, also across jumps."""
+    """Add prescribed rings' kinetic energy.
+
+    To the input of a step, also across jumps.
+    """
     running = running_of(mem.integrals)[0]
     for b in range(bundle.bodies.size):
         body, first = bundle.bodies[b], NS * b

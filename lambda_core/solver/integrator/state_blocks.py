@@ -14,7 +14,10 @@ from lambda_core.solver.lu import lu_factor, lu_solve
 
 @helper
 def solve_states(bundle, gamma, change):
-    """Solve (I - gamma dr/dx) for every contact's part of a Newton correction, in place; returns 0 when singular."""
+    """Solve the contacts' part of a correction.
+
+    (I - gamma dr/dx) in place, for Newton; return 0 when singular.
+    """
     behind = change.size - bundle.states.size
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
@@ -36,7 +39,10 @@ def solve_states(bundle, gamma, change):
 
 @helper
 def dense_slopes(bundle, behind, out):
-    """Write the slopes of all rates with the states of their own contacts into a matrix, from row `behind` on."""
+    """Write the contact states' slopes densely.
+
+    Of all rates with the states of their own contacts, from row `behind` on.
+    """
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         for k in range(row.first_raceway, row.first_raceway + row.raceways):

@@ -37,7 +37,9 @@ def _take_samples(interpolate, mem, h):
 
 @helper
 def _length(control, history):
-    """Return the length of the step in hand: as planned, or what ends at the stop, or halfway to it.
+    """Return the length of the step.
+
+    As planned, or what ends at the stop, or halfway to it.
 
     Halfway, so that no step is cut to a small part of those before it. One that was cut does not change the plan.
     """
@@ -52,7 +54,10 @@ def _length(control, history):
 
 @helper
 def _accept(interpolate, shift, bundle, mem, h):
-    """Make the new point the current one, add to the integrals, take samples."""
+    """Accept the new point.
+
+    Make it the current one, add to the integrals, take samples.
+    """
     control, count = mem.control[0], mem.count[0]
     _take_samples(interpolate, mem, h)
     shift(bundle, mem, h)
@@ -68,7 +73,9 @@ def _accept(interpolate, shift, bundle, mem, h):
 
 @helper
 def take_steps(begin, attempt, interpolate, shift, evaluate, jacobian, until, max_work, bundle, bl, fa, mem):
-    """Take steps until the time is past `until`, the sample buffer is full, or the work is done.
+    """Take steps past `until`.
+
+    Or until the sample buffer is full, or the work is done.
 
     Parameters
     ----------

@@ -11,7 +11,9 @@ from lambda_core.solver.layout import ordered_rows_helper, rows_helper
 
 
 def sums_of(size: int) -> tuple[Any, ...]:
-    """Return add_row, take_rows, add_columns and take_columns of blocks with `size` states.
+    """Return the row and column functions.
+
+    add_row, take_rows, add_columns and take_columns of blocks with `size` states.
 
     A size that the compiler knows keeps sums in registers: one that is read while the code runs takes 1.8 times as
     long.
@@ -25,7 +27,10 @@ def sums_of(size: int) -> tuple[Any, ...]:
 
     @ordered_rows_helper
     def take_rows(row, factors, rows, n):
-        """Take multiples of `size` rows from the first n entries of a row."""
+        """Take multiples of rows.
+
+        `size` rows, from the first n entries of a row.
+        """
         for q in range(n):
             total = row[q]
             for k in range(size):
@@ -34,14 +39,20 @@ def sums_of(size: int) -> tuple[Any, ...]:
 
     @ordered_rows_helper
     def add_columns(part, factors, columns, n):
-        """Add n multiples of columns, which are kept as rows, to one ball's part of a solution."""
+        """Add multiples of columns.
+
+        n columns, which are kept as rows, to one ball's part of a solution.
+        """
         for k in range(n):
             for i in range(size):
                 part[i] += factors[k] * columns[k, i]
 
     @ordered_rows_helper
     def take_columns(part, factors, columns, n):
-        """Take n multiples of columns, which are kept as rows, from one ball's part of a solution."""
+        """Take multiples of columns.
+
+        n columns, which are kept as rows, from one ball's part of a solution.
+        """
         for k in range(n):
             for i in range(size):
                 part[i] -= factors[k] * columns[k, i]
@@ -51,13 +62,19 @@ def sums_of(size: int) -> tuple[Any, ...]:
 
 @ordered_rows_helper
 def write_multiple(row, factor, other, n):
-    """Write a multiple of the first n entries of another row."""
+    """Write a multiple of a row.
+
+    Its first n entries.
+    """
     for i in range(n):
         row[i] = factor * other[i]
 
 
 @rows_helper
 def spread(row, places, own, factor, other, n):
-    """Add the first n entries of a row, and a multiple of another, at their places."""
+    """Add two rows at their places.
+
+    The first n entries of one, and a multiple of another.
+    """
     for i in range(n):
         row[places[i]] += own[i] + factor * other[i]

@@ -29,7 +29,10 @@ def _copy(wrench, other):
 
 @helper
 def keep_contacts(bundle):
-    """Keep what contacts do to the bodies, where there are several bearings."""
+    """Keep the contacts' forces on bodies.
+
+    Where there are several bearings.
+    """
     if bundle.bypassed.size > 1:
         for b in range(bundle.bodies.size):
             _copy(bundle.contact_wrenches[b], bundle.body_wrenches[b])
@@ -37,7 +40,10 @@ def keep_contacts(bundle):
 
 @helper
 def clear_again(bundle, rates):
-    """Begin the sums of forces and of the raceways' powers anew, but for bearings that rest."""
+    """Clear the sums of forces and powers.
+
+    Those of raceways' powers; bearings that rest keep theirs.
+    """
     raceways = bundle.raceways.size
     for b in range(bundle.bodies.size):
         bearing = bundle.bodies[b].bearing
@@ -75,7 +81,10 @@ def clear_bearing_powers(bundle):
 
 @helper
 def powers_of_bearing(bundle, bearing, running):
-    """Return where powers of a bearing are summed; one alone sums to the powers of all."""
+    """Return the place of a bearing's powers.
+
+    One alone sums to the powers of all.
+    """
     return running if bundle.bypassed.size == 1 else bundle.bearing_powers[bearing]
 
 

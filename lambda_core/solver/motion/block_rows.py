@@ -48,7 +48,10 @@ def ball_block(ball, row, bl, a, b):
 
 @helper
 def neighbour_block(row, bl, block):
-    """Turn the slopes of a ball's force with the states of its neighbour into rows of the first."""
+    """Turn neighbour slopes into rows.
+
+    The slopes of a ball's force with the states of its neighbour, into rows of the first.
+    """
     for i in range(6):
         inverse = 1.0 / row.ball_mass if i < 3 else 1.0 / row.ball_inertia
         for c in range(NB):
@@ -71,7 +74,10 @@ def force_map(body, now, m):
 
 @helper
 def body_rows(p, index, bl, c_block):
-    """Write d(body)/d(ball) of the body at place p into a block C."""
+    """Write d(body)/d(ball) into a block C.
+
+    Of the body at place p.
+    """
     for row in range(NS):
         k = index[NS * p + row]
         if k < 0:
@@ -85,7 +91,10 @@ def body_rows(p, index, bl, c_block):
 
 @helper
 def _own_slopes(b, bundle, bl):
-    """Add the slopes of body b's own equations of motion to D."""
+    """Add a body's own slopes to D.
+
+    Those of body b's own equations of motion.
+    """
     body, now, inputs, fm = bundle.bodies[b], bundle.bodies_now[b], bundle.inputs[b], bundle.body_wrenches[b]
     gravity, near, d = bundle.system[0].gravity, bl.body.view(BODY_STATE), bl.d
     rate, near_rate = bl.rate.view(BODY_STATE), bl.near_rate.view(BODY_STATE)
@@ -106,7 +115,10 @@ def _own_slopes(b, bundle, bl):
 
 @helper
 def shared_rows(b, bundle, bl):
-    """Write the rows of body b in D: its own equations of motion and all forces on it."""
+    """Write the rows of body b in D.
+
+    Its own equations of motion and all forces on it.
+    """
     d, active = bl.d, bundle.active
     for row in range(NS):
         k = bl.index[NS * b + row]
@@ -122,7 +134,10 @@ def shared_rows(b, bundle, bl):
 
 @helper
 def own_rows(p, r, bl, d_own):
-    """Add the rows of the body at place p among what contacts of row r have of D."""
+    """Add a body's rows to D.
+
+    The body at place p, among what contacts of row r have of D.
+    """
     bodies, index = bl.reach.bodies[r], bl.reach.index[r]
     b, columns = bodies[p], NS * bl.reach.count[r]
     for row in range(NS):

@@ -24,7 +24,9 @@ from lambda_core.solver.vec import length
 
 @helper
 def contact_energy(raceway, delta, bundle):
-    """Return the elastic energy of a raceway contact at penetration delta [J].
+    """Return a raceway contact's elastic energy [J].
+
+    At penetration delta.
 
     With delta u^2 for the penetration, eight points are exact for a power law of exponent 3/2.
     """
@@ -51,7 +53,10 @@ def _ball_energy(ball, row):
 
 @helper
 def _raceway_energy(ball, raceway, bundle):
-    """Return the elastic energy of a ball's contact with a raceway [J]."""
+    """Return a ball's elastic energy [J].
+
+    In its contact with a raceway.
+    """
     ring, kin = bundle.bodies_now[raceway.body], bundle.scratch[0].kinematics[0]
     if touch(ball, ring, raceway, bundle, kin) > 0.0:
         return contact_energy(raceway, kin.penetration, bundle)
@@ -60,7 +65,10 @@ def _raceway_energy(ball, raceway, bundle):
 
 @helper
 def _guide_energy(balls, j, row, bundle):
-    """Return the elastic energy of a ball in its pocket, or with the next ball where there is no cage [J]."""
+    """Return a ball's elastic energy of guidance [J].
+
+    In its pocket, or with the next ball where there is no cage.
+    """
     i = j - row.first_ball
     scratch, ball, start = bundle.scratch[0], balls[i], 0.0
     g = scratch.guide
@@ -75,7 +83,10 @@ def _guide_energy(balls, j, row, bundle):
 
 @helper
 def _body_energy(body, now):
-    """Return the kinetic energy of a body and the elastic energy of its supports [J]."""
+    """Return a body's energy [J].
+
+    Its kinetic energy and the elastic energy of its supports.
+    """
     ay, az = now.tilt[0], now.tilt[1]
     wy, wz, sigma = now.tilt_velocity[0], now.tilt_velocity[1], now.spin
     wx = -(wy * ay + wz * az) / axis_x(ay, az)
@@ -90,7 +101,7 @@ def _body_energy(body, now):
 
 @helper
 def _land_energy(land, bundle):
-    """Return the elastic energy of one station of a land [J]."""
+    """Return a land station's elastic energy [J]."""
     scratch = bundle.scratch[0]
     law, par = guide_law(bundle.laws.guides, land.law), part(bundle.par, land.parameters)
     land_state(bundle.bodies_now[land.cage], bundle.bodies_now[land.ring], land, bundle, scratch.guide)
@@ -99,7 +110,10 @@ def _land_energy(land, bundle):
 
 @helper
 def stored_energy(t, y, bundle):
-    """Return kinetic plus elastic energy of all bodies, contacts and supports [J]."""
+    """Return kinetic plus elastic energy [J].
+
+    Of all bodies, contacts and supports.
+    """
     system = bundle.system[0]
     if fill_shared(t, y, bundle) != 1:
         return np.nan

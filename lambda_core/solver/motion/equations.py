@@ -11,7 +11,9 @@ from lambda_core.solver.records import FREE, PRESCRIBED
 
 @helper
 def ball_rates(ball, wrench, row, rate):
-    """Equations of motion of one ball in its turning frame (Coriolis and gyroscopic terms).
+    """Write the rates of one ball.
+
+    Equations of motion in its turning frame (Coriolis and gyroscopic terms).
 
     Parameters
     ----------
@@ -33,7 +35,10 @@ def ball_rates(ball, wrench, row, rate):
 
 @helper
 def _translate(body, now, wrench, inputs, gravity, rate):
-    """Write the accelerations of a body along the axes; returns external and support power [W]."""
+    """Write a body's accelerations along the axes.
+
+    Return external and support power [W].
+    """
     mass, sigma = body.mass, now.spin
     power, support = 0.0, 0.0
     whirl = body.unbalance * sigma * sigma
@@ -58,7 +63,10 @@ def _translate(body, now, wrench, inputs, gravity, rate):
 
 @helper
 def _turn_across(moment, w, inertia, mode, motion):
-    """Return the angular acceleration across the axis and the power of what prescribes it [W]."""
+    """Return angular acceleration and power across the axis.
+
+    The power is that of the prescribed motion [W].
+    """
     if mode == FREE:
         return moment / inertia, 0.0
     rate = motion.acceleration if mode == PRESCRIBED else 0.0
@@ -67,7 +75,9 @@ def _turn_across(moment, w, inertia, mode, motion):
 
 @helper
 def _rotate(body, now, wrench, inputs, rate):
-    """Write the angular accelerations of a body; returns external, drive's and support power [W].
+    """Write a body's angular accelerations.
+
+    Return external, drive's and support power [W].
 
     What the unbalance force U sigma^2 gives the motion of the axis it takes from the spin: the moment -U sigma (n . v),
     n from the axis to the centre of mass. Of the rotor's own -U (t . a) that leaves out U d(t . v)/dt, a swing without
@@ -108,7 +118,9 @@ def _rotate(body, now, wrench, inputs, rate):
 
 @helper
 def body_rates(body, now, wrench, inputs, gravity, rate):
-    """Equations of motion of one body under the wrench of its contacts.
+    """Write the rates of one body.
+
+    Equations of motion under the wrench of its contacts.
 
     Adds loads, gravity, unbalance and supports.
 

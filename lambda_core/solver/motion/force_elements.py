@@ -44,7 +44,10 @@ def clear_forces(bundle):
 
 @helper
 def add_contact(raceway, place, j, bundle):
-    """Add the wrench of the raceway contact at a place of scratch to the forces on ball j and on the raceway's body."""
+    """Add a raceway contact's wrench.
+
+    At a place of scratch, to the forces on ball j and on the raceway's body.
+    """
     scratch, on_body = bundle.scratch[0], bundle.body_wrenches[raceway.body]
     apply_wrench(scratch.kinematics[place], scratch.wrench[place], bundle.ball_wrenches[j], scratch.on_ring)
     increase(on_body.force, scratch.on_ring.force)
@@ -55,7 +58,10 @@ def add_contact(raceway, place, j, bundle):
 
 @helper
 def _room(raceway, bundle):
-    """Return for how many contacts of a raceway laws are called at once: for one where they read what it keeps."""
+    """Return the contacts per call of laws.
+
+    Of a raceway: one where the laws read the contact's states.
+    """
     if raceway.states > 0 or raceway.slots[1] > raceway.slots[0]:
         return 1
     return (bundle.cells.shape[1] - GUARD) // bundle.grid.shape[1]
@@ -63,7 +69,9 @@ def _room(raceway, bundle):
 
 @helper
 def _gather(t, balls, i, row, raceway, keeps, bundle):
-    """Identify contacts of a raceway from ball i of a row on, until no more are taken at once.
+    """Gather contacts of a raceway.
+
+    From ball i of a row on, until no more are taken at once.
 
     Returns the next ball, or -1 on a fault, and how many contacts carry load and do not yet (records.BATCH).
     """
@@ -94,7 +102,10 @@ def _gather(t, balls, i, row, raceway, keeps, bundle):
 
 @helper
 def _add(t, place, raceway, bundle, losses, keeps, counts):
-    """Add a contact to the forces, and where it counts what it dissipates to the losses; returns 0 on a fault."""
+    """Add a contact to forces and losses.
+
+    To the losses where it counts what it dissipates; return 0 on a fault.
+    """
     scratch, k = bundle.scratch[0], raceway.number
     j, kin, contact = scratch.ball[place], scratch.kinematics[place], scratch.contact[place]
     add_contact(raceway, place, j, bundle)
@@ -109,7 +120,9 @@ def _add(t, place, raceway, bundle, losses, keeps, counts):
 
 @helper
 def raceway_forces(t, balls, row, bundle, losses, want):
-    """Add the raceway contacts of a row; with `want`, add what they dissipate to losses (layout.Losses).
+    """Add the raceway contacts of a row.
+
+    With `want`, add what they dissipate to losses (layout.Losses).
 
     Where contacts keep states, their rates are written.
     """
@@ -134,7 +147,9 @@ def raceway_forces(t, balls, row, bundle, losses, want):
 
 @helper
 def drag_force(ball, row, bundle, on_ball):
-    """Add fluid drag and churning of one ball; returns the power lost [W], or -1 on a fault.
+    """Add fluid drag and churning.
+
+    Of one ball; return the power lost [W], or -1 on a fault.
 
     In motion the drag is that at the ball's azimuth, in the quasi-static equilibrium its mean over one revolution,
     from azimuths that are the same for all balls, so that equal balls have equal drag.
@@ -166,7 +181,10 @@ def drag_force(ball, row, bundle, on_ball):
 
 @helper
 def cage_forces(balls, row, bundle, running, want):
-    """Add the pockets of a row, or ball-ball contacts when it has no cage; with `want` their losses."""
+    """Add the cage forces of a row.
+
+    Of pockets, or ball-ball contacts when it has no cage; with `want` their losses.
+    """
     scratch, viscosity = bundle.scratch[0], row.oil.viscosity
     g, out, fault, at_rest = scratch.guide, scratch.out[:], scratch.fault, scratch.at_rest
     cage, on_cage = bundle.bodies_now[row.cage], bundle.body_wrenches[row.cage]

@@ -25,7 +25,10 @@ from lambda_core.solver.vec import cosine_sine, dot, increase, turning
 
 @helper
 def _move_ball(ball, j, row, bundle, running, want, rate):
-    """Add drag and weight to the forces on ball j and write its accelerations."""
+    """Write the accelerations of ball j.
+
+    Add drag and weight to the forces on it first.
+    """
     system, wrench = bundle.system[0], bundle.ball_wrenches[j]
     if row.drag_on == 1 and system.friction_on == 1:
         lost = drag_force(ball, row, bundle, wrench)
@@ -45,7 +48,10 @@ def _move_ball(ball, j, row, bundle, running, want, rate):
 
 @helper
 def _move_bodies(bundle, running, want, dydt):
-    """Write the rates of the free states of the bodies, and of the states of contacts."""
+    """Write the rates of bodies and contacts.
+
+    Free states of the bodies, and states of contacts.
+    """
     active, base = bundle.active, bundle.system[0].tail
     for b in range(bundle.bodies.size):
         if bundle.bodies[b].moves == 0:
@@ -70,7 +76,10 @@ def _move_bodies(bundle, running, want, dydt):
 
 @helper
 def _raceways(t, y, bundle, dydt, rates, want):
-    """Begin the sums of forces and powers with the raceways' share."""
+    """Begin sums with the raceways' share.
+
+    The sums of forces and powers.
+    """
     losses = losses_of(rates, bundle.raceways.size)
     if want == AGAIN:
         clear_again(bundle, rates)
@@ -109,7 +118,9 @@ def _guides(t, y, bundle, dydt, rates, want):
 
 
 def evaluate(t, y, bundle, dydt, rates, want):
-    """Write dy/dt; with `want` = 1 also the powers and rates of the running integrals; an entry point.
+    """Write dy/dt.
+
+    With `want` = 1 also the powers and rates of the running integrals; an entry point.
 
     Parameters
     ----------

@@ -62,7 +62,10 @@ def _drag_columns(ball, row, bundle, bl):
 
 @helper
 def _add_part(bl, r, j):
-    """Add what ball j of row r adds to the slopes of the forces on the bodies."""
+    """Add ball j's part to the bodies.
+
+    To the slopes of the forces on them, of row r.
+    """
     bodies, count, part = bl.reach.bodies[r], bl.reach.count[r], bl.parts[j]
     for p in range(count):
         total = bl.shared[bodies[p]]
@@ -74,7 +77,10 @@ def _add_part(bl, r, j):
 
 @helper
 def _guide_columns(balls, j, row, bundle, bl):
-    """Add the pocket of ball j, or its contacts with the neighbouring balls."""
+    """Add ball j's pocket or neighbours.
+
+    Its contacts with the neighbouring balls.
+    """
     if row.caged == 1:
         return pocket_columns(balls[j - row.first_ball], j, row, bundle, bl)
     z, i = row.balls, j - row.first_ball
@@ -88,7 +94,10 @@ def _guide_columns(balls, j, row, bundle, bl):
 
 @helper
 def _force_columns(balls, j, row, bundle, bl):
-    """Add the slopes of every force on ball j, and of what it does to the bodies; returns 1 when well."""
+    """Add the slopes of ball j's forces.
+
+    Of every force on it, and of what it does to the bodies; return 1 when well.
+    """
     system, ball = bundle.system[0], balls[j - row.first_ball]
     if raceway_columns(ball, j, row, bundle, bl) != 1:
         return 0
@@ -106,7 +115,10 @@ def _force_columns(balls, j, row, bundle, bl):
 
 @helper
 def _ball_blocks(balls, j, row, bundle, bl):
-    """Write the blocks A, B, C of ball j and its part of D; returns 1 when well."""
+    """Write the blocks A, B, C of ball j.
+
+    And its part of D; return 1 when well.
+    """
     reach, r = bl.reach, row.number
     bl.parts[j, :, :, :] = 0.0
     bl.own[:, :] = 0.0
@@ -124,7 +136,10 @@ def _ball_blocks(balls, j, row, bundle, bl):
 
 @helper
 def _own_part(r, bundle, bl):
-    """Write what contacts of a row have of D, where rows are on several bearings; returns 1 when well."""
+    """Write the contacts' part of D.
+
+    Of a row, where rows are on several bearings; return 1 when well.
+    """
     reach, d_own = bl.reach, bl.d_own[r]
     for p in range(reach.count[r]):
         bl.shared[reach.bodies[r, p], :, :] = 0.0
@@ -143,7 +158,10 @@ def _own_part(r, bundle, bl):
 
 @helper
 def _add_own_part(r, sign, bl):
-    """Add to D what the contacts of a row have of it, times a sign."""
+    """Add the contacts' part to D.
+
+    Of a row, times a sign.
+    """
     columns = bl.reach.columns[r]
     for i in range(bl.reach.width[r]):
         for k in range(bl.reach.width[r]):
@@ -152,7 +170,9 @@ def _add_own_part(r, sign, bl):
 
 @helper
 def _renew_own_parts(bundle, bl):
-    """Renew in D what contacts have of it, for the rows whose blocks changed; returns 1 when well.
+    """Renew the contacts' parts of D.
+
+    For the rows whose blocks changed; return 1 when well.
 
     Where a few balls are due, contacts of one bearing are to blame: the rest of D stands.
     """
@@ -166,7 +186,9 @@ def _renew_own_parts(bundle, bl):
 
 
 def jacobian(t, y, bundle, bl):
-    """Write the blocks of the balls marked in bl.due at (t, y); call right after `evaluate` at the same point.
+    """Write the due balls' blocks.
+
+    Those marked in bl.due at (t, y); call right after `evaluate` at the same point.
 
     All are marked unless the caller has taken marks away; afterwards all are again. Uses bundle.body_wrenches of that
     evaluation for the bodies' own equations. Returns 1 when well.

@@ -16,7 +16,10 @@ from lambda_core.solver.vec import add, clear, combine, cross, decrease, dot, in
 
 @helper
 def _point(body, place, g):
-    """Return a point of a body from the body's centre, the body's axis and angular velocity, inertial."""
+    """Return a point, axis and angular velocity.
+
+    A point of a body from the body's centre, the body's axis, inertial.
+    """
     axis, omega = turning_body(body)
     write_frame(axis, body.angle, g)
     return combine(place, g.axial, g.radial, g.tangential), axis, omega
@@ -24,7 +27,9 @@ def _point(body, place, g):
 
 @helper
 def link_state(link, first, second, g):
-    """Write place, velocity and angular velocity of the second point seen from the first body, inertial.
+    """Write the second point's relative state.
+
+    Place, velocity and angular velocity seen from the first body, inertial.
 
     The velocity is that against the material of the first body at the same place. g.axial becomes the tilt of one axis
     against the other, g.origin the second point from the second body's centre.
@@ -42,7 +47,10 @@ def link_state(link, first, second, g):
 
 @helper
 def link_wrench(t, link, bundle, g):
-    """Call the law of an element on a guide record: scratch.out = force[3], couple[3] on the second body; 1: well."""
+    """Call an element's law on a guide record.
+
+    scratch.out = force[3], couple[3] on the second body; 1: well.
+    """
     scratch = bundle.scratch[0]
     out = scratch.out[:]
     out[:6] = np.nan
@@ -58,7 +66,10 @@ def link_wrench(t, link, bundle, g):
 
 @helper
 def link_apply(link, first, second, g, out, on_first, on_second):
-    """Add the wrench of an element to its bodies: equal and opposite, at the second point."""
+    """Add an element's wrench to its bodies.
+
+    Equal and opposite, at the second point.
+    """
     force, couple = (out[0], out[1], out[2]), (out[3], out[4], out[5])
     increase(on_second.force, force)
     increase(on_second.moment, add(couple, cross(g.origin, force)))
@@ -69,13 +80,19 @@ def link_apply(link, first, second, g, out, on_first, on_second):
 
 @helper
 def _carrier(number, bundle):
-    """Return the state of a body, or of the ground, which stands at the origin."""
+    """Return the state of a body or ground.
+
+    The ground is at the origin.
+    """
     return bundle.ground[0] if number < 0 else bundle.bodies_now[number]
 
 
 @helper
 def link_forces(t, bundle, running):
-    """Add every element, and its power to what comes from outside; returns 1 when well."""
+    """Add every element and its power.
+
+    The power comes from outside; return 1 when well.
+    """
     scratch = bundle.scratch[0]
     g, out = scratch.guide, scratch.out[:]
     for i in range(bundle.links.size):
@@ -92,7 +109,10 @@ def link_forces(t, bundle, running):
 
 @helper
 def _link_columns(t, link, bundle, bl):
-    """Add the slopes of one element, by differences of its law."""
+    """Add the slopes of one element.
+
+    By differences of its law.
+    """
     scratch, fm = bundle.scratch[0], bl.wrenches
     first, second = _carrier(link.first, bundle), bundle.bodies_now[link.second]
     g, out = scratch.guide, scratch.out[:]

@@ -17,7 +17,10 @@ from lambda_core.solver.records import CONSTANT, GIVEN, HARMONIC, LAW, PRESCRIBE
 
 @helper
 def _by_law(t, term, bundle, signal):
-    """Add amplitude * f(t) with f by a law; returns 1 when well."""
+    """Add amplitude * f(t) of a law.
+
+    Return 1 when well.
+    """
     scratch = bundle.scratch[0]
     out = scratch.out[:]
     out[:3] = np.nan
@@ -32,7 +35,10 @@ def _by_law(t, term, bundle, signal):
 
 @helper
 def evaluate_signals(t, bundle):
-    """Write value, first and second derivative of every signal at time t [s]; returns 1 when well."""
+    """Write every signal at time t [s].
+
+    Value, first and second derivative; return 1 when well.
+    """
     terms, table, signals = bundle.terms, bundle.table, bundle.signals
     for i in range(signals.size):
         signal = signals[i]
@@ -73,7 +79,9 @@ def evaluate_signals(t, bundle):
 
 @helper
 def _spline(t, table, start, count, signal):
-    """Add a cubic spline: per interval t_0, then coefficients of 1, u, u^2, u^3, u = t - t_0.
+    """Add a cubic spline.
+
+    Per interval t_0, then coefficients of 1, u, u^2, u^3, u = t - t_0.
 
     The last row holds the end time and value; outside, the end values are held.
     """
@@ -119,7 +127,9 @@ def _prescribe(body, inputs, now):
 
 @helper
 def fill_shared(t, y, bundle):
-    """Write the whole shared state at time t, free entries from y, the others prescribed, and states of contacts.
+    """Write the complete shared state at t.
+
+    Free entries from y, the others prescribed, and states of contacts.
 
     Returns 1 when well.
     """

@@ -14,7 +14,10 @@ _TURN = 1e-3  # [rad/s] likewise
 
 @helper
 def ball_step(c, direct):
-    """Return the difference step of ball state c; `direct` for laws called with velocities."""
+    """Return the difference step of state c.
+
+    Of a ball; `direct` for laws called with velocities.
+    """
     if c <= 2:
         return (_POSITION if c < 2 else _ANGLE) * (_CLOSE if direct else 1.0)
     if not direct:
@@ -34,7 +37,10 @@ def body_step(c, direct):
 
 @helper
 def add_slope(slopes, column, changed, base, step):
-    """Add the difference of two wrenches over a step to one column of the slopes of a force and moment, (6, n)."""
+    """Add a wrench's difference to a column.
+
+    Over a step, of the slopes of a force and moment, (6, n).
+    """
     for i in range(3):
         slopes[i, column] += (changed.force[i] - base.force[i]) / step
         slopes[3 + i, column] += (changed.moment[i] - base.moment[i]) / step

@@ -17,14 +17,20 @@ from lambda_core.solver.lu import inner_product
 
 @helper
 def _measure(bundle):
-    """Write how far the structures are from where they are without force."""
+    """Write the structures' displacements.
+
+    From where they are without force.
+    """
     for k in range(bundle.tied.size):
         bundle.tie_moves[k] = bundle.shared[bundle.tied[k]] - bundle.tie_rest[k]
 
 
 @helper
 def _rate(entry, bundle):
-    """Return how fast a tied entry changes: of an axis by w x a, of an angle by the spin."""
+    """Return the rate of a tied entry.
+
+    Of an axis by w x a, of an angle by the spin.
+    """
     now, c = bundle.bodies_now[entry // NS], entry % NS
     if c < SAY:
         return now.velocity[c]
@@ -43,7 +49,9 @@ def _measure_rates(bundle):
 
 @helper
 def structure_forces(bundle, running):
-    """Add the forces of all structures to those on the bodies, and what their dampers take to the losses.
+    """Add all structures' forces.
+
+    To those on the bodies, and the power of their dampers to the losses.
 
     The power of a force f along the axis a of a body is f.da/dt = (a x f).omega.
     """
@@ -76,7 +84,10 @@ def structure_forces(bundle, running):
 
 @helper
 def structure_columns(bundle, bl):
-    """Add the slopes of these forces, to the first order of small tilts."""
+    """Add the slopes of structures' forces.
+
+    To the first order of small tilts.
+    """
     for i in range(bundle.tied.size):
         b, c = bundle.tied[i] // NS, bundle.tied[i] % NS
         row, sign = (c, 1.0) if c < SAY else ((5, 1.0) if c == SAY else ((4, -1.0) if c == SAZ else (3, 1.0)))

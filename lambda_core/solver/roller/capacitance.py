@@ -20,7 +20,10 @@ from lambda_core.solver.roller.line import line_wrench
 
 @helper
 def _touching_film(raceway, kin, delta, bundle):
-    """Return the film [m] where the nearest slice just touches as deep as the roughness, or -1; writes over scratch."""
+    """Return the film [m] at first touch.
+
+    The nearest slice just touches as deep as the roughness, or -1; writes over scratch.
+    """
     contact, penetration, velocity = bundle.scratch[0].contact[0], kin.penetration, kin.normal_velocity
     kin.penetration, kin.normal_velocity = penetration + raceway.roughness - delta, 0.0
     found = line_wrench(raceway, 0, bundle)
@@ -31,7 +34,9 @@ def _touching_film(raceway, kin, delta, bundle):
 
 @helper
 def open_line(raceway, kin, delta, bundle):
-    """Return the capacitance [F] of an open line or the least one of a light line, 0 of others; -1 on a fault.
+    """Return the capacitance [F] of an open line.
+
+    Or the least one of a light line, 0 of others; -1 on a fault.
 
     Open lines come no closer than the film that the oil would leave where they touched, so that the capacitance is
     continuous where they do. Call it before the wrench of the contact in scratch.
@@ -59,7 +64,10 @@ def open_line(raceway, kin, delta, bundle):
 
 @helper
 def loaded_capacitance(raceway, kin, bundle, shorted, touching, sample):
-    """Write the capacitance of the contact under load in scratch; returns 1, or 0 on a fault."""
+    """Write the loaded contact's capacitance.
+
+    In scratch; return 1, or 0 on a fault.
+    """
     laws = raceway_laws(bundle.laws.raceways, raceway.laws)
     if raceway.kind == LINE:
         grid, cells = grid_of(bundle.slices), cells_of(bundle.line_cells, 0, 1, bundle.slices.shape[1])
@@ -70,7 +78,10 @@ def loaded_capacitance(raceway, kin, bundle, shorted, touching, sample):
 
 @helper
 def in_series(one, other):
-    """Return the capacitance of a roller between its rings [F]; inf stands for a ring that asperities short."""
+    """Return a roller's capacitance between rings [F].
+
+    Inf stands for a ring that asperities short.
+    """
     if one <= 0.0 or other <= 0.0:
         return 0.0
     return 1.0 / (1.0 / one + 1.0 / other)

@@ -39,7 +39,10 @@ def _step(c, direct):
 
 @helper
 def _drivers(kin):
-    """Return what a contact's wrench depends on, in the order of records.LINE_DRIVERS."""
+    """Return the drivers of a contact's wrench.
+
+    In the order of records.LINE_DRIVERS.
+    """
     return (
         kin.penetration, kin.normal_velocity, kin.slip_t, kin.slip_s, kin.rotation_t, kin.rotation_s, kin.rotation_n,
         kin.entrainment_t, kin.entrainment_s, kin.line_tilt, kin.line_tilt_rate, kin.entrainment_slope,
@@ -77,7 +80,10 @@ def _shift(kin, i, step):
 
 @helper
 def _tangent(raceway, bundle, bl):
-    """Write the wrench of the contact in scratch and its slopes with the drivers; returns 0 on a fault."""
+    """Write the wrench and its slopes.
+
+    Of the contact in scratch, with the drivers; return 0 on a fault.
+    """
     scratch = bundle.scratch[0]
     kin, near_kin, base, changed = scratch.kinematics[0], scratch.kinematics[1], scratch.wrench[0], scratch.wrench[1]
     if roller_wrench(raceway, 0, bundle) != 1:
@@ -100,7 +106,10 @@ def _tangent(raceway, bundle, bl):
 
 @helper
 def _wrench_near(values, kin, base, drivers, wrench):
-    """Write the wrench to first order at the kinematics `kin`; `values` are the drivers of `base`."""
+    """Write the wrench to first order.
+
+    At the kinematics `kin`: `values` are the drivers of `base`.
+    """
     store(wrench.force, base.force)
     store(wrench.moment, base.moment)
     now = _drivers(kin)
@@ -113,7 +122,10 @@ def _wrench_near(values, kin, base, drivers, wrench):
 
 @helper
 def _contact_columns(roller, j, ring, raceway, row, bundle, bl):
-    """Add one contact of roller j to the force slopes; scratch holds it, bl.drivers the slopes of its wrench."""
+    """Add one contact to the force slopes.
+
+    Of roller j: scratch holds it, bl.drivers the slopes of its wrench.
+    """
     scratch, p = bundle.scratch[0], bl.reach.place[row.number, raceway.body]
     index, on_ring, values = bl.reach.index[row.number], bl.parts[j, p], _drivers(scratch.kinematics[0])
     kin, wrench, fm = scratch.kinematics[1], scratch.wrench[1], bl.wrenches
@@ -145,7 +157,10 @@ def _contact_columns(roller, j, ring, raceway, row, bundle, bl):
 
 @helper
 def _raceway_columns(roller, j, row, bundle, bl):
-    """Add the raceway contacts of roller j to the force slopes; returns 0 on a fault."""
+    """Add roller j's raceway contacts.
+
+    To the force slopes; return 0 on a fault.
+    """
     scratch = bundle.scratch[0]
     for k in range(row.first_raceway, row.first_raceway + row.raceways):
         raceway = bundle.raceways[k]
@@ -167,7 +182,10 @@ def _no_force(wrench):
 
 @helper
 def _pocket_columns(roller, j, row, bundle, bl):
-    """Add the pocket of roller j; one without force is skipped. Returns 0 on a fault."""
+    """Add the pocket of roller j.
+
+    One without force is skipped. Return 0 on a fault.
+    """
     fm, p, cage = bl.wrenches, bl.reach.place[row.number, row.cage], bundle.bodies_now[row.cage]
     near_roller, near_cage = bl.roller.view(ROLLER), bl.body.view(BODY_STATE)
     clear_each(fm)
@@ -197,7 +215,10 @@ def _pocket_columns(roller, j, row, bundle, bl):
 
 @helper
 def _drag_columns(roller, row, bundle, bl):
-    """Add the drag of a roller to its own block; returns 0 on a fault."""
+    """Add a roller's drag to its block.
+
+    Return 0 on a fault.
+    """
     fm, near_roller = bl.wrenches, bl.roller.view(ROLLER)
     clear(fm[0])
     if roller_drag(roller, row, bundle, fm[0]) < -0.5:
@@ -215,7 +236,10 @@ def _drag_columns(roller, row, bundle, bl):
 
 @helper
 def _equation_rows(roller, j, row, bundle, bl, a, b):
-    """Turn force slopes into the rows of roller j, with the slopes of its own equations of motion."""
+    """Turn force slopes into roller j's rows.
+
+    With the slopes of its own equations of motion.
+    """
     wrench, near_roller, index = bundle.ball_wrenches[j], bl.roller.view(ROLLER), bl.reach.index[row.number]
     here, there = bl.moved[0].view(ROLLER), bl.moved[1].view(ROLLER)
     roller_rates(roller, wrench, row, here[0])
@@ -255,7 +279,10 @@ def _push(wrench, i, amount):
 
 @helper
 def _body_rows(p, index, bl, c_block):
-    """Write d(body)/d(roller) of the body at place p into a block C."""
+    """Write d(body)/d(roller) into a block C.
+
+    Of the body at place p.
+    """
     for row in range(NS):
         k = index[NS * p + row]
         if k < 0:
@@ -269,7 +296,10 @@ def _body_rows(p, index, bl, c_block):
 
 @helper
 def _blocks(roller, j, row, bundle, bl):
-    """Write the blocks A, B, C of roller j and its part of D; returns 0 on a fault."""
+    """Write the blocks A, B, C of roller j.
+
+    And its part of D; return 0 on a fault.
+    """
     reach, r, system = bl.reach, row.number, bundle.system[0]
     bl.parts[j, :, :, :] = 0.0
     bl.own[:, :] = 0.0
@@ -295,7 +325,10 @@ def _blocks(roller, j, row, bundle, bl):
 
 
 def jacobian(y, r, bundle, bl):
-    """Write the blocks of the rollers of a row that are due; returns how many, or -1 on a fault."""
+    """Write the due rollers' blocks.
+
+    Of a row; return how many, or -1 on a fault.
+    """
     row, rollers, due = bundle.rows[r], rollers_of(y, bundle.rows[r]), 0
     for i in range(row.balls):
         j = row.first_ball + i

@@ -31,7 +31,10 @@ from lambda_core.solver.vec import (
 
 @helper
 def centre_from(roller, ring):
-    """Return cosine and sine of the roller's azimuth, the ring's axis, and the roller's centre from the ring's."""
+    """Return a roller's centre from a ring's.
+
+    Cosine and sine of the roller's azimuth, the ring's axis, and the centre.
+    """
     c, s = math.cos(roller.azimuth), math.sin(roller.azimuth)
     ay, az = ring.tilt[0], ring.tilt[1]
     x, r, aside = turning(ring.position, c, s)
@@ -40,7 +43,10 @@ def centre_from(roller, ring):
 
 @helper
 def _outwards(place, axis):
-    """Return distance along an axis, distance from it, and the unit vector away from it."""
+    """Return a place along and off an axis.
+
+    Distance along the axis, distance from it, and the unit vector away from it.
+    """
     along = dot(place, axis)
     across = subtract(place, scale(along, axis))
     far = length(across)
@@ -49,7 +55,9 @@ def _outwards(place, axis):
 
 @helper
 def _write(roller, ring, row, azimuth, axis, centre, lever, frame, slope, kin):
-    """Write frame, arms and velocities of a contact at `lever` from the roller's centre.
+    """Write frame, arms and velocities.
+
+    Of a contact at `lever` from the roller's centre.
 
     `slope` is the direction along the contact in which entrainment changes, a unit vector. The contact follows the
     roller's centre round the ring's axis.
@@ -91,7 +99,9 @@ def _write(roller, ring, row, azimuth, axis, centre, lever, frame, slope, kin):
 
 @helper
 def line_kinematics(roller, ring, row, raceway, kin):
-    """Identify the line contact of a roller with a raceway; returns the approach at its middle, without profile [m].
+    """Return the approach of a line contact [m].
+
+    Identifies the contact of a roller with a raceway; at its middle, without profile.
 
     The roller's generatrix that is nearest to the raceway and the raceway's lie in one plane but for a skew, whose
     effect on the gap is of the second order (x^2 skew^2/(2 R), a nanometre for 1 mrad).
@@ -118,7 +128,10 @@ def line_kinematics(roller, ring, row, raceway, kin):
 
 @helper
 def rib_kinematics(roller, ring, row, raceway, kin):
-    """Identify the contact of a roller's end, a sphere, with a rib, a cone; returns the penetration [m]."""
+    """Return the penetration of a rib contact [m].
+
+    Identifies the contact of a roller's end, a sphere, with a rib, a cone.
+    """
     c, s, axis, centre = centre_from(roller, ring)
     own, end = axis_of(roller, row), row.end_radius
     middle = scale(raceway.side * (0.5 * row.total_length - end), own)  # of the sphere, from the roller's centre
@@ -138,7 +151,9 @@ def rib_kinematics(roller, ring, row, raceway, kin):
 
 @helper
 def apply_roller_wrench(kin, roller, ring, wrench, on_roller, on_ring):
-    """Turn a contact wrench into force and moment on roller and ring, equal and opposite.
+    """Turn a contact wrench into force and moment.
+
+    On roller and ring, equal and opposite.
 
     As contact_kinematics.apply_wrench, for contacts that are not on the normal through the centre. `on_roller` is added
     to, `on_ring` set.

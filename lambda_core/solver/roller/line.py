@@ -33,7 +33,10 @@ _MEAN = 0.25 * math.pi  # mean over the maximum of Hertz's pressure across a lin
 
 @helper
 def closest(raceway, kin, bundle):
-    """Return the approach of the slice that is nearest to the raceway [m]."""
+    """Return the nearest slice's approach [m].
+
+    To the raceway.
+    """
     line, found = bundle.lines[raceway.line], -np.inf
     for k in range(line.shape[1]):
         found = max(found, kin.penetration + line[PLACE, k] * kin.line_tilt - line[DROP, k])
@@ -42,7 +45,9 @@ def closest(raceway, kin, bundle):
 
 @helper
 def _slice_loads(raceway, kin, law, bundle, contact, fault):
-    """Write load, half width, pressure of every slice; returns the loads' moment about t [N m], NaN on a fault.
+    """Write load, width and pressure of slices.
+
+    Of every slice; return the loads' moment about t [N m], NaN on a fault.
 
     `contact` takes the load of all, the largest half width and pressure.
     """
@@ -77,7 +82,10 @@ def _slice_loads(raceway, kin, law, bundle, contact, fault):
 
 @helper
 def _scale_slices(contact, slices):
-    """Divide areas, pressures and widths by those of the contact, as in a Grid; returns the sum of the areas."""
+    """Scale slices to the contact.
+
+    Divide areas, pressures and widths by those of the contact, as in a Grid; return the sum of the areas.
+    """
     total, area = 0.0, 1.0 / (contact.semi_axis_a * contact.semi_axis_b)
     for k in range(slices.shape[1]):
         slices[AREA, k] *= area
@@ -89,7 +97,9 @@ def _scale_slices(contact, slices):
 
 @helper
 def _carrying_length(contact, slices):
-    """Return the length on which a spread load has the same integral of the root of its load per length [m].
+    """Return the carrying length of a load [m].
+
+    A spread load has on it the same integral of the root of its load per length.
 
     Of profiled rollers under light load a part of the line. Rolling resistance of rigid surfaces goes with that root;
     where it no longer depends on the load, this is 4 % short of what carries, of a load that rises as an ellipse.
@@ -102,7 +112,10 @@ def _carrying_length(contact, slices):
 
 @helper
 def _films(raceway, place, length, laws, par, scratch):
-    """Run the scalar laws with the carrying length for R_y; 0 on a fault."""
+    """Run the scalar laws of a line.
+
+    With the carrying length for R_y; 0 on a fault.
+    """
     full = raceway.radius_y
     raceway.radius_y = length
     status = film_stage(raceway, place, 1, laws, par, scratch)
@@ -112,20 +125,28 @@ def _films(raceway, place, length, laws, par, scratch):
 
 @helper
 def _shear_around(raceway, length, contact):
-    """Return the force per slip of the oil before and behind the flat [N s/m], see rolling.flow_shear."""
+    """Return the oil's force per slip [N s/m].
+
+    Before and behind the flat, see rolling.flow_shear.
+    """
     return FLOW_SHEAR * raceway.oil.viscosity * length * math.sqrt(raceway.radius_x / contact.film_central)
 
 
 @helper
 def _resist(kin, per_slip, wrench):
-    """Add the shear of the oil around the flat, against the slip at the middle of the line."""
+    """Add the oil's shear around the flat.
+
+    Against the slip at the middle of the line.
+    """
     wrench.force[0] -= per_slip * kin.slip_t
     wrench.force[1] -= per_slip * kin.slip_s
 
 
 @helper
 def _lean_on(kin, moment, wrench):
-    """Add the moment of the slices' loads so that it works on the tilt of the line alone, not on what spins.
+    """Add the slice loads' moment.
+
+    It works on the tilt of the line alone, not on what spins.
 
     Pressure on a body of revolution does not turn it. On a skewed roller the moment acts along own axis x normal, and a
     force couple of the tangential force F rho = M skew, on roller and ring at the roller's centre, keeps the ring's
@@ -143,7 +164,9 @@ def _lean_on(kin, moment, wrench):
 
 @helper
 def line_wrench(raceway, place, bundle):
-    """Write the wrench of the line contact at a place of scratch on the roller, about its middle, axes t, s, n.
+    """Write the line contact's wrench.
+
+    At a place of scratch on the roller, about its middle, axes t, s, n.
 
     Returns 1 when every kernel was well; otherwise 0 and scratch.fault says which was not.
     """
@@ -179,7 +202,10 @@ def line_wrench(raceway, place, bundle):
 
 @helper
 def line_losses(raceway, bundle, losses):
-    """Add the power that the contact in scratch dissipates to layout.Losses [W]; call after line_wrench."""
+    """Add the power that the contact dissipates.
+
+    The contact is in scratch; to layout.Losses [W]; call after line_wrench.
+    """
     scratch = bundle.scratch[0]
     kin, contact = scratch.kinematics[0], scratch.contact[0]
     raceway_losses(
@@ -192,7 +218,10 @@ def line_losses(raceway, bundle, losses):
 
 @helper
 def line_energy(raceway, kin, bundle):
-    """Return the elastic energy of a line contact [J]: the work of its slices' loads as they close."""
+    """Return a line contact's elastic energy [J].
+
+    The work of its slices' loads as they close.
+    """
     line, scratch, n, total = bundle.lines[raceway.line], bundle.scratch[0], GAUSS_NODES.size, 0.0
     out, lane = scratch.out[:], of(scratch.lanes.delta, 0, n)
     law = raceway_laws(bundle.laws.raceways, raceway.laws).normal_contact

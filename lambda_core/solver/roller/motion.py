@@ -13,34 +13,48 @@ from lambda_core.solver.vec import cross, dot, scale, store, subtract
 
 @helper
 def to_own(v, row):
-    """Return the components along a roller's own axes of a vector given in the turning frame."""
+    """Return components along the roller's axes.
+
+    Of a vector given in the turning frame.
+    """
     c, s = math.cos(row.axis_angle), math.sin(row.axis_angle)
     return c * v[0] + s * v[1], -s * v[0] + c * v[1], v[2]
 
 
 @helper
 def from_own(v, row):
-    """Return the components in the turning frame of a vector given along a roller's own axes."""
+    """Return components in the turning frame.
+
+    Of a vector given along a roller's own axes.
+    """
     c, s = math.cos(row.axis_angle), math.sin(row.axis_angle)
     return c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]
 
 
 @helper
 def _own_axis(roller):
-    """Return the unit vector of the axis along the roller's own axes."""
+    """Return the axis along the roller's axes.
+
+    The unit vector.
+    """
     u, v = roller.tilt[0], roller.tilt[1]
     return math.sqrt(max(1.0 - u * u - v * v, 1e-12)), u, v
 
 
 @helper
 def axis_of(roller, row):
-    """Return the unit vector of the axis in the turning frame."""
+    """Return the axis in the turning frame.
+
+    The unit vector.
+    """
     return from_own(_own_axis(roller), row)
 
 
 @helper
 def roller_rates(roller, wrench, row, rate):
-    """Write the time derivative of a roller's state, in the frame that turns with its azimuth.
+    """Write the rates of a roller.
+
+    Time derivative of its state, in the frame that turns with its azimuth.
 
     With the angular momentum H = I_t w + (I_p - I_t) n a, n = w . a, Euler's equations dH/dt = M leave
     I_p dn/dt = M . a and I_t dw/dt = M - (I_p - I_t) (dn/dt a + n w x a); dw/dt in the turning frame is less by W x w,

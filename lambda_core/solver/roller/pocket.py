@@ -29,7 +29,9 @@ SHARES = 0.5 * SHARES
 
 @helper
 def _station_state(roller, cage, j, row, share, g):
-    """Write place and velocity of a station of the roller's axis relative to its pocket, along the pocket's axes.
+    """Write a station's state in its pocket.
+
+    Place and velocity of a station of the roller's axis, along the pocket's axes.
 
     `share` is where the station is, -1..1 of half of the length of a bar.
     """
@@ -55,7 +57,10 @@ def _station_state(roller, cage, j, row, share, g):
 
 @helper
 def pocket_forces(roller, cage, j, row, bundle, on_roller, on_cage):
-    """Add the forces of a pocket on roller (turning frame) and cage (inertial); returns the power lost [W], or -1."""
+    """Add a pocket's forces.
+
+    On roller (turning frame) and cage (inertial); return the power lost [W], or -1.
+    """
     scratch, viscosity, lost = bundle.scratch[0], row.oil.viscosity, 0.0
     g, out = scratch.guide, scratch.out[:]
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
@@ -73,7 +78,10 @@ def pocket_forces(roller, cage, j, row, bundle, on_roller, on_cage):
 
 @helper
 def pocket_energy(roller, cage, j, row, bundle):
-    """Return the elastic energy of a roller in its pocket [J]."""
+    """Return a roller's elastic energy [J].
+
+    In its pocket.
+    """
     scratch, total = bundle.scratch[0], 0.0
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     for i in range(STATIONS.size):

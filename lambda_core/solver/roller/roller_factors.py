@@ -13,14 +13,20 @@ _factor, _renew, _forward, _back = blocks_of(NR)
 
 
 def factor(stage, bl, r, shift, gamma, fa, own):
-    """Take the shares of a row of rollers from `own`, or renew them; returns 0 when a block is singular."""
+    """Take the rollers' shares from `own`.
+
+    Of a row, or renew them; return 0 when a block is singular.
+    """
     if stage == NEWER:
         return _renew(bl, r, shift, fa, own)
     return _factor(bl, r, shift, gamma, fa, own)
 
 
 def solve(stage, row, bl, fa, right, own):
-    """Do one half of a solution for a row of rollers."""
+    """Do half of a solution for rollers.
+
+    For a row of them.
+    """
     if stage == FORWARD:
         _forward(row, bl.reach, fa, right, own, bl.reach.width[row])
     else:

@@ -29,13 +29,19 @@ from lambda_core.solver.vec import clear, dot, increase, store, turning
 
 @numba.njit(inline="always")
 def rollers_of(y, row):
-    """Return the rollers of a row in a state vector, a view: a table of records.ROLLER."""
+    """Return the rollers of a row.
+
+    In a state vector, a view: a table of records.ROLLER.
+    """
     return y[row.first_state : row.first_state + NR * row.balls].view(ROLLER)
 
 
 @helper
 def touch_roller(roller, ring, row, raceway, bundle, kin):
-    """Identify a contact of a roller; returns the approach of what is nearest, negative a gap [m]."""
+    """Return the approach of a roller.
+
+    Identifies a contact; of what is nearest, negative a gap [m].
+    """
     if raceway.kind == LINE:
         line_kinematics(roller, ring, row, raceway, kin)
         return closest(raceway, kin, bundle)
@@ -44,7 +50,10 @@ def touch_roller(roller, ring, row, raceway, bundle, kin):
 
 @helper
 def roller_wrench(raceway, place, bundle):
-    """Run the laws of the contact at a place of scratch; returns 1, or 0 on a fault."""
+    """Run the laws of a contact.
+
+    At a place of scratch; return 1, or 0 on a fault.
+    """
     if raceway.kind == LINE:
         return line_wrench(raceway, place, bundle)
     return contact_wrench(raceway, place, bundle)
@@ -61,7 +70,10 @@ def _wrench_here(raceway, j, bundle):
 
 @helper
 def _add_contact(raceway, roller, ring, j, bundle):
-    """Add the wrench of the contact in scratch to the forces on roller j and on the raceway's body."""
+    """Add the contact's wrench to forces.
+
+    In scratch, to the forces on roller j and on the raceway's body.
+    """
     scratch, on_body = bundle.scratch[0], bundle.body_wrenches[raceway.body]
     apply_roller_wrench(
         scratch.kinematics[0], roller, ring, scratch.wrench[0], bundle.ball_wrenches[j], scratch.on_ring
@@ -106,7 +118,10 @@ def _contacts(rollers, row, bundle, losses, want):
 
 @helper
 def _pockets(rollers, row, bundle, own, want):
-    """Add the pockets of a row; rollers without a cage do not feel each other."""
+    """Add the pockets of a row.
+
+    Rollers without a cage do not feel each other.
+    """
     if row.caged == 0:
         return 1
     cage, on_cage = bundle.bodies_now[row.cage], bundle.body_wrenches[row.cage]
@@ -122,7 +137,10 @@ def _pockets(rollers, row, bundle, own, want):
 
 @helper
 def roller_drag(roller, row, bundle, on_roller):
-    """Add drag and churning of a roller; returns the power lost [W], or -1 on a fault."""
+    """Add drag and churning of a roller.
+
+    Return the power lost [W], or -1 on a fault.
+    """
     wrench = bundle.scratch[0].on_ground
     clear(wrench)
     lost = drag_force(roller, row, bundle, wrench)
@@ -133,7 +151,10 @@ def roller_drag(roller, row, bundle, on_roller):
 
 @helper
 def _move(rollers, moved, row, bundle, own, want):
-    """Add drag and weight, and write the accelerations of a row."""
+    """Write the accelerations of a row.
+
+    Add drag and weight first.
+    """
     system = bundle.system[0]
     for i in range(row.balls):
         j, roller = row.first_ball + i, rollers[i]
@@ -155,7 +176,10 @@ def _move(rollers, moved, row, bundle, own, want):
 
 
 def evaluate(stage, t, y, r, bundle, dydt, rates, want):
-    """Do one stage of forces.evaluate for a row of rollers; returns 1 when well."""
+    """Do one stage of forces.evaluate.
+
+    For a row of rollers; return 1 when well.
+    """
     row, rollers = bundle.rows[r], rollers_of(y, bundle.rows[r])
     if stage == CONTACTS:
         return _contacts(rollers, row, bundle, losses_of(rates, bundle.raceways.size), min(want, 1))
@@ -166,7 +190,10 @@ def evaluate(stage, t, y, r, bundle, dydt, rates, want):
 
 
 def energy(y, r, bundle):
-    """Return kinetic and elastic energy of a row of rollers with its contacts and pockets [J]."""
+    """Return the rollers' energy [J].
+
+    Kinetic and elastic, of a row with its contacts and pockets.
+    """
     row, rollers, total = bundle.rows[r], rollers_of(y, bundle.rows[r]), 0.0
     kin = bundle.scratch[0].kinematics[0]
     for i in range(row.balls):
@@ -186,7 +213,10 @@ def energy(y, r, bundle):
 
 
 def shares(y, r, bundle, share):
-    """Write the largest penetration of each roller on the ring of its row's first raceway, 0 for none."""
+    """Write each roller's largest penetration.
+
+    On the ring of its row's first raceway, 0 for none.
+    """
     row, rollers, kin = bundle.rows[r], rollers_of(y, bundle.rows[r]), bundle.scratch[0].kinematics[0]
     body = bundle.raceways[row.first_raceway].body
     for i in range(row.balls):
@@ -214,7 +244,10 @@ def _show(kin, contact, sample):
 
 @helper
 def _channels(roller, j, row, raceway, bundle, shorted, values, losses, rates):
-    """Write the channels of one contact; adds its forces and losses as the right-hand side does."""
+    """Write the channels of one contact.
+
+    Adds its forces and losses as the right-hand side does.
+    """
     scratch, system = bundle.scratch[0], bundle.system[0]
     ring, kin = bundle.bodies_now[raceway.body], scratch.kinematics[0]
     values[:] = 0.0
@@ -246,7 +279,9 @@ def _channels(roller, j, row, raceway, bundle, shorted, values, losses, rates):
 
 
 def observe(stage, y, r, bundle, shorted, contacts, pockets, losses, rates):
-    """Write what a sample shows of a row of rollers; returns the capacitance of its rollers [F], or -1 on a fault.
+    """Write a sample of rollers.
+
+    Of a row; return the capacitance of its rollers [F], or -1 on a fault.
 
     Contacts of a roller with one ring are parallel, its rings in series.
     """

@@ -42,7 +42,10 @@ _GRIP = 0.02  # share of the largest ball load below which the cage sets a ball'
 
 @helper
 def _load_shares(y, bundle, share):
-    """Write the load of each ball on the ring of its row's first raceway over the largest one."""
+    """Write each ball's share of the load.
+
+    On the ring of its row's first raceway over the largest one.
+    """
     kin = bundle.scratch[0].kinematics[0]
     largest = 1e-300
     for r in range(bundle.rows.size):
@@ -79,7 +82,10 @@ def _hold(share, held):
 
 @helper
 def _orbit(y, bundle, share, held):
-    """Return the load-weighted mean orbital speed of the balls that hold themselves."""
+    """Return the mean orbital speed of loaded balls.
+
+    Weighted by load, of the balls that hold themselves.
+    """
     total, weight = 0.0, 0.0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
@@ -94,7 +100,7 @@ def _orbit(y, bundle, share, held):
 
 @helper
 def _merit(v, weight):
-    """Return the root mean square of v measured with the weights."""
+    """Return the weighted root mean square of v."""
     total = 0.0
     for i in range(v.size):
         total += (v[i] * weight[i]) ** 2
@@ -119,7 +125,9 @@ def _turned_back(step, last, weight):
 
 @helper
 def _learn(step, last, weight, trust, bundle):
-    """Narrow the limit of a ball whose speeds jump to and fro, widen it again where they do not.
+    """Adapt the limit of a ball.
+
+    Narrower where its speeds jump to and fro, wider again where they do not.
 
     A ball that carries next to nothing rolls within a slip of micrometres per second of a sign-like friction; steps
     that are halved find that slip like a bisection, whatever the other balls do.
@@ -139,13 +147,18 @@ def _learn(step, last, weight, trust, bundle):
 
 @helper
 def _spin_in(y, first):
-    """Return the largest component of the spin of the element whose states begin at `first`."""
+    """Return the largest component of a spin.
+
+    Of the element whose states begin at `first`.
+    """
     return max(abs(y[first + BWX]), abs(y[first + BWR]), abs(y[first + BWT]))
 
 
 @helper
 def _clip_speeds(step, speed, spin, trust, bundle):
-    """Shorten the change of each ball's speeds to a share of rolling; tell whether any was too long.
+    """Shorten the change of balls' speeds.
+
+    To a share of rolling; tell whether any was too long.
 
     On a plateau of friction the slope is next to nothing and Newton's method would leave for speeds from which no way
     leads back. Ball by ball, so that one of them does not keep the others waiting.
@@ -166,7 +179,10 @@ def _clip_speeds(step, speed, spin, trust, bundle):
 
 @helper
 def _largest_move(step, weight, bundle):
-    """Return the largest change of a position or tilt over its scale."""
+    """Return the largest move.
+
+    Change of a position or tilt over its scale.
+    """
     largest = 0.0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
@@ -183,7 +199,10 @@ def _largest_move(step, weight, bundle):
 
 @helper
 def _speeds(y, bundle, report):
-    """Write the largest speed and spin of the balls, of one that rests such that it can start to move."""
+    """Write the balls' largest speed and spin.
+
+    Of one that rests such that it can start to move.
+    """
     report.speed, report.spin = 1e-3, 1e-1
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
@@ -194,7 +213,9 @@ def _speeds(y, bundle, report):
 
 
 def solve_static(evaluate, jacobian, bundle, bl, fa, y, weight, last, trust, held, reports, max_iterations):
-    """Find the equilibrium from the state y, in place; nobody hears a signal meanwhile, so it is done in parts.
+    """Find the equilibrium from y, in place.
+
+    Nobody hears a signal meanwhile, so it is done in parts.
 
     Parameters
     ----------

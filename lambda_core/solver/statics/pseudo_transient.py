@@ -13,7 +13,9 @@ _HOLD = 1e4  # [1/s] rate at which an unloaded ball takes the speed of the other
 
 @helper
 def _source(state, size, held, friction_on):
-    """Return which rate drives a state of an element of `size` states, and its factor: -1 where the state is fixed.
+    """Return the rate that drives a state.
+
+    Of an element of `size` states, and its factor: -1 where the state is fixed.
 
     A roller's tilt and skew follow their angular accelerations, as positions do; the two spins across its axis follow
     the rates of tilt and skew, which are to vanish. One that carries nothing is held in its pocket: next to nothing
@@ -38,7 +40,10 @@ def _source(state, size, held, friction_on):
 
 @helper
 def _shared_row(state, bodies):
-    """Return the acceleration that drives a shared position, its sign, or (-1, 0) when fixed."""
+    """Return the acceleration of a shared position.
+
+    With its sign, or (-1, 0) when fixed.
+    """
     body, c = state // NS, state % NS
     if bodies[body].is_cage == 1:
         return -1, 0.0
@@ -54,7 +59,10 @@ def _shared_row(state, bodies):
 
 @helper
 def _ball_residual(first, size, y, dydt, held, orbit, friction_on, f):
-    """Write the rates of a ball whose states begin at `first`."""
+    """Write the rates of a ball.
+
+    Its states begin at `first`.
+    """
     for i in range(size):
         source, scale = _source(i, size, held, friction_on)
         if source >= 0:
@@ -81,7 +89,10 @@ def residual(bundle, index, y, dydt, held, orbit, f):
 
 @helper
 def _copy(source, target):
-    """Copy a matrix; an assignment would bring along the words of an error about shapes, seconds to compile."""
+    """Copy a matrix.
+
+    An assignment would bring along the words of an error about shapes, seconds to compile.
+    """
     for i in range(source.shape[0]):
         for k in range(source.shape[1]):
             target[i, k] = source[i, k]
@@ -89,13 +100,19 @@ def _copy(source, target):
 
 @helper
 def _moves(state, size, held, friction_on):
-    """Return whether a state of an element takes part in the pseudo-transient system."""
+    """Tell whether an element's state moves.
+
+    It then takes part in the pseudo-transient system.
+    """
     return _source(state, size, held, friction_on)[0] >= 0 or (state == BVT and friction_on == 1)
 
 
 @helper
 def _mask_ball(j, r, size, bundle, bl, held, a2, b2, c2, on):
-    """Turn the blocks of ball j of row r into those of the pseudo-transient system; `on` marks the columns of all."""
+    """Mask the blocks of ball j.
+
+    Of row r, into those of the pseudo-transient system; `on` marks the columns of all.
+    """
     friction_on, reach = bundle.system[0].friction_on, bl.reach
     a, b, c = bl.a[j], bl.b[j], bl.c[j]
     a2[:, :], b2[:, :], c2[:, :] = 0.0, 0.0, 0.0
@@ -125,7 +142,10 @@ def _mask_ball(j, r, size, bundle, bl, held, a2, b2, c2, on):
 
 @allocating_helper
 def mask(bundle, bl, held):
-    """Turn the blocks of dy/dt into those of the pseudo-transient system, in place."""
+    """Mask the blocks of dy/dt, in place.
+
+    They become those of the pseudo-transient system.
+    """
     bl.cross[:, :, :, :] = 0.0
     active, n, widest, largest = bundle.active, bl.d.shape[0], bl.b.shape[2], bl.a.shape[1]
     on = np.zeros(n, dtype=np.int64)
