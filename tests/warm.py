@@ -34,21 +34,28 @@ lambda_cli.commands lambda_core.model.checking lambda_core.runs.api
 lambda_core.runs.loop lambda_core.results.reader lambda_db.catalogue
 """
 _HAS_FORK = sys.platform == "linux"
-# Stands in for the installed command and for `python -c`: hands everything that makes a process to the server.
+# Stands in for the installed command, for `python -c` and `python -P -m`: hands everything that makes a process to the
+# server, and on to that process the signal by which it is asked to end. Who ends the stand-in ends both.
 _SHIM = """#!{python} -IS
-import json, os, socket, sys
+import json, os, signal, socket, sys
 name, *words = os.path.basename(sys.argv[0]), *sys.argv[1:]
-if name == "python" and words[:1] != ["-c"]:
+if name != "python":
+    code, argv = {program!r}, [name, *words]
+elif words[:1] == ["-c"]:
+    code, argv = words[1], ["-c", *words[2:]]
+elif words[:2] == ["-P", "-m"]:
+    code, argv = f"import runpy; runpy.run_module({{words[2]!r}}, run_name='__main__', alter_sys=True)", words[2:]
+else:
     os.execv({python!r}, ["python", *words])
-code = words.pop(1) if name == "python" else {program!r}
-request = dict(code=code, argv=words if name == "python" else [name, *words], cwd=os.getcwd(), env=dict(os.environ))
+request = dict(code=code, argv=argv, cwd=os.getcwd(), env=dict(os.environ))
 with socket.socket(socket.AF_UNIX) as server:
     server.connect({address!r})
     text = json.dumps(request).encode()
     socket.send_fds(server, [len(text).to_bytes(8, "big")], [0, 1, 2])
     server.sendall(text)
     answers = server.makefile("r")
-    answers.readline()
+    pid = int(answers.readline())
+    signal.signal(signal.SIGINT, lambda number, _: os.kill(pid, number))
     code = int(answers.readline() or 1)
 sys.exit(code if code >= 0 else 128 - code)
 """
@@ -122,6 +129,11 @@ class Warm:
             assert self._server.stdout.readline() == "ready\n"
         return self
 
+    @property
+    def python(self) -> str:
+        """What to start in place of Python, with ``-c`` or ``-P -m``."""
+        return str(self.path / "python") if _HAS_FORK else sys.executable
+
     def start(
         self,
         code: str,
@@ -193,13 +205,16 @@ def serve(address: str, *also: str) -> None:
     children: dict[int, socket.socket] = {}
     print("ready", flush=True)
     while True:
-        known, _, _ = select.select([sys.stdin, listener, waking], [], [])
+        known, _, _ = select.select([sys.stdin, listener, waking, *children.values()], [], [])
         if waking in known:
             with contextlib.suppress(BlockingIOError):
                 os.read(waking, 4096)
         if listener in known:
             connection = listener.accept()[0]
             children[_fork(connection, [listener, *children.values()])] = connection
+        for pid, asking in children.items():
+            if asking in known:  # who asked is gone, and waits for nothing any more
+                os.kill(pid, signal.SIGKILL)
         _bury(children)
         if sys.stdin in known:
             return

@@ -12,11 +12,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from lambda_gui import runs
 from lambda_gui.helper import Estimator
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 from driving import HAND_WRITTEN, hear_every_key
+from warm import Warm
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -49,19 +51,41 @@ def quiet_estimator(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(Estimator, "ask", ask)
 
 
-@pytest.fixture(autouse=True)
-def no_process_is_left(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Find here what a test leaves running: the collector finds it in some later test, of anything."""
-    begun, begin = [], asyncio.base_events.BaseEventLoop.subprocess_exec
+HELPER = ("-P", "-m", "lambda_gui.helper_process")
 
-    async def remember(self: asyncio.base_events.BaseEventLoop, *what: Any, **options: Any) -> Any:
-        transport, protocol = await begin(self, *what, **options)
+
+@pytest.fixture(autouse=True)
+def no_process_is_left(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, warm: Warm) -> Iterator[None]:
+    """Find here what a test leaves running: the collector finds it in some later test, of anything.
+
+    Helper processes begin with everything imported, unless a test says `fresh_helper`.
+    """
+    begun, begin = [], asyncio.base_events.BaseEventLoop.subprocess_exec
+    is_warm = "fresh_helper" not in request.fixturenames
+
+    async def remember(
+        self: asyncio.base_events.BaseEventLoop, protocol: Any, program: str, *words: str, **options: Any
+    ) -> Any:
+        if words == HELPER and is_warm:
+            program = (await asyncio.to_thread(warm.ready)).python
+        transport, protocol = await begin(self, protocol, program, *words, **options)
         begun.append(transport)
         return transport, protocol
 
     monkeypatch.setattr(asyncio.base_events.BaseEventLoop, "subprocess_exec", remember)
     yield
     assert [transport for transport in begun if not transport.is_closing()] == []
+
+
+@pytest.fixture
+def fresh_helper() -> None:
+    """Let the helper process of this test start as it does for a user."""
+
+
+@pytest.fixture
+def warm_program(monkeypatch: pytest.MonkeyPatch, warm: Warm) -> None:
+    """Let the runs and studies of this test begin with everything imported."""
+    monkeypatch.setattr(runs, "_PROGRAM", (warm.ready().python, "-P", "-m", "lambda_cli"))
 
 
 @pytest.fixture

@@ -50,7 +50,7 @@ async def test_a_parameter_is_fitted_and_the_fitted_case_saved(hand_written: Pat
 
 
 async def test_a_fit_that_is_stopped_keeps_its_best_values(hand_written: Path) -> None:
-    rows = [f"{speed},{100 + speed / 40},2" for speed in range(300, 4000, 60)]
+    rows = [f"{speed},{100 + speed / 40},2" for speed in range(300, 4000, 180)]
     hand_written.with_name("rig.csv").write_text("\n".join([DATA.splitlines()[0], *rows]))
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)

@@ -70,7 +70,7 @@ def settle(queue: api.RunQueue, run: api.QueuedRun, seconds: float = 200.0) -> N
         time.sleep(0.02)
 
 
-async def test_from_an_empty_model_to_a_result_by_keyboard(work_folder: Path) -> None:
+async def test_from_an_empty_model_to_a_result_by_keyboard(work_folder: Path, fresh_helper: None) -> None:
     """The paper's 6208 under 1300 N (Syla et al. 2026, Fig. 7), run for 5 ms."""
     async with BuilderApp().run_test(size=SMALL) as pilot:
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, OpenCase))

@@ -78,7 +78,7 @@ async def form(pilot: Pilot[None], path: str, *, is_fine: bool = True) -> StudyS
     return screen
 
 
-async def test_from_an_option_to_its_curve(hand_written: Path) -> None:
+async def test_from_an_option_to_its_curve(hand_written: Path, warm_program: None) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         screen = await form(pilot, "operation.speed")
         assert "operation.speed: 750 rpm to 3000 rpm, 11 points" in screen_text(pilot.app)
