@@ -45,7 +45,10 @@ def is_wanted() -> bool:
 
 
 def get_requires_for_build_wheel(config_settings: dict[str, Any] | None = None) -> list[str]:
-    """Return what the build of a wheel needs in addition to hatchling."""
+    """Return the requirements of a wheel's build.
+
+    In addition to hatchling.
+    """
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     return list(project["dependencies"]) if is_wanted() else []
 
@@ -56,7 +59,10 @@ class PackHook(BuildHookInterface):
     PLUGIN_NAME = "custom"
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Build the pack where a wheel is built that is not editable."""
+        """Build the pack for a wheel.
+
+        Only where the wheel is not editable.
+        """
         if self.target_name != "wheel" or version != "standard" or not is_wanted():
             return
         self._made = tempfile.TemporaryDirectory(prefix="lambda-bearing-pack-")

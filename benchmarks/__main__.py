@@ -41,7 +41,10 @@ NAMES = {
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the benchmarks; returns the exit code: 0, 1 when one of them failed, 2 for a wrong name."""
+    """Run the benchmarks and return the exit code.
+
+    0, 1 when one of them failed, 2 for a wrong name.
+    """
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"what to measure, default all: {', '.join(NAMES)}")
     parser.add_argument("--quick", action="store_true", help="fewer points, shorter runs, no cold start")
@@ -88,7 +91,10 @@ def _named(name: str, effort: Effort) -> Section:
 
 
 def _measure(name: str, measure: Callable[[], Section]) -> Section:
-    """Run one benchmark; an error is printed and does not stop the others."""
+    """Run one benchmark.
+
+    An error is printed and does not stop the others.
+    """
     print(f"{name}: {NAMES.get(name, 'this version and another one in turn')}", file=sys.stderr, flush=True)
     began = time.perf_counter()
     try:

@@ -53,7 +53,10 @@ class Outcome:
 
     @staticmethod
     def of(start: Totals, first: Totals, last: Totals) -> Outcome:
-        """Return means from `first` to `last` and the energy balance since `start`."""
+        """Return means and the energy balance.
+
+        Means from `first` to `last`, the balance since `start`.
+        """
         power = (last.raceway - first.raceway) / (last.time - first.time)
         turned = last.inner_angle - first.inner_angle
         missing = (last.input - start.input) - (last.dissipated - start.dissipated) - (last.stored - start.stored)
@@ -70,7 +73,10 @@ class Outcome:
         return abs(self.cage_ratio / reference.cage_ratio - 1.0)
 
     def good(self, reference: Outcome) -> bool:
-        """Return whether the run is as accurate as is asked for."""
+        """Tell whether the run is accurate enough.
+
+        The accuracy is the requested one.
+        """
         return (
             self.raceway_error(reference) <= RACEWAY
             and self.cage_error(reference) <= CAGE
@@ -78,7 +84,10 @@ class Outcome:
         )
 
     def cells(self, reference: Outcome | None) -> tuple[float | None, float | None, float, str]:
-        """Return errors in %, energy residual and verdict, as COLUMNS names them."""
+        """Return errors [%], energy residual and verdict.
+
+        As COLUMNS names them.
+        """
         if reference is None:
             return None, None, self.energy_residual, ""
         errors = 100.0 * self.raceway_error(reference), 100.0 * self.cage_error(reference)
@@ -94,7 +103,9 @@ def engine_totals(engine: BearingEngine) -> Totals:
 
 
 def trajectory_totals(handle: Handle, times: FloatArray, states: FloatArray, at: tuple[float, ...]) -> list[Totals]:
-    """Return totals of a stored trajectory, integrated by the trapezoidal rule over its own steps.
+    """Return totals of a stored trajectory.
+
+    Integrated by the trapezoidal rule over its own steps.
 
     Parameters
     ----------
@@ -125,7 +136,10 @@ def trajectory_totals(handle: Handle, times: FloatArray, states: FloatArray, at:
 
 
 def _angles(context: SolverContext, t: float, y: FloatArray) -> tuple[float, float]:
-    """Return cage and inner ring angle relative to the outer ring [rad]."""
+    """Return cage and inner ring angle [rad].
+
+    Relative to the outer ring.
+    """
     channels = observe(core(), context, np.array([t]), np.ascontiguousarray(y).reshape(1, -1))
     inner, outer, cage = (float(angle) for angle in channels["body_spin_angle"][0])
     if not context.model.depth.cage:

@@ -54,7 +54,10 @@ def interpreter(environment: Path) -> Path:
 
 
 def own_laws(overrides: dict[str, Any], newer: bool) -> dict[str, Any]:
-    """Return changes of a case together with the laws that both versions know."""
+    """Return changes with commonly known laws.
+
+    They are changes of a case; both versions know the laws.
+    """
     changed = constants(newer)
     for section, values in overrides.items():
         changed[section] = {**changed.get(section, {}), **values}
@@ -62,7 +65,7 @@ def own_laws(overrides: dict[str, Any], newer: bool) -> dict[str, Any]:
 
 
 class Version:
-    """A process of one version that integrates what it is asked to."""
+    """Integrating process of one version."""
 
     def __init__(self, python: Path | str) -> None:
         clean = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
@@ -72,7 +75,10 @@ class Version:
         self._newer = True
 
     def ask(self, case: str, overrides: dict[str, Any], duration: float) -> Answer:
-        """Return what one integration took; a version that lacks later options is asked without them."""
+        """Return the cost of one integration.
+
+        A version that lacks later options is asked without them.
+        """
         found = self._answer(case, overrides, duration)
         if "error" in found and self._newer:
             self._newer = False
@@ -107,7 +113,10 @@ class Version:
 
 @dataclass
 class Pair:
-    """One point: the fastest repeat of each version, and why a version has none."""
+    """Results of one point.
+
+    The fastest repeat of each version, and why a version has none.
+    """
 
     name: str
     mine: Answer = field(default_factory=dict)

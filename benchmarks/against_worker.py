@@ -28,7 +28,10 @@ def engine_type() -> Any:
 
 
 def passage(case: str, overrides: dict[str, Any], duration: float) -> dict[str, float]:
-    """Integrate a case from its equilibrium: processor time [s], evaluations, steps, energy residual."""
+    """Integrate a case from its equilibrium.
+
+    Returns processor time [s], evaluations, steps, energy residual.
+    """
     from lambda_core import api
 
     engine = engine_type()(api.check(api.case(case).with_(**overrides)))
@@ -51,7 +54,10 @@ def passage(case: str, overrides: dict[str, Any], duration: float) -> dict[str, 
 
 
 def answer(line: str) -> dict[str, Any]:
-    """Return the answer to one question, {"error": ...} where there is none."""
+    """Return the answer to one question.
+
+    {"error": ...} where there is none.
+    """
     try:
         return passage(**json.loads(line))
     except Exception as error:  # whatever a version of long ago says, the other one goes on

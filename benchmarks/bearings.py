@@ -23,7 +23,10 @@ _PARTS = ("rhs", "jacobian", "factor", "solve")
 
 
 def measure(effort: Effort) -> Section:
-    """Time the parts of a step with one bearing and with more, all at the states of the single one."""
+    """Time a step for different bearing counts.
+
+    With one bearing and with more, all at the states of the single one.
+    """
     start = solve(MIDDLE.model())
     times, states = trajectory(start.context.model, start, _STATES)
     counts = BEARINGS_QUICK if effort.quick else BEARINGS

@@ -29,7 +29,9 @@ def cases() -> list[dict[str, Any]]:
 
 
 def ask(python: str, chosen: Sequence[dict[str, Any]]) -> States:
-    """Return table -> hash of each case, as the version of that interpreter assembles them.
+    """Return table -> hash of each case.
+
+    As the version of that interpreter assembles them.
 
     Raises
     ------
@@ -46,7 +48,10 @@ def ask(python: str, chosen: Sequence[dict[str, Any]]) -> States:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Compare, print a line per case; returns 1 when any byte differs."""
+    """Compare the tables of all cases.
+
+    Print a line per case: return 1 when any byte differs.
+    """
     parser = argparse.ArgumentParser(prog="python -m benchmarks.case_tables", description=__doc__)
     parser.add_argument("--against", metavar="PYTHON", required=True, help="interpreter of the other version")
     options = parser.parse_args(arguments)

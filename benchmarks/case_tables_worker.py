@@ -21,7 +21,10 @@ _ADDRESSES = ("laws", "wrench", "tangent")  # differ from process to process; th
 
 
 def tables_of(case: dict[str, Any]) -> dict[str, str]:
-    """Return the hash of every solver table of a case, of its scales and of its laws."""
+    """Return the hash of a case's tables.
+
+    Every solver table, its scales and its laws.
+    """
     model = api.check(case)
     kernels, frame = Kernels(model), first_frame(model)
     context = assemble(model, kernels, frame, derive_oils(model, kernels, frame))

@@ -15,7 +15,10 @@ BALLS = 9  # of the 6319
 
 @dataclass(frozen=True)
 class Point:
-    """A named case; everything else is the default model: cage of six degrees of freedom, 1x31, all stages on."""
+    """Named case.
+
+    Everything else is the default model: cage of six degrees of freedom, 1x31, all stages on.
+    """
 
     name: str
     case: str
@@ -51,7 +54,9 @@ def without_samples(model: BearingModel) -> BearingModel:
 
 
 def with_balls(count: int) -> BearingModel:
-    """Return the 6319 with another number of its balls, as densely set, as fast along their orbit, as heavily loaded.
+    """Return the 6319 with other ball count.
+
+    As densely set, as fast along their orbit, as heavily loaded.
 
     The pitch diameter grows with the number of balls, the radial load with it, the speed falls with it.
     """

@@ -16,7 +16,7 @@ USER_ROWS = 2000
 
 
 def _times(catalogue: object, repeats: int) -> dict[str, float]:
-    """Median seconds per query."""
+    """Return the median seconds per query."""
     found = {}
     for text in QUERIES:
         seconds = []

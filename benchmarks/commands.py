@@ -43,7 +43,9 @@ atexit.register(lambda: print(len(sys.modules), spent, file=sys.stderr))
 
 @dataclass(frozen=True)
 class Budget:
-    """What a command may take, warm: code compiled, catalogue built, bytecode written.
+    """Limits of a command, warm.
+
+    Code compiled, catalogue built, bytecode written.
 
     Attributes
     ----------
@@ -85,7 +87,10 @@ BUDGETS = (
 
 
 def processor_time(command: Sequence[str], environment: Mapping[str, str], codes: Sequence[int] = (0, 5)) -> float:
-    """Run a process and return its user and system time, with that of all it waited for [s]."""
+    """Return the processor time of a process [s].
+
+    User and system time, with that of all it waited for.
+    """
     with tempfile.TemporaryFile() as said:
         process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=said)
         _, status, usage = os.wait4(process.pid, 0)
@@ -98,7 +103,10 @@ def processor_time(command: Sequence[str], environment: Mapping[str, str], codes
 
 
 def imports(code: str, arguments: Sequence[str], environment: Mapping[str, str]) -> tuple[int, float]:
-    """Return how many modules a program imports, and the processor time of that [s]."""
+    """Return a program's import count and time.
+
+    The modules, and their processor time [s].
+    """
     command = [sys.executable, "-c", _COUNTED + code, *arguments]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     modules, spent = done.stderr.splitlines()[-1].split()
@@ -106,7 +114,7 @@ def imports(code: str, arguments: Sequence[str], environment: Mapping[str, str])
 
 
 def measure_commands(environment: Mapping[str, str], repeats: int) -> tuple[Table, tuple[Target, ...]]:
-    """Return what each command takes, and how it stands to its budget.
+    """Return each command's cost and budget.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ def grid_power(case: str, strips: int, rows: int) -> float:
 
 @dataclass(frozen=True)
 class Stretch:
-    """What an integration says about a stretch of time."""
+    """Results of an integration's stretch of time."""
 
     power: float  # dissipated by everything, mean [W]
     residual: float  # of the energy, from the start, over the input

@@ -34,7 +34,10 @@ _AXES = "xyz"
 
 
 def changes(tolerance: float) -> list[str]:
-    """Return what the case is changed to: a free rotor without tilt, in no field of gravity."""
+    """Return the changes of the case.
+
+    A free rotor without tilt, in no field of gravity.
+    """
     return [
         f"solver.duration={END} s",
         f"solver.tolerance={tolerance}",
@@ -48,7 +51,7 @@ def changes(tolerance: float) -> list[str]:
 
 @dataclass(frozen=True)
 class Path:
-    """Where the rotor was.
+    """Path of the rotor.
 
     Attributes
     ----------
@@ -79,7 +82,9 @@ def inside(step: float, tolerance: float) -> Path:
 
 @dataclass(frozen=True)
 class Scheme:
-    """What a host does in a step h with the rotor's speed v, its acceleration a at the beginning and b at the end.
+    """Step h of a host.
+
+    With the rotor's speed v, its acceleration a at the beginning and b at the end.
 
     Attributes
     ----------
@@ -107,7 +112,10 @@ class PrescribedBearing(Protocol):
         """Go to the start; returns where the ring stands [m]."""
 
     def step(self, until: float, place: FloatArray, speed: FloatArray, slope: FloatArray) -> FloatArray:
-        """Lead the ring until a time [s]; returns the force of the bearing on it [N]."""
+        """Move the ring until a time [s].
+
+        Return the force of the bearing on it [N].
+        """
 
 
 class FromProgram:
@@ -131,7 +139,10 @@ class FromProgram:
 
 
 class FromUnit:
-    """The bearing of an exported FMU, through FMPy; `named` are value references by name."""
+    """Bearing of an exported FMU.
+
+    Through FMPy: `named` are value references by name.
+    """
 
     def __init__(self, tolerance: float, folder: str) -> None:
         from fmpy import extract, read_model_description
@@ -196,7 +207,10 @@ def hosted(scheme: Scheme, step: float, bearing: PrescribedBearing, tolerance: f
 
 
 def error(path: Path, reference: Path, step: float, finest: float) -> float:
-    """Return the largest distance of two paths over the largest way of the reference [-]."""
+    """Return the relative distance of two paths [-].
+
+    Largest distance over the largest way of the reference.
+    """
     every = round(step / finest)
     ahead = reference.places[every::every]
     way = np.linalg.norm(ahead - ahead[0], axis=1).max()
@@ -206,7 +220,10 @@ def error(path: Path, reference: Path, step: float, finest: float) -> float:
 def study(
     steps: Sequence[float] = STEPS, tolerance: float = 1e-4, bearing: PrescribedBearing | None = None
 ) -> Iterator[tuple[str, float, float, float]]:
-    """Yield (scheme, step [s], error, leak) of every step; where the coupling breaks down, infinite."""
+    """Yield (scheme, step [s], error, leak).
+
+    Of every step; where the coupling breaks down, infinite.
+    """
     reference, bearing = inside(COMMON, tolerance), bearing or FromProgram(tolerance)
     for name, scheme in SCHEMES.items():
         for step in steps:

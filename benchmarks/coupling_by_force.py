@@ -27,7 +27,10 @@ STIFFNESSES = (1e6, 1e7, 1e8, 1e9)  # [N/m]; the bearing has some 1e8
 
 
 def changes(stiffness: float = 0.0) -> tuple[str, ...]:
-    """Return what the case is changed to: a rotor of 2 kg that moves along z alone, on a support of its own or none."""
+    """Return the changes of the case.
+
+    A rotor of 2 kg that moves along z alone, on a support of its own or none.
+    """
     return (
         f"solver.duration={END} s",
         "solver.accuracy=vibration",
@@ -41,7 +44,10 @@ def changes(stiffness: float = 0.0) -> tuple[str, ...]:
 
 
 def force(scheme: str, stiffness: float, bearing: Stepping, pushed: float, step: float, z: float, v: float) -> float:
-    """Return the force of the host on the ring in a step [N], where it stands at z [m] with the speed v [m/s]."""
+    """Return the host's force on the ring [N].
+
+    In a step, where it stands at z [m] with the speed v [m/s].
+    """
     if scheme == "held":
         return pushed - stiffness * z
     if scheme == "ahead":
@@ -73,7 +79,10 @@ def path(step: float, host: Callable[..., float], stiffness: float = 0.0) -> Flo
 def study(
     stiffnesses: Sequence[float] = STIFFNESSES, steps: Sequence[float] = STEPS
 ) -> Iterator[tuple[str, float, float, float]]:
-    """Yield (scheme, stiffness [N/m], step [s], error over the largest way [-]); where it breaks down, infinite."""
+    """Yield (scheme, stiffness [N/m], step [s], error).
+
+    The error is over the largest way [-]; where it breaks down, infinite.
+    """
     for stiffness in stiffnesses:
         reference = path(COMMON, lambda bearing, pushed, *_: pushed, stiffness)
         way = np.abs(reference).max()

@@ -47,14 +47,19 @@ class Repeatable(FromUnit):
         self._unit.freeFMUState(state[1])
 
     def slopes(self, which: int) -> FloatArray:
-        """Return derivatives of the force on the ring with its place (0) [N/m] or speed (1) [N s/m]."""
+        """Return the slopes of the ring's force.
+
+        With its place (0) [N/m] or speed (1) [N s/m].
+        """
         knowns = self._given[3 * which : 3 * which + 3]
         rows = [self._unit.getDirectionalDerivative(self._answer, [known], [1.0]) for known in knowns]
         return np.array(rows).T
 
 
 def hosted(step: float, bearing: Repeatable, tolerance: float, share: float) -> tuple[Path, int]:
-    """Return the path of the rotor and the most repetitions of a step.
+    """Return the rotor's path and most repetitions.
+
+    The repetitions are those of a step.
 
     Parameters
     ----------
@@ -94,7 +99,10 @@ def hosted(step: float, bearing: Repeatable, tolerance: float, share: float) -> 
 
 
 def study(steps: Sequence[float] = STEPS, tolerance: float = 1e-4) -> Iterator[tuple[str, float, float, int]]:
-    """Yield (way, step [s], error, most repetitions) of every step; where both do not agree, infinite."""
+    """Yield (way, step [s], error, most repetitions).
+
+    Of every step; where both do not agree, infinite.
+    """
     reference = inside(COMMON, tolerance)
     with tempfile.TemporaryDirectory(prefix="lambda-bearing-") as folder:
         bearing = Repeatable(tolerance, folder)

@@ -23,7 +23,10 @@ SITUATIONS: tuple[tuple[str, tuple[str, ...]], ...] = (
 
 
 def one_second(changes: tuple[str, ...], repeats: int) -> tuple[float, float, float, float]:
-    """Return wall time of a simulated second [s], discharges in it, residuals of energy and charge."""
+    """Return a simulated second's cost and results.
+
+    Wall time [s], discharges in it, residuals of energy and charge.
+    """
     model = api.check(CASE, [*RADIAL, "electric.duration=1 s", *changes])
     contacts, bearing = contacts_of_equilibria(equilibria(model), 1.0), of_model(model)
     found = simulate(contacts, bearing)  # what a process loads once is not the circuit's
@@ -33,14 +36,20 @@ def one_second(changes: tuple[str, ...], repeats: int) -> tuple[float, float, fl
 
 
 def map_seconds(points: str) -> float:
-    """Return wall time of a map over speed and temperature on two cores [s]."""
+    """Return the wall time of a map [s].
+
+    Over speed and temperature on two cores.
+    """
     started = now()
     api.electric_map(CASE, RADIAL, points=points, workers=2)
     return now() - started
 
 
 def measure(effort: Effort) -> Section:
-    """Time a second of a 6208 on a 10 kHz inverter, and a map of 200 points."""
+    """Time a circuit second and a map.
+
+    A second of a 6208 on a 10 kHz inverter, a map of 200 points.
+    """
     rows = [(words, *one_second(changes, effort.repeats)) for words, changes in SITUATIONS]
     table = Table(
         "One simulated second of a 6208 at 2750 1/min, 2 kN radial, 0.16 um rough, on a 10 kHz inverter of 800 V",

@@ -23,7 +23,10 @@ from lambda_core import api
 
 
 def end_state(case: str, overrides: dict[str, Any], duration: float) -> dict[str, str]:
-    """Return the hash of every channel of `case` at the first step past `duration` [s]."""
+    """Return the hash of every channel.
+
+    Of `case` at the first step past `duration` [s].
+    """
     changed = api.case(case).with_(**overrides, solver={"duration": f"{duration!r} s"})
     last = None
     for step in api.iterate(changed):
@@ -35,14 +38,20 @@ def end_state(case: str, overrides: dict[str, Any], duration: float) -> dict[str
 
 
 def bearing_case(entry: dict[str, Any]) -> Any:
-    """Return the case of an entry: a built-in one with changes, or one that is complete."""
+    """Return the case of an entry.
+
+    A built-in one with changes, or one that is complete.
+    """
     if "from" in entry:
         return api.case(entry["from"]).with_(**entry.get("changes", {}))
     return {"name": "endstate"} | entry["case"]
 
 
 def bearing_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
-    """Return the hash of every channel and table of the run of one bearing, resumed where `entry` says so."""
+    """Return the hashes of one bearing's run.
+
+    Of every channel and table; resumed where `entry` says so.
+    """
     path = folder / "run.h5"
     api.run(bearing_case(entry), [f"solver.duration={entry.get('stop', entry['duration'])}"], out=path)
     if "stop" in entry:
@@ -51,7 +60,10 @@ def bearing_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
 
 
 def shaft_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
-    """Return the hash of every channel and table of the run of a machine and of each of its bearings."""
+    """Return the hashes of a machine's run.
+
+    Of every channel and table of the machine and of each of its bearings.
+    """
     case = {"name": "endstate"} | entry["case"]
     case = case if has_one_notation() else older_notation(case)
     if hasattr(api, "shaft_run"):  # a version whose machines write a folder
@@ -72,7 +84,10 @@ def shaft_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
 
 
 def _folder_run(case: dict[str, Any], entry: dict[str, Any], out: Path) -> dict[str, str]:
-    """Return the same of a version whose machines write a folder."""
+    """Return the hashes of a folder's run.
+
+    An old version, whose machines write a folder.
+    """
     stop, end = (_seconds(entry[name]) if name in entry else None for name in ("stop", "duration"))
     api.shaft_run(case, out=out, duration=stop or end)
     if stop:
@@ -94,7 +109,10 @@ def has_one_notation() -> bool:
 
 
 def older_notation(case: dict[str, Any]) -> dict[str, Any]:
-    """Return a case of a shaft as versions before had it: positions, markers, springs, motions of locked seats."""
+    """Return a case in the old notation.
+
+    Of a shaft: positions, markers, springs, motions of locked seats.
+    """
     found: dict[str, Any] = json.loads(json.dumps(case))
     found |= {"springs": found.pop("connections")} if "connections" in found else {}
     for table in ("bearings", "gears", "discs", "loads", "springs"):
@@ -113,7 +131,10 @@ def _seconds(text: str) -> float:
 
 
 def _result(result: Any) -> dict[str, str]:
-    """Return the hash of all samples of every channel, of the integrals and of the circuit's tables."""
+    """Return the hash of a result.
+
+    All samples of every channel, the integrals and the circuit's tables.
+    """
     found = {channel.name: _hash(result[channel.name]) for channel in result.channels}
     found |= {"integrals": _hash(result.integrals()), "revolutions": _hash(result.revolutions())}
     for table in ("circuit", "discharges"):

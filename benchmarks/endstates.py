@@ -41,7 +41,10 @@ States = dict[str, dict[str, str]]
 
 
 def constants(newer: bool) -> dict[str, Any]:
-    """Return the laws and constants of b7aec9b as changes of a case; with `newer` also for options it did not have."""
+    """Return laws and constants of b7aec9b.
+
+    As changes of a case; with `newer` also for options it did not have.
+    """
     found = tomllib.loads((HERE / "endstates.toml").read_text(encoding="utf-8"))
     changes: dict[str, Any] = found["b7aec9b"]
     if newer:
@@ -51,7 +54,10 @@ def constants(newer: bool) -> dict[str, Any]:
 
 
 def recent_cases() -> dict[str, dict[str, Any]]:
-    """Return the bearings and shafts that run with today's default laws, by kind and name."""
+    """Return the cases with today's default laws.
+
+    Bearings and shafts, by kind and name.
+    """
     found: dict[str, dict[str, Any]] = tomllib.loads((HERE / "endstate_cases.toml").read_text(encoding="utf-8"))
     return found
 
@@ -63,7 +69,9 @@ def ask(
     newer: bool,
     recent: Mapping[str, Mapping[str, Any]] = MappingProxyType({}),
 ) -> States:
-    """Return channel -> hash of each case, as the version of that interpreter computes them.
+    """Return channel -> hash of each case.
+
+    As the version of that interpreter computes them.
 
     Parameters
     ----------
@@ -95,7 +103,10 @@ def ask(
 
 
 def differences(one: States, other: States) -> dict[str, list[str]]:
-    """Return the channels that both know and that differ, by case."""
+    """Return the differing channels by case.
+
+    Both versions know them.
+    """
     return {
         case: sorted(name for name in one[case].keys() & other[case].keys() if one[case][name] != other[case][name])
         for case in one
@@ -103,7 +114,10 @@ def differences(one: States, other: States) -> dict[str, list[str]]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Compare, print a line per case; returns 1 when any bit differs."""
+    """Compare the channels of all cases.
+
+    Print a line per case: return 1 when any bit differs.
+    """
     parser = argparse.ArgumentParser(prog="python -m benchmarks.endstates", description=__doc__)
     parser.add_argument("cases", nargs="*", help="built-in cases or cases of endstate_cases.toml, default all")
     parser.add_argument("--against", metavar="PYTHON", help="interpreter of the other version; default: print hashes")
@@ -130,7 +144,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def tell(mine: States, theirs: States) -> list[str]:
-    """Print a line for each case; return those that differ or have no channel in common."""
+    """Print a line for each case.
+
+    Return those that differ or have no channel in common.
+    """
     wrong = []
     for case, channels in differences(mine, theirs).items():
         both = mine[case].keys() & theirs[case].keys()

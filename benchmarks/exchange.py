@@ -30,7 +30,10 @@ BEGIN, END = 0.1, 0.5  # [s] one turn of the cage is left out, four are averaged
 
 @dataclass(frozen=True)
 class Law:
-    """One law of a role: what makes a case use it."""
+    """One law of a role.
+
+    With the changes that make a case use it.
+    """
 
     name: str
     overrides: tuple[str, ...] = ()  # in addition to the choice of the model
@@ -40,7 +43,10 @@ class Law:
 
 @dataclass(frozen=True)
 class Exchange:
-    """The laws of one role, the first of them the one that the others are compared with."""
+    """Laws of one role.
+
+    The others are compared with the first of them.
+    """
 
     role: str
     laws: tuple[Law, ...]
@@ -174,7 +180,7 @@ EXCHANGES: tuple[Exchange, ...] = (
 
 @dataclass(frozen=True)
 class Numbers:
-    """What is compared; from a run but for the first."""
+    """Compared numbers of a run."""
 
     quasistatic: float  # friction torque of the equilibrium, without cage [N mm]
     torque: float  # friction torque [N mm]
@@ -238,7 +244,10 @@ def _advance(engine: BearingEngine, until: float) -> dict[str, float]:
 
 
 def _row(name: str, found: Numbers, base: Numbers | None) -> str:
-    """Return a line of the table: numbers of the first law, then what the others change."""
+    """Return a line of the table.
+
+    Numbers of the first law, then the changes by the others.
+    """
     if base is None:
         texts = [f"{found.quasistatic:.1f}", f"{found.torque:.1f}", f"{found.pressure:.3f}", f"{found.film:.3f}"]
         texts += [f"{found.temperature:.1f}", _number(found.capacitance), f"{found.cage:.2f}"]
@@ -264,7 +273,10 @@ def _shift(value: float, unit: str, digits: int = 1) -> str:
 
 
 def section(exchange: Exchange) -> list[str]:
-    """Run every law of a role and return its part of the page."""
+    """Return the page's part of a role.
+
+    Runs every law of the role.
+    """
     summary = MOTION_ROLES[exchange.role].summary
     lines = [f"## {exchange.role}", "", f"{summary[:1].upper()}{summary[1:]}."]
     lines += [exchange.why] if exchange.why else []

@@ -48,7 +48,10 @@ class Window:
 
 
 def changes() -> tuple[str, ...]:
-    """Return the changes to the case: the outer ring's motion as a table, still at first, then growing."""
+    """Return the changes of the case.
+
+    The outer ring's motion is a table, still at first, then growing.
+    """
     omega = 2.0 * math.pi * FREQUENCY
     time = np.arange(round((REST + GROWTH) * FREQUENCY * _PER_PERIOD) + 1) / (FREQUENCY * _PER_PERIOD)
     share = np.clip((time - REST) / GROWTH, 0.0, 1.0)
@@ -62,7 +65,10 @@ def changes() -> tuple[str, ...]:
 
 
 def windows(result: Result) -> list[Window]:
-    """Return the ball speeds before the excitation, and in the stretches while it grows."""
+    """Return the ball speeds in stretches.
+
+    Before the excitation, and while it grows.
+    """
     starts = [DISCARDED, *np.arange(REST, REST + GROWTH - 0.9 * WINDOW, WINDOW)]
     return [_window(result, float(start)) for start in starts]
 
@@ -83,7 +89,10 @@ def _window(result: Result, begin: float) -> Window:
 
 
 def _over_kinematic(result: Result, rows: NDArray[np.bool_]) -> FloatArray:
-    """Return orbital speed over that of rolling without slip at no contact angle, shape (time, ball)."""
+    """Return orbital speed over that without slip.
+
+    At no contact angle, shape (time, ball).
+    """
     geometry = result.model["geometry"]
     gamma = geometry["ball_diameter"] / geometry["pitch_diameter"]
     spin = result["body_spin"][rows]

@@ -41,18 +41,27 @@ class Pair:
 
     @property
     def agrees(self) -> bool:
-        """Whether both are within their half-width, or nearly equal."""
+        """True if both results agree.
+
+        They are within their half-width, or nearly equal.
+        """
         return abs(self.coarse - self.fine) <= max(self.half_width, _NEAR * abs(self.fine))
 
     @property
     def is_false(self) -> bool:
-        """Whether a result that says "converged" is far off, and nothing warned of it."""
+        """True for a wrong result without warning.
+
+        It reports "converged" and is far off.
+        """
         off = abs(self.coarse - self.fine)
         return off > 3.0 * self.half_width and off > _FAR * abs(self.fine) and not self.warnings
 
 
 def compared(point: Point, folder: Path, most: float) -> Pair | str:
-    """Run a point twice; the reason where the first run has not converged, or the second is not long enough."""
+    """Run a point twice.
+
+    Return the reason where the first run has not converged, or the second is not long enough.
+    """
     case = api.init_case("point", path=folder / "point.toml", bearing=point.bearing, overwrite=True)
     changes = [*point.changes, f"solver.max_wall={most:g} s"]
     first = api.run(case, changes, out=folder / "coarse.h5", overwrite=True).summary()
@@ -70,7 +79,10 @@ def compared(point: Point, folder: Path, most: float) -> Pair | str:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Compare the cases; print a line for each, then the share that agrees."""
+    """Compare the cases.
+
+    Print a line for each, then the share that agrees.
+    """
     parser = argparse.ArgumentParser(prog="python -m benchmarks.false_convergence", description=__doc__)
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--first", type=int, default=0, help="points before this one are not run")

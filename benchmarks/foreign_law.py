@@ -57,7 +57,10 @@ _ENTRY = "[lambda_bearing.plugins]\nlaws = benchmark_laws\n"
 
 @contextmanager
 def installed() -> Iterator[None]:
-    """Install a distribution with a copy of the built-in law in a file of its own, for this process."""
+    """Install a distribution with a copied law.
+
+    The copy of the built-in law is in a file of its own, for this process.
+    """
     with tempfile.TemporaryDirectory() as folder:
         site = Path(folder)
         source = Path(lambda_plugins.traction.__file__).read_text(encoding="utf-8")
@@ -77,7 +80,10 @@ def installed() -> Iterator[None]:
 
 
 def compile_seconds(name: str) -> float:
-    """Return the time to compile a law where nothing is on disk [s]."""
+    """Return the time of a compilation [s].
+
+    Of a law where nothing is on disk.
+    """
     law = registry().model("traction", name)
     before = os.environ.get("LAMBDA_BEARING_CACHE")
     with tempfile.TemporaryDirectory() as folder:

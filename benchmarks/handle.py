@@ -62,17 +62,26 @@ def _compiled(function: Any) -> Any:
 
 
 class Handle(base.Handle):
-    """A model's compiled functions, once or many times at the same state."""
+    """Compiled functions of a model.
+
+    Called once or many times at the same state.
+    """
 
     def settle_at(self, t: float, y: FloatArray, gamma: float) -> None:
-        """Bring everything that is repeated to one state: kinematics, Jacobian, factors."""
+        """Bring everything to one state.
+
+        Kinematics, Jacobian, factors of what is repeated.
+        """
         self._memory.new[:] = y
         self.repeat_slope(1, t)
         self.repeat_jacobian(1, t)
         self.repeat_factor(1, gamma)
 
     def repeat_slope(self, count: int, t: float) -> None:
-        """Evaluate the right-hand side with all powers, `count` times at the same state."""
+        """Repeat the right-hand side.
+
+        With all powers, `count` times at the same state.
+        """
         _compiled(_repeat_slope)(count, t, self._handle)
 
     def repeat_jacobian(self, count: int, t: float) -> None:

@@ -33,7 +33,10 @@ _MANY = 10_000_000
 
 @dataclass(frozen=True)
 class Trajectory:
-    """What an integrator went through, and how often it called back into Python."""
+    """Trajectory of an integrator.
+
+    And how often it called back into Python.
+    """
 
     times: FloatArray
     states: FloatArray
@@ -42,7 +45,10 @@ class Trajectory:
 
 
 class Problem:
-    """The initial value problem, in the words of the other integrators; counts their calls."""
+    """Initial value problem for other integrators.
+
+    It counts their calls.
+    """
 
     def __init__(self, model: BearingModel, start: Equilibrium, end: float) -> None:
         self.end = end
@@ -57,7 +63,10 @@ class Problem:
         self.evaluations = self.jacobians = 0
 
     def slope(self, t: float, y: FloatArray, out: FloatArray) -> int:
-        """Write dy/dt; returns 0, or 1 where a kernel refuses, as CVODE reads it."""
+        """Write dy/dt.
+
+        Return 0, or 1 where a kernel refuses, as CVODE reads it.
+        """
         self.evaluations += 1
         return 0 if self.handle.slope(t, y, out) == 1 else 1
 
@@ -67,7 +76,10 @@ class Problem:
         return 0 if self.handle.jacobian(t, y, out) == 1 else 1
 
     def callback_cost(self) -> float:
-        """Return what a call from Python costs beyond the evaluation itself [s]."""
+        """Return the overhead of a call [s].
+
+        From Python beyond the evaluation itself.
+        """
         y, out, calls = self.initial, np.zeros_like(self.initial), 2000
         self.handle.settle_at(0.0, y, 1e-5)
         inside = best(lambda: self.handle.repeat_slope(calls, 0.0), 5) / calls
@@ -76,7 +88,10 @@ class Problem:
 
 
 def cvode(problem: Problem, tolerance: float, linear: str, *, own_jacobian: bool, order: int = 2) -> Trajectory:
-    """Integrate with CVODE, BDF up to an order (ours has 2), every step kept."""
+    """Integrate with CVODE.
+
+    BDF up to an order (ours has 2), every step kept.
+    """
     from sksundae.cvode import CVODE
 
     options = {} if own_jacobian else {"jacfn": problem.jacobian}

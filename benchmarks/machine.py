@@ -12,7 +12,10 @@ _PACKAGES = ("lambda-bearing", "numpy", "scipy", "numba", "llvmlite", "scikit-su
 
 
 def load() -> float:
-    """Return the load average of the last minute; NaN where the system has none."""
+    """Return the load of the last minute.
+
+    NaN where the system has none.
+    """
     return os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
 
 

@@ -19,7 +19,10 @@ _MIB = 2.0**20
 
 
 def resident() -> float:
-    """Return the memory that this process holds now [MiB]; where the system does not tell, its peak."""
+    """Return the memory of this process [MiB].
+
+    Where the system does not tell, its peak.
+    """
     status = Path("/proc/self/statm")
     if status.exists():
         return int(status.read_text().split()[1]) * resource.getpagesize() / _MIB
@@ -28,7 +31,10 @@ def resident() -> float:
 
 
 def follow(duration: float) -> tuple[list[float], list[float], float]:
-    """Run the default case; return simulated times [s], memory [MiB] at them, and the size of the file [MiB]."""
+    """Run the default case and record memory.
+
+    Return simulated times [s], memory [MiB] at them, and the size of the file [MiB].
+    """
     from lambda_core import api
     from lambda_core.runs.progress import Progress
 

@@ -19,7 +19,10 @@ SPEEDS = (500, 1500, 3000, 6000)  # 1/min
 
 
 def measure(effort: Effort) -> Section:
-    """Time every point of a map of load and speed, several times over."""
+    """Time every point of a map.
+
+    Of load and speed, several times over.
+    """
     model = MIDDLE.model()
     kernels = Kernels(model)
     points = [(load, speed) for load in LOADS for speed in SPEEDS]

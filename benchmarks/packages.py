@@ -36,7 +36,10 @@ def run(changes: Sequence[str], seconds: float, folder: Path) -> Summary:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Print a line for each package; returns 1 when one costs more than it may, or an energy balance does not close."""
+    """Print a line for each package.
+
+    Return 1 when one costs more than it may, or an energy balance does not close.
+    """
     parser = argparse.ArgumentParser(prog="python -m benchmarks.packages", description=__doc__)
     parser.add_argument("--repeats", type=int, default=6, help="runs of each kind")
     parser.add_argument("--duration", type=float, default=0.1, help="simulated time of a run [s]")

@@ -25,7 +25,10 @@ _MUST, _GOAL = 30.0, 0.85  # wall time of the map [s]; parallel efficiency
 
 
 def _worker(barrier: Any, results: Any, rounds: int) -> None:
-    """Integrate the same case `rounds` times, starting each together with the others."""
+    """Integrate the same case repeatedly.
+
+    `rounds` times, starting each together with the others.
+    """
     from benchmarks.passage import Horizon, passage
     from lambda_core.solver.drivers.equilibrium import solve
 
@@ -39,7 +42,10 @@ def _worker(barrier: Any, results: Any, rounds: int) -> None:
 
 
 def together(count: int, rounds: int) -> float:
-    """Return the wall time until `count` processes have all done the same [s], the best of `rounds`."""
+    """Return the wall time of parallel processes [s].
+
+    `count` processes do the same; the best of `rounds`.
+    """
     context = multiprocessing.get_context("spawn")
     barrier, results = context.Barrier(count), context.Queue()
     workers = [context.Process(target=_worker, args=(barrier, results, rounds)) for _ in range(count)]
@@ -75,7 +81,10 @@ def runs(count: int) -> dict[str, Any]:
 
 
 def study_time(study: dict[str, Any], workers: int) -> tuple[float, float]:
-    """Return wall time [s], start of the workers included, and the share of it that the workers had a point in hand."""
+    """Return a study's wall time [s] and occupation.
+
+    Start of the workers included; the share in which they had a point.
+    """
     with tempfile.TemporaryDirectory() as folder:
         began = time.perf_counter()
         status = api.study_run(study, Path(folder) / "study", workers=workers)
@@ -118,7 +127,10 @@ def studies(effort: Effort) -> tuple[Table, tuple[Target, ...]]:
 
 
 def measure(effort: Effort) -> Section:
-    """Compare one process with several, then studies on one worker with studies on several."""
+    """Compare serial and parallel work.
+
+    One process with several, then studies on one worker with studies on several.
+    """
     rows: list[tuple[Cell, ...]] = []
     alone = 0.0
     for count in PROCESSES:

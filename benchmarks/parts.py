@@ -32,7 +32,10 @@ _STATES = 8  # along the way, at which the parts are timed
 
 
 def trajectory(model: BearingModel, start: Equilibrium, count: int) -> tuple[FloatArray, FloatArray]:
-    """Return `count` points of a cage revolution: times (count,) [s], states (count, size)."""
+    """Return `count` points of a cage revolution.
+
+    Times (count,) [s], states (count, size).
+    """
     engine = BearingEngine(model, equilibrium=start)
     turn = _turn(start)
     times, states = [], []
@@ -44,7 +47,10 @@ def trajectory(model: BearingModel, start: Equilibrium, count: int) -> tuple[Flo
 
 
 def unit_costs(handle: Handle, times: FloatArray, states: FloatArray) -> dict[str, float]:
-    """Return the mean time [s] of each compiled part over states of a trajectory."""
+    """Return the mean time of each part [s].
+
+    It is compiled, over states of a trajectory.
+    """
     found: dict[str, list[float]] = {"rhs": [], "jacobian": [], "factor": [], "solve": []}
     for t, y in zip(times, states, strict=True):
         handle.settle_at(float(t), y, _GAMMA)
@@ -56,7 +62,10 @@ def unit_costs(handle: Handle, times: FloatArray, states: FloatArray) -> dict[st
 
 
 def measure(effort: Effort) -> Section:
-    """Time the parts of a step, and what they add up to."""
+    """Time the parts of a step.
+
+    And their sum.
+    """
     rows: list[Row] = []
     costs: dict[str, float] = {}
     for number_of_rows, strips in GRIDS:
@@ -123,7 +132,10 @@ def _turn(start: Equilibrium) -> float:
 def _around(
     model: BearingModel, start: Equilibrium, effort: Effort, duration: float, total: float, step: float
 ) -> list[Row]:
-    """Return what a run adds to the integration; `step` is the time of one step [s], which a call takes at least."""
+    """Return the cost around the integration.
+
+    A run adds it: `step` is the time of one step [s], which a call takes at least.
+    """
     engine = BearingEngine(model, equilibrium=start)
     records = RECORDS_PER_REVOLUTION / _turn(start)
     record = per_call(lambda n: [engine.integrals() for _ in range(n)])

@@ -18,13 +18,19 @@ PIECES_PER_TURN = 1  # of the cage: long against the millisecond that a call fro
 
 @dataclass(frozen=True)
 class Horizon:
-    """How far to integrate: cage revolutions to discard and to average."""
+    """Length of an integration.
+
+    Cage revolutions to discard and to average.
+    """
 
     discarded: float
     averaged: float
 
     def ends(self, turn: float) -> tuple[list[float], int]:
-        """Return the ends of the pieces [s] and how many of them are discarded; `turn` is one cage revolution [s]."""
+        """Return the ends of the pieces [s].
+
+        And how many of them are discarded; `turn` is one cage revolution [s].
+        """
         count = round(PIECES_PER_TURN * (self.discarded + self.averaged))
         ends = [turn * (k + 1) / PIECES_PER_TURN for k in range(count)]
         return ends, round(PIECES_PER_TURN * self.discarded)
@@ -32,7 +38,7 @@ class Horizon:
 
 @dataclass(frozen=True)
 class Passage:
-    """What one integration took and said."""
+    """Cost and results of one integration."""
 
     pieces: tuple[float, ...]  # wall time of each [s]
     simulated: float  # [s]
@@ -43,7 +49,9 @@ class Passage:
 
 
 def passage(model: BearingModel, start: Equilibrium, horizon: Horizon, *, samples: bool = True) -> Passage:
-    """Integrate once, from the equilibrium, as a run does: samples are turned into channels on the way.
+    """Integrate once from the equilibrium.
+
+    As a run does: samples are turned into channels on the way.
 
     Raises
     ------
@@ -73,5 +81,8 @@ def passage(model: BearingModel, start: Equilibrium, horizon: Horizon, *, sample
 
 
 def wall(repeats: Sequence[Passage]) -> float:
-    """Return the wall time of one integration [s] from repeats of it."""
+    """Return the wall time of one integration [s].
+
+    From repeats of it.
+    """
     return sum_of_minima([repeat.pieces for repeat in repeats])

@@ -52,13 +52,19 @@ class PeerRun:
 
 
 def stiffness(start: Equilibrium) -> float:
-    """Return K of Q = K delta^1.5 [N/m^1.5], the mean of inner and outer contact: Exudyn takes one for both."""
+    """Return K of Q = K delta^1.5 [N/m^1.5].
+
+    The mean of inner and outer contact: Exudyn takes one for both.
+    """
     raceways = start.context.bundle.raceways[["radius_x", "radius_y", "modulus"]].tolist()
     return float(np.mean([stiffness_constant(x, y, e) for x, y, e in raceways]))
 
 
 def exudyn_run(start: Equilibrium, step: float, duration: float, *, modified_newton: bool = True) -> PeerRun:
-    """Build Exudyn's bearing with the geometry of our model and integrate it."""
+    """Integrate Exudyn's bearing.
+
+    It has the geometry of our model.
+    """
     import exudyn as exu
     from exudyn.machines import CreateBallBearing, GetBallBearingData
     from exudyn.utilities import InertiaCylinder, MarkerBodyRigid, SensorBody, SensorObject
@@ -175,7 +181,10 @@ class Setting:
 
     @property
     def alike(self) -> bool:
-        """Whether it is as accurate as is asked of our own runs: motion, and friction."""
+        """True if it is as accurate as ours.
+
+        Motion and friction have the accuracy of our own runs.
+        """
         return self.moves_alike and self.friction_off <= RACEWAY
 
     def row(self) -> tuple[Cell, ...]:
@@ -186,7 +195,10 @@ class Setting:
 
 
 def _settings_of(start: Equilibrium, reference: PeerRun, duration: float, quick: bool) -> list[Setting]:
-    """Integrate with every step, twice each, and compare with the reference."""
+    """Integrate with every step and compare.
+
+    Twice each, with the reference.
+    """
     found = []
     for modified, steps in ((True, MODIFIED), (False, FULL)):
         for step in steps[:3:2] if quick else steps:
@@ -199,7 +211,10 @@ def _settings_of(start: Equilibrium, reference: PeerRun, duration: float, quick:
 
 
 def _targets(theirs: list[Setting], per_turn: float) -> tuple[Target, ...]:
-    """Compare our fastest accurate setting with theirs, in both readings of "accurate" for theirs."""
+    """Compare the fastest accurate settings.
+
+    Ours with theirs, in both readings of "accurate" for theirs.
+    """
     found = []
     for what, accurate, must, goal in (
         ("motion alike to 0.1 %", [one for one in theirs if one.moves_alike], 6.0, 15.0),
@@ -259,7 +274,10 @@ def _row(name: str, run: PeerRun, off: float | None, good: str) -> tuple[Cell, .
 
 
 def _ours(model: BearingModel, start: Equilibrium, effort: Effort) -> list[tuple[Run, PeerRun, float, str]]:
-    """Return our runs, each in the peer's words, the error of the raceway loss [%], and whether it is accurate."""
+    """Return our runs in the peer's words.
+
+    With the error of the raceway loss [%], and whether it is accurate.
+    """
     horizon = Horizon(1.0, effort.pick(1, _AVERAGED))
     tolerances = [factor * model.solver.tolerance for factor in LADDER]
     reference = passage(with_tolerance(model, REFERENCE), start, horizon)

@@ -31,7 +31,10 @@ class Report:
         return tuple(target for section in self.sections for target in section.targets)
 
     def data(self) -> dict[str, Any]:
-        """Return the report for JSON; numbers that do not exist are null."""
+        """Return the report for JSON.
+
+        Numbers that do not exist are null.
+        """
         plain = _finite({"interface": VERSION, **dataclasses.asdict(self)})
         assert isinstance(plain, dict)
         plain["targets"] = [{**_finite(dataclasses.asdict(t)), "verdict": t.verdict} for t in self.targets]
@@ -76,7 +79,9 @@ def markdown(report: Report) -> str:
 
 
 def write(report: Report, page: Path = PAGE) -> None:
-    """Put the measurements between the two marks of the page; the text around them stays.
+    """Put the measurements into the page.
+
+    Between its two marks: the text around them stays.
 
     Raises
     ------
@@ -96,7 +101,10 @@ def _renamed(table: Table, title: str) -> Table:
 
 
 def _finite(value: Any) -> Any:
-    """Return plain data with None for numbers that JSON does not know."""
+    """Return plain data for JSON.
+
+    None replaces numbers that JSON does not know.
+    """
     if isinstance(value, dict):
         return {key: _finite(item) for key, item in value.items()}
     if isinstance(value, list | tuple):

@@ -72,7 +72,10 @@ THIN: dict[str, Any] = {
 
 @dataclass(frozen=True)
 class Regime:
-    """One regime: a case, what is changed in it, and what must be seen to have happened."""
+    """One regime with its condition.
+
+    A case, its changes, and what must be seen to have happened.
+    """
 
     name: str
     changes: tuple[str, ...]
@@ -104,7 +107,10 @@ def _speed(samples: Samples) -> NDArray[np.float64]:
 
 
 def _pressed(samples: Samples) -> NDArray[np.int64]:
-    """Return how many balls the inner ring presses, at each time."""
+    """Return the number of loaded balls.
+
+    The inner ring presses them, at each time.
+    """
     count: NDArray[np.int64] = (samples["load"][:, :, RINGS.index("inner")] > 0.0).sum(axis=1)
     return count
 
@@ -115,7 +121,9 @@ def _total(samples: Samples) -> NDArray[np.float64]:
 
 
 def _creep(samples: Samples) -> float:
-    """Return the largest speed of the most loaded ball in the first 9 ms [m/s].
+    """Return the largest early ball speed [m/s].
+
+    Of the most loaded ball in the first 9 ms.
 
     Later what rounding left of asymmetry grows, by a decade per millisecond: by chance to more or less than a bound.
     """
@@ -129,7 +137,10 @@ def _lowest(samples: Samples) -> int:
 
 
 def _film(samples: Samples) -> float:
-    """Return the smallest central film under load at the end [um]."""
+    """Return the smallest film at the end [um].
+
+    Central film under load.
+    """
     load, film = samples["load"][-1], samples["film_central"][-1]
     return float(1e6 * film[load > 0.01 * load.max()].min())
 

@@ -26,7 +26,7 @@ FINE = "solver.tolerance=1e-4"
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a regime."""
+    """Outcome of a regime."""
 
     reached: bool
     message: str  # of the engine, when it could not go on
@@ -39,7 +39,10 @@ class Outcome:
 
 
 def run(regime: Regime, *options: str) -> Outcome:
-    """Simulate a regime, with more options set, and take its energy balance."""
+    """Simulate a regime.
+
+    With more options set; take its energy balance.
+    """
     engine = BearingEngine(regime.model(*options))
     began = time.perf_counter()
     done = engine.advance(regime.duration)
@@ -56,7 +59,10 @@ def run(regime: Regime, *options: str) -> Outcome:
 
 
 def refusal(changes: Sequence[str]) -> str:
-    """Return the message about a case that cannot be simulated, "" when it can."""
+    """Return the message of a refused case.
+
+    "" when it can be simulated.
+    """
     try:
         BearingEngine(api.check(RADIAL, changes))
     except LambdaError as error:

@@ -25,7 +25,10 @@ def exponent(sizes: list[float], costs: list[float]) -> float:
 
 
 def _cost(model: BearingModel, effort: Effort) -> tuple[dict[str, float], float, float]:
-    """Return the cost of each part [s], wall seconds per simulated second, steps per simulated second."""
+    """Return the costs of a step's parts [s].
+
+    Also wall seconds and steps per simulated second.
+    """
     start = solve(model)
     horizon = Horizon(0.0, 1.0)
     repeats = [passage(model, start, horizon) for _ in range(effort.repeats)]

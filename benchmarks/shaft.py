@@ -22,7 +22,9 @@ _SIGNALS = 12  # of a body
 
 
 def on_a_shaft(single: SolverContext, places: Sequence[float]) -> SolverContext:
-    """Return the tables of one bearing at each axial place [m]; inertia, loads and supports of the shaft add up.
+    """Return equal bearings on a shaft.
+
+    Tables of one bearing at each axial place [m]; inertia, loads and supports of the shaft add up.
 
     The cages' and outer rings' states begin and end at the places, as the balls' do.
     """
@@ -44,14 +46,20 @@ def on_a_shaft(single: SolverContext, places: Sequence[float]) -> SolverContext:
 
 
 def together(single: SolverContext, states: Sequence[FloatArray]) -> FloatArray:
-    """Return the state of bearings side by side from those of single ones; the shaft's is the first one's."""
+    """Return the state of bearings together.
+
+    From those of single ones; the shaft's is the first one's.
+    """
     n, active = L.NB * int(single.bundle.system["balls"][0]), single.bundle.active
     shaft = states[0][n:][active < L.NS]
     return np.concatenate([*(state[:n] for state in states), shaft, *(state[n:][active >= L.NS] for state in states)])
 
 
 def _moved(body: int, i: int) -> int:
-    """Return the number of a body of the bearing at place i."""
+    """Return a body's number.
+
+    Of the bearing at place i.
+    """
     return body if body == SHAFT else body + _OWN * i
 
 

@@ -28,7 +28,10 @@ Passage = tuple[tuple[float, ...], Mapping[str, float]]  # time of each piece [s
 
 
 def starts(changes: tuple[str, ...] = CHANGES) -> dict[str, Callable[[], Engine]]:
-    """Return how the machine and each of its bearings alone are started, by name."""
+    """Return the starts of machine and bearings.
+
+    Each bearing alone, by name.
+    """
     model = resolve_machine(tomllib.loads(geared_shaft("machine")), changes)
     first = machine_engine(model)
     found: dict[str, Callable[[], Engine]] = {MACHINE: lambda: machine_engine(model)}
@@ -39,7 +42,10 @@ def starts(changes: tuple[str, ...] = CHANGES) -> dict[str, Callable[[], Engine]
 
 
 def passage(engine: Engine, duration: float) -> Passage:
-    """Integrate for `duration` [s]: samples wait in the buffer, nothing of Python but a call for each piece."""
+    """Integrate for `duration` [s].
+
+    Samples wait in the buffer, nothing of Python but a call for each piece.
+    """
     pieces = []
     for k in range(_PIECES):
         began = now()
@@ -51,7 +57,10 @@ def passage(engine: Engine, duration: float) -> Passage:
 
 
 def measure(effort: Effort) -> Section:
-    """Time the machine and its bearings in turn, piece by piece; of each piece the shortest repeat counts."""
+    """Time the machine and its bearings.
+
+    In turn, piece by piece; of each piece the shortest repeat counts.
+    """
     duration = 1e-3 * effort.pick(_MILLISECONDS_QUICK, _MILLISECONDS)
     ways = starts()
     found: dict[str, list[Passage]] = {name: [] for name in ways}

@@ -61,7 +61,10 @@ COLUMNS = ("point", "tolerance", "wall s/s", "wall ms/rev", "steps/s", "Jacobian
 def runs_of(
     model: BearingModel, start: Equilibrium, tolerances: list[float], horizon: Horizon, repeats: int
 ) -> list[Run]:
-    """Integrate at several tolerances; repeats of one tolerance are spread over time."""
+    """Integrate at several tolerances.
+
+    Repeats of one tolerance are spread over time.
+    """
     found: dict[float, list[Passage]] = {tolerance: [] for tolerance in tolerances}
     for _ in range(repeats):
         for tolerance in tolerances:
@@ -70,7 +73,10 @@ def runs_of(
 
 
 def measure(effort: Effort) -> Section:
-    """Integrate every point at several tolerances, next to a tight reference."""
+    """Integrate every point at several tolerances.
+
+    And at a tight one as reference.
+    """
     rows, targets = [], []
     horizon = Horizon(1.0, effort.pick(1, 4))
     for point in (cases.MIDDLE, cases.FINE) if effort.quick else cases.POINTS:

@@ -19,7 +19,10 @@ from benchmarks.timing import Effort
 
 @dataclass(frozen=True)
 class Start:
-    """When a run said what [s after the start of the process]."""
+    """Messages of a run over time.
+
+    [s after the start of the process].
+    """
 
     compiling: float  # seconds between the first word of compiling and the equilibrium; 0 without
     integrating: float  # the equilibrium is found, the first step begins
@@ -27,7 +30,10 @@ class Start:
 
 
 def start(cache: Path | None, changes: Sequence[str] = ()) -> Start:
-    """Run a millisecond of the default case in a new process, with compiled code in `cache` (None: the user's)."""
+    """Run a millisecond in a new process.
+
+    The default case, with compiled code in `cache` (None: the user's).
+    """
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "lambda_cli", "run", DEFAULT, "--duration", "1 ms", "--progress", "plain"]
         command += ["--json", "--out", f"{folder}/start.h5"]
@@ -71,7 +77,10 @@ def _environment(cache: Path | None) -> dict[str, str]:
 
 
 def measure(effort: Effort) -> Section:
-    """Start cold (not with --quick), warm, and with another law; then hold every command against its budget."""
+    """Time cold and warm starts.
+
+    Cold not with --quick, also with another law: then hold every command against its budget.
+    """
     rows: list[tuple[Cell, ...]] = [("--help", None, None, help_seconds(effort.repeats))]
     targets: list[Target] = []
     with tempfile.TemporaryDirectory() as folder:

@@ -39,7 +39,10 @@ class Point:
 
 
 def points(count: int, seed: int = SEED) -> Iterator[Point]:
-    """Yield operating points drawn from the catalogue; speeds stay below twice the limiting speed."""
+    """Yield operating points from the catalogue.
+
+    Speeds stay below twice the limiting speed.
+    """
     generator = np.random.default_rng(seed)
     catalogue = api.catalogue()
     rows = [row for row in catalogue.bearings("", limit=100_000) if row.dynamic_rating is not None]
@@ -70,7 +73,10 @@ def points(count: int, seed: int = SEED) -> Iterator[Point]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Solve the points; print a line for each that is refused or has no solution, then the counts."""
+    """Solve the points.
+
+    Print a line for each that is refused or has no solution, then the counts.
+    """
     parser = argparse.ArgumentParser(prog="python -m benchmarks.static_points", description=__doc__)
     parser.add_argument("--count", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=SEED)
@@ -92,7 +98,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _solved(point: Point) -> tuple[str, str]:
-    """Return "solved", "refused" (an invalid case, with the reason) or "no solution", and the sentence."""
+    """Return the outcome and its sentence.
+
+    "solved", "refused" (an invalid case, with the reason) or "no solution".
+    """
     try:
         with TemporaryDirectory() as folder:
             path = api.init_case("point", path=Path(folder) / "point.toml", bearing=point.bearing)

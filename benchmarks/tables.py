@@ -23,7 +23,10 @@ class Table:
 
 @dataclass(frozen=True)
 class Target:
-    """Compare a figure with its limits; `at_least` makes them lower limits."""
+    """Figure with its limits.
+
+    `at_least` makes them lower limits.
+    """
 
     what: str
     unit: str
@@ -34,7 +37,10 @@ class Target:
 
     @property
     def verdict(self) -> str:
-        """Return "goal", "must" or "missed": the best of the two limits that was met."""
+        """Best limit that was met.
+
+        "goal", "must" or "missed".
+        """
         for name, limit in (("goal", self.goal), ("must", self.must)):
             if limit is not None and self._meets(limit):
                 return name
@@ -50,7 +56,10 @@ class Target:
 
 @dataclass(frozen=True)
 class Section:
-    """Hold the tables of one benchmark, or the reason why they are `missing`."""
+    """Tables of one benchmark.
+
+    Or the reason why they are `missing`.
+    """
 
     name: str
     tables: tuple[Table, ...] = ()

@@ -24,7 +24,10 @@ HOUR = 3600.0
 
 
 class Ratio(NamedTuple):
-    """One bearing at its printed reference speed, under the conditions of ISO 15312."""
+    """One bearing at its reference speed.
+
+    The printed one, under the conditions of ISO 15312.
+    """
 
     series: str
     without_drag: float  # loss over q_r A_r
@@ -33,7 +36,9 @@ class Ratio(NamedTuple):
 
 
 def population(every: int = 1) -> tuple[list[Ratio], int]:
-    """Return the ratios of SKF's bearings with a printed reference speed, and how many had no answer.
+    """Return the ratios of SKF's bearings.
+
+    With a printed reference speed, and how many had no answer.
 
     No answer: no equilibrium, or an inner geometry that the catalogue does not decide.
     """
@@ -79,7 +84,10 @@ def _spread(values: list[float]) -> tuple[Cell, ...]:
 
 
 def warm_up_seconds(repeats: int) -> tuple[float, int]:
-    """Return the best wall time of an hour of warm-up of the 6319 [s], and how many points it solved."""
+    """Return a warm-up's wall time [s] and points.
+
+    The best of an hour of the 6319, and how many points it solved.
+    """
     api.warm_up("6319-cp10-1500", 1.0)  # what a process loads once is not the course's
     best, points = math.inf, 0
     for _ in range(repeats):
@@ -90,7 +98,10 @@ def warm_up_seconds(repeats: int) -> tuple[float, int]:
 
 
 def measure(effort: Effort) -> Section:
-    """Time an hour of warm-up; compare losses at printed reference speeds with the reference heat flow."""
+    """Time an hour of warm-up.
+
+    Compare losses at printed reference speeds with the reference heat flow.
+    """
     seconds, points = warm_up_seconds(effort.pick(1, 3))
     ratios, failed = population(effort.pick(8, 1))
     rows: list[tuple[Cell, ...]] = [

@@ -11,7 +11,9 @@ _clock = CLOCKS["wall"]
 
 
 def use_clock(name: str) -> None:
-    """Choose the clock of all single-threaded measurements: "wall", or "cpu", the processor time of the thread.
+    """Choose the clock of single-threaded measurements.
+
+    "wall", or "cpu", the processor time of the thread.
 
     On a machine that others use, processor time leaves out the time spent waiting for a core; slowdowns by shared
     caches and frequency stay in it. On a quiet machine the two agree.
@@ -27,7 +29,7 @@ def now() -> float:
 
 @dataclass(frozen=True)
 class Effort:
-    """How much is measured."""
+    """Extent of the measurements."""
 
     quick: bool
 
@@ -74,7 +76,9 @@ def per_call(loop: Callable[[int], object], seconds: float = 4e-3, repeats: int 
 
 
 def sum_of_minima(repeats: Sequence[Sequence[float]]) -> float:
-    """Return the time of work done in pieces [s]: of each piece its shortest repeat, added up.
+    """Return the time of pieces of work [s].
+
+    Of each piece its shortest repeat, added up.
 
     Where the repeats do exactly the same, as a deterministic integration does, a disturbance of one piece in one
     repeat is left out without throwing the rest of that repeat away.

@@ -26,7 +26,7 @@ _BY = {"x": 1e-9, "x_rate": 1e-6, "tilt": 1e-8, "tilt_rate": 1e-5, "spin": 1e-4}
 
 
 class Asked(FromUnit):
-    """The bearing of an FMU that is asked for its slopes."""
+    """Bearing of an FMU asked for slopes."""
 
     def __init__(self, folder: str) -> None:
         super().__init__(1e-4, folder)
@@ -47,7 +47,10 @@ class Asked(FromUnit):
             place = place + STEP * np.array([0.0, 0.0, -2e-3])
 
     def touch(self) -> None:
-        """Set an input to what it is: what was computed is to be computed anew."""
+        """Set an input to its value.
+
+        Results are then computed anew.
+        """
         (first, *_) = self._knowns
         self._unit.setReal([first], self._unit.getReal([first]))
 
@@ -71,7 +74,10 @@ class Asked(FromUnit):
 
 
 def main() -> int:
-    """Print what both take and how far they are apart; returns the exit code."""
+    """Print cost and difference of both.
+
+    Return the exit code.
+    """
     with tempfile.TemporaryDirectory(prefix="lambda-bearing-") as folder:
         bearing = Asked(folder)
         bearing.moving()

@@ -61,7 +61,10 @@ def main() -> int:
 
 
 def _exported(name: str, file: Path) -> Path:
-    """Return a file that is exported twice: what the second time takes is that of a warm export."""
+    """Return a file that is exported twice.
+
+    The second time is that of a warm export.
+    """
     for words in ("first", "again"):
         wall, spent = time.perf_counter(), _processor()
         api.export_fmu(CASE, CHANGES, out=file, overwrite=True, **UNITS[name])  # type: ignore[arg-type]
@@ -72,7 +75,10 @@ def _exported(name: str, file: Path) -> Path:
 
 
 def _processor() -> float:
-    """Return the processor time of this process and of those that it has waited for [s]."""
+    """Return the processor time [s].
+
+    Of this process and of those that it has waited for.
+    """
     both = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     return sum(each.ru_utime + each.ru_stime for each in both)
 

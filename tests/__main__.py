@@ -44,7 +44,10 @@ def environment() -> dict[str, str]:
 
 
 def run(parts: dict[str, list[str]], *, is_shown: bool = False) -> list[str]:
-    """Run parts one after the other; return those that failed. A part that passes without being shown prints a line."""
+    """Run parts in order, return the failed ones.
+
+    A part that passes without being shown prints a line.
+    """
     failed = []
     pipe = None if is_shown else subprocess.PIPE
     for name, command in parts.items():
@@ -64,7 +67,10 @@ def run(parts: dict[str, list[str]], *, is_shown: bool = False) -> list[str]:
 
 
 def main() -> int:
-    """Run every part; the exit code is 0 only if all of them passed."""
+    """Run every part.
+
+    The exit code is 0 only if all of them passed.
+    """
     arguments = sys.argv[1:]
     is_first = not arguments and not any(ROOT.glob("tests/*/__pycache__/*-pytest-*.pyc"))
     looked = {} if arguments else LOOKING | (COLLECTING if is_first else {})

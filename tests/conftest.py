@@ -69,7 +69,10 @@ if TYPE_CHECKING:
 
 
 def pytest_configure() -> None:
-    """Collect garbage seldom: each pass over all that tests have loaded takes a third of the time of some tests."""
+    """Collect garbage seldom.
+
+    Each pass over all loaded objects takes a third of the time of some tests.
+    """
     gc.set_threshold(100_000, 50, 50)
 
 
@@ -89,7 +92,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 @pytest.fixture(scope="session", autouse=True)
 def own_folders(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """Point cache and user data at folders of the tests.
+    """Point cache and user data at test folders.
 
     Compiled code is kept in pytest's own cache: it is named by its content, and compiling anew in every session and in
     every worker would take longer than the tests.
@@ -105,7 +108,10 @@ def own_folders(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPat
 
 @pytest.fixture
 def user_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Give this test an empty folder for the user's own catalogue."""
+    """Give this test an empty user folder.
+
+    It is for the user's own catalogue.
+    """
     folder = tmp_path / "data"
     monkeypatch.setenv("LAMBDA_BEARING_DATA", str(folder))
     return folder
@@ -135,7 +141,10 @@ def warm(own_folders: Path) -> Iterator[Warm]:
 
 @pytest.fixture(scope="session")
 def once(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Callable[[Path], object]], Path]:
-    """Return a function that has a folder filled, once for all processes of this session; nobody changes it later."""
+    """Return a function that fills a folder.
+
+    Once for all processes of this session; nobody changes it later.
+    """
     from made_once import CAN_SHARE, made_once
 
     base = tmp_path_factory.getbasetemp()
@@ -145,7 +154,10 @@ def once(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Callable[[P
 
 @pytest.fixture(scope="session")
 def radial_run(once: Callable[[str, Callable[[Path], object]], Path]) -> Result:
-    """Run the 6319 under radial load until it has converged: what views and reports are drawn from."""
+    """Run the 6319 under radial load.
+
+    Until it has converged; views and reports are drawn from it.
+    """
     from lambda_core import api
 
     return api.result(once("radial", lambda to: api.run("6319-cp10-1500", out=to / "radial.h5")) / "radial.h5")
@@ -153,7 +165,10 @@ def radial_run(once: Callable[[str, Callable[[Path], object]], Path]) -> Result:
 
 @pytest.fixture(scope="session")
 def combined_run(once: Callable[[str, Callable[[Path], object]], Path]) -> Result:
-    """Run the 6208 for a short time under axial and radial load: every ball loaded, contact angles of 15 degrees."""
+    """Run the 6208 under combined load.
+
+    For a short time: every ball loaded, contact angles of 15 degrees.
+    """
     from lambda_core import api
 
     changes = ["loads.radial=0.4 kN", "solver.duration=0.05 s"]

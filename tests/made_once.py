@@ -15,7 +15,10 @@ CAN_SHARE = fcntl is not None
 
 
 def made_once(folder: Path, fill: Callable[[Path], object]) -> Path:
-    """Return a folder that one process has filled; others wait meanwhile, and try themselves where it failed."""
+    """Return a folder that one process fills.
+
+    Others wait meanwhile, and try themselves where it failed.
+    """
     folder.parent.mkdir(exist_ok=True)
     done = folder.with_name(f"{folder.name}.done")
     with _alone(folder.with_name(f"{folder.name}.lock")):

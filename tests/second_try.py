@@ -30,7 +30,10 @@ NO_OTHER = "--max-worker-restart=0"
 
 
 class Record:
-    """What became of each test, and how long it took; a plugin of the process that reports."""
+    """Record of each test's outcome.
+
+    With its time: a plugin of the process that reports.
+    """
 
     def __init__(self) -> None:
         self.outcomes: dict[str, str] = {}
@@ -44,7 +47,10 @@ class Record:
             self.uncollected.append(report.nodeid)
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Keep the worst outcome of a test, and the time of all its parts."""
+        """Keep the worst outcome of a test.
+
+        And the time of all its parts.
+        """
         name = report.nodeid
         self.seconds[name] = self.seconds.get(name, 0.0) + report.duration
         if report.when not in ("setup", "call", "teardown"):  # xdist: the process is gone
@@ -80,7 +86,10 @@ class Record:
 
 
 def passed_alone(names: list[str]) -> set[str]:
-    """Run tests in one process with nothing else; return those that pass."""
+    """Run tests alone in one process.
+
+    Return those that pass.
+    """
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "passed.json"
         # With -m nothing that the first run chose is left out.
@@ -90,7 +99,10 @@ def passed_alone(names: list[str]) -> set[str]:
 
 
 def again(record: Record, start: float) -> int:
-    """Try once more what failed, and say what became of it; returns the exit code."""
+    """Try failed tests once more.
+
+    Report the outcome; return the exit code.
+    """
     failed = record.of("failed")
     print(f"\n== once more, alone: {len(failed)} that failed", flush=True)
     passed = passed_alone(failed)
@@ -116,7 +128,10 @@ def again(record: Record, start: float) -> int:
 
 
 def main(arguments: list[str]) -> int:
-    """Run pytest as ``python -m pytest`` does; returns its exit code, or that of the second try."""
+    """Run pytest with a second try.
+
+    As ``python -m pytest`` does: return its exit code, or that of the second try.
+    """
     sys.path[0] = str(Path.cwd())
     record, start = Record(), time.monotonic()
     if arguments[:1] == [ALONE]:

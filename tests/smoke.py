@@ -75,7 +75,10 @@ print(Once("{CASE}").run(headless=True, size=(80, 24)))
 
 
 def interpreters() -> dict[str, str]:
-    """Return the Pythons on PATH and of pyenv, version -> path."""
+    """Return the Pythons of this system.
+
+    On PATH and of pyenv, version -> path.
+    """
     found: dict[str, str] = {}
     for version in VERSIONS:
         places = [shutil.which(f"python{version}"), sys.executable]
@@ -100,7 +103,10 @@ class Smoke:
         self._base, self.python, self._program = python, str(scripts / "python"), str(scripts / "lambda-bearing")
 
     def install(self, wheel: Path) -> str:
-        """Install the wheel by the pip of the Python itself; returns what went wrong."""
+        """Install the wheel by the Python's pip.
+
+        Return what went wrong.
+        """
         command = [self._base, *PIP, "--python", self.python, "install", "-q", "--no-compile"]
         done = self._run([*command, "-c", str(ROOT / "constraints.txt"), str(wheel)], INSTALL)
         return "" if done.returncode == 0 else done.stderr.strip()
@@ -123,7 +129,10 @@ class Smoke:
         return found
 
     def _tried(self, found: list[str], name: str, command: list[str], word: str, code: int = 0) -> str:
-        """Return what a command prints; what is wrong with it is added to `found`."""
+        """Return the output of a command.
+
+        Its faults are added to `found`.
+        """
         try:
             done = self._run(command, COMMAND)
         except subprocess.TimeoutExpired:
@@ -146,7 +155,10 @@ class Smoke:
 
 
 def build(python: str, folder: Path) -> Path:
-    """Return the wheel of this source tree, without machine code: each Python compiles."""
+    """Return the wheel of this source tree.
+
+    Without machine code: each Python compiles.
+    """
     command = [python, *PIP, "wheel", "-q", "--no-deps", "-w", str(folder), str(ROOT)]
     subprocess.run(command, check=True, timeout=INSTALL, env=os.environ | {"LAMBDA_BEARING_PACK": "0"})
     (wheel,) = folder.glob("*.whl")
@@ -154,7 +166,10 @@ def build(python: str, folder: Path) -> Path:
 
 
 def smoke(version: str, python: str, wheel: Path, *, is_complete: bool) -> bool:
-    """Try one Python and print what came of it; returns whether all works."""
+    """Try one Python and print the result.
+
+    Return whether all works.
+    """
     start = time.monotonic()
     one = Smoke(python, wheel.parent / version)
     why = one.install(wheel)
@@ -168,7 +183,10 @@ def smoke(version: str, python: str, wheel: Path, *, is_complete: bool) -> bool:
 
 
 def main(arguments: list[str]) -> int:
-    """Try every Python; the exit code is 0 when all of them work."""
+    """Try every Python.
+
+    The exit code is 0 when all of them work.
+    """
     wanted = [word for word in arguments if word != WHOLE]
     all_ = interpreters()
     print(f"== smoke: found {', '.join(f'{version} ({path})' for version, path in all_.items()) or 'no Python'}")

@@ -62,7 +62,10 @@ sys.exit(code if code >= 0 else 128 - code)
 
 
 class Started:
-    """A process of the server, as :class:`subprocess.Popen` has them: output in a pipe, errors in a file."""
+    """Process of the server.
+
+    As :class:`subprocess.Popen` has them: output in a pipe, errors in a file.
+    """
 
     def __init__(self, connection: socket.socket, stdout: int, errors: Any) -> None:
         self._answers = connection.makefile("r")
@@ -76,7 +79,10 @@ class Started:
         return self.wait(0.0) if self.returncode is None else self.returncode
 
     def wait(self, timeout: float | None = None) -> int | None:
-        """Wait for the end; return the exit code, negative for a signal, None when it still runs."""
+        """Wait for the end.
+
+        Return the exit code, negative for a signal, None when it still runs.
+        """
         if self.returncode is None and select.select([self._connection], [], [], timeout)[0]:
             self.returncode = int(self._answers.readline())
         return self.returncode
@@ -87,7 +93,10 @@ class Started:
             os.kill(self.pid, signal.SIGKILL)
 
     def communicate(self) -> tuple[str, str]:
-        """Wait for the end; return what it still had to say."""
+        """Wait for the end.
+
+        Return the remaining output.
+        """
         with self.stdout:
             out = self.stdout.read()
         self.wait()
@@ -98,7 +107,10 @@ class Started:
 
 
 class Warm:
-    """The server, and the way to ask it; `path` is a folder of commands to put in front of PATH."""
+    """Server and its requests.
+
+    `path` is a folder of commands to put in front of PATH.
+    """
 
     def __init__(self, folder: Path, env: Mapping[str, str] | None = None) -> None:
         self._address = str(folder / "warm")
@@ -142,7 +154,9 @@ class Warm:
         env: Mapping[str, str] | None = None,
         stderr: int | None = None,
     ) -> Any:
-        """Execute Python code in a process of its own, as ``python -c CODE ARGUMENTS`` would.
+        """Execute Python code in its own process.
+
+        As ``python -c CODE ARGUMENTS`` would.
 
         `stderr` is an open file; without one the errors come back from ``communicate``.
         """
@@ -173,7 +187,10 @@ class Warm:
 
 
 def _first_run() -> None:
-    """Have in memory what a first run loads: laws, tables, modules; what is installed is looked up anew by each."""
+    """Load what a first run loads.
+
+    Laws, tables, modules; each request looks up anew what is installed.
+    """
     from lambda_core import api
     from lambda_core.case import builtin
     from lambda_core.discovery.manager import registry
@@ -185,7 +202,10 @@ def _first_run() -> None:
 
 
 def serve(address: str, *also: str) -> None:
-    """Fork a process for every request until the input is closed."""
+    """Fork a process for every request.
+
+    Until the input is closed.
+    """
     for name in _LOADED.split():
         importlib.import_module(name)
     from lambda_core.solver.core import core

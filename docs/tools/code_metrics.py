@@ -31,7 +31,10 @@ class Tree:
         self.names = listed.splitlines()
 
     def files(self, *folders: str, suffix: str = ".py") -> dict[str, str]:
-        """Return the text of every file below some folders, by name."""
+        """Return every file's text by name.
+
+        They are below some folders.
+        """
         heads = tuple(f"{folder}/" for folder in folders)
         wanted = [name for name in self.names if name.endswith(suffix) and name.startswith(heads)]
         return {name: (self.root / name).read_text(encoding="utf-8") for name in wanted if (self.root / name).exists()}
@@ -77,7 +80,10 @@ def _lines_of_core(tree: Tree) -> int:
 
 
 def _statements(tree: Tree) -> int:
-    """Return the lines of the core that hold code: no blank line, comment or docstring."""
+    """Return the core's code lines.
+
+    No blank line, comment or docstring.
+    """
     return sum(_code_lines(text) for text in tree.core.values())
 
 
@@ -103,7 +109,10 @@ def _longest(tree: Tree) -> int:
 
 
 def _untyped(tree: Tree) -> int:
-    """Return how many functions of the core have an argument without a type: those that Numba types."""
+    """Return the core's functions with untyped arguments.
+
+    Their number: Numba types them.
+    """
     count = 0
     for text in tree.core.values():
         for node in ast.walk(ast.parse(text)):
@@ -114,7 +123,10 @@ def _untyped(tree: Tree) -> int:
 
 
 def _kinds_outside(tree: Tree) -> int:
-    """Return how many files outside the elements test a kind of ball bearing."""
+    """Return the files that test a bearing kind.
+
+    Their number outside the elements.
+    """
     texts = tree.files("lambda_core", "db", "gui", "cli", "plugins/lambda_plugins")
     kinds = r"four_point|self_aligning|SPHERICAL"
     return _with({name: text for name, text in texts.items() if "/elements/" not in name}, kinds)
@@ -126,7 +138,10 @@ def _engines(tree: Tree) -> int:
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure, its limit, and the reason where it is above the limit."""
+    """One figure with its limit.
+
+    And the reason where it is above the limit.
+    """
 
     what: str
     limit: int | None

@@ -33,7 +33,10 @@ class Docstring:
     sections: dict[str, str] = field(default_factory=dict)
 
     def names(self, *sections: str) -> set[str]:
-        """Return the names that sections describe ("x, y : float" has two)."""
+        """Return the names that sections describe.
+
+        "x, y : float" has two.
+        """
         found: set[str] = set()
         for line in "\n".join(self.sections.get(name, "") for name in sections).splitlines():
             if line and not line[0].isspace():
@@ -51,7 +54,10 @@ def parsed(item: object) -> Docstring:
 
 
 def _own_doc(item: object) -> bool:
-    """Say whether the docstring is the object's own: not inherited, not made by dataclass or pydantic."""
+    """Tell whether the docstring is the object's own.
+
+    Not inherited, not made by dataclass or pydantic.
+    """
     doc = item.__dict__.get("__doc__") if isinstance(item, type) else getattr(item, "__doc__", None)
     if not doc:
         return False
@@ -60,7 +66,10 @@ def _own_doc(item: object) -> bool:
 
 
 def public(module: Any) -> Iterator[tuple[str, Any]]:
-    """Yield every public function and class of a module, by its ``__all__``."""
+    """Yield a module's public functions and classes.
+
+    By its ``__all__``.
+    """
     for name in module.__all__:
         item = getattr(module, name)
         if inspect.isfunction(item) or isinstance(item, type):
@@ -68,7 +77,10 @@ def public(module: Any) -> Iterator[tuple[str, Any]]:
 
 
 def constants(module: Any) -> Iterator[tuple[str, Any]]:
-    """Yield every public name of a module that is neither function nor class."""
+    """Yield a module's other public names.
+
+    They are neither functions nor classes.
+    """
     known = {name for name, _ in public(module)}
     for name in module.__all__:
         if name not in known:
@@ -76,7 +88,10 @@ def constants(module: Any) -> Iterator[tuple[str, Any]]:
 
 
 def returned() -> list[type]:
-    """Return the classes that the functions of the API name in their signatures, in alphabetical order."""
+    """Return the classes in the API's signatures.
+
+    In alphabetical order.
+    """
     found: dict[str, type] = {}
     for node in (node for source in _sources(MODULES[0]) for node in ast.walk(ast.parse(source))):
         if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
@@ -91,7 +106,10 @@ def returned() -> list[type]:
 
 
 def _sources(name: str) -> Iterator[str]:
-    """Yield the source text of each module that the public functions of a module stand in."""
+    """Yield the sources of a module's functions.
+
+    The text of each module that has its public functions.
+    """
     module = importlib.import_module(name)
     homes = {inspect.unwrap(item).__module__ for _, item in public(module) if inspect.isfunction(item)}
     for home in sorted(homes):
@@ -99,7 +117,10 @@ def _sources(name: str) -> Iterator[str]:
 
 
 def methods(cls: type) -> Iterator[tuple[str, Any]]:
-    """Yield the public functions and properties that a class defines itself."""
+    """Yield a class's own public methods.
+
+    And its properties.
+    """
     for name, item in vars(cls).items():
         if name.startswith("_"):
             continue
@@ -112,13 +133,19 @@ def methods(cls: type) -> Iterator[tuple[str, Any]]:
 
 
 def parameters(function: Any) -> list[str]:
-    """Return the names of a function's parameters, without self and cls."""
+    """Return a function's parameter names.
+
+    Without self and cls.
+    """
     names = list(inspect.signature(function).parameters)
     return [name for name in names if name not in ("self", "cls")]
 
 
 def fields(cls: type) -> dict[str, str]:
-    """Return the declared fields of a dataclass or pydantic model, each with the comment after or above it."""
+    """Return the declared fields with comments.
+
+    Of a dataclass or pydantic model; the comment is after or above a field.
+    """
     names = [f.name for f in dataclasses.fields(cls)] if dataclasses.is_dataclass(cls) else []
     if issubclass(cls, BaseModel):
         names = list(cls.model_fields)
@@ -134,7 +161,10 @@ def fields(cls: type) -> dict[str, str]:
 
 
 def _section_text(doc: Docstring, name: str) -> str:
-    """Return what the section Attributes says about one name, on one line."""
+    """Return a name's text in Attributes.
+
+    On one line.
+    """
     lines = doc.sections.get("Attributes", "").splitlines()
     for index, line in enumerate(lines):
         head, _, kind = line.partition(" : ")
@@ -149,7 +179,10 @@ def _section_text(doc: Docstring, name: str) -> str:
 
 
 def _comments(cls: type) -> dict[str, str]:
-    """Return the comment of each annotated field: on its line, or on the lines above it."""
+    """Return the comment of each field.
+
+    An annotated field has it on its line, or on the lines above it.
+    """
     try:
         source = textwrap.dedent(inspect.getsource(cls))
     except (OSError, TypeError):
@@ -175,7 +208,10 @@ def _comments(cls: type) -> dict[str, str]:
 
 
 def raised(function: Any) -> set[str]:
-    """Return the names of the exceptions that a function's own body raises."""
+    """Return the exceptions that a function raises.
+
+    Their names, in its own body.
+    """
     try:
         tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
     except (OSError, TypeError):

@@ -31,7 +31,10 @@ _BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 @dataclass(frozen=True)
 class Picture:
-    """One picture: what it shows, the command that draws it, the file that the command writes."""
+    """One picture with its command.
+
+    Its caption, the command that draws it, the file that the command writes.
+    """
 
     name: str
     title: str
@@ -44,7 +47,10 @@ class Picture:
 
 @dataclass(frozen=True)
 class Run:
-    """What there has to be before pictures can be drawn: commands as on a page, under a heading."""
+    """Commands before the pictures.
+
+    As on a page, under a heading.
+    """
 
     title: str
     commands: tuple[str, ...]
@@ -231,7 +237,10 @@ def motor_case() -> str:
 
 
 def drawn(pictures: list[Picture], folder: Path) -> Iterator[Path]:
-    """Type the commands in a folder and write the pictures; yield the files that were written."""
+    """Type the commands and write the pictures.
+
+    In a folder; yield the files that were written.
+    """
     environment = os.environ | {"PATH": os.pathsep.join([str(page_examples.PROGRAMS), os.environ["PATH"]])}
     environment |= {"LAMBDA_BEARING_DATA": str(folder / ".data"), "NO_COLOR": "1", "MPLBACKEND": "Agg"}
     (folder / "motor.toml").write_text(motor_case(), encoding="utf-8")
@@ -255,7 +264,10 @@ def drawn(pictures: list[Picture], folder: Path) -> Iterator[Path]:
 
 
 def photographed(page: Path) -> Path | None:
-    """Return a picture of the first screens of a page; None without a browser."""
+    """Return a picture of the first screens.
+
+    Of a page; None without a browser.
+    """
     browser = next((found for name in _BROWSERS if (found := shutil.which(name))), None)
     if browser is None:
         return None
@@ -267,7 +279,10 @@ def photographed(page: Path) -> Path | None:
 
 
 def small(source: Path, to: Path, colours: int) -> None:
-    """Write a picture as wide as a page and with few colours."""
+    """Write a small picture.
+
+    As wide as a page and with few colours.
+    """
     from PIL import Image, ImageSequence
 
     picture = Image.open(source)
@@ -289,7 +304,10 @@ def small(source: Path, to: Path, colours: int) -> None:
 
 
 def main(arguments: list[str]) -> int:
-    """Draw the pictures named, or all; fail when together they are too large."""
+    """Draw the pictures named, or all.
+
+    Fail when together they are too large.
+    """
     known = {picture.name: picture for picture in PICTURES}
     unknown = [name for name in arguments if name not in known]
     if unknown:

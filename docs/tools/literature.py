@@ -24,7 +24,10 @@ AT_LEAST = 40
 
 
 class Recorder:
-    """A pytest plugin that notes every value of class Published that a passing test checks."""
+    """Plugin that notes checked published values.
+
+    Every value of class Published that a passing test checks.
+    """
 
     def __init__(self) -> None:
         self.found: dict[tuple[str, str, str, str], str] = {}
@@ -49,7 +52,10 @@ class Recorder:
 
 
 def lines() -> list[str]:
-    """Run the suite and return the list; RuntimeError when a test fails or there are too few values."""
+    """Run the suite and return the list.
+
+    RuntimeError when a test fails or there are too few values.
+    """
     recorder = Recorder()
     folder = str(ROOT / "tests" / "literature")
     code = pytest.main(["-q", "--no-header", "-W", "ignore", folder], [recorder])
@@ -64,7 +70,10 @@ def lines() -> list[str]:
 
 
 def _by_source(rows: list[tuple[str, str, str, str]]) -> list[list[str]]:
-    """Put values of one source that share tolerance and reason into one line, in order of size."""
+    """Join values of one source.
+
+    They share tolerance and reason; one line, in order of size.
+    """
     together: dict[tuple[str, str, str], list[str]] = {}
     for source, value, allowed, reason in rows:
         together.setdefault((source, allowed, reason), []).append(value)

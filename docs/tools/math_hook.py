@@ -23,7 +23,10 @@ _SIGN = re.compile(r"(<mo[^>]*>(?!&#x00029;|\)|\])[^<]*</mo>)<mo>&#x02212;</mo>"
 
 
 def on_page_markdown(markdown: str, **_: Any) -> str:
-    """Return a page's text with its formulas as MathML; called by mkdocs for every page."""
+    """Return a page with formulas as MathML.
+
+    Mkdocs calls it for every page.
+    """
     return _PIECES.sub(_set, markdown)
 
 
@@ -45,6 +48,9 @@ def mathml(formula: str, display: Literal["inline", "block"]) -> str:
 
 
 def _function(name: re.Match[str]) -> str:
-    """Return the name of a function with a thin space before it, and behind it where no bracket follows."""
+    """Return the name of a function.
+
+    A thin space before it, and behind it where no bracket follows.
+    """
     behind = "0" if name["open"] else "0.17em"
     return f"<mo form='prefix' lspace='0.17em' rspace='{behind}'>{name[1]}</mo>{name['open'] or ''}"

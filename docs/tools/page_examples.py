@@ -39,7 +39,10 @@ _ASK = "echo $?"  # how a page shows an exit code
 
 @dataclass
 class Step:
-    """One thing to do: write a file, type a command, execute Python."""
+    """One step of a page.
+
+    Write a file, type a command, execute Python.
+    """
 
     kind: str  # "file", "command", "python"
     text: str
@@ -73,7 +76,7 @@ def not_run(path: Path) -> list[str]:
 
 
 def steps(path: Path) -> list[Step]:
-    """Return what a page tells its reader to do, in order."""
+    """Return the steps of a page in order."""
     found: list[Step] = []
     slow = False
     for match in _BLOCK.finditer(path.read_text(encoding="utf-8")):
@@ -112,7 +115,9 @@ def _commands(body: str) -> Iterator[tuple[str, list[str]]]:
 
 
 def follow(path: Path, folder: Path, slow: bool, programs: Path = PROGRAMS) -> list[Difference]:
-    """Do everything that a page says in `folder`; return where it did not turn out as printed.
+    """Follow a page in `folder`.
+
+    Return where it did not turn out as printed.
 
     Parameters
     ----------
@@ -147,7 +152,10 @@ def follow(path: Path, folder: Path, slow: bool, programs: Path = PROGRAMS) -> l
 
 
 class Interpreter:
-    """A Python process in a folder: the blocks of one page share their names."""
+    """Python process in a folder.
+
+    The blocks of one page share their names.
+    """
 
     _LOOP = (
         "import contextlib, io, json, sys, traceback\n"
@@ -174,7 +182,10 @@ class Interpreter:
         )
 
     def run(self, block: str) -> tuple[int, str]:
-        """Execute a block; return 0 or 1 and what it printed."""
+        """Execute a block.
+
+        Return 0 or 1 and what it printed.
+        """
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         self._process.stdin.write(f"{json.dumps(block)}\n")
@@ -198,7 +209,10 @@ def _environment(folder: Path, programs: Path) -> dict[str, str]:
 
 
 def _type(command: str, folder: Path, environment: dict[str, str]) -> tuple[int, str]:
-    """Run a command line; return its exit code and what it said on both streams."""
+    """Run a command line.
+
+    Return its exit code and its output on both streams.
+    """
     done = subprocess.run(
         ["bash", "-c", command],
         cwd=folder,
@@ -212,7 +226,9 @@ def _type(command: str, folder: Path, environment: dict[str, str]) -> tuple[int,
 
 
 def compare(expected: list[str], said: list[str], exact: bool = False) -> list[str] | None:
-    """Return the page's lines with the numbers of today, None when the two do not agree.
+    """Return the lines with today's numbers.
+
+    None when the two do not agree.
 
     Parameters
     ----------
@@ -242,7 +258,10 @@ def compare(expected: list[str], said: list[str], exact: bool = False) -> list[s
 
 
 def _agree(expected: str, said: str, exact: bool) -> str | None:
-    """Return a line of the page with the numbers of today, None when the lines do not agree."""
+    """Return a line with today's numbers.
+
+    None when the lines do not agree.
+    """
     # Every second part is a number or "...".
     parts = re.split(rf"({_NUMBER}|\.\.\.)", expected)
     pattern = "".join(_mark(part) if index % 2 else _words(part) for index, part in enumerate(parts))
@@ -277,7 +296,10 @@ def _close(expected: str, said: str) -> bool:
 
 
 def renewed(path: Path, folder: Path) -> str:
-    """Return a page with the numbers that its examples give today; lines that changed otherwise stay."""
+    """Return a page with today's numbers.
+
+    Those of its examples; lines that changed otherwise stay.
+    """
     text = path.read_text(encoding="utf-8")
     for difference in follow(path, folder, slow=True):
         old = difference.step.expected

@@ -15,12 +15,17 @@ _TAKEN = re.compile(r"^<!-- from (?P<file>\S+): (?P<names>[\w ]+) -->\n```python
 
 
 def taken(page: str) -> list[tuple[str, tuple[str, ...]]]:
-    """Return (file, names) of every block of a page that is taken from a file."""
+    """Return (file, names) of included blocks.
+
+    The page takes every such block from a file.
+    """
     return [(found["file"], tuple(found["names"].split())) for found in _TAKEN.finditer(page)]
 
 
 def renewed(page: str) -> str:
-    """Return a page with all blocks that are taken from files as these are today.
+    """Return a page with included blocks renewed.
+
+    They are as the files are today.
 
     Raises
     ------
@@ -36,7 +41,10 @@ def renewed(page: str) -> str:
 
 
 def definitions(source: str, names: list[str], file: str) -> str:
-    """Return the lines of a module that define the names, two blank lines around functions and classes."""
+    """Return the lines that define the names.
+
+    Of a module; two blank lines around functions and classes.
+    """
     lines = source.splitlines()
     known = {name: statement for statement in ast.parse(source).body for name in _defined(statement)}
     text = ""

@@ -41,12 +41,18 @@ class Ease:
 
     @property
     def flesch(self) -> float:
-        """Return the reading ease: Flesch 1948, J. Appl. Psychol. 32, 221, doi 10.1037/h0057532 (0 to 100)."""
+        """Reading ease after Flesch.
+
+        Flesch 1948, J. Appl. Psychol. 32, 221, doi 10.1037/h0057532 (0 to 100).
+        """
         return 206.835 - 1.015 * self.words / self.sentences - 84.6 * self.syllables / self.words
 
 
 def syllables(word: str) -> int:
-    """Count the syllables of an English word: groups of vowels, less a silent e, plus vowels that are apart."""
+    """Count the syllables of an English word.
+
+    Groups of vowels, less a silent e, plus vowels that are apart.
+    """
     word = re.sub("[^a-z]", "", word.lower())
     count = len(re.findall("[aeiouy]+", word)) + len(_APART.findall(word)) - bool(_SILENT.search(word))
     return max(count, 1)
@@ -103,7 +109,10 @@ def start_and_how_to() -> list[Path]:
 
 
 def measured(paths: list[Path]) -> dict[str, Ease]:
-    """Return the counts of every page of `LEAST` words or more."""
+    """Return the counts of every page.
+
+    Of `LEAST` words or more.
+    """
     found = {str(path): ease(prose(path)) for path in paths}
     return {name: one for name, one in found.items() if one.words >= LEAST}
 

@@ -67,7 +67,10 @@ def case_page() -> str:
 
 
 def _tables(parent: type[BaseModel], name: str, prefix: str) -> Iterator[tuple[str, type[BaseModel]]]:
-    """Yield the tables below one option, itself first, with the path under which each is described."""
+    """Yield the tables below one option.
+
+    Itself first, with the path under which each is described.
+    """
     for table in _members(parent, name):
         if issubclass(table, signals.TimeTable) or table is modelling.Models:
             continue
@@ -130,7 +133,10 @@ def _anchor(path: str) -> str:
 
 
 def _quantity_of(members: list[type[BaseModel]]) -> str:
-    """Return the link to the quantity of a time function's values."""
+    """Return the link to a quantity.
+
+    Of a time function's values.
+    """
     value = next(m for m in members if m.__name__.startswith("Constant"))
     return f"[{field_card(value, 'value').quantity.replace('_', ' ')}](#units)"
 
@@ -158,7 +164,10 @@ def _models() -> list[str]:
 
 
 def _watching() -> list[str]:
-    """Describe the tables of observers and events, whose parameters are the plugins' own."""
+    """Describe the tables of observers and events.
+
+    Their parameters are the plugins' own.
+    """
     rows = [
         ["`observers.NAME.PARAMETER`", "by the observer", Case.model_fields["observers"].description or ""],
         ["`events.NAME.action`", '`"stop"`', 'what a run does at the event: `"stop"` or `"record"`'],

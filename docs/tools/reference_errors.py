@@ -25,7 +25,10 @@ MEANINGS = {
 
 
 def error_classes() -> list[type[LambdaError]]:
-    """Return every error class of our packages, after importing all of their modules."""
+    """Return every error class of our packages.
+
+    After importing all of their modules.
+    """
     for name in PACKAGES:
         package = importlib.import_module(name)
         for module in pkgutil.walk_packages(package.__path__, f"{name}."):

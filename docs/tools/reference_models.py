@@ -77,7 +77,10 @@ def _published(ends: list[str]) -> str:
 
 
 def _prose(doc: str) -> str:
-    """Return a docstring as paragraphs; stars and bars of formulas stay what they are."""
+    """Return a docstring as paragraphs.
+
+    Stars and bars of formulas stay what they are.
+    """
     plain = doc.replace("``", "`").replace("*", "\\*").replace("|", "\\|").replace("_", "\\_").replace("<", "&lt;")
     return "\n\n".join(" ".join(part.split()) for part in plain.split("\n\n"))
 

@@ -46,7 +46,10 @@ PARTS: dict[str, dict[str, Callable[[], str]]] = {
 
 
 def wanted() -> dict[Path, str]:
-    """Return every page that is generated in whole or in part, as it should be."""
+    """Return every generated page as wanted.
+
+    It is generated in whole or in part.
+    """
     found = {DOCS / name: make() for name, make in PAGES.items()}
     for name, parts in PARTS.items():
         text = (DOCS / name).read_text(encoding="utf-8")

@@ -51,7 +51,10 @@ _WORDS = re.compile(rf"[{_SINGLE}]|[^\u00a0 {_SINGLE}]+")
 
 @dataclass(frozen=True)
 class Scene:
-    """What leads to one picture: a case to begin with, and what is done then."""
+    """Actions before one picture.
+
+    A case to begin with, and the next actions.
+    """
 
     case: str | None
     play: Script
@@ -189,7 +192,10 @@ async def no_runs(pilot: Pilot[None]) -> None:
 
 
 def results(view: str | None = None, *, marked: int = 0) -> Script:
-    """Return what leads to a view of a result, of several when some are marked."""
+    """Return the actions for a result's view.
+
+    Of several when some are marked.
+    """
 
     async def play(pilot: Pilot[None]) -> None:
         await checked(pilot)
@@ -341,7 +347,10 @@ async def shoot(scene: Scene, size: tuple[int, int]) -> str:
 
 
 def _block(attributes: str, sign: str, at: float, step: float) -> str:
-    """Return a block sign as a rectangle that touches its neighbours."""
+    """Return a block sign as rectangle.
+
+    It touches its neighbours.
+    """
     left, top, width, height = _BLOCKS[sign]
     base, style = re.search(r' y="([\d.]+)"', attributes), re.search(r' class="[^"]+"', attributes)
     assert base is not None
@@ -353,7 +362,10 @@ def _block(attributes: str, sign: str, at: float, step: float) -> str:
 
 
 def placed(svg: str) -> str:
-    """Return the picture with every word at its own place: renderers stretch spaces in their own ways."""
+    """Return the picture with placed words.
+
+    Every word has its own place: renderers stretch spaces in their own ways.
+    """
 
     def words(match: re.Match[str]) -> str:
         attributes, text = match.group(1), html.unescape(match.group(2))
@@ -375,7 +387,10 @@ def placed(svg: str) -> str:
 
 
 def write(svg: str, target: Path, width: int) -> None:
-    """Write a picture as PNG with few colours: small, and the same where nothing has changed."""
+    """Write a picture as small PNG.
+
+    Few colours, and the same where nothing has changed.
+    """
     from PIL import Image
 
     done = subprocess.run(

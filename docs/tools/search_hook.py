@@ -14,7 +14,10 @@ _PATH = re.compile(r"[A-Za-z]\w*(?:\.\w+)+|[A-Za-z]+(?:_\w+)+")
 
 
 def on_post_build(config: Any, **_: Any) -> None:
-    """Add the parts of paths to the index; called by mkdocs after the site has been written."""
+    """Add the parts of paths to the index.
+
+    Mkdocs calls it after the site has been written.
+    """
     index = Path(config["site_dir"]) / "search" / "search_index.json"
     data = json.loads(index.read_text(encoding="utf-8"))
     for entry in data["docs"]:
@@ -24,7 +27,10 @@ def on_post_build(config: Any, **_: Any) -> None:
 
 
 def parts(path: str) -> set[str]:
-    """Return what people may look for of a path: what it ends with, its names and their words."""
+    """Return the searchable parts of a path.
+
+    Its end, its names and their words.
+    """
     names = path.split(".")
     ends = {".".join(names[index:]) for index in range(1, len(names))}
     return ends | set(names) | {word for name in names for word in name.split("_") if len(word) > 1}

@@ -18,7 +18,10 @@ def code(text: str) -> str:
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
-    """Return the lines of a table, and an empty one below it."""
+    """Return the lines of a table.
+
+    And an empty one below it.
+    """
     lines = [f"| {' | '.join(head)} |", f"|{'---|' * len(head)}"]
     lines += [f"| {' | '.join(part or '-' for part in row)} |" for row in rows]
     return [*lines, ""]

@@ -45,7 +45,10 @@ def read(data: dict[str, Any]) -> Reproduction:
 
 
 def merged(text: str, found: list[Chapter]) -> list[str]:
-    """Return the table of limits with new rows for the experiments found."""
+    """Return the limits with new rows.
+
+    They are those of the experiments found.
+    """
     new = summary(found)
     named = {chapter.title.partition(":")[0] for chapter in found}
     old = [line for line in text.splitlines() if line.startswith("| ")][1:]
@@ -89,7 +92,10 @@ def measured(compared: list[dict[str, Any]]) -> list[str]:
 
 
 def put(text: str, mark: str, lines: list[str]) -> str:
-    """Return the page with other lines between the marks of a part."""
+    """Return the page with a part replaced.
+
+    Other lines are between its marks.
+    """
     begin, end = f"<!-- {mark}:begin -->\n", f"<!-- {mark}:end -->\n"
     head, _, rest = text.partition(begin)
     return f"{head}{begin}\n" + "\n".join(lines).rstrip() + f"\n\n{end}{rest.partition(end)[2]}"

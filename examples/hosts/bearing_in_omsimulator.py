@@ -11,7 +11,10 @@ from OMSimulator import SSP, CRef, Settings
 
 
 def push(file: str, force: float, end: float = 0.01) -> float:
-    """Return where the inner ring is after a push along z [m]."""
+    """Return the inner ring's place [m].
+
+    After a push along z.
+    """
     Settings.suppressPath = True
     model = SSP()
     model.addResource(file, new_name="resources/bearing.fmu")

@@ -30,11 +30,14 @@ class FromPython:
 
     @property
     def time(self) -> float:
-        """Where the bearing stands [s]."""
+        """Present time of the bearing [s]."""
         return self._bearing.time_s
 
     def step(self, until: float, pose: Sequence[float], rate: Sequence[float], acceleration: Sequence[float]) -> Any:
-        """Lead the ring from a pose on; returns force [N] and moment [N m] of the bearing on it at the end."""
+        """Move the ring from a pose on.
+
+        Return force [N] and moment [N m] of the bearing on it at the end.
+        """
         for i, name in enumerate(POSE):
             self._bearing.give(f"inner_ring.{name}", pose[i], rate[i], acceleration[i])
         return self._bearing.step_to(until).reactions["inner_ring"]
@@ -52,7 +55,10 @@ class FromPython:
 
 
 class FromUnit:
-    """The bearing in an FMU that was exported with ``--couple motion``; needs FMPy."""
+    """Bearing in an FMU with prescribed motion.
+
+    Exported with ``--couple motion``; needs FMPy.
+    """
 
     def __init__(self, file: str | Path) -> None:
         from fmpy import extract, read_model_description
@@ -76,7 +82,10 @@ class FromUnit:
         self.pose, self.time = np.array(self.unit.getReal(self._lead[: len(POSE)])), 0.0
 
     def step(self, until: float, pose: Sequence[float], rate: Sequence[float], acceleration: Sequence[float]) -> Any:
-        """Lead the ring from a pose on; returns force [N] and moment [N m] of the bearing on it at the end."""
+        """Move the ring from a pose on.
+
+        Return force [N] and moment [N m] of the bearing on it at the end.
+        """
         self.unit.setReal(self._lead, [float(value) for value in (*pose, *rate, *acceleration)])
         self.unit.doStep(self.time, until - self.time)
         self.time = until
@@ -96,6 +105,9 @@ class FromUnit:
         self.unit.freeFMUState(state[1])
 
     def energy(self) -> tuple[float, float]:
-        """Return the energy that has come in [J] and the speed of the ring [rad/s]."""
+        """Return the received energy [J] and speed.
+
+        The speed is that of the ring [rad/s].
+        """
         found = self.unit.getReal([self._energy, self._spin])
         return float(found[0]), float(found[1])

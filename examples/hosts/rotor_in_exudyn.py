@@ -41,12 +41,18 @@ PUSH, PUSHED_AT, PUSHED_IN = -400.0, 1e-3, 0.2e-3  # [N], [s]: it grows to its f
 
 
 def push(time: float) -> float:
-    """Return the vertical force on the rotor without its weight [N]."""
+    """Return the vertical push on the rotor [N].
+
+    Its weight is not included.
+    """
     return PUSH * min(max((time - PUSHED_AT) / PUSHED_IN, 0.0), 1.0)
 
 
 class Element:
-    """A bearing as a force element: the force at the end of a step, as often as it is asked for."""
+    """Bearing as a force element.
+
+    The force at the end of a step, as often as it is asked for.
+    """
 
     def __init__(self, bearing: Any) -> None:
         self._bearing, self._state = bearing, bearing.save()
@@ -55,7 +61,10 @@ class Element:
         self.reaction = self.force(self._begin + 1e-9, self._rate)
 
     def force(self, time: float, rate: Any) -> Any:
-        """Return force [N] and moment [N m] on the shaft at a time, where it has the rate."""
+        """Return force [N] and moment [N m].
+
+        On the shaft at a time, where it has the rate.
+        """
         step = time - self._begin
         if step > 0.0:
             self._bearing.back_to(self._state)
@@ -63,7 +72,10 @@ class Element:
         return self.reaction
 
     def accept(self, time: float, pose: Any, rate: Any) -> None:
-        """End a step where the shaft has this pose and rate."""
+        """End a step at this pose and rate.
+
+        They are those of the shaft.
+        """
         self.force(time, rate)
         self._bearing.forget(self._state)
         self.pose, self._rate, self._begin, self._state = pose, rate, time, self._bearing.save()
@@ -71,7 +83,7 @@ class Element:
 
 @dataclass(frozen=True)
 class Path:
-    """What became of the rotor, at the ends of steps.
+    """Path of the rotor at step ends.
 
     Attributes
     ----------
@@ -90,7 +102,10 @@ class Path:
 
 
 def rotor(make: Callable[[], Any], end: float = END, step: float = STEP) -> Path:
-    """Return the path of a rotor pushed half-way down its shaft; `make` gives a bearing."""
+    """Return the path of a pushed rotor.
+
+    The push is half-way down its shaft; `make` gives a bearing.
+    """
     import exudyn as exu
     import exudyn.itemInterface as items
 
@@ -125,7 +140,10 @@ def rotor(make: Callable[[], Any], end: float = END, step: float = STEP) -> Path
         path.append((time, where, speed, [element.reaction for element in elements]))
 
     def accept(mbs: Any, time: float) -> bool:
-        """Let the bearings go where the shaft is at the end of a step."""
+        """Move the bearings to the step's end.
+
+        The shaft is there.
+        """
         for element, place in zip(elements, places, strict=True):
             where, turned = (mbs.GetObjectOutputBody(body, each, place) for each in (kind.Position, kind.Rotation))
             speed = mbs.GetObjectOutputBody(body, kind.Velocity, place)
@@ -144,7 +162,10 @@ def rotor(make: Callable[[], Any], end: float = END, step: float = STEP) -> Path
 
 
 def answer(element: Element) -> Callable[..., list[float]]:
-    """Return what Exudyn calls for the force in a connector, which pulls its ends together."""
+    """Return Exudyn's function of a connector.
+
+    Its force pulls its ends together.
+    """
 
     def force(mbs: Any, time: float, item: int, *seen: Any) -> list[float]:
         _, _, speed, turning, *_ = seen  # behind displacement and rotation

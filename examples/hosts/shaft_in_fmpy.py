@@ -23,7 +23,10 @@ WATCHED = [
 
 
 def pushed(file: str, end: float = END) -> Any:
-    """Return the outputs over time with a push at the gear between two times."""
+    """Return the outputs after a push.
+
+    Over time, at the gear between two times.
+    """
     times = np.arange(0.0, end + STEP, STEP)
     pushes = np.where((times >= PUSH[0]) & (times < PUSH[1]), FORCE, 0.0)
     given = np.array(list(zip(times, pushes, strict=True)), dtype=[("time", "f8"), ("gears.wheel.force_z", "f8")])

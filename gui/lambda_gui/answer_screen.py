@@ -41,7 +41,9 @@ QUESTIONS = {
 
 
 class AnswerScreen(Screen[None]):
-    """Questions on tabs, and below them the answer to the chosen one.
+    """Questions on tabs above their answer.
+
+    The answer belongs to the chosen tab.
 
     Parameters
     ----------
@@ -81,7 +83,10 @@ class AnswerScreen(Screen[None]):
         yield Footer()
 
     def on_mount(self) -> None:
-        """Take the keyboard; a change of the theme draws the answer anew."""
+        """Take the keyboard.
+
+        A change of the theme draws the answer anew.
+        """
         self.query_one(Tabs).focus()
         self.app.theme_changed_signal.subscribe(self, lambda _: self._show())
 
@@ -104,7 +109,7 @@ class AnswerScreen(Screen[None]):
 
     @property
     def is_answered(self) -> bool:
-        """Whether the answer to the question is known."""
+        """True once the question is answered."""
         return self.question in self._found
 
     def _say(self, words: str) -> None:
@@ -156,6 +161,9 @@ class AnswerScreen(Screen[None]):
 
 
 def _drawn(view: ViewData) -> ViewData:
-    """Return a view without the panels that draw the shaft itself, which the builder shows."""
+    """Return a view without the shaft's panels.
+
+    The builder draws the shaft itself.
+    """
     panels = tuple(panel for panel in view.panels if panel.arrows is None)
     return replace(view, panels=panels, notes=view.notes[-1:])

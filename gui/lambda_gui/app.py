@@ -93,7 +93,9 @@ class BuilderApp(CaseApp):
             self.open(self._start)
 
     def watch_app_focus(self, focus: bool) -> None:
-        """Give the keyboard to something, also in a screen that was opened while a browser's page had not got it.
+        """Give the keyboard to a widget.
+
+        This includes a screen that was opened while a browser's page had not got it.
 
         A key tells so as well as the page does: the page may say that it lost the keyboard and nothing when it is back.
         """
@@ -101,7 +103,10 @@ class BuilderApp(CaseApp):
             self.screen.focus_next()
 
     def stands(self) -> None:
-        """Take what is loaded as there to stay: a garbage collection over it stops the picture for 0.1 s."""
+        """Mark what is loaded as permanent.
+
+        A garbage collection over it stops the picture for 0.1 s.
+        """
         if self._is_alone:
             gc.collect()
             gc.freeze()
@@ -142,7 +147,10 @@ class BuilderApp(CaseApp):
     # -- runs --
 
     def action_run_case(self) -> None:
-        """Run the case as it stands, saved or not; a shaft moves with all its bearings."""
+        """Run the present case, saved or not.
+
+        A shaft moves with all its bearings.
+        """
         self.builder.when_checked(self._run_case)
 
     def _run_case(self) -> None:
@@ -166,7 +174,10 @@ class BuilderApp(CaseApp):
     # -- studies --
 
     def action_study(self) -> None:
-        """Set up a study of the case; the option under the keyboard is the first that varies."""
+        """Set up a study of the case.
+
+        The option under the keyboard is the first that varies.
+        """
         self.builder.when_checked(self._set_up_study)
 
     def _set_up_study(self) -> None:
@@ -242,7 +253,7 @@ class BuilderApp(CaseApp):
         self.notify(f"{run.name}: {run.message}", severity=severity, timeout=6)
 
     def run_words(self) -> str:
-        """Return a few words about the runs that are going on."""
+        """Return a text about the active runs."""
         active = self.queue.active
         if not active:
             return ""
@@ -268,7 +279,10 @@ class BuilderApp(CaseApp):
         self.push_screen(ResultsScreen(where, path))
 
     def save_picture(self) -> None:
-        """Write the screen as SVG into the folder of the case; a file that stands there is kept."""
+        """Write the screen as SVG.
+
+        The file goes into the folder of the case; an existing file is kept.
+        """
         from lambda_core.api import save_text
 
         path = self.builder.draft.path
@@ -315,7 +329,10 @@ class BuilderApp(CaseApp):
         self.exit()
 
     def get_system_commands(self, screen: Screen[Any]) -> Iterable[SystemCommand]:
-        """Return what the command palette offers besides the options of the case."""
+        """Return the commands of the palette.
+
+        They come in addition to the options of the case.
+        """
         yield SystemCommand("Open a case", "a file, a built-in case, or an empty model", self.action_open_case)
         yield SystemCommand("Save", "write the case to its file", self.save_case)
         yield SystemCommand("Save as", "write the case to another file", self.action_save_as)

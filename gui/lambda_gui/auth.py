@@ -58,7 +58,10 @@ class LockedServer(Server):  # type: ignore[misc, unused-ignore]
         self._sockets = 0
 
     def initialize_logging(self) -> None:
-        """Say nothing of requests: their paths hold the secret, and what strangers send would fill the terminal."""
+        """Log no requests.
+
+        Their paths hold the secret, and those of strangers would fill the terminal.
+        """
         logging.getLogger("aiohttp").setLevel(logging.CRITICAL)
 
     async def _make_app(self) -> web.Application:
@@ -94,7 +97,10 @@ class LockedServer(Server):  # type: ignore[misc, unused-ignore]
         self._announce(f"http://{host}:{self.port}/{self._word}/")
 
     async def _check(self, request: web.Request, handler: Handler) -> web.StreamResponse:
-        """Refuse requests that came from another page or under another name; tell browsers to load nothing else."""
+        """Refuse foreign requests.
+
+        They came from another page or under another name; browsers get the order to load nothing else.
+        """
         if self._names and request.url.host not in self._names:
             raise web.HTTPForbidden(text=f"this is not {request.host}")
         if request.headers.get("Origin") not in (None, f"{request.scheme}://{request.host}"):
@@ -112,7 +118,10 @@ class LockedServer(Server):  # type: ignore[misc, unused-ignore]
         return answer
 
     async def handle_index(self, request: web.Request) -> Any:
-        """Serve the page, with addresses under the name that the browser asked for and nothing from other places."""
+        """Serve the page.
+
+        Its addresses are under the name that the browser asked for; nothing comes from other places.
+        """
         self.public_url = f"{request.scheme}://{request.host}"
         page: Any = await super().handle_index(request)
         outside = re.compile(_FROM_OUTSIDE.format(host=re.escape(request.host)))

@@ -26,7 +26,10 @@ Dot = tuple[float, float]
 
 
 class _Canvas:
-    """Characters, each with a colour; dots are collected into braille signs."""
+    """Coloured characters of a drawing.
+
+    Dots are collected into braille signs.
+    """
 
     def __init__(self) -> None:
         self._signs: dict[tuple[int, int], int] = {}
@@ -34,7 +37,10 @@ class _Canvas:
         self._letters: dict[tuple[int, int], str] = {}
 
     def dots(self, places: Iterable[Dot], colour: str) -> None:
-        """Set dots, given from the centre with y to the right and z up."""
+        """Set dots from the centre.
+
+        y is to the right and z up.
+        """
         for y, z in places:
             across, down = round(_CENTRE[0] + y), round(_CENTRE[1] - z)
             cell = (down // 4, across // 2)
@@ -60,7 +66,9 @@ class _Canvas:
 
 
 def axes_sketch(colours: Mapping[str, str]) -> Text:
-    """Draw rings, balls, axes, azimuth, and the positive sense of rotation.
+    """Draw rings, balls, axes and azimuth.
+
+    Also the positive sense of rotation.
 
     Parameters
     ----------
@@ -88,7 +96,10 @@ def axes_sketch(colours: Mapping[str, str]) -> Text:
 
 
 def _arc(y: float, z: float, radius: float, first: float = 0.0, last: float = 360.0) -> Iterable[Dot]:
-    """Return dots of a circle, or of the part between two angles in degrees."""
+    """Return dots of a circle or arc.
+
+    The arc is between two angles in degrees.
+    """
     steps = max(8, round(4.0 * radius * (last - first) / 360.0 * math.pi / 2.0))
     for step in range(steps + 1):
         angle = math.radians(first + (last - first) * step / steps)

@@ -32,7 +32,10 @@ class Branch(Row):
         raise NotImplementedError
 
     def shape(self) -> object:
-        """Return what decides which rows follow; they are made anew when it changes."""
+        """Return what decides the next rows.
+
+        They are made anew when it changes.
+        """
         raise NotImplementedError
 
     def on_mount(self) -> None:
@@ -41,7 +44,10 @@ class Branch(Row):
         super().on_mount()
 
     def show(self) -> None:
-        """Show what is written; make the rows anew where they are others."""
+        """Show the written values.
+
+        Other rows are made anew.
+        """
         self.mark()
         if self.shape() != self._shape:
             self.grow()

@@ -93,7 +93,10 @@ class BuilderScreen(LiveDraft):
     # -- layout --
 
     def compose(self) -> ComposeResult:
-        """Lay out head, tree, form, numbers and drawing: of a bearing at the side, of a shaft below."""
+        """Lay out head, tree, form, numbers and drawing.
+
+        The drawing of a bearing is at the side, that of a shaft below.
+        """
         yield Head()
         is_below = self.has_class("-drawing-below")
         with Horizontal(id="body"):
@@ -133,7 +136,10 @@ class BuilderScreen(LiveDraft):
     # -- tree and form --
 
     def on_tree_node_highlighted(self, event: Tree.NodeHighlighted[Node]) -> None:
-        """Show the form of the node under the cursor; a held arrow key does not draw every one it passes."""
+        """Show the form of the highlighted node.
+
+        A held arrow key does not draw every one it passes.
+        """
         if self._form_timer is not None:
             self._form_timer.stop()
         node = event.node.data
@@ -141,7 +147,10 @@ class BuilderScreen(LiveDraft):
             self._form_timer = self.set_timer(0.04, lambda: self.show_node(node))
 
     async def show_node(self, node: Node) -> None:
-        """Put the form of a node in place, in one picture with what is written and what is wrong."""
+        """Put the form of a node in place.
+
+        Values and mistakes appear in the same picture.
+        """
         if not self.is_here:
             return
         if self.form is None or self.form.node is not node:
@@ -170,7 +179,10 @@ class BuilderScreen(LiveDraft):
 
     @property
     def bearing(self) -> Keys:
-        """Where the bearing is written that a catalogue row is taken for: that of the form, else the first one."""
+        """Place of the bearing for a catalogue row.
+
+        It is that of the form, else the first one.
+        """
         if "bearing" in self.draft.root.model_fields:
             return ("bearing",)
         table = self.form.node.table[:2] if self.form is not None else ()
@@ -208,7 +220,10 @@ class BuilderScreen(LiveDraft):
         self._change_tables(event.what, event.node)
 
     def _change_tables(self, what: str, node: Node, name: str = "") -> None:
-        """Let a table of a section come or go, or have another name, and go there."""
+        """Add, remove or rename a table, go there.
+
+        It is a table of a section.
+        """
         if node.section is None or (node.section.installed and what == "add" and not name):
             return
         if what == "remove":
@@ -229,7 +244,10 @@ class BuilderScreen(LiveDraft):
             self._show_node_help(self.form.node)
 
     def go_to(self, keys: Keys, *, select: bool = True) -> None:
-        """Bring an option into view, ready to be changed; with its text selected, it is typed over."""
+        """Show an option, ready to be changed.
+
+        Its text is selected, so typing replaces it.
+        """
         tree = self.query_one(ModelTree)
         tree.refresh_marks(self.check.problems)
         node = tree.node_at(keys) or node_of(Problem(".".join(keys), ""), tree.all_nodes())
@@ -270,7 +288,10 @@ class BuilderScreen(LiveDraft):
         super().edited()
 
     def show_check(self) -> None:
-        """Show what the last check found: marks in the tree, mistakes at their fields, what follows."""
+        """Show the results of the last check.
+
+        They are marks in the tree, mistakes at their fields, and derived values.
+        """
         self.query_one(ModelTree).refresh_marks(self.check.problems)
         if self.form is not None:
             self.form.reload(self.check.problems)
@@ -352,7 +373,10 @@ class BuilderScreen(LiveDraft):
             self.app.push_screen(AnswerScreen(self.draft))
 
     def what_is_wrong(self) -> str:
-        """Return how many mistakes the case has, and the key that leads to them."""
+        """Return the number of mistakes and their key.
+
+        The key leads to them.
+        """
         count = len(self.check.problems)
         return f"correct {count} mistake{'s' * (count != 1)} first: F8"
 
@@ -375,13 +399,19 @@ class BuilderScreen(LiveDraft):
         self._show_head()
 
     def action_catalogue(self) -> None:
-        """Choose a bearing, or an oil when its form is shown."""
+        """Choose a bearing, or an oil.
+
+        The form of the oil decides for the oil.
+        """
         form = self.form
         is_oil = form is not None and form.node.key.startswith("lubricant")
         self.app.show_catalogue("lubricant" if is_oil else "bearing")  # type: ignore[attr-defined]
 
     def take(self, found: Taken) -> None:
-        """Put a row of the catalogue into the case; values of another bearing or oil written here go."""
+        """Put a catalogue row into the case.
+
+        Values of another bearing or oil written here are removed.
+        """
         if found.kind == "bearing":
             self.draft.set(*self.bearing, "designation", value=found.name)
             self.draft.set(*self.bearing, "maker", value=found.maker)

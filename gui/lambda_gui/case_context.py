@@ -17,7 +17,10 @@ Name = Literal["bearing", "lubricant", "material", "cage"]
 
 
 class CaseContext(Surroundings):
-    """Resolved values of the last check without mistakes, and the catalogue's names."""
+    """Resolved values and names of the catalogue.
+
+    The values are those of the last check without mistakes.
+    """
 
     def __init__(self, draft: Draft) -> None:
         self.draft = draft
@@ -25,7 +28,10 @@ class CaseContext(Surroundings):
         self._names: dict[str, list[str]] = {}
 
     def learn(self, values: Sequence[ValueReport]) -> None:
-        """Take new values; a case with mistakes keeps those it had."""
+        """Take new values.
+
+        A case with mistakes keeps those it had.
+        """
         if values:
             self._values = {value.path: value for value in values}
 
@@ -34,7 +40,10 @@ class CaseContext(Surroundings):
         self._names.clear()
 
     def resolved(self, keys: Keys) -> str:
-        """Return the value in effect; ≈ and the grade where it is estimated or assumed."""
+        """Return the value in effect.
+
+        It has ≈ and the grade where it is estimated or assumed.
+        """
         value = self.value(keys)
         if value is None or value.text == "None":
             return ""
@@ -55,7 +64,10 @@ class CaseContext(Surroundings):
         return [v for path, v in self._values.items() if path.rpartition(".")[0] == prefix]
 
     def value(self, keys: Keys) -> ValueReport | None:
-        """Return the resolved value of an option that is not written."""
+        """Return the resolved value of a missing option.
+
+        The case does not write the option.
+        """
         if self.draft.get(*keys) is not None:
             return None
         return self._values.get(_path(keys))

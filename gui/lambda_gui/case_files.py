@@ -20,16 +20,25 @@ if TYPE_CHECKING:
 
 
 class CaseApp(App[None]):
-    """Works on one case at a time; nothing unsaved is lost without a question."""
+    """Application for one case at a time.
+
+    Nothing unsaved is lost without a question.
+    """
 
     @property
     def builder(self) -> BuilderScreen:
-        """The screen of the case; there is one, whatever lies over it."""
+        """Screen of the case.
+
+        There is one, whatever lies over it.
+        """
         (screen,) = (shown for shown in self.screen_stack if isinstance(shown, BuilderScreen))
         return screen
 
     def open(self, source: str) -> None:
-        """Work on a case file, a copy of a built-in case, what is usual in a machine, an empty model or shaft."""
+        """Open a case.
+
+        A case file, a copy of a built-in case, what is usual in a machine, an empty model or shaft.
+        """
         try:
             if source.startswith(MACHINE):
                 draft = api.draft(template=source.removeprefix(MACHINE))
@@ -47,7 +56,10 @@ class CaseApp(App[None]):
         self._open(draft)
 
     def _open(self, draft: Draft | None, then: Callable[[], None] | None = None) -> None:
-        """Work on a draft in place of the one before; `then` is called unless unsaved work on it is recovered."""
+        """Open a draft in place of another.
+
+        `then` is called unless unsaved work on it is recovered.
+        """
         draft = draft or api.draft()
         screen = BuilderScreen(draft)
         if any(isinstance(shown, BuilderScreen) for shown in self.screen_stack):
@@ -83,7 +95,10 @@ class CaseApp(App[None]):
         )
 
     def _recover(self, rescue: recovery.Rescue, draft: Draft) -> None:
-        """Put rescued work into the draft; work without a file has another outline where it has a shaft."""
+        """Put rescued work into the draft.
+
+        Work without a file has another outline where it has a shaft.
+        """
         if draft.path is not None or rescue.has_shaft == ("shaft" in draft.root.model_fields):
             recovery.take(rescue, draft)
             self.builder.edited()
@@ -122,7 +137,10 @@ class CaseApp(App[None]):
         self.push_screen(Ask(f"{name} has unsaved changes.", ["save", "discard the changes", "go back"]), answered)
 
     def save_case(self, then: Callable[[], None] | None = None) -> None:
-        """Save, asking for a name or whether to overwrite where that is needed."""
+        """Save, with questions where needed.
+
+        They are about a name or about overwriting.
+        """
         draft = self.builder.draft
         if draft.path is None:
             self.action_save_as(then)

@@ -117,7 +117,10 @@ class CatalogueScreen(Screen[Taken | None]):
         self._timer = self.set_timer(0.03, self.find)
 
     def find(self, keep: str = "") -> None:
-        """Fill the list with what matches; `keep` is the name to stay on."""
+        """Fill the list with matches.
+
+        `keep` is the name to stay on.
+        """
         text, table = self.query_one(Input).value, self.query_one(DataTable)
         self._listed = text
         table.clear()
@@ -212,7 +215,10 @@ class CatalogueScreen(Screen[Taken | None]):
         details.scroll_relative(y=by * max(1, details.size.height - 1), animate=False)
 
     def action_other(self) -> None:
-        """Change between bearings and lubricants; a filter that matches only the other kind stays."""
+        """Change between bearings and lubricants.
+
+        A filter that matches only the other kind stays.
+        """
         self._catch_up()
         text = self.query_one(Input).value if self._row is None and self._others() else ""
         self._kind = "lubricant" if self._kind == "bearing" else "bearing"
@@ -233,7 +239,7 @@ class CatalogueScreen(Screen[Taken | None]):
             self.dismiss(Taken("lubricant", row.name))  # type: ignore[union-attr]
 
     def action_edit(self) -> None:
-        """Begin a row of one's own with a copy of this one."""
+        """Copy this row to an own one."""
         from lambda_db.catalogue import SqlCatalogue
 
         from lambda_gui.own_row import OwnRow

@@ -70,7 +70,10 @@ class PanelPlot(Plot):
         self.refresh()
 
     def _polar(self, panel: Panel) -> None:
-        """Draw angles counter-clockwise from the right, to one scale, over circles of round radius."""
+        """Draw angles counter-clockwise from the right.
+
+        They have one scale, over circles of round radius.
+        """
         outer = max((float(np.nanmax(series.y, initial=0.0)) for series in panel.series), default=0.0) or 1.0
         circle = np.linspace(0.0, 2.0 * np.pi, 73)
         for radius in round_numbers(0.0, outer, 2)[1:] or [outer]:
@@ -93,7 +96,10 @@ class PanelPlot(Plot):
         self.plt.frame(False)
 
     def _to_scale(self, x: tuple[float, float], y: tuple[float, float]) -> None:
-        """Widen one axis so that both have one scale; a cell is taken as twice as high as wide."""
+        """Widen one axis to a common scale.
+
+        A cell is taken as twice as high as wide.
+        """
         wide, high = max(4, self.size.width - 8), 2 * max(4, self.size.height - 4)
         middle_x, middle_y = 0.5 * sum(x), 0.5 * sum(y)
         unit = 1.05 * max((x[1] - x[0]) / wide, (y[1] - y[0]) / high)
@@ -199,7 +205,10 @@ class PanelPlot(Plot):
 
 
 def _scaled(values: FloatArray, axis: Axis) -> FloatArray:
-    """Return what is drawn of values: their logarithm on a logarithmic axis."""
+    """Return the drawn values.
+
+    They are logarithms on a logarithmic axis.
+    """
     values = np.asarray(values, dtype=np.float64)
     if not axis.log:
         return values
@@ -219,7 +228,10 @@ class BarPlot(Widget):
         self._panel = panel
 
     def render(self) -> Text:
-        """Draw one line per bar, or per stack of bars, under the legend."""
+        """Draw one line per bar or stack.
+
+        The legend is above them.
+        """
         panel, colours = self._panel, self.app.theme_variables
         names = list(panel.x.categories) or [f"{x:g}" for x in panel.series[0].x]
         rows = np.array([np.nan_to_num(series.y) for series in panel.series])
@@ -257,7 +269,10 @@ class BarPlot(Widget):
 
 
 def rows_of(data: ViewData, width: int, height: int) -> list[Widget]:
-    """Return the panels of a view in rows, and its notes, for a place of so many columns and lines."""
+    """Return a view's panels in rows.
+
+    With its notes, for a place of so many columns and lines.
+    """
     side, high = shape_of(data.panels, data.columns, width, height)
     rows: list[Widget] = []
     for first in range(0, len(data.panels), side):
@@ -270,7 +285,10 @@ def rows_of(data: ViewData, width: int, height: int) -> list[Widget]:
 
 
 def lines_of(panel: Panel, width: int) -> int:
-    """Return how many lines the bars of a panel take, their title and legend included; 0 for other drawings."""
+    """Return the lines of a panel's bars.
+
+    Title and legend count; 0 for other drawings.
+    """
     if panel.field is not None or not panel.series or any(series.kind != "bars" for series in panel.series):
         return 0
     places = len(panel.x.categories) or len(panel.series[0].x)
@@ -279,7 +297,10 @@ def lines_of(panel: Panel, width: int) -> int:
 
 
 def shape_of(panels: Sequence[Panel], columns: int, width: int, height: int) -> tuple[int, int]:
-    """Return how many panels stand side by side, and how high each is, in characters."""
+    """Return columns and height of the panels.
+
+    The height is in characters.
+    """
     side = max(1, min(columns, width // 48))
     rows = math.ceil(len(panels) / side)
     return side, max(14, (height - 3) // max(rows, 1))

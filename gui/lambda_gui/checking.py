@@ -21,7 +21,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Check:
-    """The outcome of checking a draft: mistakes, or the resolved model and its values."""
+    """Outcome of a draft's check.
+
+    It has mistakes, or the resolved model and its values.
+    """
 
     problems: tuple[Problem, ...] = ()
     model: BearingModel | MachineModel | None = None
@@ -40,7 +43,9 @@ class Check:
 
 
 class Checker:
-    """Checks drafts against one open catalogue: opening it takes as long as a check.
+    """Checker of drafts with one open catalogue.
+
+    Opening it takes as long as a check.
 
     Parameters
     ----------
@@ -54,7 +59,10 @@ class Checker:
         self._turn = threading.Lock()
 
     def check(self, tables: Mapping[str, Any], folder: Path | None) -> Check:
-        """Check tables as they would stand in a file; heavy parts are imported at the first call."""
+        """Check tables as in a file.
+
+        Heavy parts are imported at the first call.
+        """
         from lambda_core import api
 
         try:
@@ -69,13 +77,19 @@ class Checker:
             return Check((Problem("", str(error)),))
 
     def _order(self, problem: Problem) -> int:
-        """Return the place of a problem's table in the case, so that mistakes come in the order of the tree."""
+        """Return a problem's order in the case.
+
+        Mistakes then come in the order of the tree.
+        """
         names = list(self._root.model_fields)
         first = problem.where.partition(".")[0]
         return names.index(first) if first in names else len(names)
 
     def close(self) -> None:
-        """Release the catalogue; the next check opens it anew, with what has been added meanwhile."""
+        """Release the catalogue.
+
+        The next check opens it anew, with new rows.
+        """
         with self._turn:
             if self._catalogue is not None:
                 self._catalogue.close()
@@ -83,7 +97,10 @@ class Checker:
 
 
 def _values(model: BearingModel | MachineModel) -> Iterator[ValueReport]:
-    """Yield every value with its origin; those of a bearing on a shaft at the place of that bearing."""
+    """Yield every value with its origin.
+
+    Those of a bearing on a shaft are at the place of that bearing.
+    """
     from lambda_core.api import value_reports
 
     bearings = getattr(model, "bearings", None)
@@ -108,14 +125,20 @@ def _warnings(model: BearingModel | MachineModel) -> Sequence[str]:
 
 
 def plugin_faults() -> list[str]:
-    """Return a sentence for each plugin that is broken; one that was switched off on purpose is none."""
+    """Return a sentence for each broken plugin.
+
+    One that was switched off on purpose is none.
+    """
     from lambda_core.api import registry
 
     return [f"{fault.distribution}: {fault.message}" for fault in registry().faults if fault.is_broken]
 
 
 def _with_needed(tables: Mapping[str, Any], root: type[BaseModel]) -> dict[str, Any]:
-    """Return a copy with an empty table where a required one is missing: the mistakes are then about its options."""
+    """Return a copy with all required tables.
+
+    A missing one is empty: the mistakes are then about its options.
+    """
     needed = (
         name for name, info in root.model_fields.items()
         if info.is_required() and get_origin(info.annotation) is not dict and model_at(root, (name,))
@@ -124,12 +147,18 @@ def _with_needed(tables: Mapping[str, Any], root: type[BaseModel]) -> dict[str, 
 
 
 def belongs(problem: Problem, place: Keys) -> bool:
-    """Tell whether a problem is about the option at a place, or about a part of it."""
+    """Tell whether a problem concerns a place.
+
+    It is about the option there, or about a part of it.
+    """
     return f"{problem.where}.".startswith(f"{'.'.join(place)}.")
 
 
 def node_of(problem: Problem, nodes: Iterable[Node]) -> Node | None:
-    """Return the node with the option that a problem is about; the closest one when it has none of its own."""
+    """Return the node of a problem's option.
+
+    The closest one when it has none of its own.
+    """
     best: tuple[int, Node] | None = None
     near: Node | None = None
     sibling: Node | None = None

@@ -24,7 +24,10 @@ from lambda_gui.lifecycle import is_here
 
 @dataclass(frozen=True)
 class Entry:
-    """One entry of a choice: what is written, how it reads in the list, what it means, how it reads when chosen."""
+    """One entry of a choice.
+
+    Its value, its text in the list, its meaning, its text when chosen.
+    """
 
     value: str
     label: str
@@ -33,13 +36,19 @@ class Entry:
 
 
 def unset(known: str, otherwise: str = "default") -> Entry:
-    """Return the entry for nothing written: in grey it reads as the value that holds then, as in a field."""
+    """Return the entry for nothing written.
+
+    In grey it reads as the value that then applies, as in a field.
+    """
     label = f"default ({known})" if known else otherwise
     return Entry("", label, "as when nothing is written", known or otherwise)
 
 
 class PickList(ModalScreen[str | None]):
-    """The open list of a choice; answers with the value, None when left with Esc."""
+    """Open list of a choice.
+
+    It answers with the value, None when left with Esc.
+    """
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "dismiss(None)", "Back"),
@@ -103,7 +112,9 @@ class PickList(ModalScreen[str | None]):
 
 
 class Choice(Widget, can_focus=True):
-    """Shows one of several values; Enter or a click opens the list.
+    """Choice of one of several values.
+
+    Enter or a click opens the list.
 
     Parameters
     ----------

@@ -17,7 +17,10 @@ _LINE = 70  # characters that fit under a hit on a narrow screen
 
 
 def gist(about: str) -> str:
-    """Return what comes before the first aside of a description: one line under a hit."""
+    """Return the beginning of a description.
+
+    It ends before the first aside: one line under a hit.
+    """
     first = re.split(r"[;:(]", about, maxsplit=1)[0].strip()
     return first if len(first) <= _LINE else first.split(",")[0]
 

@@ -27,7 +27,10 @@ Fact = tuple[str, str, str]  # name, number, unit
 
 
 class Derived(Static):
-    """Derived quantities, in grey while they are solved anew, or the mistakes that prevent them."""
+    """Derived quantities or the mistakes.
+
+    They are grey while they are solved anew; mistakes prevent them.
+    """
 
     DEFAULT_CSS = """
     Derived { width: 1fr; height: 1fr; padding: 0 1; }
@@ -41,7 +44,10 @@ class Derived(Static):
         self.is_current = False  # whether the numbers are those of the case as it stands
 
     def show_check(self, check: Check) -> None:
-        """Take the outcome of a check; an estimate of the case before is shown as such."""
+        """Take the outcome of a check.
+
+        An estimate of the case before is shown as such.
+        """
         self._check = check
         self.is_current = False
         self.draw()
@@ -70,7 +76,10 @@ class Derived(Static):
             self.update(self._of_a_bearing(check.alone, self.app.units))  # type: ignore[attr-defined]
 
     def warnings(self) -> list[str]:
-        """Return where the case leaves the limits of bearing, oil and laws: before solving, and after."""
+        """Return the warnings of the case.
+
+        It leaves the limits of bearing, oil and laws: before solving, and after.
+        """
         if self._check is None or self._check.model is None:
             return []
         solved = _warned_by(self.estimate.equilibrium) if self.estimate is not None and self.is_current else []
@@ -91,7 +100,10 @@ class Derived(Static):
         return Text("\n").join([*self._warned(warned, told), told])
 
     def _warned(self, warnings: Sequence[str], told: Text) -> list[Text]:
-        """Write the warnings, as whole sentences as far as they leave room for the numbers, else cut to one line."""
+        """Write the warnings.
+
+        As whole sentences as far as they leave room for the numbers, else cut to one line.
+        """
         width, colour = max(20, self.size.width), self.app.theme_variables["warning"]
         room = max(1, self.size.height - len(told.wrap(self.app.console, width)))
         lines = [Text.assemble(("▲ ", colour), warning) for warning in warnings]
@@ -133,7 +145,10 @@ class Derived(Static):
     # -- a machine --
 
     def _of_a_machine(self, units: UnitSystem) -> Text:
-        """Return a line for each bearing, then the numbers of the shaft."""
+        """Return the lines of a machine.
+
+        A line for each bearing, then the numbers of the shaft.
+        """
         estimate: Any = self.estimate
         if estimate is None:
             return Text(self._say or "solving ...", style="dim italic")
@@ -154,7 +169,10 @@ class Derived(Static):
     # -- mistakes --
 
     def _mistakes(self, check: Check) -> Text:
-        """Write as many complete mistakes as there is room for; F8 goes to the others."""
+        """Write as many complete mistakes as fit.
+
+        F8 goes to the others.
+        """
         width, room = max(20, self.size.width), max(self.size.height, 1)
         shown: list[Text] = []
         used = 0
@@ -195,7 +213,10 @@ _LONG = {
 
 
 def _warned_by(found: Any) -> list[str]:
-    """Return requirements that are not met, and warnings; those of a bearing on a shaft begin with its name."""
+    """Return unmet requirements and warnings.
+
+    Those of a bearing on a shaft begin with its name.
+    """
     bearings = getattr(found, "bearings", None)
     if bearings is None:
         return [*_not_met(found.verdict), *found.warnings]
@@ -246,7 +267,10 @@ def _numbers(estimate: Estimate) -> Iterable[Fact]:
 
 
 def _table(report: MachineEquilibrium, units: UnitSystem, width: int, style: str) -> list[Text]:
-    """Return one line per bearing under two lines of heads, with as many columns as there is room for."""
+    """Return one line per bearing.
+
+    Under two lines of heads, with as many columns as there is room for.
+    """
     names = [bearing.name for bearing in report.bearings]
     first = min(max(map(len, names)), 12)
     shown: list[tuple[int, list[str]]] = []
@@ -313,12 +337,18 @@ _COLUMNS: tuple[tuple[str, str, Callable[[BearingEquilibrium], str], int], ...] 
 
 
 def grouped(value: float) -> str:
-    """Write a number with three digits or more, in groups of three."""
+    """Write a number in groups of three.
+
+    It has three digits or more.
+    """
     return f"{value:,.0f}".replace(",", " ") if abs(value) >= 100.0 else f"{value:.3g}"
 
 
 def between(ends: Sequence[float], digits: int) -> str:
-    """Write the smallest and the largest number, one where they read alike."""
+    """Write the smallest and the largest number.
+
+    One where they read alike.
+    """
     low, high = (f"{end:.{digits}f}" for end in ends)
     return low if low == high else f"{low}..{high}"
 

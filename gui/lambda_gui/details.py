@@ -13,7 +13,10 @@ if TYPE_CHECKING:
 
 
 class Sources:
-    """Sources are numbered where they are used and written out at the end."""
+    """Numbered sources.
+
+    They are numbered where they are used and written out at the end.
+    """
 
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {}
@@ -74,7 +77,10 @@ def lubricant_text(row: LubricantRow) -> Text:
 
 
 def _values(text: Text, values: list[dict[str, Any]], sources: Sources, name_width: int = 21) -> None:
-    """Append values one per line: ≈ where estimated, grade, number of the source."""
+    """Append values one per line.
+
+    With ≈ where estimated, grade, number of the source.
+    """
     for value in values:
         mark = "≈" if value["status"] != "published" else " "
         number = f"{value['value']:.6g} {value['unit']}".strip()

@@ -25,7 +25,10 @@ _BOX = """
 
 
 class Ask(ModalScreen[str]):
-    """A question with a few answers; the first is taken with Enter, Esc gives ""."""
+    """Question with a few answers.
+
+    Enter takes the first, Esc gives "".
+    """
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "dismiss('')", "Back"),
@@ -83,13 +86,19 @@ _NAMES = 18  # columns for the names of cases; what is longer is wrapped
 
 
 def _short(folder: Path) -> str:
-    """Return a folder as people write it, from home where it is there."""
+    """Return a folder relative to home.
+
+    Only where it is there.
+    """
     home = Path.home()
     return f"~/{folder.relative_to(home)}" if folder.is_relative_to(home) else str(folder)
 
 
 class OpenCase(ModalScreen[str | None]):
-    """Which case to work on: empty, a shaft, a file, a machine, a built-in name; None when left with Esc."""
+    """Choice of a case.
+
+    Empty, a shaft, a file, a machine, a built-in name; None when left with Esc.
+    """
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "dismiss(None)", "Back"),
@@ -111,7 +120,7 @@ class OpenCase(ModalScreen[str | None]):
         self._offers: list[tuple[str, str, str]] = []  # what is opened, its name, what it is
 
     def compose(self) -> ComposeResult:
-        """Lay out an entry over the list of cases at hand."""
+        """Lay out an entry over the list of cases."""
         with Vertical():
             yield Static(Text.assemble(("λ lambda-bearing", "bold"), "   which case?"))
             yield Input(placeholder="type to filter, or a file name", compact=True)
@@ -153,7 +162,10 @@ class OpenCase(ModalScreen[str | None]):
         self._filter(event.value)
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
-        """Take a file that was typed, else the first of the list."""
+        """Take a typed file or the first.
+
+        The first is that of the list.
+        """
         options = self.query_one(OptionList)
         if Path(event.value).is_file() or not options.option_count:
             self.dismiss(event.value)

@@ -144,7 +144,7 @@ class DutyScreen(Screen[None]):
             self.query_one(OptionHelp).show(_about(self.columns[here[1]]))
 
     def on_input_changed(self, event: Input.Changed) -> None:
-        """What was added up is of another cycle now."""
+        """Discard the sum of another cycle."""
         self.query_one("#found").set_class(True, "-old")
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
@@ -161,7 +161,10 @@ class DutyScreen(Screen[None]):
             list(lines[target].query(Entry))[here[1]].focus()
 
     async def action_add(self) -> None:
-        """Add a phase below, with the values of the one above it."""
+        """Add a phase below this one.
+
+        It has the values of this one.
+        """
         self._keep()
         here = self._here()
         line = here[0] if here else self.query(PhaseLine).last()
@@ -220,7 +223,10 @@ class DutyScreen(Screen[None]):
         self.query_one("#sum").scroll_home(animate=False)
 
     def action_save(self) -> None:
-        """Write the cycle into a file of its own in the folder of the case."""
+        """Write the cycle into its own file.
+
+        It is in the folder of the case.
+        """
         path = self._draft.path
         if path is None or self._draft.is_changed():
             self.notify(
@@ -239,7 +245,10 @@ def _about(column: Column) -> Text:
 
 
 def _usual(written: Any, around: CaseContext, column: Column) -> str:
-    """Return the value of the case where a phase says nothing."""
+    """Return the case's value for a phase.
+
+    The phase has none.
+    """
     if isinstance(written, str):
         return written
     return "as it is" if written else around.resolved(column.keys)

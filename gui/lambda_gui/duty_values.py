@@ -26,7 +26,10 @@ _WIDE = 11  # columns of a value
 
 @dataclass(frozen=True)
 class Column:
-    """A column of the spectrum: key or path of an option, head, width, and what its values are."""
+    """Column of the spectrum.
+
+    Key or path of an option, head, width, and the quantity of its values.
+    """
 
     key: str
     head: str
@@ -40,7 +43,9 @@ class Column:
 
 
 def columns_of(draft: Draft, width: int) -> list[Column]:
-    """Return the columns for a case: name, time, its loads, speed and oil temperature, as many as there is room for.
+    """Return the columns for a case.
+
+    Name, time, its loads, speed and oil temperature, as many as there is room for.
 
     Parameters
     ----------
@@ -57,7 +62,10 @@ def columns_of(draft: Draft, width: int) -> list[Column]:
 
 
 def _loads(draft: Draft) -> Iterator[tuple[str, str]]:
-    """Yield path and head of each load: radial and axial of one bearing, or what the case has on its shaft."""
+    """Yield path and head of each load.
+
+    Radial and axial of one bearing, or the loads on the shaft.
+    """
     if get_origin(draft.root.model_fields["loads"].annotation) is not dict:
         yield from (("loads.radial", "radial load"), ("loads.axial", "axial load"))
         return
@@ -71,20 +79,29 @@ def _loads(draft: Draft) -> Iterator[tuple[str, str]]:
 
 
 def _short(head: str) -> str:
-    """Return a head that fits over its column: the name is cut first."""
+    """Return a head that fits its column.
+
+    The name is cut first.
+    """
     name, _, what = head.rpartition(" ")
     return head if len(head) <= _WIDE else f"{name[: _WIDE - len(what) - 1]} {what}"
 
 
 @dataclass
 class Phase:
-    """One line of the spectrum: texts by column, "" where the case's own value holds."""
+    """One line of the spectrum.
+
+    Texts by column, "" where the case's own value applies.
+    """
 
     texts: dict[str, str] = field(default_factory=dict)
 
 
 def cycle_tables(name: str, phases: list[Phase]) -> dict[str, Any]:
-    """Return the duty cycle as it would stand in a file; what is missing or wrong is for its check to say."""
+    """Return the duty cycle as in a file.
+
+    Its check reports what is missing or wrong.
+    """
     return {
         "name": name,
         "case": "case.toml",
@@ -99,14 +116,20 @@ def _phase(place: int, texts: dict[str, str]) -> dict[str, Any]:
 
 
 def _life(life_h: float | None) -> str:
-    """Return a life in hours as it can be known: two digits."""
+    """Return a life in hours to two digits.
+
+    It is not known better.
+    """
     return "-" if life_h is None else hours(life_h).removesuffix(" h")
 
 
 def cycle_view(
     found: DutyCycle | MachineDutyCycle, units: UnitSystem, warning: str
 ) -> tuple[list[RenderableType], Text]:
-    """Return tables of the phases that fit 80 columns, one for each bearing, and the sum in words."""
+    """Return tables of phases and the sum.
+
+    They fit 80 columns, one for each bearing; the sum is in words.
+    """
     from lambda_core.api import DutyCycle as OneBearing  # loaded already: one of its kind has been read
 
     if not isinstance(found, OneBearing):
@@ -140,7 +163,10 @@ def cycle_view(
 
 
 def _table(found: DutyCycle, units: UnitSystem) -> Table:
-    """Return a table of the phases of one bearing, and their sum."""
+    """Return one bearing's phases and their sum.
+
+    As a table.
+    """
     table = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False, header_style="dim")
     heads = ("time %", "rpm", f"P {units.unit('N')}", "L10rh h", "damage %", f"loss {units.unit('W')}", "energy kJ")
     table.add_column("phase", no_wrap=True, max_width=16)

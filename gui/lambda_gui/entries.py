@@ -12,13 +12,19 @@ if TYPE_CHECKING:
 
 
 def is_list(node: Node) -> bool:
-    """Tell whether the tables of a section, or of the section of a table, have numbers in place of names."""
+    """Tell whether a section's tables have numbers.
+
+    Numbers replace names; it may be the section of a table.
+    """
     last = node.table[-2:] if node.kind == "item" else node.table[-1:]
     return last[0] == "sections"
 
 
 def free_name(node: Node, draft: Draft) -> str:
-    """Return a name that no table of the section has yet."""
+    """Return an unused name for a table.
+
+    No table of the section has it yet.
+    """
     assert node.section is not None
     section = _section(node)
     usual = node.section.usual or (node.section.one,)
@@ -28,7 +34,9 @@ def free_name(node: Node, draft: Draft) -> str:
 
 
 def add(node: Node, draft: Draft, name: str = "") -> Keys:
-    """Write a new table into a section, or after the table of a node, and return its place; a known name leads there.
+    """Write a new table and return its place.
+
+    Into a section, or after the table of a node; a known name leads there.
 
     Parameters
     ----------
@@ -52,7 +60,7 @@ def add(node: Node, draft: Draft, name: str = "") -> Keys:
 
 
 def remove(node: Node, draft: Draft) -> Keys:
-    """Take the table of a node out and return where to go."""
+    """Remove a node's table, return the next place."""
     section = _section(node)
     if not is_list(node):
         draft.seal()
@@ -74,7 +82,10 @@ _REFER: dict[str, tuple[tuple[str, str], ...]] = {
 
 
 def rename(node: Node, draft: Draft, name: str) -> Keys:
-    """Give the table of a node another name, in its place and where others name it; a taken one changes nothing."""
+    """Rename the table of a node.
+
+    In its place and where others name it; a taken name changes nothing.
+    """
     section = _section(node)
     tables: dict[str, Any] = draft.get(*section)
     if name in tables:

@@ -18,7 +18,10 @@ _BARE = re.compile(r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(\s*)([A-Za-
 
 
 def completed(text: str, units: Sequence[str]) -> str:
-    """Return a bare number, or one with the beginning of a unit, with the unit written out."""
+    """Return a number with its unit completed.
+
+    It was bare, or had the beginning of a unit.
+    """
     match = _BARE.match(text)
     if not match or not units:
         return text
@@ -32,7 +35,10 @@ def completed(text: str, units: Sequence[str]) -> str:
 
 
 def meant(text: str, names: Sequence[str]) -> list[str]:
-    """Return the name that begins with a text, else all names that hold it; only letters and digits count."""
+    """Return the name that begins with a text.
+
+    Else all names that hold it; only letters and digits count.
+    """
     folded = text.strip().casefold()
     first = next((name for name in names if name.casefold().startswith(folded)), None)
     if first is not None:
@@ -46,7 +52,10 @@ def _plain(text: str) -> str:
 
 
 def value_of(text: str, card: FieldCard) -> Any:
-    """Return what is written in the case for what was typed; None for nothing."""
+    """Return the case's value of a typed text.
+
+    None for nothing.
+    """
     stripped = text.strip()
     if not stripped:
         return None
@@ -63,7 +72,7 @@ def value_of(text: str, card: FieldCard) -> Any:
 
 
 def text_of(value: Any) -> str:
-    """Return what stands in the entry for what is written in the case."""
+    """Return the entry's text of a case's value."""
     if value is None:
         return ""
     if isinstance(value, bool):
@@ -74,7 +83,10 @@ def text_of(value: Any) -> str:
 
 
 class Completion(Suggester):
-    """Proposes the unit, or a name that begins with what was typed."""
+    """Completion of a unit or a name.
+
+    The name begins with the typed text.
+    """
 
     def __init__(self, units: Sequence[str], names: Callable[[], Sequence[str]] | None) -> None:
         super().__init__(use_cache=False, case_sensitive=True)
@@ -92,7 +104,9 @@ class Completion(Suggester):
 
 
 class Entry(Input):
-    """One line of text; a number takes its unit when the entry is left or Enter is pressed.
+    """One line of text.
+
+    A number takes its unit when the entry is left or Enter is pressed.
 
     What stands there is selected when the keyboard comes: what is typed takes its place. What is typed after Enter
     belongs to the entry that the keyboard moves to, however long that takes.
@@ -110,20 +124,29 @@ class Entry(Input):
         self.suggester = Completion(card.units, self._names)
 
     def begin(self, letter: str) -> None:
-        """Take the keyboard with the first letter of a new value."""
+        """Take the keyboard with a new value's letter.
+
+        It is the first letter.
+        """
         self.select_on_focus = False  # until the entry is left: what follows belongs to that letter
         self.focus()
         self.value = letter
         self.cursor_position = len(letter)
 
     def visit(self) -> None:
-        """Take the keyboard behind the text: what is typed is added to it."""
+        """Take the keyboard behind the text.
+
+        Typed characters are added to it.
+        """
         self.select_on_focus = False
         self.focus()
         self.cursor_position = len(self.value)
 
     def complete(self) -> None:
-        """Write out the unit, or the name that is meant but for capitals."""
+        """Complete the unit or the name.
+
+        The name may differ in capitals.
+        """
         if self._card.units:
             self.value = completed(self.value, self._card.units)
         elif self._names is not None:
@@ -131,7 +154,10 @@ class Entry(Input):
             self.value = next((name for name in self._names() if name.casefold() == folded), self.value)
 
     def accept(self) -> None:
-        """Take the proposal in grey, else the only name that holds what was typed; list them if there are more."""
+        """Accept the proposal in grey.
+
+        Else the only name that holds the typed text; list them if there are more.
+        """
         self.complete()
         if self._names is None or not self.value or self.value in self._names():
             return
@@ -143,7 +169,10 @@ class Entry(Input):
             self.notify(f"{self.value}: {', '.join(found[:_MOST_NAMES])}{more}", timeout=8)
 
     async def _on_key(self, event: events.Key) -> None:
-        """Type a key, or keep it for the entry that the keyboard is moving to."""
+        """Type a key or keep it.
+
+        The keyboard may be moving to another entry.
+        """
         if self._held is not None:
             self._held.append(event)
         elif event.key == "enter":
@@ -156,7 +185,10 @@ class Entry(Input):
         event.prevent_default()
 
     def _hand_over(self) -> None:
-        """Give the keys that were kept to whatever has the keyboard now."""
+        """Pass the kept keys on.
+
+        They go to the widget that has the keyboard now.
+        """
         held, self._held = self._held, None
         focused = self.screen.focused if self.is_attached else None
         for key in held or ():

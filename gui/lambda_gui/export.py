@@ -19,7 +19,9 @@ SUMMARY, DIFFERENCES = "summary", "what differs"  # words, no pictures
 
 
 class ExportScreen(Screen[None]):
-    """A screen with results that are chosen and a view that is shown.
+    """Screen of chosen results and a view.
+
+    The view is shown.
 
     Parameters
     ----------

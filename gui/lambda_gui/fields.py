@@ -22,7 +22,10 @@ _NARROW = 20  # columns of the narrowest entry: the help next to the form gives 
 
 
 class TextRow(Row):
-    """A number, a quantity, a name or a line of text."""
+    """Row of a number or text.
+
+    A quantity, a name or a line of text.
+    """
 
     def __init__(
         self,
@@ -37,7 +40,10 @@ class TextRow(Row):
         self._kind = kind
 
     def take(self, card: FieldCard) -> None:
-        """Be about another option from now on: its units complete what is typed."""
+        """Change the row to another option.
+
+        Its units complete the typed text.
+        """
         self.card = card
         self.query_one(Entry).take(card)
 
@@ -83,7 +89,10 @@ class TextRow(Row):
 
 
 class ChoiceRow(Row):
-    """One of several values; the first entry stands for what holds when nothing is written."""
+    """Row of one of several values.
+
+    The first entry stands for the value that applies when nothing is written.
+    """
 
     def __init__(
         self,
@@ -146,17 +155,26 @@ class FlagRow(Row):
 
 
 class _Lines(TextArea):
-    """Lines of text that the arrow keys also lead out of."""
+    """Lines of text between other entries.
+
+    The arrow keys also lead out of them.
+    """
 
     def action_cursor_down(self, select: bool = False) -> None:
-        """Go down a line, from the last one to the next entry."""
+        """Go down a line or an entry.
+
+        From the last line to the next entry.
+        """
         if not select and self.navigator.is_last_wrapped_line(self.cursor_location):
             self.post_message(Stepped(1))
         else:
             super().action_cursor_down(select)
 
     def action_cursor_up(self, select: bool = False) -> None:
-        """Go up a line, from the first one to the entry before."""
+        """Go up a line or an entry.
+
+        From the first line to the entry before.
+        """
         if not select and self.navigator.is_first_wrapped_line(self.cursor_location):
             self.post_message(Stepped(-1))
         else:
@@ -180,7 +198,10 @@ class LinesRow(Row):
         return _Lines(compact=True, show_line_numbers=False)
 
     def compose(self) -> ComposeResult:
-        """Lay out the lines under their label, over the whole width."""
+        """Lay out the lines under their label.
+
+        Over the whole width.
+        """
         with Horizontal(classes="line"):
             yield Static(self.words, classes="label", markup=False)
         yield self.control()
@@ -217,7 +238,10 @@ class LinesRow(Row):
 
 
 class ParagraphRow(LinesRow):
-    """A text that may be longer than a line; it is wrapped, and written as one line."""
+    """Long text in one paragraph.
+
+    It is wrapped, and written as one line.
+    """
 
     DEFAULT_CSS = """
     ParagraphRow TextArea { height: auto; min-height: 1; max-height: 5; }
@@ -237,7 +261,10 @@ class ParagraphRow(LinesRow):
 
 
 class PointsRow(LinesRow):
-    """Pairs of values, such as the points of a table over time, one "time, value" per line."""
+    """Pairs of values, one per line.
+
+    Such as the points of a table over time, "time, value".
+    """
 
     def lines(self, value: Any) -> str:
         """Return one line per pair."""

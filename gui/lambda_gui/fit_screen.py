@@ -42,7 +42,7 @@ _PARAMETERS = 3  # rows for parameters
 
 
 class FitScreen(Screen[None]):
-    """A form for a fit, and below it what was found.
+    """Form of a fit above its result.
 
     Parameters
     ----------
@@ -156,7 +156,10 @@ class FitScreen(Screen[None]):
         self._fit(str(self._folder / Path(name).expanduser()), vary, str(self.values.get(("bearing",)) or "") or None)
 
     def action_stop(self) -> None:
-        """End the fit early; it keeps the best values so far."""
+        """End the fit early.
+
+        It keeps the best values so far.
+        """
         if self._is_busy:
             self._say("stopping ...")
             self._helper.interrupt()
@@ -222,7 +225,10 @@ class FitScreen(Screen[None]):
 
 
 def _parameters(model: BearingModel | MachineModel) -> list[str]:
-    """Return the parameters of laws that have a published range, for completion."""
+    """Return the laws' parameters with published range.
+
+    They are for completion.
+    """
     models = [bearing.model for bearing in getattr(model, "bearings", ())] or [model]
     found: dict[str, None] = {}
     for one in models:

@@ -104,7 +104,10 @@ class NodeForm(VerticalScroll, can_focus=False):
         """The person goes back to the tree."""
 
     class Opened(Message):
-        """A button asks for something: "catalogue", "add", "rename" (with a name), "remove", "node" (with its key)."""
+        """Request of a button.
+
+        "catalogue", "add", "rename" (with a name), "remove", "node" (with its key).
+        """
 
         def __init__(self, what: str, name: str = "") -> None:
             super().__init__()
@@ -134,11 +137,17 @@ class NodeForm(VerticalScroll, can_focus=False):
 
     @property
     def _room(self) -> int:
-        """Width before the form is laid out: that of its place, less its edges."""
+        """Width before the form is laid out.
+
+        It is that of its place, less its edges.
+        """
         return self.parent.size.width - 3 if isinstance(self.parent, Widget) else 0
 
     def _fit(self) -> None:
-        """Give all labels the same room; the longest are wrapped where their values need it."""
+        """Give all labels the same room.
+
+        The longest are wrapped where their values need it.
+        """
         is_narrow = (self.size.width or self._room) < _ROOMY
         rows = list(self.query(Row))
         lengths = [len(row.short if is_narrow else row.label) + 2 * row.has_class("-deep") for row in rows]
@@ -166,7 +175,10 @@ class NodeForm(VerticalScroll, can_focus=False):
                 yield from _link(child)
 
     def _strangers(self, group: Group) -> Iterator[Widget]:
-        """Yield a row for each key of a hand-written file that is no option, so that it can be taken out."""
+        """Yield a row for each unknown key.
+
+        The file is hand-written; the row can remove the key.
+        """
         table = group.table
         written = self._draft.get(*table) if table else self._draft.tables
         known = table_model(self._draft.root, table).model_fields
@@ -212,7 +224,10 @@ class NodeForm(VerticalScroll, can_focus=False):
         self.query_one(".in-effect", Static).update(self._in_effect())
 
     def _in_effect(self) -> RenderableType:
-        """Say what the case takes from elsewhere for this node, with grades and sources."""
+        """Show the values from elsewhere.
+
+        The case takes them for this node, with grades and sources.
+        """
         own = {row.place.keys[-1] for row in self.query(Row)}
         found = [
             value
@@ -238,7 +253,9 @@ class NodeForm(VerticalScroll, can_focus=False):
         return Lines(Text(title, style="italic"), table, told)
 
     def show(self, keys: Keys, select: bool = True) -> None:
-        """Bring one option into view and to the keyboard: the row that is most about it.
+        """Show one option and give it the keyboard.
+
+        It is the row that is most about it.
 
         Text that is not selected is not typed over.
         """
@@ -300,7 +317,7 @@ class NodeForm(VerticalScroll, can_focus=False):
             self.post_message(self.Opened(what))
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
-        """Ask for a new table of a name, or for another name of this one."""
+        """Add a table of a name, or rename."""
         name, section = event.value.strip(), self.node.section
         if event.input.id == "new-name" and section is not None:
             event.stop()
@@ -313,12 +330,18 @@ class NodeForm(VerticalScroll, can_focus=False):
 
 
 def _is_bearing(node: Node) -> bool:
-    """Tell whether a node is that of one of several bearings."""
+    """Tell whether a node is one of bearings.
+
+    There are several bearings.
+    """
     return len(node.table) == 2 and node.table[0] == "bearings"
 
 
 def _has_values(node: Node) -> bool:
-    """Tell whether a form shows what its table takes from the catalogue."""
+    """Tell whether a form shows catalogue values.
+
+    Its table takes them from the catalogue.
+    """
     return node.key in ("bearing", "lubricant") or _is_bearing(node)
 
 
@@ -346,6 +369,9 @@ class _Link(Button):
 
 
 def _link(node: Node) -> Iterator[Widget]:
-    """Yield a way to a node below, and what it is about."""
+    """Yield a link to a node below.
+
+    With its subject.
+    """
     yield _Link(node)
     yield Static(node.help, classes="about", markup=False)

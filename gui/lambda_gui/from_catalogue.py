@@ -16,7 +16,10 @@ Kind = Literal["bearing", "lubricant"]
 
 @dataclass(frozen=True)
 class Taken:
-    """What was chosen: a bearing with its maker, or a lubricant; `said` is what to tell about it."""
+    """Chosen bearing or lubricant.
+
+    A bearing has its maker; `said` is the message about it.
+    """
 
     kind: Kind
     name: str
@@ -25,7 +28,9 @@ class Taken:
 
 
 def bearing_taken(row: BearingRow, typed: str, before: str, catalogue: Catalogue) -> Taken:
-    """Return a row of the catalogue with the suffixes that belong behind it.
+    """Return a catalogue row with its suffixes.
+
+    They belong behind it.
 
     Suffixes typed in the filter count first. Those of the designation before stay where nothing was typed in their
     place: all of them on the same bearing, the clearance class alone on another, unless that has a contact angle.

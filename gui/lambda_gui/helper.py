@@ -22,7 +22,9 @@ _STARTS = 3  # a process that keeps dying is not started for ever
 
 
 class Helper:
-    """One helper process, started when first asked; it does one thing at a time.
+    """One helper process.
+
+    It starts at the first request and does one thing at a time.
 
     Parameters
     ----------
@@ -41,7 +43,9 @@ class Helper:
         self._is_closed = False
 
     async def ask(self, work: str, **arguments: Any) -> Any:
-        """Have something done and return it; who is not there any more is cancelled instead.
+        """Have something done and return it.
+
+        An absent caller is cancelled instead.
 
         Raises
         ------
@@ -111,12 +115,18 @@ class Helper:
         return self._process
 
     def interrupt(self) -> None:
-        """Ask for an early end of what is being done, as Ctrl+C in a shell does."""
+        """Stop the present work early.
+
+        As Ctrl+C in a shell does.
+        """
         if self._process is not None and self._process.returncode is None:
             self._process.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM)
 
     async def close(self) -> None:
-        """End the process for good; who still waits for an answer is cancelled."""
+        """End the process for good.
+
+        Waiting callers are cancelled.
+        """
         self._is_closed = True
         await self._stop()
 
@@ -129,7 +139,9 @@ class Helper:
 
 
 class Estimator:
-    """Estimates of the case that is being edited; only the newest question counts.
+    """Estimates of the edited case.
+
+    Only the newest question counts.
 
     Parameters
     ----------
@@ -145,7 +157,10 @@ class Estimator:
         self._is_closed = False
 
     async def ask(self, tables: dict[str, Any], folder: Path | None) -> None:
-        """Ask about a case without mistakes; the answer comes through `tell`."""
+        """Ask about a case without mistakes.
+
+        The answer comes through `tell`.
+        """
         self._waiting = (tables, folder)
         if self._is_busy:
             return
@@ -168,7 +183,10 @@ class Estimator:
             self._tell(found, words)
 
     async def close(self) -> None:
-        """End the helper; whoever is still waiting for an answer hears no more."""
+        """End the helper.
+
+        Waiting callers get no more answers.
+        """
         self._is_closed = True
         self._waiting = None
         await self._helper.close()

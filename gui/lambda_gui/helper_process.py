@@ -23,14 +23,20 @@ Say = Callable[[str], None]
 
 
 def estimate(say: Say, tables: dict[str, Any], folder: str | None) -> Any:
-    """Estimate a case before it is run: equilibrium, lives, time of a run."""
+    """Estimate a case before a run.
+
+    Equilibrium, lives, time of a run.
+    """
     from lambda_core import api
 
     return api.estimate(api.check(tables, folder=Path(folder) if folder else None), announce=say)
 
 
 def answer(say: Say, question: str, tables: dict[str, Any], folder: str | None, units: str) -> Any:
-    """Return the answer to a question about a case as text and views."""
+    """Return the answer about a case.
+
+    As text and views.
+    """
     from lambda_core import api
     from lambda_core.domain.unit_systems import unit_system
 
@@ -85,7 +91,10 @@ _ANSWERS: dict[str, Callable[[Say, Any, Any], Any]] = {
 
 
 def summary(say: Say, path: str, bearing: str | None = None) -> Any:
-    """Return the summary of a result, or of one bearing of it."""
+    """Return the summary of a result.
+
+    Or of one bearing of it.
+    """
     from lambda_core import api
 
     return api.summary(api.result(path, bearing))
@@ -156,7 +165,10 @@ def study_cost(say: Say, study: dict[str, Any], case_toml: str) -> str:
 
 
 def duty(say: Say, cycle: dict[str, Any], case_toml: str) -> Any:
-    """Return what a duty cycle of a case adds up to."""
+    """Return the sum of a duty cycle.
+
+    It belongs to a case.
+    """
     from tempfile import TemporaryDirectory
 
     from lambda_core import api
@@ -168,7 +180,10 @@ def duty(say: Say, cycle: dict[str, Any], case_toml: str) -> Any:
 
 
 def fit(say: Say, case: dict[str, Any], data: str, vary: list[str], bearing: str | None, units: str) -> Any:
-    """Return a fit of a case to a file of measurements, in words, with pictures."""
+    """Return a fit in words and pictures.
+
+    Of a case to a file of measurements.
+    """
     from lambda_core import api
     from lambda_core.domain.unit_systems import unit_system
 

@@ -28,7 +28,10 @@ _OWN = "lambda-bearing"
 
 
 def law_choices(role: str) -> list[ChoiceEntry]:
-    """Return the installed models of a role; those of other packages carry their distribution."""
+    """Return the installed models of a role.
+
+    Those of other packages carry their distribution.
+    """
     from lambda_core import api
 
     found = [ChoiceEntry("auto", "auto", "the law that the oil has data for")] if role == "rheology" else []
@@ -66,7 +69,10 @@ def law_row(draft: Draft, node: Node, around: Surroundings) -> LawRow:
 
 
 class LawRow(Branch):
-    """The model of a role, what it is, and its parameters."""
+    """Model of a role with its parameters.
+
+    And its description.
+    """
 
     DEFAULT_CSS = """
     LawRow .about { width: 1fr; height: auto; color: $text-muted; margin: 1 0; }
@@ -89,7 +95,10 @@ class LawRow(Branch):
         return [unset(known), *law_choices(self._role)]
 
     def _model(self) -> str:
-        """Return the name of the model in effect, as far as it is known."""
+        """Return the name of the present model.
+
+        As far as it is known.
+        """
         written = self.place.get()
         if isinstance(written, str) and written != "auto":
             return written
@@ -116,7 +125,10 @@ class LawRow(Branch):
         super().show()
 
     def twigs(self) -> Iterator[Widget]:
-        """Yield what the model is, and a row for each of its parameters."""
+        """Yield the model's description and parameters.
+
+        A row for each parameter.
+        """
         card = self._card()
         if isinstance(card, str):
             yield Static(card, classes="about", markup=False)
@@ -128,7 +140,10 @@ class LawRow(Branch):
             yield row_for(self._parameters.part(parameter.name), shown, self.around)
 
     def on_choice_changed(self, event: Choice.Changed) -> None:
-        """Write the model; parameters that only the old one had go with it."""
+        """Write the model.
+
+        Parameters that only the old one had are removed with it.
+        """
         if event.choice is not self.query_one(Choice):
             return
         event.stop()

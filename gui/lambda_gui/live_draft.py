@@ -28,7 +28,9 @@ _KEEP_AFTER = 2.0  # of unsaved work [s]
 
 
 class LiveDraft(Screen[None]):
-    """Checks in a thread, estimates in a process, and keeps unsaved work aside.
+    """Draft with checks and estimates.
+
+    Checks run in a thread, estimates in a process; unsaved work is kept.
 
     Parameters
     ----------
@@ -69,16 +71,19 @@ class LiveDraft(Screen[None]):
 
     @property
     def is_checked(self) -> bool:
-        """Whether the last check is of the draft as it stands."""
+        """True if the present draft is checked."""
         return self._checked_changes == self._changes
 
     @property
     def is_here(self) -> bool:
-        """Whether there is anything to show on."""
+        """True while a screen can show something."""
         return is_here(self)
 
     def when_checked(self, then: Callable[[], None]) -> None:
-        """Do something with the draft as it stands: keys may come faster than checks."""
+        """Call a function after the present check.
+
+        Keys may come faster than checks.
+        """
         if self.is_checked:
             then()
         else:

@@ -43,7 +43,10 @@ class Canvas:
     _letters: dict[tuple[int, int], tuple[str, str]] = field(default_factory=dict)
 
     def box(self, left: float, right: float, top: float, bottom: float, colour: str) -> None:
-        """Fill a box given in pixels; what is thinner than a pixel has one."""
+        """Fill a box given in pixels.
+
+        A box thinner than a pixel has one.
+        """
         first, last = round(left), max(round(left) + 1, round(right))
         high, low = round(top), max(round(top) + 1, round(bottom))
         for row in range(max(0, high), min(2 * self.height, low)):
@@ -51,7 +54,9 @@ class Canvas:
                 self._pixels[row, column] = colour
 
     def ball(self, x: float, y: float, radius: float, colours: tuple[str, str, str], angle: float | None) -> None:
-        """Draw a ball given in pixels, with a smooth edge, and its contact line.
+        """Draw a ball with its contact line.
+
+        It is given in pixels, with a smooth edge.
 
         Parameters
         ----------
@@ -74,13 +79,19 @@ class Canvas:
                     self._pixels[row, column] = colour.hex
 
     def dot(self, across: int, down: int, colour: str) -> None:
-        """Set a braille dot: two across and four down per character."""
+        """Set a braille dot.
+
+        A character has two across and four down.
+        """
         cell = (down // 4, across // 2)
         if 0 <= cell[0] < self.height and 0 <= cell[1] < self.width:
             self._dots[cell] = (self._dots.get(cell, (0, ""))[0] | _DOTS[down % 4][across % 2], colour)
 
     def is_free(self, line: int, column: int, length: int) -> bool:
-        """Tell whether no letter stands in a place or next to it."""
+        """Tell whether a place has no letter.
+
+        Nor the place next to it.
+        """
         return all((line, at) not in self._letters for at in range(column - 1, column + length + 1))
 
     def words(self, line: int, column: int, text: str, colour: str) -> None:
@@ -111,7 +122,7 @@ class Canvas:
 
 @dataclass(frozen=True)
 class _Scale:
-    """Where a place stands on the canvas, in pixels."""
+    """Scale of the canvas in pixels."""
 
     left: float
     axis: float  # row of the axis
@@ -121,7 +132,10 @@ class _Scale:
         return self.left + place / self.unit
 
     def rows(self, inner: float, outer: float, *, below: bool) -> tuple[float, float]:
-        """Return top and bottom of what lies between two radii, above the axis or below it."""
+        """Return top and bottom between two radii.
+
+        Above the axis or below it.
+        """
         near, far = inner / self.unit, outer / self.unit
         return (self.axis + near, self.axis + far) if below else (self.axis - far, self.axis - near)
 
@@ -129,7 +143,9 @@ class _Scale:
 def drawn_machine(
     model: MachineModel, report: MachineEquilibrium | None, width: int, height: int, colours: Mapping[str, str]
 ) -> Text:
-    """Draw sections, bearings, bodies, gears, discs and loads to scale, names around them, and the bend below.
+    """Draw a machine to scale.
+
+    Sections, bearings, bodies, gears, discs and loads, names around them, and the deflection below.
 
     Parameters
     ----------
@@ -176,7 +192,10 @@ def _largest(model: MachineModel) -> float:
 def _bodies(
     canvas: Canvas, model: MachineModel, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]
 ) -> None:
-    """Draw the other bodies that have a shape, from the outer rings in them outwards."""
+    """Draw the other bodies that have a shape.
+
+    From the outer rings in them outwards.
+    """
     for number, body in enumerate(model.bodies, start=1):
         length, *across = body.extent
         rings = [0.5 * b.model.geometry.outside_diameter for b in model.bearings if b.carrier == number]
@@ -208,7 +227,10 @@ def _rotor(
 def _bearing(
     canvas: Canvas, bearing: MountedBearing, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]
 ) -> None:
-    """Draw rings, and a ball between them; the contact line of an angular contact bearing shows O and X."""
+    """Draw rings, and a ball between them.
+
+    The contact line of an angular contact bearing shows O and X.
+    """
     g, middle = bearing.model.geometry, scale.x(bearing.position)
     left, right = (scale.x(bearing.position + sign * 0.5 * g.width) for sign in (-1.0, 1.0))
     for below in sides:
@@ -228,7 +250,10 @@ def _bearing(
 
 
 def _names_above(canvas: Canvas, model: MachineModel, scale: _Scale, colours: Mapping[str, str]) -> None:
-    """Name gears, discs, loads and bodies over the drawing, a load with the way it pushes."""
+    """Name gears, discs, loads and bodies.
+
+    Over the drawing, a load with its direction.
+    """
     bodies = [(f"[{body.name}]", body.centre[0]) for body in model.bodies]
     for name, place in (*model.load_places, *model.discs, *bodies):
         is_load, label = any(name == one for one, _ in model.load_places), name
@@ -240,7 +265,10 @@ def _names_above(canvas: Canvas, model: MachineModel, scale: _Scale, colours: Ma
 
 
 def _label(canvas: Canvas, line: int, middle: float, label: str, colour: str, *, moves: bool) -> None:
-    """Write a name around a place, or where it moves at the next free one to the right; nothing without room."""
+    """Write a name around a place.
+
+    Where it moves at the next free one to the right; nothing without room.
+    """
     most = max(0, canvas.width - len(label))
     column = min(max(0, round(middle - 0.5 * len(label))), most)
     while moves and column < most and not canvas.is_free(line, column, len(label)):
@@ -257,7 +285,10 @@ def _names_below(
     line: int,
     colours: Mapping[str, str],
 ) -> None:
-    """Name bearings with what holds them along x and the way in which they push the shaft, and springs."""
+    """Name bearings and springs below.
+
+    With their axial constraint and the direction of their force on the shaft.
+    """
     forces = {bearing.name: bearing.force_N for bearing in report.bearings} if report is not None else {}
     for bearing in model.bearings:
         label = f"{_held(bearing)} {_way(*forces.get(bearing.name, (0.0, 0.0, 0.0)))}".rstrip()
@@ -271,7 +302,10 @@ def _names_below(
 
 
 def _held(bearing: MountedBearing) -> str:
-    """Write the name of a bearing between stops on the sides that hold the shaft; one that floats has waves."""
+    """Write a bearing's name with its constraints.
+
+    Stops are on the sides that hold the shaft; one that floats has waves.
+    """
     if bearing.takes:
         return f"{bearing.name}⊣" if bearing.takes > 0 else f"⊢{bearing.name}"
     stiffness = bearing.seating.stiffness[0]
@@ -281,7 +315,10 @@ def _held(bearing: MountedBearing) -> str:
 
 
 def _way(x: float, y: float, z: float) -> str:
-    """Draw the larger parts of a force: along the shaft, up or down, into the picture (y) or out of it."""
+    """Draw the larger parts of a force.
+
+    Along the shaft, up or down, into the picture (y) or out of it.
+    """
     largest = max(abs(x), abs(y), abs(z))
     signs = (("→", "←", x), ("⊗", "⊙", y), ("↑", "↓", z))
     return "".join(pos if part > 0.0 else neg for pos, neg, part in signs if abs(part) > max(0.25 * largest, 1e-9))
@@ -290,7 +327,10 @@ def _way(x: float, y: float, z: float) -> str:
 def _bend(
     canvas: Canvas, report: MachineEquilibrium, scale: _Scale, first: int, lines: int, colours: Mapping[str, str]
 ) -> None:
-    """Draw the deflection, vertical and horizontal, under the shaft, with its largest value."""
+    """Draw the deflection under the shaft.
+
+    Vertical and horizontal, with its largest value.
+    """
     places = [1e-3 * place for place in report.positions_mm]
     curves = (("primary", [d[2] for d in report.deflection_um]), ("warning", [d[1] for d in report.deflection_um]))
     top = max([0.0, *(max(values) for _, values in curves)])
@@ -317,7 +357,10 @@ def _bend(
 
 
 def _between(place: float, places: list[float], values: list[float]) -> float:
-    """Return the value at a place, on the straight line between its neighbours."""
+    """Return the value at a place.
+
+    Linear between its neighbours.
+    """
     for left, right, a, b in zip(places, places[1:], values, values[1:], strict=False):
         if place <= right and right > left:
             return a + (b - a) * (place - left) / (right - left)

@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 
 
 class FieldPlot(Widget):
-    """A field of values as a map: two cells of it in each character."""
+    """Map of a field of values.
+
+    Each character has two cells of it.
+    """
 
     DEFAULT_CSS = """
     FieldPlot { background: $surface; width: 1fr; height: 1fr; text-wrap: nowrap; text-overflow: ellipsis; }
@@ -68,7 +71,10 @@ def _append_pair(text: Text, top: str, bottom: str) -> None:
 
 
 def resampled(field: Field, columns: int, rows: int) -> FloatArray:
-    """Return the values on a regular grid, the first row at the top; NaN where there is nothing."""
+    """Return the values on a regular grid.
+
+    The first row is at the top; NaN where there is nothing.
+    """
     x = np.linspace(np.nanmin(field.x), np.nanmax(field.x), columns)
     y = np.linspace(np.nanmax(field.y), np.nanmin(field.y), rows)
     along_x, along_y = _axis(field.x), _axis(field.y)
@@ -81,7 +87,10 @@ def resampled(field: Field, columns: int, rows: int) -> FloatArray:
 
 
 def _axis(mesh: FloatArray) -> tuple[FloatArray, int] | None:
-    """Return the coordinate and the dimension it runs along, None when it runs along both."""
+    """Return a coordinate and its dimension.
+
+    The dimension is None when it runs along both.
+    """
     for dimension in (0, 1):
         line = mesh[:, 0] if dimension == 0 else mesh[0, :]
         lines = line[:, None] if dimension == 0 else line[None, :]
@@ -91,7 +100,10 @@ def _axis(mesh: FloatArray) -> tuple[FloatArray, int] | None:
 
 
 def _nearest(field: Field, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Return the value of the nearest node of a bent mesh."""
+    """Return a bent mesh's nearest value.
+
+    It is that of the nearest node.
+    """
     spread_x, spread_y = x[-1] - x[0] or 1.0, y[0] - y[-1] or 1.0
     nodes = np.column_stack([(field.x / spread_x).ravel(), (field.y / spread_y).ravel()])
     values = field.values.ravel()
@@ -103,7 +115,10 @@ def _nearest(field: Field, x: FloatArray, y: FloatArray) -> FloatArray:
 
 
 class _Ramp:
-    """Colours of values, from the background over the theme's colours to white; about zero for signed ones."""
+    """Colours of values.
+
+    From the background over the theme's colours to white; about zero for signed ones.
+    """
 
     def __init__(self, field: Field, grid: FloatArray, colours: dict[str, str]) -> None:
         self._field = field
@@ -130,7 +145,10 @@ class _Ramp:
         return self._stops[first].blend(self._stops[first + 1], round(share, 2)).hex
 
     def scale(self, width: int) -> Text:
-        """Return a bar of the colours between its smallest and largest value."""
+        """Return the bar of the colours.
+
+        Between its smallest and largest value.
+        """
         ends = [10.0**end if self._field.log else end for end in (self._low, self._high)]
         low, high = (f"{end:.3g}" for end in ends)
         room = max(4, min(30, width - len(low) - len(high) - 2))

@@ -47,7 +47,9 @@ def save_new(screen: Screen[None], text: str, path: str) -> Path | None:
 
 
 def save_next_to_case(screen: Screen[None], tables: Mapping[str, Any], text: str | None, command: str) -> None:
-    """Write tables into a new TOML file and say which command takes it.
+    """Write tables into a new TOML file.
+
+    Report the command that takes it.
 
     Parameters
     ----------

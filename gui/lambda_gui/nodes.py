@@ -19,7 +19,10 @@ Names = Mapping[str, tuple[str, ...]]  # section of named tables, or of a list -
 
 @dataclass(frozen=True)
 class Named:
-    """A section of tables under names that the case gives, or, of plugins' own, that they have."""
+    """Section of tables with names.
+
+    The case gives the names, or plugins have their own.
+    """
 
     title: str
     about: str  # the section, in the tree's help
@@ -103,7 +106,7 @@ class Node:
 
     @property
     def law_places(self) -> tuple[Keys, Keys]:
-        """Where the model of a role and its parameters are written."""
+        """Places of a role's model and parameters."""
         base: Keys
         if self.role == "force_element":
             return ("elements", self.element, "law"), ("elements", self.element, "parameters")
@@ -115,14 +118,20 @@ class Node:
 
 
 def table_model(root: type[BaseModel], table: Keys) -> type[BaseModel]:
-    """Return the class of a table of the case whose class is `root`."""
+    """Return the class of a table.
+
+    It is one of the case whose class is `root`.
+    """
     found = model_at(root, [int(key) if key.isdecimal() else key for key in table])
     assert found is not None, table
     return found
 
 
 def told(root: type[BaseModel], path: str) -> str:
-    """Return what the declaration says of the option at a dotted path, "" where there is none."""
+    """Return the declared description of an option.
+
+    At the dotted path, "" where there is none.
+    """
     *table, name = path.split(".")
     model = model_at(root, [int(key) if key.isdecimal() else key for key in table])
     info = model.model_fields.get(name) if model is not None else None
@@ -130,12 +139,18 @@ def told(root: type[BaseModel], path: str) -> str:
 
 
 def is_freedom(table: type[BaseModel] | None) -> bool:
-    """Tell whether a table is a degree of freedom: one option, with what holds or moves it."""
+    """Tell whether a table is a degree of freedom.
+
+    It is one option, with its support or motion.
+    """
     return table is not None and {"mode", "damping"} <= set(table.model_fields)
 
 
 def plain_fields(root: type[BaseModel], table: Keys) -> list[str]:
-    """Return the options of a table that are no tables themselves (time functions are options)."""
+    """Return the plain options of a table.
+
+    They are no tables themselves (time functions are options).
+    """
     model = table_model(root, table)
     return [
         name
@@ -145,7 +160,10 @@ def plain_fields(root: type[BaseModel], table: Keys) -> list[str]:
 
 
 def about(root: type[BaseModel], table: Keys, *, own: bool = True) -> str:
-    """Return what a table is: the first sentence of its class, or the description of its field."""
+    """Return a table's description.
+
+    The first sentence of its class, or the description of its field.
+    """
     if not own:
         return str(table_model(root, table[:-1]).model_fields[table[-1]].description)
     text = (table_model(root, table).__doc__ or "").strip().split("\n")[0]

@@ -7,7 +7,10 @@ from textual.widgets import Static
 
 
 class OptionHelp(Static):
-    """Help that fits its room: what does not is left to F1, and the last line refers to it."""
+    """Help that fits its room.
+
+    F1 shows the rest, and the last line refers to it.
+    """
 
     DEFAULT_CSS = """
     OptionHelp { width: 1fr; padding: 0 1; color: $text-muted; }

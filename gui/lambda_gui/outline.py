@@ -118,7 +118,10 @@ def outline(root: type[BaseModel], names: Names | None = None) -> list[Node]:
 
 
 def section_names(draft: Draft) -> dict[str, tuple[str, ...]]:
-    """Return the names in the sections of named tables of a draft, and the numbers of the pieces of its shaft."""
+    """Return the names of a draft's tables.
+
+    Those in sections of named tables, and the numbers of the pieces of its shaft.
+    """
     found: dict[str, tuple[str, ...]] = {}
     for section, info in draft.root.model_fields.items():
         tables = draft.get(section)
@@ -132,13 +135,19 @@ def section_names(draft: Draft) -> dict[str, tuple[str, ...]]:
 
 @dataclass(frozen=True)
 class _Outline:
-    """The tree of one class of cases with these names in it."""
+    """Tree of one class of cases.
+
+    These names are in it.
+    """
 
     root: type[BaseModel]
     names: Names
 
     def nodes(self) -> list[Node]:
-        """Return the top nodes, and one for each section that none of them has."""
+        """Return the top nodes and other sections.
+
+        One node for each section that none of the top nodes has.
+        """
         told = (
             self._case(), self._shaft(), self._bearing(), self._of("gears"), self._of("discs"), self._bodies(),
             self._of("markers"), self._of("connections"), self._forces(), self._motion(), self._of("housing"),
@@ -157,11 +166,17 @@ class _Outline:
         return section in self.root.model_fields
 
     def is_named(self, section: str) -> bool:
-        """Tell whether a section has tables under names of its own."""
+        """Tell whether a section has named tables.
+
+        The names are their own.
+        """
         return self.has(section) and get_origin(self.root.model_fields[section].annotation) is dict
 
     def _of(self, section: str, key: str = "") -> Node | None:
-        """Return the node of a section, None where the case has none."""
+        """Return the node of a section.
+
+        None where the case has none.
+        """
         if not self.has(section):
             return None
         if self.is_named(section):
@@ -207,7 +222,10 @@ class _Outline:
         return node
 
     def _bodies(self) -> Node | None:
-        """Return the bodies: those that the case names, or rings, cage and balls of its bearing."""
+        """Return the bodies.
+
+        Those that the case names, or rings, cage and balls of its bearing.
+        """
         if self.is_named("bodies"):
             return self._named("bodies")
         parts = {"inner_ring": "inner", "outer_ring": "outer", "cage": "cage"}
@@ -223,7 +241,10 @@ class _Outline:
         return Node("bodies", "Bodies", "rings, balls and cage: masses, materials, type of the cage", children=nodes)
 
     def _forces(self) -> Node:
-        """Return the laws of contacts, of single ones too where the case has one bearing."""
+        """Return the laws of contacts.
+
+        Of single ones too where the case has one bearing.
+        """
         every = Node("models", "All elements", "one law for every force element that has the role", kind="roles",
                      children=[self._role("", role) for role in MOTION_ROLES])  # fmt: skip
         nodes = [every, *(self._elements() if self.has("forces") else ())]
@@ -272,7 +293,10 @@ class _Outline:
         return node
 
     def _film_law(self, role: str, title: str) -> Node:
-        """Return the node of a law in a section of its own that has further options."""
+        """Return the node of a film law.
+
+        It is a law in a section of its own with further options.
+        """
         table = ("electric", role)
         names = tuple(name for name in plain_fields(self.root, table) if name not in ("law", "parameters"))
         return Node(f"electric.{role}", title, ROLES[role].summary, [Group("", table, names)] if names else [],
@@ -281,7 +305,10 @@ class _Outline:
     # -- named tables --
 
     def _named(self, section: str) -> Node:
-        """Return the node of a section of named tables, one below it for each name."""
+        """Return the node of named tables.
+
+        It has one below it for each name.
+        """
         words = str(self.root.model_fields[section].description)
         what = NAMED.get(section) or Named(_title(section), words, section.rstrip("s").replace("_", " "), {})
         if section == "markers" and not self.is_named("bodies"):
@@ -312,7 +339,10 @@ class _Outline:
         return node
 
     def _below(self, bearing: Keys, heading: str = "") -> list[Node]:
-        """Return the nodes of the tables in a bearing that have forms of their own."""
+        """Return the nodes of a bearing's tables.
+
+        They have forms of their own.
+        """
         nodes = []
         for inner, title in _OF_A_BEARING.items():
             table = (*bearing, *inner.split("."))
@@ -324,7 +354,9 @@ class _Outline:
     # -- laws --
 
     def _elements(self, bearing: Keys = ()) -> list[Node]:
-        """Return a node for every force element with its roles below.
+        """Return a node per force element.
+
+        With its roles below.
 
         `bearing` is where the bearing is written, () where the case has one.
         """
@@ -356,12 +388,18 @@ class _Outline:
         return Group("", table, (*first, *(name for name in names if name not in first)))
 
     def _inner_groups(self, table: Keys, without: set[str]) -> list[Group]:
-        """Return a group for each table in a table, but for some."""
+        """Return a group for each inner table.
+
+        Some tables have none.
+        """
         inner = [name for name in self._tables(table) if name not in without]
         return [Group(_title(name), (*table, name), tuple(self._options((*table, name)))) for name in inner]
 
     def _options(self, table: Keys) -> list[str]:
-        """Return the options of a table; a material or a degree of freedom is one."""
+        """Return the options of a table.
+
+        A material or a degree of freedom is one.
+        """
         plain = plain_fields(self.root, table)
         fields = table_model(self.root, table).model_fields
         return [

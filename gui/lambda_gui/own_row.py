@@ -23,7 +23,10 @@ from lambda_gui.rows import Row, Rows, Surroundings, row_of
 
 
 class OwnRow(ModalScreen[str | None]):
-    """Change what differs, say where it comes from, save; answers with the new row's name."""
+    """Form of a changed catalogue row.
+
+    It takes differences and their source, saves, and answers with the new row's name.
+    """
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("f1", "app.help", "Help", priority=True),
@@ -61,7 +64,7 @@ class OwnRow(ModalScreen[str | None]):
         yield Footer()
 
     def on_descendant_focus(self, event: events.DescendantFocus) -> None:
-        """Say what the value under the keyboard is, and where it comes from."""
+        """Show the focused value's meaning and origin."""
         row = row_of(event.widget)
         if row is not None:
             self.query_one(OptionHelp).show(row.help())
@@ -194,5 +197,8 @@ def _value(keys: Keys, value: dict[str, Any]) -> tuple[Keys, FieldCard, Any]:
 
 
 def _number(value: Any) -> float | None:
-    """Return the number of a text like "12 mm2/s"; values of oils keep the unit they have."""
+    """Return the number of a text.
+
+    Such as "12 mm2/s"; values of oils keep the unit they have.
+    """
     return None if value is None else float(str(value).split(" ")[0])

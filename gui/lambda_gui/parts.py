@@ -33,7 +33,10 @@ _SENSE = {
 
 
 class FreedomRow(Branch):
-    """One degree of freedom of a body: how it moves, and its support or motion."""
+    """One degree of freedom of a body.
+
+    Its motion and its support.
+    """
 
     _MODES = (
         ("free", "free", "moves by the forces on it"),
@@ -50,7 +53,10 @@ class FreedomRow(Branch):
         self._supported = False
 
     def _modes(self, table: type[BaseModel]) -> list[tuple[str, str, str]]:
-        """Return the modes that it can have; a rotation about the body's own axis can only be resisted."""
+        """Return the possible modes.
+
+        A rotation about the body's own axis can only be resisted.
+        """
         known = get_args(table.model_fields["mode"].annotation)
         modes = [mode for mode in self._MODES if mode[0] in (*known, "support")]
         if "stiffness" in table.model_fields:
@@ -92,7 +98,10 @@ class FreedomRow(Branch):
                     yield row_for(self._option.part(name), field_card(self._table, name), self.around, deep=True)
 
     def on_choice_changed(self, event: Choice.Changed) -> None:
-        """Write the mode; what belongs to another mode goes with it."""
+        """Write the mode.
+
+        Values of another mode are removed with it.
+        """
         if event.choice is not self.query_one(Choice):
             return
         event.stop()
@@ -145,7 +154,10 @@ class MaterialRow(Branch):
                 yield row_for(self._option.part(name), field_card(InlineMaterial, name), self.around, deep=True)
 
     def on_choice_changed(self, event: Choice.Changed) -> None:
-        """Write the name, or begin a table with the values of the material so far."""
+        """Write the name or a new table.
+
+        The table begins with the values of the material so far.
+        """
         event.stop()
         if event.value == self._OWN:
             known = {name: self.around.value((*self.place.keys, name)) for name in InlineMaterial.model_fields}

@@ -18,7 +18,9 @@ NONE_HERE = (
 
 
 def picture_widget() -> type[Widget] | None:
-    """Return the widget that shows a picture file in this terminal, None where there are text charts only.
+    """Return the widget of a picture file.
+
+    None where this terminal shows text charts only.
 
     The terminal is asked what it can do, which has to be done before the builder reads from it. A pipe is never asked,
     nor is a browser's page.

@@ -13,7 +13,7 @@ from lambda_gui.nodes import Keys
 
 
 class Place(Protocol):
-    """Where a value is written."""
+    """Place of a written value."""
 
     @property
     def keys(self) -> Keys:
@@ -42,7 +42,10 @@ class Option:
         self._draft.set(*self.keys, value=value)
 
     def part(self, name: str) -> Option:
-        """Return the place of an entry of the table that stands here."""
+        """Return the place of a table's entry.
+
+        The table is here.
+        """
         return Option(self._draft, (*self.keys, name))
 
 
@@ -76,7 +79,10 @@ class Part:
         self._parent.put(parent)
 
     def part(self, name: str) -> Part:
-        """Return the place of an entry of the table that stands here."""
+        """Return the place of a table's entry.
+
+        The table is here.
+        """
         return Part(self._parent, *self._path, name)
 
 

@@ -19,7 +19,10 @@ CYCLE = ("primary", "accent", "success", "error", "warning", "secondary")
 
 
 class Plot(PlotextPlot):
-    """A plot whose content is drawn by `fill`, again whenever size or theme change."""
+    """Plot that `fill` draws.
+
+    It draws again whenever size or theme change.
+    """
 
     DEFAULT_CSS = """
     Plot { background: $background; }
@@ -59,7 +62,10 @@ class Plot(PlotextPlot):
 
 
 def series_colour(colours: Mapping[str, str], number: int) -> str:
-    """Return the colour of the n-th series as #rrggbb; after the first six they are paler."""
+    """Return the colour of a series.
+
+    The n-th as #rrggbb: after the first six they are paler.
+    """
     colour = Color.parse(colours[CYCLE[number % len(CYCLE)]])
     back = Color.parse(colours["background"])
     return colour.blend(back, min(0.7, 0.45 * (number // len(CYCLE)))).hex[:7]
@@ -80,7 +86,10 @@ def round_numbers(low: float, high: float, wanted: int) -> list[float]:
 
 
 def labels_of(places: Sequence[float]) -> list[str]:
-    """Write ticks with as few digits as tell them apart, all with as many decimals."""
+    """Write ticks with few digits.
+
+    They tell them apart, and all have as many decimals.
+    """
     for digits in range(2, 8):
         labels = [f"{place:.{digits}g}" for place in places]
         if len(set(labels)) == len(labels) and all(
@@ -102,7 +111,10 @@ def _plain(label: str) -> str:
 
 
 def padded(low: float, high: float, least: float = 0.0) -> tuple[float, float]:
-    """Return a range a little wider than the data's, at least `least` wide."""
+    """Return a range wider than the data's.
+
+    A little wider, at least `least` wide.
+    """
     if not (math.isfinite(low) and math.isfinite(high)):
         return 0.0, 1.0
     width = max(high - low, least, 1e-9 * max(abs(low), abs(high)), 1e-30)

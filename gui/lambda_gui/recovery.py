@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 
 
 def state_folder() -> Path:
-    """Return where the builder keeps recovery files and the files of runs."""
+    """Return the folder of the builder's state.
+
+    It has recovery files and the files of runs.
+    """
     from lambda_core.domain.files import user_data_folder
 
     return user_data_folder() / "builder"
@@ -37,7 +40,7 @@ class Rescue:
 
     @property
     def has_shaft(self) -> bool:
-        """Whether the case has a shaft, not one bearing alone."""
+        """True for the case of a shaft."""
         tables = tomllib.loads(self.text)
         return "shaft" in tables or "bearings" in tables
 
@@ -58,7 +61,10 @@ class Keeper:
         self._file: Path | None = None
 
     def keep(self, draft: Draft) -> None:
-        """Write the draft's text aside; UsageError when that cannot be done."""
+        """Write the draft's text aside.
+
+        UsageError when that cannot be done.
+        """
         file = _file_of(draft.path)
         if self._file is not None and self._file != file:
             self.drop()
@@ -76,14 +82,20 @@ class Keeper:
         self._file = file
 
     def drop(self) -> None:
-        """Remove the file: everything is saved, or given up on purpose."""
+        """Remove the recovery file.
+
+        Everything is saved, or given up on purpose.
+        """
         if self._file is not None:
             _remove(self._file)
             self._file = None
 
 
 def rescues(path: Path | None) -> list[Rescue]:
-    """Return unsaved work on a case (on cases without a file for None), the newest first."""
+    """Return unsaved work on a case.
+
+    On cases without a file for None, the newest first.
+    """
     folder = state_folder() / "unsaved"
     wanted = str(path.resolve()) if path else None
     found = []
@@ -100,7 +112,10 @@ def rescues(path: Path | None) -> list[Rescue]:
 
 
 def take(rescue: Rescue, draft: Draft) -> None:
-    """Put rescued work into the draft of its case, as unsaved changes."""
+    """Put rescued work into its draft.
+
+    As unsaved changes of its case.
+    """
     draft.replace(tomllib.loads(rescue.text))
     forget(rescue)
 
@@ -116,7 +131,10 @@ def _file_of(path: Path | None) -> Path:
 
 
 def _is_in_use(process: dict[str, str]) -> bool:
-    """Tell whether the builder that wrote may still be open; on another machine one cannot see."""
+    """Tell whether the writing builder may be open.
+
+    On another machine nobody can see that.
+    """
     return process["host"] != socket.gethostname() or Status(process=process).alive()
 
 

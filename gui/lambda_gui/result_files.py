@@ -15,12 +15,18 @@ def is_study(path: Path) -> bool:
 
 
 def named(path: Path) -> str:
-    """Return the name under which a result or a study is listed."""
+    """Return the listed name of a result.
+
+    Or of a study.
+    """
     return f"{path.name}/" if path.is_dir() else path.stem
 
 
 def results_in(folder: Path) -> list[Path]:
-    """Return the result files and the studies in a folder, the newest first."""
+    """Return a folder's results and studies.
+
+    The newest first.
+    """
     try:
         found = [*folder.glob("*.h5"), *(file.parent for file in folder.glob(f"*/{MANIFEST}"))]
         return sorted(found, key=lambda path: -_file(path).stat().st_mtime)
@@ -29,7 +35,10 @@ def results_in(folder: Path) -> list[Path]:
 
 
 def _file(path: Path) -> Path:
-    """Return the file that changes as a result or a study grows."""
+    """Return the file that grows.
+
+    With a result or a study.
+    """
     return path / MANIFEST if path.is_dir() else path
 
 

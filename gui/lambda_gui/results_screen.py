@@ -87,7 +87,10 @@ class ResultsScreen(ExportScreen):
         self._drawn: TemporaryDirectory[str] | None = None  # where pictures are drawn; none: text charts are shown
 
     def compose(self) -> ComposeResult:
-        """Lay out files and views at the left of the picture."""
+        """Lay out files, views and the picture.
+
+        The picture is at the right.
+        """
         with Horizontal():
             with Vertical(id="left"):
                 yield DataTable(cursor_type="row", show_header=False, cell_padding=0, id="files")
@@ -122,7 +125,10 @@ class ResultsScreen(ExportScreen):
             self._show_data(self._data)
 
     def say(self, words: str = "") -> None:
-        """Write over the content what is shown, and what is being done."""
+        """Write a message over the content.
+
+        What is shown, and what is being done.
+        """
         if not is_here(self):
             return
         names = "  ".join(path.name for path in self.chosen())
@@ -154,7 +160,10 @@ class ResultsScreen(ExportScreen):
         return marked or ([current] if current is not None else [])
 
     def on_data_table_row_highlighted(self, event: DataTable.RowHighlighted) -> None:
-        """Show the result under the cursor; a study has other views."""
+        """Show the result under the cursor.
+
+        A study has other views.
+        """
         if self.current() != self._of_path:
             self._of_path, self._bearing = self.current(), None
         if self._subject not in ("", self._of()):
@@ -216,7 +225,10 @@ class ResultsScreen(ExportScreen):
 
     @work(exclusive=True, group="views")
     async def _fill_views(self) -> None:
-        """List the views of one result, of several, or of a study."""
+        """List the views of the results.
+
+        Of one result, of several, or of a study.
+        """
         subject = self._subject = self._of()
         try:
             cards = await self._helper.ask("views", subject=subject)
@@ -242,7 +254,10 @@ class ResultsScreen(ExportScreen):
             self._show()
 
     def _refresh_live(self) -> None:
-        """Read a result again that has grown; take in files that came or went."""
+        """Read a grown result again.
+
+        Take in files that came or went.
+        """
         known = {path.resolve() for path in (*self._more, *results_in(self._folder)) if path.exists()}
         if known != set(self._files):
             self._marked &= known
@@ -291,7 +306,10 @@ class ResultsScreen(ExportScreen):
             self._show()
 
     async def _show_picture(self, paths: list[Path], folder: str) -> None:
-        """Show the view as it is drawn for files, as large as there is room."""
+        """Show the view as a picture.
+
+        As it is drawn for files, as large as there is room.
+        """
         (drawn,) = await self._helper.ask(
             "draw", sources=[str(path) for path in paths], name=self._view, folder=folder, units=self._units.name,
             formats=["png"], bearing=self._bearing,
@@ -321,14 +339,20 @@ class ResultsScreen(ExportScreen):
             self.say("   ".join(summary.state for summary in found) + ("   b: next bearing" if several else ""))
 
     def _summary(self, found: Summary, width: int) -> Text:
-        """Lay out a summary: of a machine a column for each bearing."""
+        """Lay out a summary.
+
+        That of a machine has a column for each bearing.
+        """
         if len(found.bearings) > 1:
             return Text(found.text(width, self._units))
         return summary_view(found, self.app.theme_variables, self._units)
 
     @work(exclusive=True, group="bearing")
     async def action_bearing(self) -> None:
-        """Go from a machine to its first bearing, to the next one, and back to the machine."""
+        """Go to the next bearing.
+
+        From a machine to its first bearing, to the next one, and back to the machine.
+        """
         path = self.current()
         if path is None or is_study(path):
             return

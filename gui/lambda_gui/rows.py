@@ -34,29 +34,41 @@ class Edited(Message):
 
 @dataclass
 class Left(Message):
-    """An entry was left: the next change of the same place is undone on its own."""
+    """Message that an entry was left.
+
+    The next change of the same place is undone on its own.
+    """
 
 
 @dataclass
 class Stepped(Message):
-    """The person goes on to the next entry, or back to the one before."""
+    """Message to go to another entry.
+
+    The next one, or the one before.
+    """
 
     by: int
 
 
 class Surroundings:
-    """What rows need of the case around them: resolved values, names of the catalogue, what has changed."""
+    """Case around the rows.
+
+    Resolved values, names of the catalogue, changes.
+    """
 
     def resolved(self, keys: Keys) -> str:
-        """Return the value an option has when it is not written, "" when that is not known."""
+        """Return the value of a missing option.
+
+        "" when that is not known.
+        """
         return ""
 
     def value(self, keys: Keys) -> ValueReport | None:
-        """Return the value an option has when it is not written, with its origin."""
+        """Return a missing option's value and origin."""
         return None
 
     def origin(self, keys: Keys) -> str:
-        """Return the value an option has when it is not written, with where it comes from."""
+        """Return a missing option's value and origin."""
         return ""
 
     def names(self, kind: str) -> list[str]:
@@ -69,7 +81,10 @@ class Surroundings:
 
 
 class Names(Surroundings):
-    """Names that a form of its own completes, by their kind."""
+    """Names for completion, by their kind.
+
+    They belong to a form of its own.
+    """
 
     def __init__(self, names: Mapping[str, Sequence[str]]) -> None:
         self._names = names
@@ -80,20 +95,32 @@ class Names(Surroundings):
 
 
 def row_of(widget: Widget) -> Row | None:
-    """Return the row that a widget is in; None outside of rows."""
+    """Return the row of a widget.
+
+    None outside of rows.
+    """
     return next((around for around in widget.ancestors_with_self if isinstance(around, Row)), None)
 
 
 class Rows(VerticalScroll, can_focus=False, inherit_bindings=False):
-    """Rows of a form of its own; the arrow keys are left to the screen, which goes from row to row."""
+    """Rows of a form of its own.
+
+    The arrow keys are left to the screen, which goes from row to row.
+    """
 
 
 class Row(Vertical):
-    """One option. Subclasses bring the widget that is typed in or chosen from."""
+    """Row of one option.
+
+    Subclasses bring the widget for typing or choosing.
+    """
 
     @dataclass
     class Done(Message):
-        """The person is done with the row and goes on to the next."""
+        """Message that the row is done.
+
+        The next row follows.
+        """
 
         row: Row
 
@@ -133,7 +160,10 @@ class Row(Vertical):
         raise NotImplementedError
 
     def compose(self) -> ComposeResult:
-        """Lay out label and control; a mistake comes under them when there is one."""
+        """Lay out label and control.
+
+        A mistake comes under them when there is one.
+        """
         with Horizontal(classes="line"):
             yield Static(self.words, classes="label", markup=False)
             yield self.control()
@@ -154,7 +184,10 @@ class Row(Vertical):
         raise NotImplementedError
 
     def fit(self, width: int, *, short: bool = False) -> None:
-        """Give the label as much room as those of the whole form take; its short form where asked for."""
+        """Fit the label to the form's labels.
+
+        It has as much room as they take; its short form where requested.
+        """
         self._width = width
         words = self.short if short else self.label
         if words != self.words:
@@ -181,7 +214,10 @@ class Row(Vertical):
         self.query_one(".label", Static).update(label)
 
     def say(self, mistakes: Sequence[str]) -> None:
-        """Show what is wrong with the option, nothing when it is fine."""
+        """Show the mistake of the option.
+
+        Nothing when it is fine.
+        """
         if not self.stands:
             return
         self.set_class(bool(mistakes), "-wrong")
@@ -198,7 +234,10 @@ class Row(Vertical):
             self._told.update(words)
 
     def entry(self) -> Widget | None:
-        """Return what takes the keyboard when somebody comes to change the option."""
+        """Return the widget for the keyboard.
+
+        It changes the option.
+        """
         return next((widget for widget in self.query("*").results(Widget) if widget.focusable), None)
 
     def help(self) -> Text:

@@ -73,7 +73,7 @@ class RunScreen(Screen[None]):
         self.call_after_refresh(self._draw)
 
     def on_resize(self) -> None:
-        """Give the names what room there is, and draw for the new size."""
+        """Adapt names and drawing to the size."""
         table = self.query_one(DataTable)
         if table.columns:
             others = sum(width for title, width in _COLUMNS if title != "case")
@@ -123,7 +123,10 @@ class RunScreen(Screen[None]):
                 trace.follow(run.history)
 
     def action_cancel(self) -> None:
-        """Stop the run under the cursor; it keeps what it has."""
+        """Stop the run under the cursor.
+
+        It keeps what it has.
+        """
         if self.run_shown is not None:
             self.run_shown.cancel()
             self.follow()

@@ -12,5 +12,8 @@ _PROGRAM = (sys.executable, "-P", "-m", "lambda_cli")
 
 
 def open_queue(ended: Callable[[QueuedRun], None]) -> RunQueue:
-    """Return the queue of this builder; `ended` is called with each run that has ended."""
+    """Return the queue of this builder.
+
+    `ended` is called with each run that has ended.
+    """
     return RunQueue(state_folder() / "runs", _PROGRAM, ended)

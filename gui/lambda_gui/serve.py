@@ -24,7 +24,10 @@ def is_loopback(host: str) -> bool:
 
 
 def warning(host: str) -> str:
-    """Return what somebody should know who lets other machines in, "" for an address of this machine alone."""
+    """Return the warning about other machines.
+
+    It is for users who let them in; "" for an address of this machine alone.
+    """
     if is_loopback(host):
         return ""
     return (
@@ -35,7 +38,9 @@ def warning(host: str) -> str:
 
 
 def serve(case: str | None, host: str, port: int, announce: Callable[[str], None]) -> None:
-    """Serve the builder until Ctrl+C; every browser tab is a builder of its own.
+    """Serve the builder until Ctrl+C.
+
+    Every browser tab is a builder of its own.
 
     `announce` is called with the address once it can be opened: it has a secret in it.
 

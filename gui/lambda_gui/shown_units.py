@@ -6,7 +6,9 @@ from lambda_core.domain.unit_systems import UnitSystem
 
 
 def fact_in_units(fact: tuple[str, str, str], units: UnitSystem) -> tuple[str, str, str]:
-    """Return a named number with its unit in other units: ("Q max", "1 440", "N inner") has "324", "lbf inner".
+    """Return a named number in another unit.
+
+    ("Q max", "1 440", "N inner") has "324", "lbf inner".
 
     Parameters
     ----------

@@ -36,7 +36,10 @@ _SIGNALS = {
 
 
 class SignalRow(Branch):
-    """A load, speed or motion over time: a value or one of the time functions."""
+    """Load, speed or motion over time.
+
+    It is a value or one of the time functions.
+    """
 
     DEFAULT_CSS = """
     SignalRow > .line > Choice { width: 10; margin-right: 1; }
@@ -61,7 +64,10 @@ class SignalRow(Branch):
             yield from self.twigs()
 
     def _kinds(self) -> list[ChoiceEntry]:
-        """Return the kinds; a constant, which is a value written at length, only where a file has it."""
+        """Return the kinds of functions.
+
+        A constant, which is a value written at length, only where a file has it.
+        """
         now = self._kind()
         kinds = [kind for kind in SIGNAL_KINDS if kind in self._tables and (kind != "constant" or now == "constant")]
         return [ChoiceEntry(kind, kind, _SIGNALS[kind]) for kind in ("value", *kinds)]
@@ -71,7 +77,10 @@ class SignalRow(Branch):
         return str(value.get("kind", "value")) if isinstance(value, dict) else "value"
 
     def shape(self) -> object:
-        """Return the kind, and of a sum how many terms of which kinds."""
+        """Return the kind and terms.
+
+        Of a sum how many terms of which kinds.
+        """
         value = self.place.get()
         terms = value.get("terms") if isinstance(value, dict) else None
         return self._kind(), [isinstance(term, dict) for term in terms] if isinstance(terms, list) else None
@@ -91,11 +100,17 @@ class SignalRow(Branch):
         super().show()
 
     def entry(self) -> Widget | None:
-        """Return the value where there is one: it is changed more often than the kind before it."""
+        """Return the value's widget where it exists.
+
+        It is changed more often than the kind before it.
+        """
         return self.query_one(Entry) if self._kind() == "value" else super().entry()
 
     def twigs(self) -> Iterator[Widget]:
-        """Yield the options of the kind, or the terms of a sum."""
+        """Yield the options of the kind.
+
+        Or the terms of a sum.
+        """
         table = self._tables.get(self._kind())
         if table is None:
             return
@@ -128,7 +143,10 @@ class SignalRow(Branch):
         )
 
     def on_key(self, event: events.Key) -> None:
-        """Let a number that is typed on the kind be the beginning of the value."""
+        """Start the value with a typed number.
+
+        It was typed on the kind.
+        """
         if event.character and event.character in _BEGINS_A_NUMBER and self.query_one(Choice).has_focus:
             entry = next((entry for entry in self.query(Entry) if entry.display), None)
             if entry is not None:
@@ -136,7 +154,10 @@ class SignalRow(Branch):
                 entry.begin(event.character)
 
     def on_choice_changed(self, event: Choice.Changed) -> None:
-        """Write the new kind with what the old one has for it."""
+        """Write the new kind.
+
+        It takes the values that the old one has for it.
+        """
         event.stop()
         self.write(_as_kind(event.value, self.place.get()))
         self.post_message(Left())
@@ -174,7 +195,10 @@ def _kind_of(table: type[BaseModel]) -> str:
 
 
 def _as_kind(kind: str, value: Any) -> Any:
-    """Return a time function of another kind that begins with what the old one says."""
+    """Return a function of another kind.
+
+    It begins with the values of the old one.
+    """
     plain = value
     if isinstance(value, dict):
         terms = value.get("terms") or [None]

@@ -27,7 +27,9 @@ _MARKS = 17  # columns for the diameters next to a section
 
 
 class Sketch(Static):
-    """The upper half-section of the bearing, or the shaft; axes and signs for forms about loads and motion.
+    """Upper half-section of the bearing, or shaft.
+
+    Axes and signs for forms about loads and motion.
 
     With mistakes in the case the last drawing stays.
     """
@@ -44,7 +46,10 @@ class Sketch(Static):
         self._is_about_axes = False
 
     def show_check(self, check: Check) -> None:
-        """Take a resolved case; the equilibrium of the case before does not belong to it."""
+        """Take a resolved case.
+
+        The equilibrium of the case before does not belong to it.
+        """
         if check.alone is not None:
             self._section = section_of_geometry(check.alone.geometry)
         elif check.machine is not None:
@@ -52,7 +57,10 @@ class Sketch(Static):
         self.draw()
 
     def show_estimate(self, estimate: Any) -> None:
-        """Take the equilibrium of a machine: the drawing shows the deflection of its shaft."""
+        """Take the equilibrium of a machine.
+
+        The drawing shows the deflection of its shaft.
+        """
         if self._machine is not None and estimate is not None:
             self._equilibrium = estimate.equilibrium
             self.draw()
@@ -69,7 +77,10 @@ class Sketch(Static):
         self.draw()
 
     def draw(self) -> None:
-        """Draw section, shaft or axes, in the colours of the theme."""
+        """Draw section, shaft or axes.
+
+        In the colours of the theme.
+        """
         colours, width, height = self.app.theme_variables, self.size.width - 2, self.size.height
         if height < 5 or width < 16:  # a narrow screen has no room for it
             return
@@ -90,7 +101,9 @@ def section_of_geometry(geometry: Geometry) -> Section:
 
 
 def drawn(section: Section, height: int, width: int, colours: dict[str, str], clearance: float | None = None) -> Text:
-    """Draw a section with its contact line, and diameters, clearance and angle at the side; edges are smooth.
+    """Draw a section with its dimensions.
+
+    Contact line, and diameters, clearance and angle at the side; edges are smooth.
 
     Parameters
     ----------
@@ -133,7 +146,10 @@ def drawn(section: Section, height: int, width: int, colours: dict[str, str], cl
 
 @lru_cache(maxsize=32)
 def _pixels(section: Section, rows: int, columns: int, air: str, ring: str, ball: str, line: str) -> list[list[str]]:
-    """Return the colour of each pixel: the mean over points in it."""
+    """Return the colour of each pixel.
+
+    It is the mean over points in it.
+    """
     colours = {AIR: Color.parse(air), RING: Color.parse(ring), BALL: Color.parse(ball)}
     high = 0.5 * (section.outside - section.bore)
     inside = [(n + 0.5) / _POINTS for n in range(_POINTS)]

@@ -113,7 +113,10 @@ class StudyScreen(Screen[None]):
         yield row_for(Held(self.values, (number, "values")), listed, around)
 
     def _value_card(self, number: str, name: str, about: str) -> FieldCard:
-        """Return the card of an end of a range: it takes the units of the option that varies."""
+        """Return the card of a range's end.
+
+        It takes the units of the option that varies.
+        """
         units = card_of(self._draft.root, str(self.values.get((number, "path")) or "")).units
         return card(name, about).model_copy(update={"units": units, "kind": "quantity" if units else "text"})
 
@@ -146,7 +149,10 @@ class StudyScreen(Screen[None]):
     # -- rows --
 
     def on_edited(self, event: Edited) -> None:
-        """Check what was typed soon; another option brings its own units."""
+        """Check typed values soon.
+
+        Another option brings its own units.
+        """
         if event.keys[-1] == "path":
             self._take_units(event.keys[0])
         self.is_fine = False
@@ -202,7 +208,10 @@ class StudyScreen(Screen[None]):
         self.app.run_study(study_tables(self.values, self._usual), self._model.case_toml)  # type: ignore[attr-defined]
 
     def action_save(self) -> None:
-        """Write the study into a file of its own in the folder of the case."""
+        """Write the study into its own file.
+
+        It is in the folder of the case.
+        """
         path = self._draft.path
         if path is None or self._draft.is_changed():
             self.notify("a study needs the file of the case: save the case first (Esc, Ctrl+S)", severity="warning")

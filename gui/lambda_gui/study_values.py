@@ -31,7 +31,10 @@ Values = dict[Keys, Any]
 
 
 def asked(bearings: Iterable[str]) -> tuple[str, ...]:
-    """Return the responses of a study where none are written, of one bearing or of a machine with these bearings."""
+    """Return a study's default responses.
+
+    Of one bearing or of a machine with these bearings.
+    """
     names = list(bearings)
     if not names:
         return _OF_A_BEARING
@@ -39,7 +42,9 @@ def asked(bearings: Iterable[str]) -> tuple[str, ...]:
 
 
 def studied(root: type[BaseModel], paths: Iterable[str]) -> tuple[str, ...]:
-    """Return those paths of a case that a study can vary: numbers with or without unit, and names.
+    """Return the paths that a study can vary.
+
+    They are numbers with or without unit, and names.
 
     Parameters
     ----------
@@ -54,7 +59,10 @@ def studied(root: type[BaseModel], paths: Iterable[str]) -> tuple[str, ...]:
 
 
 def card_of(root: type[BaseModel], path: str) -> FieldCard:
-    """Return the card of an option of the case; of a plain text where there is none at this path."""
+    """Return the card of an option.
+
+    That of a plain text where the case has none at this path.
+    """
     *parents, name = path.split(".")
     table = model_at(root, [int(key) if key.isdecimal() else key for key in parents])
     if table is None or name not in table.model_fields:
@@ -81,7 +89,9 @@ def card(
 
 
 def first_values(case: str, path: str, written: str) -> Values:
-    """Return what a new form holds: the option under the keyboard from half to twice what it is.
+    """Return the contents of a new form.
+
+    The option under the keyboard runs from half to twice its value.
 
     Parameters
     ----------
@@ -103,7 +113,9 @@ def first_values(case: str, path: str, written: str) -> Values:
 
 
 def study_tables(values: Values, usual: Iterable[str]) -> dict[str, Any]:
-    """Return the study as it would stand in a file, right or wrong.
+    """Return the study as in a file.
+
+    It may be right or wrong.
 
     Parameters
     ----------

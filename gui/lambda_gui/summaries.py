@@ -35,7 +35,9 @@ _TELL = {
 
 
 def summary(node: Node, draft: Draft, around: CaseContext) -> str:
-    """Return a few words about a node, "" where there is nothing to say.
+    """Return a short text about a node.
+
+    "" where there is nothing to report.
 
     Parts after a tab are left out where the room is short.
     """
@@ -73,7 +75,10 @@ def summary(node: Node, draft: Draft, around: CaseContext) -> str:
 
 
 def _absent(node: Node, draft: Draft) -> str:
-    """Return a word about named parts that are not there: without pieces the shaft of a single bearing is rigid."""
+    """Return a text about missing parts.
+
+    They are named parts; without pieces the shaft of a single bearing is rigid.
+    """
     bearings = draft.get("bearings")
     is_single = isinstance(bearings, Mapping) and len(bearings) == 1
     is_rigid = node.table[:1] == ("shaft",) and is_single and draft.get("shaft", "reduced") is None
@@ -81,7 +86,10 @@ def _absent(node: Node, draft: Draft) -> str:
 
 
 def _item(node: Node, draft: Draft) -> str:
-    """Return a few words about a named table, or a piece of the shaft."""
+    """Return a short text about a table.
+
+    A named table, or a piece of the shaft.
+    """
     written = draft.get(*node.table)
     table: Mapping[str, Any] = written if isinstance(written, Mapping) else {}
     section = node.table[0]
@@ -92,7 +100,10 @@ def _item(node: Node, draft: Draft) -> str:
 
 
 def _text(value: Any) -> str:
-    """Return a value as it stands in the file, the kind of a time function; "" for any other table."""
+    """Return a value as in the file.
+
+    Of a time function its kind; "" for any other table.
+    """
     if isinstance(value, Mapping):
         return str(value.get("kind", ""))
     return "" if value is None or isinstance(value, list) else str(value)

@@ -18,7 +18,10 @@ _LABEL = 16
 
 
 def _currents(summary: Summary) -> Sequence[tuple[str, str, str]]:
-    """Return bearing voltage and discharges of a run with a circuit."""
+    """Return bearing voltage and discharges.
+
+    The run has a circuit.
+    """
     found = summary.currents
     if found is None:
         return ()
@@ -26,7 +29,10 @@ def _currents(summary: Summary) -> Sequence[tuple[str, str, str]]:
 
 
 def summary_view(summary: Summary, colours: Mapping[str, str], units: UnitSystem = SI) -> Text:
-    """Return what a run found: friction, kinematics, films, capacitance, how far it can be trusted."""
+    """Return the summary of a run.
+
+    Friction, kinematics, films, capacitance and accuracy.
+    """
     text = Text()
     for line in units.sentence(summary.headline).splitlines():
         text.append(f"{line}\n", style="dim")
@@ -64,7 +70,10 @@ def summary_view(summary: Summary, colours: Mapping[str, str], units: UnitSystem
 
 
 def _torque(summary: Summary, units: UnitSystem) -> tuple[str, str]:
-    """Return the torque and its scatter apart, with the digits that its model band leaves, where it has one."""
+    """Return the torque and its scatter.
+
+    They are separate, with the digits that its model band leaves.
+    """
     width = summary.friction_torque_ci_Nmm
     if not summary.friction_torque_Nmm_band:
         return units.plus_minus(summary.friction_torque_Nmm, width, "N mm"), ""
@@ -73,7 +82,10 @@ def _torque(summary: Summary, units: UnitSystem) -> tuple[str, str]:
 
 
 def _declared(summary: Summary, groups: Sequence[str], units: UnitSystem) -> list[tuple[str, str, str]]:
-    """Return the numbers of groups as they are declared: name, number, unit."""
+    """Return the declared numbers of groups.
+
+    Name, number, unit.
+    """
     return [
         (one.column, api.shown(summary, one.name, units), "")
         if getattr(summary, f"{one.name}_band", [])
@@ -93,7 +105,10 @@ def _rated(summary: Summary, units: UnitSystem) -> list[tuple[str, str, str]]:
 
 
 def _breakdown(text: Text, summary: Summary, units: UnitSystem) -> None:
-    """Append the parts of the friction torque: per ring side by side, then the rest."""
+    """Append the parts of the friction torque.
+
+    Per ring side by side, then the rest.
+    """
     parts = summary.friction_breakdown_Nmm
     text.append(f"\n{units.unit('N mm'):<{_LABEL}}{'inner':>9}{'outer':>9}{'both':>9}\n", style="dim")
     for mechanism in dict.fromkeys(name.rpartition("_")[0] for name in parts if name.endswith(("_inner", "_outer"))):

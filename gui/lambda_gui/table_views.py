@@ -23,7 +23,9 @@ _LARGE = 1e4  # numbers above are rounded to three digits
 
 
 def differences_view(found: SideBySide, width: int, units: UnitSystem = SI) -> list[RenderableType]:
-    """Return what the cases of several results say differently, and their key numbers, a column for each.
+    """Return the differences of several results.
+
+    Of their cases, and their key numbers, a column for each.
 
     Parameters
     ----------
@@ -48,7 +50,10 @@ def differences_view(found: SideBySide, width: int, units: UnitSystem = SI) -> l
 
 
 def _side_by_side(head: str, names: list[str], width: int) -> Table:
-    """Return a table with a column for each result, as wide as its name where there is room."""
+    """Return a table of results.
+
+    A column for each result, as wide as its name where there is room.
+    """
     room = max(_NAME, (width - _HEAD) // len(names) - 1)
     table = Table(box=None, pad_edge=False, header_style="bold", padding=(0, 1, 0, 0))
     wide = [min(room, max(_NAME, len(name))) for name in names]
@@ -60,7 +65,9 @@ def _side_by_side(head: str, names: list[str], width: int) -> Table:
 
 
 def study_view(status: StudyStatus, points: StudyTable, width: int, units: UnitSystem = SI) -> list[RenderableType]:
-    """Return where a study stands and its first points; numbers for which there is no room are named.
+    """Return a study's state and first points.
+
+    Numbers for which there is no room are named.
 
     Parameters
     ----------

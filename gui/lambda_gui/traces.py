@@ -12,7 +12,10 @@ Points = Sequence[tuple[float, float]]
 
 
 class Trace(Plot):
-    """Draws what a run has said so far, again for every new size and theme."""
+    """Drawing of a run's messages.
+
+    It is drawn again for every new size and theme.
+    """
 
     _history: Sequence[Progress] = ()
 
@@ -46,7 +49,10 @@ class Trace(Plot):
             self.plt.plot(list(x), list(y), color=self.colour(colour), marker="braille", label=label or None)
 
     def axes(self, history: Sequence[Progress], low: float, high: float) -> None:
-        """Scale both axes; x runs to the end of the run."""
+        """Scale both axes.
+
+        x runs to the end of the run.
+        """
         self.ticks(low, high, "y", max(2, self.size.height // 4))
         last = history[-1]
         end = max(last.cage_revolutions_wanted, last.cage_revolutions, 1e-6)
@@ -55,7 +61,10 @@ class Trace(Plot):
 
 
 class TorqueTrace(Trace):
-    """The friction torque now, its running mean, and the band of 95 % confidence."""
+    """Friction torque with mean and band.
+
+    The present value, its running mean, and the band of 95 % confidence.
+    """
 
     def draw(self, history: Sequence[Progress]) -> None:
         """Draw."""
@@ -79,7 +88,10 @@ class TorqueTrace(Trace):
 
 
 class CageTrace(Trace):
-    """Cage speed over inner ring speed, and what it would be without slip."""
+    """Cage speed over inner ring speed.
+
+    With its value without slip.
+    """
 
     def draw(self, history: Sequence[Progress]) -> None:
         """Draw."""

@@ -40,7 +40,10 @@ _OPEN = (
 
 
 class ModelTree(Tree[Node]):
-    """Nodes of the case; moving onto one shows its form, Enter goes into it."""
+    """Nodes of the case.
+
+    Moving onto one shows its form, Enter goes into it.
+    """
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("enter", "enter", "Edit", show=False),
@@ -55,10 +58,16 @@ class ModelTree(Tree[Node]):
     """
 
     class Entered(Message):
-        """The person goes into the form of the node under the cursor."""
+        """Message to enter the form.
+
+        It is that of the node under the cursor.
+        """
 
     class Wished(Message):
-        """A table is to be added after the node under the cursor, or that of the node is to go."""
+        """Message to add or remove a table.
+
+        It is after the node under the cursor, or that of the node.
+        """
 
         def __init__(self, what: str, node: Node) -> None:
             super().__init__()
@@ -94,7 +103,10 @@ class ModelTree(Tree[Node]):
         return [node.data for node in self._tree_nodes.values() if node.data is not None]
 
     def refresh_marks(self, problems: Sequence[Problem]) -> None:
-        """Count the mistakes of each node and say what is set; named tables that came or went are taken in."""
+        """Refresh the marks of all nodes.
+
+        They count mistakes and show set options; named tables that came or went are taken in.
+        """
         if section_names(self.draft) != self._names:
             self._plant()
         nodes = self.all_nodes()
@@ -143,7 +155,10 @@ class ModelTree(Tree[Node]):
         return [node.key for node in self.all_nodes() if self._wrong.get(node.key)]
 
     def node_at(self, keys: Keys) -> Node | None:
-        """Return the node that answers for a place in the case."""
+        """Return the node of a place.
+
+        It is a place in the case.
+        """
         best: tuple[int, Node] | None = None
         for node in self.all_nodes():
             for place in node.places:
@@ -162,17 +177,26 @@ class ModelTree(Tree[Node]):
         self.call_after_refresh(self._move_to, key)
 
     def _move_to(self, key: str) -> None:
-        """Put the cursor on a node; lines are looked up late, since the tree may have been planted anew."""
+        """Put the cursor on a node.
+
+        Lines are looked up late, since the tree may have been built anew.
+        """
         line = next((at for at in self._tree_nodes.values() if at.data is not None and at.data.key == key), None)
         if line is not None:
             self.move_cursor(line)
 
     def action_enter(self) -> None:
-        """Go into the form; a node that only groups others opens."""
+        """Go into the form.
+
+        A node that only groups others opens.
+        """
         self.post_message(self.Entered())
 
     def action_deeper(self) -> None:
-        """Open the node, or go into the form of one that is open."""
+        """Open the node or its form.
+
+        The form if the node is open.
+        """
         line = self.cursor_node
         if line is not None and line.allow_expand and not line.is_expanded:
             line.expand()
@@ -205,7 +229,7 @@ class ModelTree(Tree[Node]):
 
 
 def _fitting(parts: list[str], room: int) -> str:
-    """Join the first parts, as many as there is room for."""
+    """Join as many parts as fit."""
     shown = parts[0]
     for part in parts[1:]:
         if len(shown) + 3 + len(part) > room:

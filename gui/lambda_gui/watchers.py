@@ -25,7 +25,10 @@ _ACTION = FieldCard(
 
 
 def watcher_rows(draft: Draft, node: Node, around: Surroundings) -> Iterator[Widget]:
-    """Yield what an observer or event is, and a row for each of its parameters; nothing for other tables."""
+    """Yield an observer's or event's rows.
+
+    Its description, and a row for each parameter; nothing for other tables.
+    """
     section, name = node.table[0], node.table[-1]
     kind = node.section.installed if node.section is not None else ""
     if not kind:
@@ -50,7 +53,10 @@ def watcher_rows(draft: Draft, node: Node, around: Surroundings) -> Iterator[Wid
 
 
 def new_watchers(node: Node) -> Iterator[Widget]:
-    """Yield a button for each observer or event that is installed and not in the case."""
+    """Yield a button per unused observer or event.
+
+    It is installed and not in the case.
+    """
     what = node.section
     assert what is not None
     assert what.installed

@@ -19,7 +19,10 @@ DEFAULT_FOLDER = Path("attacks")
 
 
 def main() -> int:
-    """Run the parts asked for; returns 1 when any trial failed."""
+    """Run the requested parts.
+
+    Return 1 when any trial failed.
+    """
     parser = argparse.ArgumentParser(prog="python -m tests.attacks", description=__doc__)
     parser.add_argument(
         "parts", nargs="*", metavar="PART[:COUNT]", help=f"and how many trials; default all: {', '.join(parts.PARTS)}"
@@ -67,7 +70,10 @@ def main() -> int:
 
 
 def _share(text: str) -> tuple[int, int]:
-    """Read "2/3": the second of three processes that share the trials of a part."""
+    """Read a share such as "2/3".
+
+    It is the second of three processes that share the trials of a part.
+    """
     first, _, step = text.partition("/")
     if not 1 <= int(first) <= int(step):
         raise ValueError(text)
@@ -75,7 +81,10 @@ def _share(text: str) -> tuple[int, int]:
 
 
 def _side_by_side(names: list[str], options: argparse.Namespace) -> None:
-    """Give each part a process of its own, so many at a time as asked for."""
+    """Run each part in its own process.
+
+    A limited number at a time.
+    """
     waiting = list(names)
     running: list[subprocess.Popen[bytes]] = []
     while waiting or running:

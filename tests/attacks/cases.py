@@ -36,7 +36,10 @@ _WANTED = ("energy_residual", "friction_torque_Nmm", "converged", "state", "reas
 
 
 def random_case(seed: int, number: int, folder: Path) -> tuple[Outcome, str, dict[str, Any]]:
-    """Run a random case of at least one cage revolution, or as far as its own wall limit lets it."""
+    """Run a random case.
+
+    At least one cage revolution, or as far as its own wall limit allows.
+    """
     made = draw.case(seed * 1_000_003 + number)
     made.setdefault("solver", {})["max_wall"] = f"{WALL:g} s"
     (folder / "case.toml").write_text(toml(made), encoding="utf-8")
@@ -66,7 +69,10 @@ def random_case(seed: int, number: int, folder: Path) -> tuple[Outcome, str, dic
 
 
 def _busy() -> float:
-    """Return how many processes wanted the processors in the last minute."""
+    """Return the load of the last minute.
+
+    Processes that wanted the processors.
+    """
     return round(float(Path("/proc/loadavg").read_text(encoding="ascii").split()[0]), 1)
 
 
@@ -78,7 +84,10 @@ def _lowest_speed(made: dict[str, Any]) -> float:
 
 
 def _judge(outcome: Outcome, made: dict[str, Any], found: dict[str, Any], turns: float) -> tuple[Outcome, str]:
-    """Return the outcome, worse where something does not hold, and in what class the case ended."""
+    """Return the outcome and the case's class.
+
+    It is worse where a check fails.
+    """
     if not outcome.good:
         return outcome, "failed"
     if outcome.verdict in ("refused", "usage"):
@@ -110,7 +119,9 @@ def _is_usable(found: dict[str, Any]) -> bool:
 
 
 def _gone_on_with(outcome: Outcome, folder: Path, *longer_than: str) -> tuple[Outcome, bool]:
-    """Resume a run that was stopped early, or make it longer.
+    """Resume or extend a run.
+
+    It was stopped early.
 
     Returns the outcome, worse where that fails, and whether it is usable now.
     """
@@ -123,7 +134,10 @@ def _gone_on_with(outcome: Outcome, folder: Path, *longer_than: str) -> tuple[Ou
 
 
 def _reason_that_holds(made: dict[str, Any]) -> str:
-    """Find why a case is refused by taking that reason away: it has to be accepted then."""
+    """Verify the reason of a refusal.
+
+    Without the reason the case must be accepted.
+    """
     for reason, part, key in (
         ("a law whose data the oil lacks", "models", None),
         ("a clearance class that is not tabulated for this bore", "bearing", "clearance"),
@@ -140,7 +154,7 @@ def _reason_that_holds(made: dict[str, Any]) -> str:
 
 
 def _numbers(folder: Path) -> dict[str, Any]:
-    """Return what the summary of a run says that a trial is judged by."""
+    """Return the summary numbers for the verdict."""
     try:
         said = json.loads((folder / "stdout").read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -149,7 +163,10 @@ def _numbers(folder: Path) -> dict[str, Any]:
 
 
 def _turns(file: Path) -> float:
-    """Return the turns of the cage that a result file holds, 0 without one; of the balls where there is no cage."""
+    """Return the cage turns in a result.
+
+    0 without a file; of the balls where there is no cage.
+    """
     try:
         with h5py.File(file, "r") as stream:
             angle = stream["integrals/cage_angle"][...]

@@ -58,7 +58,10 @@ def line(arguments: tuple[str, ...] | list[str]) -> str:
 
 
 def made_once(folder: Path, name: str, make: Callable[[Path], object]) -> Path:
-    """Return a folder next to those of the trials of a part, made once by each process: the program may change."""
+    """Return a folder shared by a part's trials.
+
+    Each process makes it once: the program may change.
+    """
     place = folder.parent / f"{_part(folder)}.{os.getpid()}.{name}"
     if not (place / "done").is_file():
         shutil.rmtree(place, ignore_errors=True)
@@ -69,12 +72,18 @@ def made_once(folder: Path, name: str, make: Callable[[Path], object]) -> Path:
 
 
 def _part(folder: Path) -> str:
-    """Return the name of the part that a trial's folder belongs to: each may run in a process of its own."""
+    """Return the part of a trial's folder.
+
+    Each may run in a process of its own.
+    """
     return folder.name.partition("-")[0]
 
 
 def command(folder: Path) -> tuple[str, ...]:
-    """Return the run that a part attacks: of one bearing, or of a machine."""
+    """Return the attacked run's command.
+
+    Of one bearing, or of a machine.
+    """
     if not _part(folder).endswith(OF_MACHINES):
         return RUN
     made = made_once(folder, "case", lambda place: (place / "box.toml").write_text(geared_shaft("box")))
@@ -87,7 +96,7 @@ def undisturbed_result(folder: Path) -> Path:
 
 
 def half(folder: Path) -> Path:
-    """Return the result of the same run, killed in the middle."""
+    """Return the same run, killed in the middle."""
 
     def make(place: Path) -> None:
         open_s = float((undisturbed_result(folder).parent / "open").read_text(encoding="utf-8"))
@@ -101,7 +110,10 @@ def half(folder: Path) -> Path:
 
 
 def _is_midway(file: Path) -> bool:
-    """Tell whether a result has samples and is not at its end: a quick machine may be done before the blow."""
+    """Tell whether a result is unfinished.
+
+    It has samples: a quick machine may be done before the blow.
+    """
     status = api.result(file).status()
     return status.rows.samples > 1 and status.state != "finished"
 
@@ -114,7 +126,10 @@ def _must(arguments: tuple[str, ...], place: Path) -> None:
 
 
 def killed_run(seed: int, number: int, folder: Path) -> Said:
-    """Kill a run that has work left, go on, and compare every number with the run that nobody killed."""
+    """Kill a run, go on and compare.
+
+    Every number must be that of the undisturbed run; it has work left.
+    """
     undisturbed = undisturbed_result(folder)
     pick = random.Random(seed * 1_000_003 + number)
     longest = float((undisturbed.parent / "open").read_text(encoding="utf-8"))
@@ -126,7 +141,10 @@ def killed_run(seed: int, number: int, folder: Path) -> Said:
 
 
 def work_left(folder: Path, undisturbed: Path) -> float:
-    """Return the share of its samples that a killed run had not yet written; 0 where it was at its end."""
+    """Return a killed run's missing share.
+
+    Of its samples; 0 where it was at its end.
+    """
     ends = [api.result(path).status() for path in (folder / "out.h5", undisturbed)]
     if ends[0].state == "finished":
         return 0.0
@@ -135,7 +153,10 @@ def work_left(folder: Path, undisturbed: Path) -> float:
 
 
 def gone_on_with(folder: Path, undisturbed: Path) -> Outcome:
-    """Go on with a run that was killed, and compare every number with the run that nobody killed."""
+    """Go on with a killed run, compare.
+
+    Every number must be that of the undisturbed run.
+    """
     file = folder / "out.h5"
     outcome = attempt(("resume", "out.h5"), folder, LIMIT)
     if outcome.verdict not in ("fine", "partial"):
@@ -148,7 +169,10 @@ def gone_on_with(folder: Path, undisturbed: Path) -> Outcome:
 
 
 def _kill(folder: Path, after_s: float) -> bool:
-    """Start the run and kill it so long after it has opened its file [s]; tell whether it still went on."""
+    """Start and kill a run.
+
+    So long after it has opened its file [s]; tell whether it still went on.
+    """
     victim = Trial(command(folder), folder)
     end = time.monotonic() + LIMIT
     while not (folder / "out.h5").is_file() and time.monotonic() < end:
@@ -159,12 +183,17 @@ def _kill(folder: Path, after_s: float) -> bool:
 
 
 def hidden(folder: Path) -> list[str]:
-    """Return the hidden files of a folder, which no command may leave behind."""
+    """Return the hidden files of a folder.
+
+    No command may leave any.
+    """
     return sorted(path.name for path in folder.iterdir() if path.name.startswith("."))
 
 
 def differences(one: Path, other: Path) -> list[str]:
-    """Return what differs: datasets of every kind and attributes, and how far and in what state each run is.
+    """Return the differences of two results.
+
+    Datasets of every kind and attributes, and how far and in what state each run is.
 
     Left out are only wall times, the day, checkpoints, and references from one dataset to another.
     """
@@ -188,7 +217,10 @@ def differences(one: Path, other: Path) -> list[str]:
 
 
 def _attributes(name: str, one: Any, other: Any) -> list[str]:
-    """Return which attributes differ, scales of dimensions and the day aside."""
+    """Return the attributes that differ.
+
+    Without scales of dimensions and the day.
+    """
     aside = ("DIMENSION_LIST", "REFERENCE_LIST", "created")
     keys = sorted({*one.attrs, *other.attrs} - {*aside})
     return [
@@ -205,7 +237,10 @@ def _equal(one: Any, other: Any) -> bool:
 
 
 def corrupted(seed: int, number: int, folder: Path) -> Said:
-    """Damage a result and ask for what it says: the same as before, or a word about the damage."""
+    """Damage a result and ask for answers.
+
+    They are as before, or report the damage.
+    """
     pick = random.Random(seed * 1_000_003 + number)
     arguments = pick.choice(_READS)
     if arguments[0] == "view" and _part(folder).endswith(OF_MACHINES):
@@ -223,7 +258,10 @@ def corrupted(seed: int, number: int, folder: Path) -> Said:
 
 
 def _damage(data: bytearray, pick: random.Random) -> None:
-    """Overwrite places, half of them near the beginning, or cut the end off."""
+    """Damage a file.
+
+    Overwrite places, half of them near the beginning, or cut the end off.
+    """
     for _ in range(pick.choice((1, 1, 8, 64))):
         start = pick.randrange(len(data) if pick.random() < 0.5 else min(len(data), 65536))
         length = pick.choice((1, 1, 16, 4096))
@@ -233,7 +271,10 @@ def _damage(data: bytearray, pick: random.Random) -> None:
 
 
 def _answers(source: Path, folder: Path, arguments: tuple[str, ...]) -> Path:
-    """Return the folder in which a command was given a file that nobody damaged; made once per campaign."""
+    """Return the answers for an undamaged file.
+
+    Their folder is made once per campaign.
+    """
 
     def make(place: Path) -> None:
         shutil.copy(source, place / "out.h5")
@@ -244,7 +285,10 @@ def _answers(source: Path, folder: Path, arguments: tuple[str, ...]) -> Path:
 
 
 def _what_differs(outcome: Outcome, arguments: tuple[str, ...], folder: Path, before: Path) -> str:
-    """Tell how an answer that does not speak of damage differs from that of the file before; "" if it does not."""
+    """Explain an answer that hides damage.
+
+    It differs from that of the file before; "" if it does not.
+    """
     if outcome.verdict not in ("fine", "partial") or "damage" in outcome.said:
         return ""
     if arguments[0] == "resume":
@@ -259,7 +303,10 @@ def _what_differs(outcome: Outcome, arguments: tuple[str, ...], folder: Path, be
 
 
 def _drawn(file: Path) -> str:
-    """Return a hash of a picture; SVG without the lines that carry random names and the date."""
+    """Return the hash of a picture.
+
+    SVG without the lines that carry random names and the date.
+    """
     content = file.read_bytes()
     if file.suffix == ".svg":
         content = b"\n".join(row for row in content.splitlines() if b"dc:date" not in row and b"id=" not in row)
@@ -267,7 +314,10 @@ def _drawn(file: Path) -> str:
 
 
 def race(seed: int, number: int, folder: Path) -> Said:
-    """Let two runs write one file at the same time; the later one has it, the file is whole, nothing is left behind."""
+    """Let two runs write one file.
+
+    The later one has it, the file is complete, nothing else is left.
+    """
     pick = random.Random(seed * 1_000_003 + number)
     arguments = [*command(folder)[:2], "--set", "solver.duration=5 ms", "--out", str(folder / "out.h5"), "--force"]
     one = Trial(arguments, folder / "one")

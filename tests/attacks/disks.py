@@ -42,7 +42,10 @@ _COMMANDS = (
 
 
 def full_disk(seed: int, number: int, folder: Path) -> Said:
-    """Let a command write where there is no room, or no right; then give it both and compare."""
+    """Let a command write without room.
+
+    Or without the right; then give it both and compare.
+    """
     pick = random.Random(seed * 1_000_003 + number)
     arguments = pick.choice(_COMMANDS)
     before = _inputs(arguments, folder)
@@ -63,7 +66,7 @@ def full_disk(seed: int, number: int, folder: Path) -> Said:
 
 
 def _inputs(arguments: tuple[str, ...], folder: Path) -> dict[str, bytes]:
-    """Return the files that a command needs to begin with, by name."""
+    """Return a command's input files by name."""
     if arguments[0] == "study":
         return {"study.toml": _STUDY.encode()}
     if arguments[0] == "resume":
@@ -73,7 +76,10 @@ def _inputs(arguments: tuple[str, ...], folder: Path) -> dict[str, bytes]:
 
 @contextmanager
 def _place(kind: str, room: int, folder: Path, files: dict[str, bytes]) -> Iterator[tuple[Path, int]]:
-    """Give a folder with files in it that takes no more, and the limit of a file's size that goes with it."""
+    """Make a full folder with files.
+
+    Return it with the limit of a file's size that goes with it.
+    """
     place = folder / "place"
     place.mkdir()
     mounted = kind != "file" and _mount(place, f"size={room + sum(map(len, files.values()))}")
@@ -91,13 +97,19 @@ def _place(kind: str, room: int, folder: Path, files: dict[str, bytes]) -> Itera
 
 
 def _mount(place: Path, options: str) -> bool:
-    """Mount a file system in memory; False where this process may not."""
+    """Mount a file system in memory.
+
+    False where this process may not.
+    """
     command = ["mount", "-t", "tmpfs", "-o", options, "tmpfs", str(place)]
     return os.geteuid() == 0 and subprocess.run(command, check=False, capture_output=True).returncode == 0
 
 
 def _in(place: Path, limit: int) -> Callable[[], None]:
-    """Return what a child does first: it goes there, and takes its limit."""
+    """Return a child's first function.
+
+    It goes there, and takes its limit.
+    """
 
     def before() -> None:
         os.chdir(place)
@@ -107,7 +119,10 @@ def _in(place: Path, limit: int) -> Callable[[], None]:
 
 
 def _gone_on_with(outcome: Outcome, folder: Path, arguments: tuple[str, ...]) -> Outcome:
-    """Go on with what a full disk has left, and compare every number with the run that had room."""
+    """Go on after a full disk, compare.
+
+    Every number must be that of the run that had room.
+    """
     file = folder / "out.h5"
     if not file.is_file():
         told = outcome.verdict == "usage" or arguments[0] == "resume"

@@ -21,7 +21,7 @@ _TO_THE_END = 0.25  # share of the cases that run until they have converged
 
 @dataclass(frozen=True)
 class Stock:
-    """What is drawn from."""
+    """Stock of draws."""
 
     bearings: tuple[Any, ...]
     oils: tuple[str, ...]
@@ -30,7 +30,10 @@ class Stock:
 
 @cache
 def stock() -> Stock:
-    """Return the catalogue's deep groove bearings with an inner geometry, its oils, and the laws of every role."""
+    """Return the stock of the catalogue.
+
+    Deep groove bearings with an inner geometry, its oils, and the laws of every role.
+    """
     with closing(api.catalogue()) as catalogue:
         bearings = tuple(row for row in catalogue.bearings("", limit=1000) if row.ball_count and not row.contact_angle)
         oils = tuple(catalogue.names("lubricant"))
@@ -42,7 +45,9 @@ def stock() -> Stock:
 
 
 def case(seed: int) -> dict[str, Any]:
-    """Return a random case as plain tables: loads up to C/3, n d_m up to 5e5 mm/min, oil between -20 and 110 degC.
+    """Return a random case as plain tables.
+
+    Loads up to C/3, n d_m up to 5e5 mm/min, oil between -20 and 110 degC.
 
     Parameters
     ----------

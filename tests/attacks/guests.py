@@ -102,7 +102,10 @@ _COMMANDS: tuple[tuple[str, ...], ...] = (
 
 
 def plugin(seed: int, number: int, folder: Path) -> Said:
-    """Install a faulty package for one process and let a command load it."""
+    """Load a faulty package in a command.
+
+    It is installed for one process.
+    """
     pick = random.Random(seed * 1_000_003 + number)
     name = f"guest_{number}"
     _install(folder / "site", name, _source(pick))
@@ -120,7 +123,10 @@ def plugin(seed: int, number: int, folder: Path) -> Said:
 
 
 def _source(pick: random.Random) -> str:
-    """Return a module with one faulty law, something else that is faulty, or both."""
+    """Return a module with a fault.
+
+    One faulty law, something else that is faulty, or both.
+    """
     kernel = _KERNEL.format(body=pick.choice(_BODIES), returned=pick.choice(_RETURNED))
     other = pick.choice(_OTHERS)
     return _HEAD + pick.choice((kernel, other + kernel, kernel + "\n\n" + other))
@@ -135,7 +141,10 @@ def _install(site: Path, name: str, source: str) -> None:
 
 
 def _seen(site: Path) -> Callable[[], None]:
-    """Return what a child does first: it forgets what is installed, and sees one package more."""
+    """Return a child's first function.
+
+    It forgets what is installed, and sees one package more.
+    """
 
     def before() -> None:
         import importlib

@@ -53,7 +53,10 @@ Path_ = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Leaf:
-    """An option of a case: where it is, the units that it takes, and what it also requires."""
+    """Option of a case.
+
+    Its place, its units, and the options that it requires.
+    """
 
     path: Path_
     units: tuple[str, ...] = ()
@@ -64,13 +67,16 @@ class Leaf:
 
     @property
     def can_be_right(self) -> bool:
-        """Tell whether the schema says what a right value looks like."""
+        """True if the schema describes right values."""
         return bool(self.units or self.choices or self.limits)
 
 
 @cache
 def leaves() -> tuple[Leaf, ...]:
-    """Return every option that the schema of cases knows, every kind of time function, every parameter of a law."""
+    """Return every option of cases.
+
+    Those of the schema, every kind of time function, every parameter of a law.
+    """
     schema = api.schema()
     return (*_walk(schema["$defs"]["Case"], schema["$defs"], (), (), 0), *_of_laws())
 
@@ -123,7 +129,10 @@ def _usual(node: dict[str, Any], definitions: dict[str, Any]) -> Any:
 
 
 def _of_laws() -> Iterator[Leaf]:
-    """Yield the parameters of every installed law, with the choice of that law."""
+    """Yield the parameters of every law.
+
+    With the choice of that law.
+    """
     models = api.registry()
     for role, names in draw.stock().laws.items():
         for name in names:
@@ -136,7 +145,10 @@ def _of_laws() -> Iterator[Leaf]:
 
 
 def value(pick: random.Random, leaf: Leaf, allowed: bool) -> Any:
-    """Return a value for an option: of the right kind and unit when `allowed`, otherwise anything."""
+    """Return a value for an option.
+
+    Of the right kind and unit when `allowed`, otherwise anything.
+    """
     if allowed and leaf.choices:
         return pick.choice(leaf.choices)
     if allowed:
@@ -151,7 +163,10 @@ def value(pick: random.Random, leaf: Leaf, allowed: bool) -> Any:
 
 
 def _extreme(pick: random.Random, leaf: Leaf) -> Any:
-    """Return a number of the right kind, far from what is usual, within the limits that the schema gives."""
+    """Return an unusual number of the kind.
+
+    It is within the limits that the schema gives.
+    """
     limits = dict(leaf.limits)
     number = 10.0 ** pick.uniform(*(_EXPONENTS if pick.random() < _WILD else _USUAL))
     lowest = max(limits.get(name, -math.inf) for name in ("gt", "ge", "minimum", "exclusiveMinimum"))
@@ -167,7 +182,10 @@ def _extreme(pick: random.Random, leaf: Leaf) -> Any:
 
 @cache
 def base(number: int) -> dict[str, Any]:
-    """Return one of the cases that are right, of many bearings, oils and laws."""
+    """Return one of the valid cases.
+
+    They are of many bearings, oils and laws.
+    """
     seed = (_SEED_OF_BASES * 1000 + number) * 1000
     while True:
         seed += 1
@@ -181,7 +199,10 @@ def base(number: int) -> dict[str, Any]:
 
 @cache
 def _weights(right: bool) -> tuple[tuple[Leaf, ...], tuple[float, ...]]:
-    """Return the options that may be hit, and how likely: time functions, which are many, count as a few."""
+    """Return the options with their weights.
+
+    Time functions, which are many, count as a few.
+    """
     chosen = tuple(leaf for leaf in leaves() if not right or leaf.can_be_right)
     return chosen, tuple(_weight(leaf) for leaf in chosen)
 
@@ -217,7 +238,10 @@ def case(pick: random.Random) -> dict[str, Any]:
 
 
 def _place(made: dict[str, Any], path: Path_) -> tuple[dict[str, Any], str]:
-    """Return the table that an option stands in, made where it is not there, and the option's name."""
+    """Return an option's table and name.
+
+    The table is made where it is missing.
+    """
     place = made
     for name in path[:-1]:
         inner = place.get(name)
@@ -227,7 +251,10 @@ def _place(made: dict[str, Any], path: Path_) -> tuple[dict[str, Any], str]:
 
 
 def study(pick: random.Random) -> dict[str, Any]:
-    """Return a study; half of them are right but for one hostile value."""
+    """Return a study with hostile values.
+
+    Half of them are right but for one value.
+    """
     leaf = pick.choices(*_weights(True))[0]
     right = pick.random() < 0.6
     parameter: dict[str, Any] = {"path": ".".join(leaf.path)}
@@ -258,7 +285,10 @@ def damaged(text: str, pick: random.Random) -> str:
 
 
 def command(pick: random.Random) -> list[str]:
-    """Return a command line that makes no sense, or nearly one."""
+    """Return a senseless command line.
+
+    Or nearly one.
+    """
     words = [
         "run", "check", "show", "view", "report", "resume", "study", "db", "plugins", "cite", "compare", "animate",
         "init", "schema", "quasistatic", "search", "list", "status", "--json", "--set", "--out", "--force", "--limit",

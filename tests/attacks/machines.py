@@ -51,7 +51,10 @@ _SERIES = "time [s],bearing voltage [V]\n0,0\n0.0001,5\n0.0002,0\n"
 
 @cache
 def machines() -> tuple[dict[str, Any], ...]:
-    """Return the machines that hostile values are put into: gears, a network, a circuit, laws, held rings and cages."""
+    """Return the machines for hostile values.
+
+    Gears, a network, a circuit, laws, held rings and cages.
+    """
     box = tomllib.loads(geared_shaft("box"))
     warm = {"conductances": "harris", "ambient": "20 degC"}
     seal = {"at": "160 mm", "z": {"stiffness": "1 N/um", "damping": "200 N s/m"}}
@@ -78,7 +81,10 @@ def places(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
 
 
 def changed(node: dict[str, Any], pick: random.Random) -> dict[str, Any]:
-    """Return tables with one value changed: in size, in kind, in name, or left out."""
+    """Return tables with one value changed.
+
+    In size, in kind, in name, or left out.
+    """
     made = copy.deepcopy(node)
     *above, last = pick.choice(list(places(made)))
     inner: Any = made
@@ -97,7 +103,10 @@ def changed(node: dict[str, Any], pick: random.Random) -> dict[str, Any]:
 
 
 def _resized(value: Any, pick: random.Random) -> Any:
-    """Return a value times a power of ten, in the unit that it has; a word becomes another one."""
+    """Return a value of another size.
+
+    Times a power of ten, in its unit; a word becomes another one.
+    """
     factor = 10.0 ** pick.uniform(*(_WILD if pick.random() < 0.3 else _USUAL)) * pick.choice((1, 1, 1, -1))
     if isinstance(value, bool) or not isinstance(value, int | float | str):
         return pick.choice(of_one._SIMPLE)
@@ -108,7 +117,10 @@ def _resized(value: Any, pick: random.Random) -> Any:
 
 
 def hostile(seed: int, number: int, folder: Path) -> Said:
-    """Meet a command with a hostile machine, duty cycle, table of measurements or series."""
+    """Give a command a hostile input.
+
+    A machine, duty cycle, table of measurements or series.
+    """
     pick = random.Random(seed * 1_000_003 + number)
     machine = {**copy.deepcopy(pick.choice(machines())), "solver": _SHORT}
     kind = pick.choice(("machine",) * 7 + ("cycle", "fit", "series"))
@@ -149,7 +161,10 @@ _WRITERS: dict[str, Callable[[random.Random, dict[str, Any], Path], tuple[str, .
 
 
 def _spoilt(text: str, pick: random.Random) -> bytes:
-    """Return a table with a cell, a line or some bytes changed."""
+    """Return a table with one fault.
+
+    In a cell, a line or some bytes.
+    """
     cells = re.split(r"([,\n])", text)
     at = pick.randrange(0, len(cells), 2)
     cells[at] = str(pick.choice((*of_one._WORDS, *of_one._NUMBERS)))
@@ -160,7 +175,10 @@ def _spoilt(text: str, pick: random.Random) -> bytes:
 
 
 def call(seed: int, number: int, folder: Path) -> Said:
-    """Call the Python API with one hostile argument: it answers, or raises an error of its own."""
+    """Call the API with a hostile argument.
+
+    It answers, or raises an error of its own.
+    """
     pick = random.Random(seed * 1_000_003 + number)
     name = pick.choice(sorted(_CALLS))
     odd = pick.choice((*of_one._WORDS, *of_one._NUMBERS, *of_one._SIMPLE, object, b"bytes", {1: 2}, Path("x"), 1j))
@@ -195,7 +213,9 @@ _CALLS: dict[str, Callable[[Any], object]] = {
 
 
 def _called(name: str, odd: Any) -> None:
-    """Make one call and end the process as the command would: 0, 3 for an invalid case, 4 without a solution.
+    """Make one call with exit code.
+
+    0, 3 for an invalid case, 4 without a solution.
 
     A TypeError is Python's word for an argument of another type than the declared one.
     """

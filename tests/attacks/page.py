@@ -23,7 +23,10 @@ Entries = list[dict[str, Any]]
 
 
 def figures(records: Mapping[str, Record]) -> str:
-    """Return a table: trials, how they ended, which failed; and under it the further counts of each part."""
+    """Return the table of trials.
+
+    How they ended, which failed; and under it the further counts of each part.
+    """
     lines = ["| attack | trials | failed | how they ended |", "|---|---|---|---|"]
     notes: list[str] = []
     for name, record in records.items():
@@ -110,7 +113,10 @@ _NOTES: dict[str, Callable[[Entries], list[str]]] = {
 
 
 def write(text: str) -> None:
-    """Put the figures into the page, with date, commit and machine."""
+    """Put the figures into the page.
+
+    With date, commit and machine.
+    """
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout
     said = f"{date.today().isoformat()}, commit {commit.strip()}, Python {platform.python_version()}"
     page = PAGE.read_text(encoding="utf-8")

@@ -28,7 +28,10 @@ class Part:
 
 
 def hostile_input(seed: int, number: int, folder: Path) -> tuple[Outcome, str, dict[str, Any]]:
-    """Meet a case, study or command line with one hostile value."""
+    """Meet an input with a hostile value.
+
+    A case, study or command line.
+    """
     arguments, computes = hostile.attack(seed * 1_000_003 + number, folder)
     outcome = attempt(arguments, folder, 60.0)
     behind = computes and outcome.verdict not in ("usage", "refused")
@@ -62,13 +65,19 @@ PARTS = {
 
 
 def _commit() -> str:
-    """Return the commit of the program that is attacked, "+" behind it where files differ from it."""
+    """Return the attacked program's commit.
+
+    "+" behind it where files differ from it.
+    """
     command = ["git", "describe", "--always", "--dirty=+", "--exclude=*"]
     return subprocess.run(command, cwd=Path(__file__).parent, capture_output=True, text=True).stdout.strip()
 
 
 def run(part: Part, seed: int, numbers: Iterable[int], folder: Path, deadline: float) -> None:
-    """Do the trials of a part that are not recorded yet, until all are done or the clock says stop."""
+    """Do the unrecorded trials of a part.
+
+    Until all are done or the time is over.
+    """
     record, commit = Record(folder, part.name), _commit()
     done = record.done()
     for number in numbers:

@@ -20,7 +20,10 @@ _TRIES = 12  # at meeting a run that has work left
 
 
 def killed_at_a_point(seed: int, number: int, folder: Path) -> Said:
-    """Kill a run that has work left before or after one of its writes to the file, go on, and compare."""
+    """Kill a run at a write, compare.
+
+    Before or behind one of its writes; it has work left and goes on.
+    """
     undisturbed, counts = undisturbed_result(folder), _counts(folder)
     pick = random.Random(seed * 1_000_003 + number)
     for _ in range(_TRIES):  # some calls follow the clock, and some come at the end alone: those leave no work
@@ -35,14 +38,17 @@ def killed_at_a_point(seed: int, number: int, folder: Path) -> Said:
 
 
 def _points() -> dict[str, tuple[Any, str]]:
-    """Return the functions that write a run to its file, by name."""
+    """Return a run's writing functions by name."""
     owned = [(ResultWriter, name) for name in ("_put_status", "flush", "save", "close")]
     owned += [(hdf5, "copy"), (os, "replace")]
     return {f"{owner.__name__.rsplit('.', 1)[-1]}.{name}": (owner, name) for owner, name in owned}
 
 
 def _counts(folder: Path) -> dict[str, int]:
-    """Return how often an undisturbed run calls each of them once its file is there."""
+    """Return how often a run writes.
+
+    Calls of each function by an undisturbed run once its file is there.
+    """
 
     def make(place: Path) -> None:
         attempt(command(folder), place, 2.0 * LIMIT, before=partial(_count, place / "counts"))
@@ -52,7 +58,10 @@ def _counts(folder: Path) -> dict[str, int]:
 
 
 def _count(log: Path) -> None:
-    """Write a line for each call, in the process that runs."""
+    """Write a line for each call.
+
+    In the process that runs.
+    """
     for name, (owner, attribute) in _points().items():
         setattr(owner, attribute, _counted(getattr(owner, attribute), name, log))
 
@@ -68,7 +77,10 @@ def _counted(function: Callable[..., Any], name: str, log: Path) -> Callable[...
 
 
 def _patch(name: str, number: int, behind: bool) -> None:
-    """Kill the process that runs before or behind the call of that number, counted once its file is there."""
+    """Kill the process at a call.
+
+    Before or behind that number, counted once its file is there.
+    """
     owner, attribute = _points()[name]
     function, seen = getattr(owner, attribute), [0]
 

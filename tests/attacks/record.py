@@ -33,7 +33,10 @@ class Record:
         self._failures = folder / "failures"
 
     def entries(self) -> Iterator[dict[str, Any]]:
-        """Yield what is recorded; a last line that a kill has torn is passed over."""
+        """Yield the recorded trials.
+
+        A last line that a kill has torn is passed over.
+        """
         if not self._file.is_file():
             return
         for line in self._file.read_text(encoding="utf-8").splitlines():
@@ -47,13 +50,19 @@ class Record:
         return {int(entry["number"]) for entry in self.entries()}
 
     def forget_failed(self) -> None:
-        """Forget the trials that failed, so that they are done again; their files stay until then."""
+        """Forget the trials that failed.
+
+        They are done again; their files stay until then.
+        """
         kept = [entry for entry in self.entries() if entry["verdict"] in GOOD]
         if self._file.is_file():
             self._file.write_text("".join(json.dumps(entry) + "\n" for entry in kept), encoding="utf-8")
 
     def add(self, number: int, outcome: Outcome, command: str, evidence: Path | None = None, **more: Any) -> None:
-        """Record a trial; the files of one that failed are kept, with the command that repeats it."""
+        """Record a trial.
+
+        The files of a failed one are kept, with the command that repeats it.
+        """
         entry = {"number": number, "command": command, **outcome.data(), **more}
         kept = self._failures / f"{self.part}-{number}"
         shutil.rmtree(kept, ignore_errors=True)

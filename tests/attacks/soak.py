@@ -21,7 +21,10 @@ _PAGE = 4096  # [byte]
 
 
 def soak(seed: int, number: int, folder: Path) -> Said:
-    """Run a bearing for long and look at its memory over simulated time."""
+    """Run a bearing for long.
+
+    Its memory over simulated time is the result.
+    """
     load = random.Random(seed * 1_000_003 + number).choice(("1 kN", "1.3 kN", "1.6 kN"))
     changes = [f"operation.speed={_SPEED}", f"loads.axial={load}", f"solver.duration={SECONDS:g} s"]
     arguments = ["run", _CASE, "--out", "out.h5", "--progress", "json"]
@@ -41,7 +44,10 @@ def soak(seed: int, number: int, folder: Path) -> Said:
 
 
 def _simulated(folder: Path) -> float:
-    """Return the simulated time that the last line of progress tells, 0 without one [s]."""
+    """Return the last progress's simulated time [s].
+
+    0 without a line.
+    """
     for text in reversed((folder / "stderr").read_text(encoding="utf-8", errors="replace").splitlines()[-3:]):
         try:
             said: dict[str, Any] = json.loads(text)
@@ -59,6 +65,9 @@ def _resident(process: int) -> float:
 
 
 def _slope(watched: list[tuple[float, float]]) -> float:
-    """Return the slope of memory over simulated time behind the first quarter [MiB/s]."""
+    """Return the slope of memory [MiB/s].
+
+    Over simulated time behind the first quarter.
+    """
     later = np.array([pair for pair in watched if pair[0] > 0.25 * SECONDS])
     return float(np.polyfit(later[:, 0], later[:, 1], 1)[0]) if len(later) > 2 else 0.0

@@ -35,7 +35,10 @@ _ROW = (
 
 
 def damaged_code(seed: int, number: int, folder: Path) -> Said:
-    """Damage one file of compiled code; the program compiles it again and says the same."""
+    """Damage one file of compiled code.
+
+    The program compiles it again and answers the same.
+    """
     pick = random.Random(seed * 1_000_003 + number)
     store = folder / "cache"
     _linked(cache_folder(), store / "kernels")
@@ -55,7 +58,10 @@ def damaged_code(seed: int, number: int, folder: Path) -> Said:
 
 
 def damaged_catalogue(seed: int, number: int, folder: Path) -> Said:
-    """Damage the catalogue's cache or the catalogue of one's own, and ask for what is in them."""
+    """Damage a catalogue and ask.
+
+    Its cache, or the user's own.
+    """
     pick = random.Random(seed * 1_000_003 + number)
     arguments = pick.choice(_ASKED)
     before = made_once(folder, f"said-{_ASKED.index(arguments)}", lambda place: _ask(arguments, place, place))
@@ -72,7 +78,10 @@ def damaged_catalogue(seed: int, number: int, folder: Path) -> Said:
 
 
 def _ask(arguments: tuple[str, ...], place: Path, folder: Path) -> None:
-    """Make a cache and a catalogue with one row, and ask."""
+    """Make a cache and catalogue, and ask.
+
+    The catalogue has one row.
+    """
     (folder / "cache").mkdir()
     (folder / "cache" / "kernels").symlink_to(cache_folder())
     added = attempt(_ROW, place, _LIMIT, _stores(folder))
@@ -93,7 +102,10 @@ def _told(folder: Path) -> dict[str, bytes]:
 
 
 def _linked(source: Path, target: Path) -> None:
-    """Copy a folder by links; a file that is to be changed has to be replaced."""
+    """Copy a folder by links.
+
+    A file that is to be changed has to be replaced.
+    """
     target.parent.mkdir(parents=True)
     shutil.copytree(source, target, copy_function=_link)
 

@@ -28,7 +28,10 @@ _RESUME = ("study", "resume", "swept", "--workers", "2", "--quiet")
 
 
 def study(seed: int, number: int, folder: Path) -> Said:
-    """Kill a study, or start it twice, and compare its table in the end."""
+    """Kill or duplicate a study, compare.
+
+    Its table in the end.
+    """
     pick = random.Random(seed * 1_000_003 + number)
     mode = pick.choice(tuple(_MODES))
     (folder / "study.toml").write_text(_STUDY.format(mode=mode, more=_MODES[mode]), encoding="utf-8")
@@ -53,7 +56,10 @@ def _quiet(mode: str, place: Path) -> None:
 
 
 def _killed(folder: Path, pick: random.Random, took: float) -> list[Outcome]:
-    """Kill it and its workers, then go on; a study that had not begun is started again."""
+    """Kill a study, then go on.
+
+    With its workers; a study that had not begun is started again.
+    """
     victim = Trial(_RUN, folder)
     time.sleep(pick.uniform(0.1, 1.0) * took)
     victim.kill()
@@ -64,7 +70,10 @@ def _killed(folder: Path, pick: random.Random, took: float) -> list[Outcome]:
 
 
 def _raced(folder: Path, pick: random.Random, took: float) -> list[Outcome]:
-    """Start it, and go on with it from another process while it runs."""
+    """Continue a study that still runs.
+
+    From another process.
+    """
     one = Trial(_RUN, folder)
     time.sleep(pick.uniform(0.3, 0.9) * took)
     other = Trial(("study", "resume", str(folder / "swept"), *_RESUME[3:]), folder / "other")

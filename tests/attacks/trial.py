@@ -37,7 +37,7 @@ _RAW = ("RuntimeWarning", "DeprecationWarning", "UserWarning", "Exception ignore
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of one command.
+    """Outcome of one command.
 
     Attributes
     ----------
@@ -68,11 +68,17 @@ class Outcome:
 
     @property
     def good(self) -> bool:
-        """Tell whether the program behaved: it did the work, or said in a sentence why not."""
+        """True if the program behaved.
+
+        It did the work, or reported in a sentence why not.
+        """
         return self.verdict in GOOD
 
     def but(self, verdict: str, said: str) -> Outcome:
-        """Return the same with another verdict and the reason for it."""
+        """Return the outcome with another verdict.
+
+        And the reason for it.
+        """
         return replace(self, verdict=verdict, said=f"{said}\n{self.said}")
 
     def data(self) -> dict[str, object]:
@@ -96,13 +102,19 @@ def warm() -> None:
 
 
 def settle() -> None:
-    """Leave what stands in memory to be shared by the trials: a collection in a child would copy it page by page."""
+    """Keep present objects from the collector.
+
+    A collection in a child would copy the shared memory page by page.
+    """
     gc.collect()
     gc.freeze()
 
 
 def load_everything() -> None:
-    """Import every module of the program, so that files that change meanwhile do not matter to a long campaign."""
+    """Import every module of the program.
+
+    Later changes of files do not matter to a long campaign.
+    """
     import lambda_cli
     import lambda_db
     import lambda_plugins
@@ -156,7 +168,9 @@ class Trial:
         self._handle = os.pidfd_open(self.process)
 
     def wait(self, limit_s: float, look: Callable[[], None] | None = None) -> Outcome:
-        """Wait until it ends, or end it when `limit_s` are over, waiting not counted [s]; the latter is a hang.
+        """Wait for the end, with limit.
+
+        After `limit_s` it is ended, waiting not counted [s]; this is a hang.
 
         `look` is called now and then while it runs.
         """
@@ -235,7 +249,10 @@ def _live(
     before: Callable[[], None] | None,
     fresh: bool,
 ) -> None:
-    """Be the child: run the command and leave, never to return."""
+    """Run the command in the child.
+
+    It never returns.
+    """
     code = 70
     try:
         os.setsid()
@@ -272,7 +289,10 @@ def _live(
 
 
 def _strict(file: Path) -> bool:
-    """Tell whether a file is empty or holds JSON documents as the standard has them, one or one a line."""
+    """Tell whether a file is strict JSON.
+
+    Empty, or JSON documents as the standard has them, one or one a line.
+    """
     text = file.read_text(encoding="utf-8", errors="replace")
     try:
         json.loads(text or "0", parse_constant=_refuse)
@@ -290,7 +310,10 @@ def _refuse(word: str) -> None:
 
 
 def _waited(process: int) -> float:
-    """Return how long a process has waited for a processor [s], 0 where the system does not say."""
+    """Return a process's waiting time [s].
+
+    For a processor; 0 where the system does not tell.
+    """
     try:
         return int(Path(f"/proc/{process}/schedstat").read_text(encoding="ascii").split()[1]) * 1e-9
     except (OSError, ValueError, IndexError):
@@ -298,7 +321,10 @@ def _waited(process: int) -> float:
 
 
 def _resident(process: int) -> int:
-    """Return the resident memory of a process [byte], 0 when it has gone."""
+    """Return a process's resident memory [byte].
+
+    0 when it has gone.
+    """
     try:
         pages = int(Path(f"/proc/{process}/statm").read_text(encoding="ascii").split()[1])
     except (OSError, ValueError, IndexError):

@@ -59,7 +59,10 @@ class _Server:
         return os.pread(self.said.fileno(), 1 << 20, 0).decode(errors="replace")
 
     def send(self, data: bytes, keep: bool = False) -> str | socket.socket:
-        """Send bytes; return the first line of the answer ("" without one), or the socket when it is kept open."""
+        """Send bytes and return the answer.
+
+        Its first line ("" without one), or the socket when it is kept open.
+        """
         line = socket.create_connection(("127.0.0.1", self.port), _WAIT)
         with contextlib.suppress(OSError):
             line.sendall(data)
@@ -70,7 +73,10 @@ class _Server:
         return ""
 
     def memory(self) -> int:
-        """Return the resident memory of the server and of all builders that it has started [byte]."""
+        """Return the server's resident memory [byte].
+
+        With that of all builders that it has started.
+        """
         total, family = 0, {self.process.pid}
         for place in sorted(Path("/proc").glob("[0-9]*"), key=lambda path: int(path.name)):
             with contextlib.suppress(OSError, IndexError, ValueError):
@@ -92,7 +98,10 @@ def _server() -> _Server:
 
 
 def visit(seed: int, number: int, folder: Path) -> Said:
-    """Visit the server with a burst of hostile requests, then as its owner."""
+    """Visit the server as attacker, then owner.
+
+    The attack is a burst of hostile requests.
+    """
     pick = random.Random(seed * 1_000_003 + number)
     server = _server()
     requests = [pick.choice(_KINDS)(server, pick) for _ in range(_BURST)]
@@ -125,7 +134,10 @@ def _get(path: str, host: str, *headers: str, method: str = "GET") -> bytes:
 
 
 def _socket(server: _Server) -> bytes:
-    """Return the request of a socket as the page sends it."""
+    """Return a socket's request.
+
+    As the page sends it.
+    """
     key = base64.b64encode(b"0123456789abcdef").decode()
     host = f"localhost:{server.port}"
     lines = [f"GET {server.path}ws HTTP/1.1", f"Host: {host}", f"Origin: http://{host}", "Upgrade: websocket"]

@@ -7,7 +7,10 @@ from typing import Any
 
 
 def toml(made: dict[str, Any]) -> str:
-    """Return a table as a document; what TOML has no word for is left to the reader to refuse."""
+    """Return a table as a document.
+
+    The reader must refuse what TOML has no word for.
+    """
     return "".join(f"{_key(key)} = {_inline(content)}\n" for key, content in made.items())
 
 

@@ -32,7 +32,10 @@ def test_every_built_in_law_of_every_role_is_exchanged() -> None:
 
 
 def sections() -> dict[str, dict[str, list[str]]]:
-    """Role -> law -> the cells of its line on the page."""
+    """Return role -> law -> cells.
+
+    They are those of its line on the page.
+    """
     found: dict[str, dict[str, list[str]]] = {}
     for part in PAGE.read_text(encoding="utf-8").split("\n## ")[1:]:
         role, _, rest = part.partition("\n")

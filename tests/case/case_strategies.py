@@ -15,7 +15,10 @@ _text = st.text(st.characters(codec="utf-8", exclude_categories=["Cs", "Cc"]), m
 
 
 def quantity(name: str, positive: bool = False) -> st.SearchStrategy[str]:
-    """Return unit strings of one quantity, in any of its units."""
+    """Return unit strings of one quantity.
+
+    In any of its units.
+    """
     numbers = _positive if positive or name == "temperature" else _numbers
     units = ["K"] if name == "temperature" else list(UNITS[name])
     return st.builds(lambda value, unit: f"{value!r} {unit}", numbers, st.sampled_from(units))
@@ -61,7 +64,10 @@ _section = st.fixed_dictionaries
 
 
 def cases() -> st.SearchStrategy[dict[str, Any]]:
-    """Return plain tables of valid cases, as a TOML file would hold them."""
+    """Return plain tables of valid cases.
+
+    As a TOML file would hold them.
+    """
     body = _section({}, optional={"mass": quantity("mass", True), "x": _translation(), "z": _translation()})
     return _section(
         {

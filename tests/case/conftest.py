@@ -18,7 +18,10 @@ from almost_right import VALID, Problems
 
 @pytest.fixture
 def problems() -> Problems:
-    """Return path -> sentence for everything wrong with the valid case after changes."""
+    """Return path -> sentence for every problem.
+
+    Of the valid case after changes.
+    """
 
     def find(**changes: Any) -> dict[str, str]:
         return {problem.where: problem.message for problem in api.problems(merged(VALID, changes))}

@@ -69,7 +69,10 @@ def test_what_contradicts_the_lubrication_is_an_error() -> None:
 
 
 def power_of_drag(model: BearingModel) -> float:
-    """Return the power that the balls lose to oil in the quasi-static equilibrium, tangential force alone [W]."""
+    """Return the balls' oil loss [W].
+
+    In the quasi-static equilibrium, tangential force alone.
+    """
     found = solve(model)
     context, balls = found.context, found.state[: L.NB * 15].reshape(15, L.NB)
     law = model.laws["fluid_drag"]["fluid_drag"].model

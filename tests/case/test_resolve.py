@@ -551,10 +551,10 @@ def test_report_is_json_and_complete() -> None:
 
 
 class TestForeignModels:
-    """A plugin's model is resolved like a built-in one, and its loose declarations let no slip through."""
+    """Test that models of plugins resolve like built-in ones."""
 
     class Registry:
-        """The real models, and one of a plugin in place of every asperity load."""
+        """Registry with a foreign model for asperity loads."""
 
         def names(self, role: str) -> tuple[str, ...]:
             return (*registry().names(role), *(("loose",) if role == "asperity_load" else ()))

@@ -43,7 +43,7 @@ def test_every_random_bearing_has_the_tables_of_its_machine(part: int) -> None:
 
 
 def _compare_tables(chosen: list[dict[str, Any]]) -> None:
-    """Compare the tables that compiled code works on, byte by byte."""
+    """Compare the compiled tables byte by byte."""
     with_catalogue = api.catalogue()
     for tables in chosen:
         alone, long = _tables(tables, with_catalogue)
@@ -54,7 +54,10 @@ def _compare_tables(chosen: list[dict[str, Any]]) -> None:
 
 
 def _tables(tables: dict[str, Any], with_catalogue: Catalogue) -> tuple[Any, Any]:
-    """Return the tables of the bearing alone and of the machine."""
+    """Return the tables of bearing and machine.
+
+    The bearing is alone.
+    """
     single = check_bearing(tables, catalogue=with_catalogue)
     machine = api.check(api.long_form(tables).tables, catalogue=with_catalogue)
     assert isinstance(machine, api.MachineModel)

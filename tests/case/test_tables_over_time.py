@@ -35,7 +35,10 @@ ROUNDING = 1e-11
 
 
 def course(function: TimeFunction) -> Callable[[float], tuple[float, float]]:
-    """Return value and rate over time [s] as the solver's own code works them out, not compiled."""
+    """Return value and rate over time [s].
+
+    By the solver's own code, not compiled.
+    """
     rows: list[Any] = []
     table: list[float] = []
     add_terms(0, function, rows, table)
@@ -52,7 +55,10 @@ def course(function: TimeFunction) -> Callable[[float], tuple[float, float]]:
 
 @st.composite
 def tables(draw: st.DrawFn, interpolation: str | None = None) -> TableTerm:
-    """Draw points in time, some close together, and values, many of them alike."""
+    """Draw points in time with values.
+
+    Some times close together, many values alike.
+    """
     gaps = draw(st.lists(st.floats(1e-6, 10.0), min_size=1, max_size=9))
     times = np.cumsum([draw(st.floats(-5.0, 5.0)), *gaps])
     numbers = st.floats(-1e6, 1e6).filter(lambda number: abs(number) > 1e-12) | st.sampled_from([0.0, 1.0, -1.0])

@@ -28,7 +28,10 @@ Call = Callable[..., tuple[int, str, str]]
 
 @pytest.fixture
 def call(capsys: pytest.CaptureFixture[str]) -> Call:
-    """Run the program in this process; return exit code, stdout, stderr."""
+    """Run the program in this process.
+
+    Return exit code, stdout, stderr.
+    """
 
     def run(*arguments: str) -> tuple[int, str, str]:
         code = main.main(list(arguments))

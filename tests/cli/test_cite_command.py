@@ -15,7 +15,10 @@ from lambda_core.domain.roles import ROLES
 
 @pytest.fixture(scope="module")
 def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A short run with laws of which some are not the default."""
+    """Return a short run of other laws.
+
+    Some are not the default.
+    """
     path = tmp_path_factory.mktemp("cite") / "run.h5"
     changes = ["models.film_thickness=hamrock-dowson", "forces.ball_inner.models.traction=bair-winer"]
     api.run("6208-axial-700", [*changes, "solver.duration=0.2 ms"], out=path)

@@ -13,7 +13,10 @@ Meanwhile = Callable[[str, Callable[[], object]], AbstractContextManager[None]]
 
 @pytest.fixture
 def meanwhile() -> Meanwhile:
-    """Return what acts each time before a statement is carried out that has given words, as another process would."""
+    """Return an action between statements.
+
+    It acts each time before a statement with given words, as another process would.
+    """
 
     @contextmanager
     def acting(words: str, act: Callable[[], object]) -> Iterator[None]:

@@ -38,7 +38,10 @@ def cache(tmp_path: Path, user_folder: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 @pytest.fixture
 def built(user_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return the built database, alone in a cache of this test; it comes from the cache of all tests."""
+    """Return the built database in its cache.
+
+    It is alone in a cache of this test, and comes from the cache of all tests.
+    """
     open_catalogue().close()
     (found,) = cache_folder().glob(f"catalogue-{fingerprint([BUILT_IN])}-*.sqlite")
     folder = tmp_path / "cache"

@@ -253,7 +253,10 @@ def test_an_older_schema_is_migrated(catalogue: SqlCatalogue) -> None:
 
 @pytest.fixture
 def unprivileged_folder(monkeypatch: pytest.MonkeyPatch) -> object:
-    """A folder in which file modes count although the tests may run as root."""
+    """Return a folder with effective file modes.
+
+    The tests may run as root.
+    """
     folder = Path(tempfile.mkdtemp(dir="/tmp"))
     folder.chmod(0o755)
     monkeypatch.setenv("LAMBDA_BEARING_DATA", str(folder / "data"))

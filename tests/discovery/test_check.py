@@ -332,7 +332,7 @@ class Shape(NamedTuple):
 
 
 class TestPreparation:
-    """What `prepare` returns is checked before any kernel sees it."""
+    """Test checks of `prepare`'s result before any kernel."""
 
     CONTEXT = trial_context("ball_inner")
 
@@ -421,7 +421,10 @@ def test_every_argument_of_every_role_has_a_range() -> None:
 
 
 class TestHelpersForTests:
-    """The helpers that authors of plugins use, each with a law that passes and one that fails."""
+    """Test the helpers for plugin authors.
+
+    Each with a law that passes and one that fails.
+    """
 
     GIVEN: ClassVar = {"p": 1e9, "u_mean": 1.0}
 

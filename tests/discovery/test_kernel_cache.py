@@ -75,13 +75,19 @@ class Package:
         (self.folder / f"{module}.py").write_text(text)
 
     def ask(self, code: str = ASK) -> dict[str, object]:
-        """Compile (or load) and call the law in a new process, which has Numba loaded and knows nothing of the law."""
+        """Call the law in a new process.
+
+        It compiles or loads it; it has Numba loaded and does not know the law.
+        """
         process = self._warm.start(f"import sys; sys.dont_write_bytecode = True\n{code}", cwd=self.root, env=self._env)
         out, err = process.communicate()
         return self._answer(process.returncode, out, err)
 
     def ask_afresh(self, **environment: str) -> dict[str, object]:
-        """Ask in an interpreter of its own, for what is settled when Numba or the folder for files is first used."""
+        """Ask in a new interpreter.
+
+        Some settings are fixed when Numba or the folder for files is first used.
+        """
         env = os.environ | self._env | {"PYTHONPATH": str(self.root)} | environment
         done = subprocess.run([sys.executable, "-c", ASK], env=env, capture_output=True, text=True, check=False)
         return self._answer(done.returncode, done.stdout, done.stderr)

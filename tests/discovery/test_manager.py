@@ -21,7 +21,7 @@ from lambda_core.plugins import Method, MethodTable, Parameters, Quantity, hooki
 
 
 def kernel(Lambda: float, par: Any, out: Any) -> int:
-    """Half of the load."""
+    """Write half of the load."""
     out[0] = 0.5
     return 1
 
@@ -39,7 +39,7 @@ class Misspelt(Parameters):
 
 
 class Wordy(Parameters):
-    """What no kernel can read."""
+    """Parameters that no kernel can read."""
 
     edition: Literal["2008", "2018"] = parameter("2008", "edition")
 
@@ -77,7 +77,10 @@ def plugin(*items: Any, hook: str = "lambda_laws") -> Any:
 
 
 def source(project: str, found: Any, name: str = "main") -> Source:
-    """Return a plugin to load; an exception is raised instead of returned."""
+    """Return a plugin to load.
+
+    An exception is raised instead of returned.
+    """
 
     def load() -> object:
         if isinstance(found, BaseException):

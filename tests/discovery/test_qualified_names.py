@@ -47,7 +47,10 @@ def law(name: str) -> Law:
 
 @pytest.fixture
 def crowded(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """The program with two packages that have a law of one name, and one of a built-in's name."""
+    """Return a program with ambiguous laws.
+
+    Two packages have a law of one name, and one of a built-in's name.
+    """
     sources = [
         *installed(PLUGINS),
         package("carreau-traction", lambda_laws=law("carreau")),

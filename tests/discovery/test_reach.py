@@ -31,7 +31,10 @@ def shape(x, power=1.0):
 
 
 def module(text: str = HELPERS) -> ModuleType:
-    """Return a module made from text, as an edited file would be in a new process."""
+    """Return a module from text.
+
+    As an edited file would be in a new process.
+    """
     made = ModuleType("trial_helpers")
     exec(text, made.__dict__)
     return made

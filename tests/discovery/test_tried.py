@@ -35,7 +35,10 @@ LAW = Law("boundary_friction", "rising", rising, Ratio, reference="own work", ro
 
 @pytest.fixture
 def tries(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """Return the names of the laws that are tried out, as it happens, in a cache of their own."""
+    """Record the laws that are tested.
+
+    Their names, as it happens, in a cache of their own.
+    """
     monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(tmp_path))
     found: list[str] = []
 

@@ -28,7 +28,10 @@ CALLS = {
 
 
 def calls(text: str, start: str) -> list[str]:
-    """Return every call that begins so, up to the bracket that closes it."""
+    """Return every call with a beginning.
+
+    Up to the bracket that closes it.
+    """
     found = []
     for match in re.finditer(start, text):
         depth, end = 0, match.start()

@@ -26,7 +26,10 @@ NOT_RUN = {"install.md": 1, "contributing.md": 2, "shaft.md": 3, "fmu.md": 3, "f
 
 @pytest.fixture(scope="module")
 def programs(warm: Warm) -> Path:
-    """Everything is compiled beforehand: no page shows the sentence that announces it."""
+    """Compile everything beforehand.
+
+    No page shows the sentence that announces it.
+    """
     api.warmup()
     return warm.ready().path
 

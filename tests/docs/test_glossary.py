@@ -45,7 +45,10 @@ def _texts() -> list[tuple[str, str]]:
 
 @cache
 def _given() -> dict[str, list[str]]:
-    """Return where each name is given to a function, a class, an argument or a variable of the packages."""
+    """Return where each name is defined.
+
+    A function, a class, an argument or a variable of the packages.
+    """
     found: dict[str, list[str]] = {}
     for place, text in _texts():
         for node in ast.walk(ast.parse(text)) if place.endswith(".py") else ():

@@ -110,7 +110,10 @@ def test_classes_are_documented_with_all_their_fields() -> None:
 
 
 def _named_for(field: str) -> bool:
-    """Names that say it all: what people read, and quantities with their unit."""
+    """Tell whether a name needs no meaning.
+
+    Common words, and quantities with their unit.
+    """
     plain = {
         "name",
         "title",

@@ -66,7 +66,10 @@ def test_code_of_examples_on_pages_follows_the_files() -> None:
 
 
 def _described(path: str) -> str:
-    """Return the name under which an option stands on the page: tables of several places are described once."""
+    """Return an option's name on the page.
+
+    Tables of several places are described once.
+    """
     path = re.sub(rf"^forces\.({'|'.join(ELEMENTS | RIBS)})\.models\.", "models.", path)
     path = re.sub(rf"^forces\.({'|'.join(ELEMENTS | RIBS)})\.", "forces.ELEMENT.", path)
     path = re.sub(rf"^loads\.({'|'.join(BODIES)})\.", "loads.BODY.", path)

@@ -62,7 +62,10 @@ def _in_text(text: str) -> list[str]:
 
 
 def _in_code(name: str, text: str) -> int:
-    """Count the words to avoid in the strings and comments of a module, its name and the names it defines."""
+    """Count the words to avoid in code.
+
+    In the strings and comments of a module, its name and the names it defines.
+    """
     words = _WORD.findall(Path(name).stem)
     tokens = tokenize.generate_tokens(StringIO(text).readline)
     count = sum(len(_in_text(token.string)) for token in tokens if token.type == tokenize.COMMENT)

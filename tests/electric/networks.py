@@ -33,7 +33,10 @@ def strength(
     breakdown: str = "statistical", discharge: str = "resistance", *, roughness: float = 0.1e-6,
     breaks: dict[str, Any] | None = None, **arcs: Any,
 ) -> Strength:  # fmt: skip
-    """Return laws of the films by name, with parameters as a case writes them."""
+    """Return laws of the films by name.
+
+    With parameters as a case has them.
+    """
     laws = _laws(breakdown, json.dumps(breaks or {}), discharge, json.dumps(arcs))
     return Strength(*laws, roughness, 0.5)
 
@@ -56,7 +59,10 @@ SMOOTH, ROUGH = strength("field"), strength()
 def steady(
     inner: float, outer: float, *, balls: int = 1, film: float = 0.0, leak: float = 0.0, stop: float = 2e-3
 ) -> Films:
-    """Return films that do not change, of an area of 27 000 spots."""
+    """Return films that do not change.
+
+    Of an area of 27 000 spots.
+    """
     time = np.linspace(0.0, stop, 3)
     each = np.ones((3, balls, 2))
     capacitance = each * np.array([inner, outer])
@@ -64,7 +70,10 @@ def steady(
 
 
 def turning(stop: float = 0.02, samples: int = 41, film: float = 0.0, leak: float = 1e-10) -> Films:
-    """Return nine balls that pass a load zone, their surfaces new every 45 us."""
+    """Return nine balls through a load zone.
+
+    Their surfaces are new every 45 us.
+    """
     time = np.linspace(0.0, stop, samples)
     phase = 2.0 * np.pi * (np.arange(9) / 9)[None, :, None] + 2.0 * np.pi * 20.0 * time[:, None, None]
     capacitance = 40e-12 + 25e-12 * np.cos(phase) + np.array([0.0, 5e-12])
@@ -86,7 +95,10 @@ def switching(
 
 
 def residuals(found: BearingSolution, circuit: Circuit, source: tuple[FloatArray, FloatArray]) -> tuple[float, float]:
-    """Return what energy and charge do not add up to, relative to what flowed."""
+    """Return relative residuals of energy and charge.
+
+    Relative to what flowed.
+    """
     t = found.total
     stored = t[L.T_STORED] - t[L.T_STORED_0]
     rest = t[L.T_SOURCE] + t[L.T_MOTION] - t[L.T_OHMIC] - t[L.T_ARC] - stored

@@ -31,7 +31,10 @@ _SCALE = 1e6
 
 
 def nine_balls(samples: int = 4001) -> Films:
-    """Return nine balls that pass a load zone, one film of them bridged."""
+    """Return nine balls, one film bridged.
+
+    They pass a load zone.
+    """
     time = np.linspace(0.0, STOP, samples)
     phase = 2.0 * np.pi * ((np.arange(9) / 9)[None, :, None] + time[:, None, None] / TURN)
     capacitance = 40e-12 + 25e-12 * np.cos(phase) + np.array([0.0, 5e-12])
@@ -42,7 +45,10 @@ def nine_balls(samples: int = 4001) -> Films:
 
 
 def deck(out: Path) -> str:
-    """Return the deck; `out` gets time, potential of the inner and of the outer ring."""
+    """Return the deck.
+
+    `out` gets time, potential of the inner and of the outer ring.
+    """
     points = " ".join(f"{t:.12g} {v:.12g}" for t, v in zip(*switching(STOP, rise=RISE), strict=True))
     lines = ["* nine balls between two rings", f"Vcm cm 0 PWL({points})"]
     fixed = (("cm", "u", CIRCUIT.winding), ("u", "0", CIRCUIT.rotor), ("u", "o", CIRCUIT.bearings[0].rings))
@@ -73,7 +79,10 @@ def deck(out: Path) -> str:
 
 
 def run() -> tuple[FloatArray, FloatArray]:
-    """Return times [s] and voltages between the rings [V] by ngspice, away from the edges of the source."""
+    """Return voltages by ngspice.
+
+    Times [s] and voltages between the rings [V], away from the edges of the source.
+    """
     with tempfile.TemporaryDirectory() as folder:
         path, out = Path(folder) / "deck.cir", Path(folder) / "out.txt"
         path.write_text(deck(out))

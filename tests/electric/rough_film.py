@@ -10,7 +10,9 @@ from lambda_core.domain.arrays import FloatArray
 def breakdown_probability(
     voltage: FloatArray | float, film: float, roughness: float, field: float, spots: float
 ) -> FloatArray:
-    """Return the probability that a rough film breaks down at a voltage [V].
+    """Return a rough film's breakdown probability.
+
+    At a voltage [V].
 
     1 - Phi((h - V/E_b)/sigma)^N: Gaussian heights of rms `roughness` [m] around the mean film h [m], N = A/l_corr^2
     independent spots, E_b [V/m] in the gap of the lowest one (weakest link). Jackson, Saha and Janik 2025, J. Tribol.
@@ -26,7 +28,10 @@ def breakdown_probability(
 def breakdown_voltage(
     probability: FloatArray | float, film: float, roughness: float, field: float, spots: float
 ) -> FloatArray:
-    """Return the voltage that breaks a rough film down with a probability, the inverse of breakdown_probability [V]."""
+    """Return a rough film's breakdown voltage [V].
+
+    With a probability, the inverse of breakdown_probability.
+    """
     from scipy.special import ndtri
 
     # Phi(z) = (1 - p)^(1/N), by its small complement.

@@ -47,7 +47,10 @@ def test_a_second_bearing_that_moves_alike_is_a_twin() -> None:
 
 
 def _nodes(films: list[Films], circuit: Circuit) -> tuple[FloatArray, FloatArray]:
-    """Return C and G of rotor, insulated outer rings and balls, branch by branch, for films that do not change."""
+    """Return C and G of all nodes.
+
+    Rotor, insulated outer rings and balls, branch by branch, for films that do not change.
+    """
     rings = {b: 1 + k for k, b in enumerate(b for b, s in enumerate(circuit.bearings) if s.insulated)}
     n = 1 + len(rings) + sum(each.film.shape[1] for each in films)
     c, g = np.zeros((n, n)), np.zeros((n, n))

@@ -13,7 +13,10 @@ from lambda_core.domain.arrays import FloatArray
 
 
 def own(time: FloatArray) -> FloatArray:
-    """Return the voltage between the rings at times by the network of this program [V]."""
+    """Return the own network's voltage [V].
+
+    Between the rings at times.
+    """
     found = integrate(nine_balls(), CIRCUIT, SMOOTH, switching(STOP, rise=RISE), window=(0.0, 1.0)).trace
     return np.interp(time, found[:, 0], found[:, 2])
 

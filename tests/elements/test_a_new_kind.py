@@ -53,7 +53,10 @@ CASE: dict[str, Any] = {
 
 @pytest.fixture
 def tandem(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Geometry]:
-    """Return the geometry of a bearing of a kind whose module lies in a folder of its own."""
+    """Return a geometry of a new kind.
+
+    Its module is in a folder of its own.
+    """
     geometry = api.check(CASE).geometry
     (tmp_path / "tandem.py").write_text(TANDEM, encoding="utf-8")
     found = [*kinds.__path__, str(tmp_path)]

@@ -32,7 +32,10 @@ def of_kind(kind: str) -> RollerBearing:
 
 
 def total(bearing: RollerBearing, state: RollerEquilibrium) -> np.ndarray:
-    """Return forces x, y, z on the outer ring by the geometry of the contacts, not by the solver's matrices."""
+    """Return the outer ring's forces x, y, z.
+
+    By the geometry of the contacts, not by the solver's matrices.
+    """
     angle = bearing.contact_angle
     load = state.outer.sum(axis=1)
     axial, radial = math.sin(angle) * load.sum(), math.cos(angle) * load

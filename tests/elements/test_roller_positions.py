@@ -23,7 +23,10 @@ HELD = (True, False, False, True, True)
 
 
 def answer(direction: float, force: float = 5e3) -> tuple[FloatArray, list[RollerFriction]]:
-    """Return the largest load at every place, and the friction there."""
+    """Return load and friction at every place.
+
+    The largest load.
+    """
     loads = np.array([0.0, force * math.cos(direction), force * math.sin(direction), 0.0, 0.0])
     motion = rolling_motion(NU, 300.0)
     found = over_a_pitch(NU, loads, held=HELD, inertial=motion.inertial(NU))

@@ -22,7 +22,10 @@ SEED, COUNT = 34, 20  # number of the issue that asks for twenty; the first and 
 
 
 class Drawn(NamedTuple):
-    """A bearing and its operating point: radial load [N], speed [1/min], oil [degC]."""
+    """Bearing with its operating point.
+
+    Radial load [N], speed [1/min], oil [degC].
+    """
 
     designation: str
     load: float

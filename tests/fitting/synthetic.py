@@ -20,7 +20,10 @@ PARAMETERS = (
 
 
 class Conditions(NamedTuple):
-    """Speeds [1/min], loads [kN] and oil temperatures [degC] of a test plan."""
+    """Operating conditions of a test plan.
+
+    Speeds [1/min], loads [kN] and oil temperatures [degC].
+    """
 
     speed: FloatArray
     load: FloatArray
@@ -58,7 +61,10 @@ def heavy(random: np.random.Generator, values: FloatArray, errors: FloatArray) -
 
 
 def spoiled(random: np.random.Generator, values: FloatArray, errors: FloatArray) -> FloatArray:
-    """Add normal errors, and to one point in twelve one ten times as large."""
+    """Add normal errors and outliers.
+
+    One point in twelve gets one ten times as large.
+    """
     size = np.where(random.permutation(values.size) < values.size // 12, 10.0, 1.0)
     return values + size * errors * random.standard_normal(values.size)
 

@@ -155,7 +155,7 @@ def test_the_errors_of_a_fit_replace_the_ranges(tmp_path: Path) -> None:
 
 
 def _fit_of(*rows: tuple[str, str]) -> dict[str, object]:
-    """Return the table `fit` with a value of 0.03 in each unit at each path."""
+    """Return the table `fit` of 0.03 at each path."""
     parameters = [{"path": path, "value": 0.03, "standard_error": 0.001, "unit": unit} for path, unit in rows]
     matrix = [[float(i == j) for j in range(len(rows))] for i in range(len(rows))]
     return {

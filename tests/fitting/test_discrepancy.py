@@ -23,7 +23,10 @@ ONE = Parameter("slope", 1.0, 0.5, 1.5)
 
 
 def place(x: np.ndarray, size: float) -> Place:
-    """Return a model that is its parameter times 100 over one condition."""
+    """Return a linear model.
+
+    It is its parameter times 100 over one condition.
+    """
     return Place(np.full(x.size, 100.0), np.full((x.size, 1), 100.0), x[:, None], ("torque",) * x.size,
                  np.full(x.size, size))  # fmt: skip
 

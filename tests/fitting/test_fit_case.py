@@ -27,7 +27,10 @@ TRUTH = ("parameters.elastic_hysteresis.loss_factor=0.04", "parameters.traction.
 
 @pytest.fixture(scope="module")
 def rows() -> list[str]:
-    """Return lines of a file of measurements that the case predicts with other parameters, without noise."""
+    """Return lines of predicted measurements.
+
+    The case predicts them with other parameters, without noise.
+    """
     text = api.case(CASE)
     found = []
     for speed, load, temperature in POINTS:

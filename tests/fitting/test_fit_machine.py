@@ -22,7 +22,10 @@ LOADS = ((1000, -800), (3000, -3000), (4500, -2000))
 
 @pytest.fixture(scope="module")
 def machine() -> str:
-    """Return the case of a shaft with a belt, whose right bearing sits in an elastic seat."""
+    """Return the case of a belt shaft.
+
+    Its right bearing sits in an elastic seat.
+    """
     text = geared_shaft("rig").replace('support.x = "free" ', 'support.z = "150 N/um"\nsupport.x = "free" ')
     return f'{text}\n[loads.belt]\nat = "5 mm"\nforce_z = "-800 N"\n'
 

@@ -51,7 +51,10 @@ def test_the_curve_of_misra_is_told_to_be_the_wrong_law() -> None:
 
 
 def _coverage(noise: str, count: int, *, is_error_known: bool, temperature_error: float) -> tuple[float, float]:
-    """Return the shares of fits whose region holds the truth, and whose law is called wrong."""
+    """Return the coverage of fits.
+
+    Shares whose region holds the truth, and whose law is called wrong.
+    """
     fits = [
         S.fitted(S.NOISES[noise], seed, is_error_known=is_error_known, temperature_error=temperature_error)
         for seed in range(count)

@@ -24,7 +24,10 @@ VARIED = ("lubricant.temperature=30..60 degC", "bearing.clearance=9..19 um")  # 
 
 @pytest.fixture(scope="session")
 def host() -> ModuleType:
-    """Return the module host in this folder, which is no package."""
+    """Return the module host.
+
+    It is in this folder, which is no package.
+    """
     place = importlib.util.spec_from_file_location("fmu_host", HERE / "host.py")
     assert place is not None
     assert place.loader is not None
@@ -36,7 +39,10 @@ def host() -> ModuleType:
 
 @pytest.fixture(scope="session")
 def c_compiler() -> tuple[str, ...]:
-    """Return the command of a C compiler; what needs one is skipped where there is none."""
+    """Return the C compiler's command.
+
+    Tests that need one are skipped where there is none.
+    """
     from lambda_core.export.fmu.library import compiler
 
     if (platform.system(), platform.machine()) != ("Linux", "x86_64"):
@@ -51,7 +57,10 @@ def c_compiler() -> tuple[str, ...]:
 def exported(
     c_compiler: tuple[str, ...], once: Callable[[str, Callable[[Path], object]], Path]
 ) -> Callable[[int, str], Path]:
-    """Return a function that gives the FMU of a version and a coupling."""
+    """Return a function that exports an FMU.
+
+    Of a version and a coupling.
+    """
 
     def export(fmi: int, couple: str) -> Path:
         vary = VARIED if (fmi, couple) == (2, "force") else ()
@@ -69,7 +78,10 @@ def exported(
 
 @pytest.fixture(scope="session")
 def shaft(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
-    """Return the case of a shaft in two bearings with a gear."""
+    """Return the case of a geared shaft.
+
+    It has two bearings.
+    """
 
     def fill(folder: Path) -> None:
         api.init_case("box", template="geared-shaft", path=folder / "box.toml")
@@ -81,7 +93,10 @@ def shaft(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
 def machine_unit_file(
     c_compiler: tuple[str, ...], shaft: Path, once: Callable[[str, Callable[[Path], object]], Path]
 ) -> Path:
-    """Return the FMU of the shaft, with an option that varies and a circuit."""
+    """Return the FMU of the shaft.
+
+    With an option that varies and a circuit.
+    """
 
     def fill(folder: Path) -> None:
         vary = ("lubricant.temperature=60..80 degC",)

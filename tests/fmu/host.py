@@ -139,7 +139,10 @@ class Instance:
         return bytes(bytes_)
 
     def unpack(self, data: bytes, time: float) -> int:
-        """Go to a state from outside; returns the status of reading it."""
+        """Go to a state from outside.
+
+        Return the status of reading it.
+        """
         state = c.c_void_p()
         name = "DeSerialize" if self.unit.fmi == 2 else "Deserialize"
         status = self.do(name + self._state, data, c.c_size_t(len(data)), c.byref(state))
@@ -148,7 +151,10 @@ class Instance:
         return status
 
     def slope(self, unknown: str, known: str, along: float = 1.0) -> float:
-        """Return the directional derivative of an output with an input; ArithmeticError when the library refuses."""
+        """Return an output's derivative with an input.
+
+        Directional; ArithmeticError when the library refuses.
+        """
         u, k = (c.c_uint * 1)(self.unit.references[unknown]), (c.c_uint * 1)(self.unit.references[known])
         one, seed, found = c.c_size_t(1), (c.c_double * 1)(along), (c.c_double * 1)()
         if self.unit.fmi == 2:

@@ -34,12 +34,18 @@ def unit(host: Any, exported: Export, tmp_path_factory: pytest.TempPathFactory) 
 
 
 def slopes(k: int) -> float:
-    """Return the rate of the source in a step [V/s]: up to 600 V and down again."""
+    """Return the source's rate in steps [V/s].
+
+    Up to 600 V and down again.
+    """
     return 600.0 / (20 * STEP) * (1.0 if k % 40 < 20 else -1.0)
 
 
 def of_the_program(steps: int) -> tuple[list[list[float]], Any]:
-    """Return voltages and largest currents step by step, and the events, of an integration through the same samples."""
+    """Return the program's voltages and currents.
+
+    Largest currents step by step, and the events, of an integration through the same samples.
+    """
     stepping = api.iterate(CASE, CHANGES, exact=True)
     bearing = of_model(stepping.model)
     network = network_of([bearing], [stepping.model.geometry.balls])

@@ -44,7 +44,10 @@ def unit_of(host: Any, exported: Export, tmp_path: Path, fmi: int = 2, couple: s
 
 
 def seen(step: Any) -> dict[str, float]:
-    """Return outputs of an FMU as they follow from a step of the program."""
+    """Return an FMU's outputs after a step.
+
+    The step is one of the program.
+    """
     loads, films, parameters = step["load"], step["film_minimum"], step["film_parameter"]
     return {
         "inner_ring.x": step["body_position"][0, 0],

@@ -50,7 +50,10 @@ def test_omsimulator(exported: Export, example: Callable[[str], Any]) -> None:
 
 
 def rotor_inside(module: Any, end: float, step: float) -> tuple[Any, Any]:
-    """Return places and speeds of one bearing that owns half of the rotor."""
+    """Return places and speeds with a rotor.
+
+    One bearing owns half of it.
+    """
     mass = 0.5 * module.MASS
     alone = api.check(module.CASE, module.CHANGES).inner_ring.mass
     held = [f"bodies.inner_ring.{dof}.mode=locked" for dof in ("tilt_y", "tilt_z")]
@@ -125,7 +128,10 @@ def test_a_step_is_repeated_until_both_sides_agree(exported: Export, example: Ca
 
 
 def bearing_for_modelica(names: set[str]) -> str:
-    """Return a Modelica model with the names of an FMU, that answers with a spring."""
+    """Return a Modelica model of a spring.
+
+    It has the names of an FMU.
+    """
     given = {name for name in names if "reaction" not in name}
     inputs = "\n".join(f"  input Real {name};" for name in sorted(given))
     outputs = "\n".join(f"  output Real {name};" for name in sorted(names - given))

@@ -23,7 +23,10 @@ STEP = 1e-4  # [s]
 
 
 def seen(step: Any) -> dict[str, float]:
-    """Return outputs of the FMU as they follow from a step of the program."""
+    """Return the FMU's outputs after a step.
+
+    The step is one of the program.
+    """
     found = {}
     for name, channels in step.bearings.items():
         films, bearing = channels["film_minimum"], f"bearings.{name}"
@@ -73,7 +76,10 @@ SLOPE = 600.0 / (20 * 2e-5)  # of the source [V/s]
 
 
 def circuit_of_the_program(shaft: Path, steps: int, step: float) -> tuple[list[list[float]], int]:
-    """Return voltages and largest currents of both bearings step by step, and the count of events."""
+    """Return the program's circuit of both bearings.
+
+    Voltages and largest currents step by step, and the count of events.
+    """
     stepping = api.iterate(shaft, (*CHANGES, *CIRCUIT), exact=True)
     assert isinstance(stepping.model, api.MachineModel)
     bearings = of_machine(stepping.model)

@@ -127,7 +127,10 @@ GAP = Varied("gap", "length", 1e-6, 4e-6, 9e-6)
 
 
 def words(values: Mapping[str, float]) -> Any:
-    """Return constants that follow options alone, in a sum, in a product, and one that is a count."""
+    """Return constants that follow options.
+
+    Alone, in a sum, in a product, and one that is a count.
+    """
     t, g = values.get("oil", OIL.start), values.get("gap", GAP.start)
     eta = math.exp(900.0 / (t - 180.0))
     return np.array([7.0, eta, 1e6 * g, t + 1e6 * g, eta * g, 5e-324])

@@ -128,7 +128,10 @@ def test_a_system_without_its_compiler_is_named(monkeypatch: pytest.MonkeyPatch)
 
 
 def ran(command: list[str], unit: Any, library: Path, environment: dict[str, str]) -> list[list[float]]:
-    """Return outputs of a host in C that loads a library: 100 steps with a push after the half."""
+    """Return a C host's outputs.
+
+    It loads a library: 100 steps with a push after the half.
+    """
     names = ["inner_ring.x", "inner_ring.z", "bearing.film_minimum", "cage.spin", "bearing.loss", "bearing.energy_lost"]
     words = [str(library), unit.token.decode(), "100", "1e-4", str(unit.references["inner_ring.force_z"]), "-250"]
     words += [str(unit.references[name]) for name in names]

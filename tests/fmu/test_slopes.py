@@ -37,7 +37,10 @@ def unit_of(host: Any, exported: Export, tmp_path: Path, couple: str) -> Any:
 
 
 def slopes(bearing: Any, unknowns: Sequence[str], knowns: Sequence[str]) -> FloatArray:
-    """Return derivatives, one row for each unknown, in one call for each known."""
+    """Return derivatives by unknown.
+
+    One row for each, in one call for each known.
+    """
     references, n = bearing.unit.references, len(unknowns)
     rows, found, one = (c.c_uint * n)(*(references[name] for name in unknowns)), (c.c_double * n)(), c.c_size_t(1)
     columns = []
@@ -54,7 +57,10 @@ def slopes(bearing: Any, unknowns: Sequence[str], knowns: Sequence[str]) -> Floa
 
 
 def differences(bearing: Any, known: str, by: float) -> FloatArray:
-    """Return central differences of all reactions with an input that was set at this communication point."""
+    """Return all reactions' central differences.
+
+    With an input that was set at this communication point.
+    """
     (value,) = bearing.get([known])
     found = []
     for side in (1.0, -1.0):
@@ -65,7 +71,10 @@ def differences(bearing: Any, known: str, by: float) -> FloatArray:
 
 
 def moving(host: Any, unit: Any) -> Any:
-    """Return a bearing whose prescribed inner ring is pushed and tilted as it goes."""
+    """Return a bearing with prescribed motion.
+
+    Its inner ring is pushed and tilted as it goes.
+    """
     bearing = host.Instance(unit).ready()
     (z,) = bearing.get(["inner_ring.z"])
     for name, value in (("z", z), ("z_rate", -2e-3), ("tilt_y_rate", 1e-2), ("x_rate", 1e-3)):

@@ -39,7 +39,10 @@ _OPTIONS = (
 
 
 class Terminal:
-    """What stands on the terminal: understands as much as the builder sends, moves of the cursor and text."""
+    """Contents of the terminal.
+
+    Understands what the builder sends: moves of the cursor and text.
+    """
 
     _SEQUENCE = re.compile(
         r"\x1b\[(?P<place>\d+;\d+)H|\x1b\[[0-9;?=><]*[ -/]*[@-~]|\x1b[^\[]|(?P<text>[^\x1b\x00-\x1f]+)"
@@ -73,7 +76,10 @@ class Terminal:
 
 
 class Browser:
-    """What both ways have in common: waiting until words stand on the terminal."""
+    """Base of both browsers.
+
+    It waits until words are on the terminal.
+    """
 
     def __init__(self) -> None:
         self.terminal = Terminal()
@@ -87,7 +93,10 @@ class Browser:
         raise NotImplementedError
 
     async def until(self, words: str, *, without: str = "\0", seconds: float = 200.0) -> None:
-        """Read until words stand on the terminal, and others do not."""
+        """Read until words appear.
+
+        And others do not.
+        """
         end = time.monotonic() + seconds
         while words not in (shown := self.terminal.text()) or without in shown:
             left = end - time.monotonic()
@@ -95,7 +104,10 @@ class Browser:
             await self._read(left)
 
     async def _read(self, seconds: float) -> None:
-        """Wait until the terminal may have changed, at most so long."""
+        """Wait for a change of the terminal.
+
+        At most so long.
+        """
         raise NotImplementedError
 
 
@@ -136,7 +148,9 @@ class Chromium(Browser):
             self.terminal.take(frame)
 
     async def open(self, address: str) -> None:
-        """Open an address, and wait until keys go to the terminal of its page of their own accord.
+        """Open an address.
+
+        Wait until keys go to the terminal of its page without a click.
 
         Raises
         ------
@@ -177,7 +191,10 @@ async def client(address: str) -> AsyncIterator[Browser]:
 
 @asynccontextmanager
 async def chromium(address: str, folder: Path) -> AsyncIterator[Browser]:
-    """Open the page in headless Chromium with a profile of its own in `folder`."""
+    """Open the page in headless Chromium.
+
+    With a profile of its own in `folder`.
+    """
     async with aiohttp.ClientSession() as session:
         await _page(session, address)
     async with async_playwright() as playwright:

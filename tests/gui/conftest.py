@@ -23,7 +23,10 @@ from warm import Warm
 
 @pytest.fixture(scope="session", autouse=True)
 def keys_are_heard() -> Iterator[None]:
-    """Go on after a key when it has been heard, however slow the machine."""
+    """Go on once a key was heard.
+
+    However slow the machine.
+    """
     with pytest.MonkeyPatch.context() as patch:
         hear_every_key(patch)
         yield
@@ -56,7 +59,9 @@ HELPER = ("-P", "-m", "lambda_gui.helper_process")
 
 @pytest.fixture(autouse=True)
 def no_process_is_left(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, warm: Warm) -> Iterator[None]:
-    """Find here what a test leaves running: the collector finds it in some later test, of anything.
+    """Find processes that a test leaves.
+
+    The collector would find them in some later test.
 
     Helper processes begin with everything imported, unless a test says `fresh_helper`.
     """

@@ -53,7 +53,9 @@ _LONGEST = 200.0  # nothing takes so long on the slowest machine; pytest's own l
 
 
 async def at_rest(*_: float) -> None:
-    """Let all happen that waits neither for time nor for a thread: messages, callbacks, the picture.
+    """Wait for messages, callbacks and picture.
+
+    Nothing else happens that waits neither for time nor for a thread.
 
     Textual's own way takes a process that gets little of the processor for one that has nothing to do.
     """
@@ -69,7 +71,9 @@ async def at_rest(*_: float) -> None:
 
 
 def hear_every_key(patch: pytest.MonkeyPatch) -> None:
-    """Let Textual's pilot go on after a key when it has been heard; what would move is at its end at once.
+    """Let the pilot wait for keys.
+
+    Textual's; what would move is at its end at once.
 
     Between two keys the screen is laid out and not drawn, as in a terminal that shows less pictures than a second has
     keys: drawing takes a third of the time. What is waited for, or looked at, is drawn.
@@ -136,7 +140,10 @@ def builder(pilot: Pilot[None]) -> BuilderScreen:
 
 
 async def checked(pilot: Pilot[None]) -> None:
-    """Wait until the case, as it stands, has been checked, and what was found is shown."""
+    """Wait for the check of the case.
+
+    Its results are then shown.
+    """
     await at_rest()  # what the last key did
     screen = builder(pilot)
     screen.edited()
@@ -150,14 +157,20 @@ async def write(pilot: Pilot[None], text: str) -> None:
 
 
 async def go_to(pilot: Pilot[None], path: str) -> None:
-    """Go to an option, as an entry of the command palette does."""
+    """Go to an option by command.
+
+    As an entry of the command palette does.
+    """
     keys = tuple(path.split("."))
     builder(pilot).go_to(keys)
     await wait_for(pilot, lambda: focused_place(pilot) == keys)
 
 
 async def move_to(pilot: Pilot[None], key: str) -> None:
-    """Move the tree's cursor to a node, with the keyboard on the tree."""
+    """Move the tree's cursor to a node.
+
+    With the keyboard on the tree.
+    """
     tree = pilot.app.screen.query_one(ModelTree)
     tree.focus()
     tree.go_to(key)
@@ -170,7 +183,9 @@ async def move_to(pilot: Pilot[None], key: str) -> None:
 
 
 async def find(pilot: Pilot[None], path: str, begin: str = "") -> None:
-    """Go to an option by keyboard: put its name, or the beginning of it, into the command palette, as a paste does.
+    """Go to an option by keyboard.
+
+    Put its name, or the beginning of it, into the command palette, as a paste does.
 
     Typed letter by letter, each letter is a search of all options.
     """
@@ -184,7 +199,10 @@ async def find(pilot: Pilot[None], path: str, begin: str = "") -> None:
 
 
 def focused_place(pilot: Pilot[None]) -> tuple[str, ...]:
-    """Return the place in the case of the row that has the keyboard."""
+    """Return the focused row's place.
+
+    It is a place in the case.
+    """
     focused = pilot.app.focused
     rows = [w for w in focused.ancestors_with_self if isinstance(w, Row)] if focused else []
     return tuple(rows[0].place.keys) if rows else ()

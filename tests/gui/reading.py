@@ -26,7 +26,10 @@ Cut = str
 
 
 def cut_on(app: BuilderApp, within: Widget | None = None) -> list[Cut]:
-    """Return a sentence for each piece of text on the screen, or within a widget, that is not there completely."""
+    """Return cut texts on the screen.
+
+    A sentence for each piece of text on it, or within a widget, that is not complete.
+    """
     found = [f"ellipsis: {line.strip()}" for line in screen_text(app).splitlines() if "…" in line]
     for widget in (within or app.screen).query("*").results(Widget):
         if not widget.is_attached or not all(above.display for above in widget.ancestors_with_self):
@@ -103,7 +106,10 @@ def _cut_cells(table: DataTable[object]) -> Iterator[str]:
 
 
 def _cut_options(app: BuilderApp, options: OptionList, region: Region) -> Iterator[str]:
-    """Entries that begin on the screen, and whose successor does, must stand there completely."""
+    """Return the cut options.
+
+    Entries that begin on the screen, and whose successor does, must be complete.
+    """
     lines = screen_text(app).splitlines()[region.y : region.bottom]
     right = region.right - (options.scrollbar_size_vertical if options.show_vertical_scrollbar else 0)
     shown = "".join("".join(line[region.x : right].split()) for line in lines)
@@ -114,7 +120,10 @@ def _cut_options(app: BuilderApp, options: OptionList, region: Region) -> Iterat
 
 
 def _cut_plot(app: BuilderApp, plot: PanelPlot | Trace, region: Region) -> Iterator[str]:
-    """Titles, names of axes and series must stand in the picture: plotext leaves out what has no room."""
+    """Return the texts missing in a plot.
+
+    Titles, names of axes and series: plotext leaves out what has no room.
+    """
     lines = screen_text(app).splitlines()
     shown = "\n".join(line[region.x : region.right] for line in lines[region.y : region.bottom])
     if region.bottom > len(lines):

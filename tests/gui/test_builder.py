@@ -234,7 +234,10 @@ async def test_markers_come_and_go(hand_written: Path) -> None:
 
 
 async def into(pilot: Pilot[None], section: str, first: str) -> None:
-    """Go to a section in the tree and, with Enter, to the first thing of its form."""
+    """Go to a section's first field.
+
+    In the tree, and with Enter to the first thing of its form.
+    """
     tree = pilot.app.screen.query_one(ModelTree)
     tree.focus()
     tree.go_to(section)

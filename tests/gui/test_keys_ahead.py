@@ -21,7 +21,10 @@ from lambda_gui.study_screen import StudyScreen
 
 
 class SlowChecks:
-    """Lets each check go on when a test says so; the first draft that is checked has number 0."""
+    """Checks that wait for the test.
+
+    The first draft that is checked has number 0.
+    """
 
     def __init__(self, patch: pytest.MonkeyPatch) -> None:
         self._check = Checker.check

@@ -39,12 +39,15 @@ FIRST, *OTHERS = api.builtin_cases()
 
 
 def nothing(found: list[str]) -> None:
-    """Nothing may be cut."""
+    """Require that nothing is cut."""
     assert not found, "\n".join(["cut:", *dict.fromkeys(found)])
 
 
 def read(pilot: Pilot[None], where: str, within: Widget | None = None) -> list[str]:
-    """Return what is cut on the screen, or within a part of it, each with where that is."""
+    """Return cut texts with their places.
+
+    On the screen, or within a part of it.
+    """
     return [f"{where}: {what}" for what in cut_on(pilot.app, within)]  # type: ignore[arg-type]
 
 
@@ -55,7 +58,10 @@ async def read_at_rest(pilot: Pilot[None], where: str) -> list[str]:
 
 
 async def read_forms(pilot: Pilot[None], wanted: Callable[[Node], bool]) -> list[str]:
-    """Read the form of each node, and the lists of its choices."""
+    """Read every form and its lists.
+
+    The form of each node, and the lists of its choices.
+    """
     screen, tree = builder(pilot), pilot.app.screen.query_one(ModelTree)
     for line in list(tree._tree_nodes.values()):
         line.expand()
@@ -89,7 +95,10 @@ async def read_list(pilot: Pilot[None], entries: Sequence[Entry], where: str) ->
 
 
 def is_of_one_element(node: Node) -> bool:
-    """Tell whether a form is that of all elements again, for one of them."""
+    """Tell whether a form repeats another.
+
+    It is that of all elements again, for one of them.
+    """
     return node.kind == "role" and bool(node.element)
 
 
@@ -189,7 +198,10 @@ async def test_the_catalogue(size: tuple[int, int]) -> None:
 
 
 def runs_of_every_kind(folder: Path) -> Iterable[api.QueuedRun]:
-    """Return runs in every state, with names and messages as long as they come."""
+    """Return runs in every state.
+
+    With names and messages as long as they come.
+    """
     history = [
         Progress(
             time_s=0.01 * n,

@@ -21,7 +21,7 @@ def nodes(**names: tuple[str, ...]) -> list[Node]:
 
 
 def has_role(path: str) -> bool:
-    """Tell whether a role stands on its force element at all."""
+    """Tell whether a force element has a role."""
     _, element, _, *role = path.split(".")
     return not role or element in ROLES[role[0]].elements
 

@@ -47,7 +47,10 @@ for n in range(steps):
 
 @pytest.fixture
 def fake_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[int], None]:
-    """Put a program that only talks in the place of the simulation; returns what sets its steps."""
+    """Replace the simulation by messages.
+
+    The program only reports; return what sets its steps.
+    """
     script = tmp_path / "fake.py"
     script.write_text(FAKE, encoding="utf-8")
     monkeypatch.setattr(runs, "_PROGRAM", (runs.sys.executable, str(script)))

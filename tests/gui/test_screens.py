@@ -99,7 +99,10 @@ def test_a_section_has_clearance_angle_and_contact_line() -> None:
 
 
 def _on_the_line(section: Section) -> tuple[float]:
-    """Return the radius at which the contact line of the right row is 0.1 mm off the centre of its ball."""
+    """Return a radius near the contact line.
+
+    The line of the right row is there 0.1 mm off the centre of its ball.
+    """
     angle = section.geometry.contact_angle or section.geometry.resting_angle
     return (0.5 * section.pitch + 0.1 / math.tan(angle),)
 

@@ -39,7 +39,10 @@ def test_only_this_machine_unless_told_otherwise() -> None:
 
 @pytest.fixture
 def served(work_folder: Path) -> Iterator[str]:
-    """Serve the builder without a case; gives the address that it says."""
+    """Serve the builder without a case.
+
+    Return the address that it prints.
+    """
     with socket.socket() as found:
         found.bind(("127.0.0.1", 0))
         port = int(found.getsockname()[1])
@@ -101,7 +104,10 @@ async def test_c2_2_another_page_cannot_drive_the_builder(served: str) -> None:
 
 
 async def build_and_run(browser: Browser) -> None:
-    """Build the 6208 of the paper under 1300 N from nothing, save it, run it for 5 ms."""
+    """Build, save and run a bearing.
+
+    The 6208 of the paper under 1300 N from nothing, for 5 ms.
+    """
     await browser.until("which case?")
     await browser.press("enter")
     await browser.until("4 mistakes", without="which case?")

@@ -43,7 +43,10 @@ NAMES = {
 
 
 def bearing_on_shaft(name: str, position: float) -> api.BearingEquilibrium:
-    """Return a possible answer for a bearing: solving it would take compiled code."""
+    """Return a possible answer for a bearing.
+
+    Solving it would take compiled code.
+    """
     return api.BearingEquilibrium(
         name=name, title="6208", position_mm=position, force_N=[213.0, 416.0, 286.0], moment_Nm=[0.0, 0.0],
         radial_load_N=505.0, axial_load_N=-213.0, displacement_um=[1.0, 2.0, 3.0], misalignment_mrad=[0.1, 0.2],
@@ -56,7 +59,10 @@ def bearing_on_shaft(name: str, position: float) -> api.BearingEquilibrium:
 
 
 def report() -> api.MachineEstimate:
-    """Return a possible answer for the shaft that `init --template geared-shaft` writes."""
+    """Return a possible answer for a shaft.
+
+    It is the one that `init --template geared-shaft` writes.
+    """
     mode = {"frequency_Hz": 600.0, "direction": 1.0, "kind": "bending", "bodies_share": 0.0, "damping_ratio": 0.0}
     equilibrium = api.MachineEquilibrium(
         case="box", speed_rpm=3000.0, bearings=[bearing_on_shaft("left", 21.0), bearing_on_shaft("right", 148.0)],
@@ -111,7 +117,7 @@ def test_every_option_of_a_shaft_has_exactly_one_place() -> None:
 
 
 def has_role(path: str) -> bool:
-    """Tell whether a role stands on its force element at all."""
+    """Tell whether a force element has a role."""
     _, element, _, *role = path.split(".")
     return not role or element in ROLES[role[0]].elements
 
@@ -123,7 +129,10 @@ def has_a_shaft(pilot: Pilot[None]) -> bool:
 
 
 async def from_tree(pilot: Pilot[None], key: str, place: tuple[str, ...]) -> None:
-    """Add a table from the tree and wait for its form."""
+    """Add a table from the tree.
+
+    Wait for its form.
+    """
     await pilot.press("escape")
     await move_to(pilot, key)
     await pilot.press("plus")

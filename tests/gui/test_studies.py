@@ -66,7 +66,10 @@ def test_a_folder_is_a_study_by_the_file_that_makes_it_one(tmp_path: Path) -> No
 
 
 async def form(pilot: Pilot[None], path: str, *, is_fine: bool = True) -> StudyScreen:
-    """Open the form of a study on an option of the case, and wait until its first point has been solved."""
+    """Open a study's form on an option.
+
+    It is one of the case; wait until its first point has been solved.
+    """
     await checked(pilot)
     await go_to(pilot, path)
     await pilot.press("f3")

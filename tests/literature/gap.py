@@ -12,7 +12,9 @@ from lambda_core.formulas.hertz import HertzContact
 
 
 def gap(x: NDArray[np.float64], y: NDArray[np.float64], contact: HertzContact, e_eff: float) -> NDArray[np.float64]:
-    """Distance of the deformed surfaces outside the contact without a film [m].
+    """Return the gap outside the contact [m].
+
+    Distance of the deformed surfaces without a film.
 
     -(p0 a b/E') integral of (1 - x^2/(b^2 + s) - y^2/(a^2 + s))/sqrt((a^2 + s)(b^2 + s) s) over s from 0 to the
     confocal ellipse through the point: Johnson, Contact Mechanics (1985), section 3.5, with E* = E'/2.
@@ -31,7 +33,10 @@ def gap(x: NDArray[np.float64], y: NDArray[np.float64], contact: HertzContact, e
 
 
 def surroundings(contact: HertzContact, e_eff: float, film: float, outer: float) -> float:
-    """Integral of dA/(film + gap) from the contact's edge to the confocal ellipse of major semi-axis `outer` [m]."""
+    """Return the integral of dA/(film + gap) [m].
+
+    From the contact's edge to the confocal ellipse of major semi-axis `outer`.
+    """
     major = max(contact.semi_a, contact.semi_b)
     reach = math.asinh(math.sqrt(outer**2 - major**2) / contact.semi_b)
     w_nodes, w_weights = roots_legendre(120)

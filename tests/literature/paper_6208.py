@@ -20,7 +20,10 @@ SPEED = 2750.0 * math.pi / 30.0
 
 
 def axial_6208(axial_load: float, *, running: bool) -> AxialEquilibrium:
-    """Equilibrium with radii frozen at the angles found (fixed-point)."""
+    """Return the equilibrium of an axial load.
+
+    Radii are frozen at the angles found (fixed-point).
+    """
     angles = (0.25, 0.25)
     mass = math.pi / 6.0 * BALL**3 * 7850.0
     for _ in range(30):

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Peer:
-    """A static load case of a deep-groove ball bearing, C = 23.4 kN, grooves 0.52 and 0.53 D_w, E = 210 GPa."""
+    """Static load case of a deep-groove bearing.
+
+    C = 23.4 kN, grooves 0.52 and 0.53 D_w, E = 210 GPa.
+    """
 
     geometry: tuple[int, float, float]  # Z, D_w, D_pw [mm]
     clearance: float  # diametral [um]

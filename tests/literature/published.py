@@ -7,7 +7,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Published:
-    """A value to be met: within `rel` times itself or `abs`, whichever is larger."""
+    """Published value with its tolerance.
+
+    Within `rel` times itself or `abs`, whichever is larger.
+    """
 
     value: float
     source: str

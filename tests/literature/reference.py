@@ -29,7 +29,10 @@ def _relative_load(psi: float, epsilon: float, exponent: float) -> float:
 
 
 def sjovall_integrals(epsilon: float, exponent: float = 1.5) -> tuple[float, float]:
-    """(J_r, J_a): mean over the raceway of (Q/Q_max) cos psi and of Q/Q_max."""
+    """Return the load integrals (J_r, J_a).
+
+    Mean over the raceway of (Q/Q_max) cos psi and of Q/Q_max.
+    """
     end = _zone(epsilon)
     radial = quad(lambda psi: _relative_load(psi, epsilon, exponent) * math.cos(psi), 0.0, end, epsabs=1e-12)[0]
     axial = quad(lambda psi: _relative_load(psi, epsilon, exponent), 0.0, end, epsabs=1e-12)[0]
@@ -37,13 +40,19 @@ def sjovall_integrals(epsilon: float, exponent: float = 1.5) -> tuple[float, flo
 
 
 def fatigue_integral(epsilon: float, power: float, exponent: float = 1.5) -> float:
-    """J_1 (power 3) or J_2 (power 10/3): (mean of (Q/Q_max)^power)^(1/power)."""
+    """Return J_1 or J_2.
+
+    J_1 (power 3) or J_2 (power 10/3): (mean of (Q/Q_max)^power)^(1/power).
+    """
     total = quad(lambda psi: _relative_load(psi, epsilon, exponent) ** power, 0.0, _zone(epsilon), epsabs=1e-12)[0]
     return float((total / math.pi) ** (1.0 / power))
 
 
 def stribeck_number(ball_count: int, exponent: float = 1.5) -> float:
-    """S of Q_max = S F_r/Z without clearance, one ball under the load; 1/J_r(0.5) = 4.37 for many balls."""
+    """Return S of Q_max = S F_r/Z.
+
+    Without clearance, one ball under the load; 1/J_r(0.5) = 4.37 for many balls.
+    """
     cosine = np.maximum(np.cos(2.0 * math.pi * np.arange(ball_count) / ball_count), 0.0)
     return float(ball_count / np.sum(cosine ** (exponent + 1.0)))
 
@@ -53,7 +62,10 @@ def stribeck_number(ball_count: int, exponent: float = 1.5) -> float:
 
 @dataclass(frozen=True)
 class HertzFactors:
-    """a*, b*, delta* of Harris and Kotzalas, table 6.1, and the axis ratio."""
+    """Factors of Harris and Kotzalas, table 6.1.
+
+    a*, b*, delta* and the axis ratio.
+    """
 
     a: float
     b: float
@@ -62,7 +74,10 @@ class HertzFactors:
 
 
 def hertz_factors(curvature_difference: float) -> HertzFactors:
-    """Dimensionless contact parameters for 0 < F(rho) < 1."""
+    """Return dimensionless contact parameters.
+
+    For 0 < F(rho) < 1.
+    """
 
     def difference(kappa: float) -> float:
         m = 1.0 - kappa**-2
@@ -83,7 +98,10 @@ def hertz_factors(curvature_difference: float) -> HertzFactors:
 
 @dataclass(frozen=True)
 class AxialEquilibrium:
-    """Angles [rad] and loads [N] of every ball of a bearing under pure axial load."""
+    """Equilibrium under pure axial load.
+
+    Angles [rad] and loads [N] of every ball.
+    """
 
     angle_inner: float
     angle_outer: float
@@ -100,7 +118,9 @@ def axial_equilibrium(
     stiffness: tuple[float, float],
     centrifugal: float = 0.0,
 ) -> AxialEquilibrium:
-    """Force balance of one ball, Q = K delta^1.5 at each contact.
+    """Return the equilibrium of one ball.
+
+    Q = K delta^1.5 at each contact.
 
     Parameters
     ----------
@@ -143,7 +163,10 @@ def axial_equilibrium(
 
 @dataclass(frozen=True)
 class SpecificationEquilibrium:
-    """Displacements (radial [m], axial from the centred position [m], tilt [rad]) and ball loads [N]."""
+    """Equilibrium after ISO/TS 16281.
+
+    Displacements (radial [m], axial from the centred position [m], tilt [rad]) and ball loads [N].
+    """
 
     radial: float
     axial: float
@@ -164,7 +187,9 @@ def specification_equilibrium(
     moment: float = 0.0,
     start: Sequence[float] = (10.0, 100.0, 0.0),
 ) -> SpecificationEquilibrium:
-    """Ball loads after ISO/TS 16281, eq. 8-18: static, rigid rings.
+    """Return ball loads after ISO/TS 16281.
+
+    Eq. 8-18: static, rigid rings.
 
     `groove_centre_distance` A = r_i + r_e - D_w, `lever` arm of tilt and moment (D_pw/2; the specification takes the
     inner groove-centre circle for the tilt), `first_ball` azimuth of the first ball from the load, `spring_constant`
@@ -212,7 +237,9 @@ def raceway_motion(
     inner: bool,
     outer_speed: float = 0.0,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Surface velocities of ball and ring at a contact, seen from the cage, and their relative spin vector.
+    """Return surface velocities and spin.
+
+    Of ball and ring at a contact, seen from the cage; the spin is their relative one, a vector.
 
     x is the shaft axis, z radially outwards through the ball, y along the orbit for a positive speed (y = x cross
     -z turned so that x, y, z are right handed: velocity = omega x r). `ball_spin` is the ball's angular velocity in
@@ -232,7 +259,9 @@ def raceway_motion(
 def numerical_gyroscopic_moment(
     inertia: float, spin: float, orbit: float, pitch: float, step: float = 1e-6
 ) -> FloatArray:
-    """d/dt of a ball's spin angular momentum while its axis is carried around the shaft, by central difference.
+    """Return the gyroscopic moment by differences.
+
+    d/dt of a ball's spin angular momentum while its axis is carried around the shaft.
 
     The spin vector makes the angle `pitch` with the shaft axis x in the radial plane. Returns the moment [N m] in the
     frame (x, orbit direction, radial) at t = 0.
@@ -251,13 +280,19 @@ def numerical_gyroscopic_moment(
 
 
 def torus_distance(point: FloatArray, centre_radius: float, groove_radius: float) -> float:
-    """Signed distance of a point (x, y, z) to the surface of a torus about x, negative inside the tube."""
+    """Return the signed distance to a torus.
+
+    Of a point (x, y, z) to its surface about x, negative inside the tube.
+    """
     radius = math.hypot(point[1], point[2])
     return math.hypot(point[0], radius - centre_radius) - groove_radius
 
 
 def principal_curvatures(point: FloatArray, centre_radius: float, groove_radius: float, step: float) -> FloatArray:
-    """Principal curvatures of a torus at a point of its surface from the Hessian of the distance (differences)."""
+    """Return a torus's principal curvatures.
+
+    At a point of its surface, from the Hessian of the distance (differences).
+    """
     hessian = np.empty((3, 3))
     unit = np.eye(3) * step
     for i in range(3):

@@ -74,7 +74,10 @@ def torque(
     axial: float,
     radial: float = 0.0,
 ) -> tuple[RollerFriction, RollerEquilibrium]:
-    """Return friction and equilibrium under axial and radial load [N], tilts locked."""
+    """Return friction and equilibrium.
+
+    Under axial and radial load [N], tilts locked.
+    """
     motion = rolling_motion(bearing, rpm * RPM)
     loads: FloatArray = np.array([axial, radial, 0.0, 0.0, 0.0])
     state = balance(bearing, loads, inertial=motion.inertial(bearing))

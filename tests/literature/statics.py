@@ -44,12 +44,18 @@ class Bearing:
         return ball_raceway_radii(self.ball_diameter, self.pitch_diameter, groove, angle, inner=inner)
 
     def mean_velocity(self, speed: float, angle: float = 0.0) -> float:
-        """Mean surface velocity of either contact in pure rolling [m/s]; `speed` of the inner ring [rad/s]."""
+        """Return the mean surface velocity [m/s].
+
+        Of either contact in pure rolling; `speed` of the inner ring [rad/s].
+        """
         gamma = self.ball_diameter * math.cos(angle) / self.pitch_diameter
         return speed * self.pitch_diameter / 4.0 * (1.0 - gamma**2)
 
     def contacts(self, force: float, clearance: float, turn: float) -> list[Loaded]:
-        """Return every loaded contact under a radial force; `turn` is the azimuth of one ball from the load line."""
+        """Return the contacts under radial force.
+
+        Every loaded one: `turn` is the azimuth of one ball from the load line.
+        """
         inner, outer = (stiffness_constant(*self.radii(side), STEEL) for side in (True, False))
         both = (inner ** (-2.0 / 3.0) + outer ** (-2.0 / 3.0)) ** -1.5
         psi = turn + 2.0 * math.pi * np.arange(self.balls) / self.balls
@@ -66,7 +72,10 @@ class Bearing:
         ]
 
     def positions(self) -> list[float]:
-        """Return eight azimuths over one ball pitch, for averages over the position of the balls."""
+        """Return eight azimuths over one pitch.
+
+        For averages over the position of the balls.
+        """
         return [float(step) * 2.0 * math.pi / self.balls / 8.0 for step in range(8)]
 
 

@@ -23,7 +23,9 @@ BARS = [RoundSection(0.04, 0.0, STEEL), RoundSection(0.05, 0.03, STEEL)]
 
 
 def transfer(section: RoundSection, square: float, length: float) -> np.ndarray:
-    """Return what takes deflection, lean, moment and shear from one end to the other.
+    """Return the transfer matrix.
+
+    For deflection, lean, moment and shear from one end to the other.
 
     Timoshenko 1921, Phil. Mag. 41, 744: E I lean'' + kappa G A (w' - lean) + rho I omega^2 lean = 0 and
     kappa G A (w'' - lean') + rho A omega^2 w = 0.

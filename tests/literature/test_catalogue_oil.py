@@ -20,7 +20,10 @@ def constants(row: LubricantRow, role: str, model: str) -> dict[str, float]:
 
 
 class Bode:
-    """Direct evaluation of the printed equations with the seed's constants (T in K, p in bar)."""
+    """Bode's printed equations.
+
+    Evaluated with the seed's constants (T in K, p in bar).
+    """
 
     def __init__(self, row: LubricantRow) -> None:
         self.c = constants(row, "rheology", "bode")

@@ -27,7 +27,10 @@ LOAD, ANGLE = CONTACT_CHANNELS.index("load"), CONTACT_CHANNELS.index("contact_an
 
 
 def case(*, play: float | None, axial: float = 0.0, arrangement: str = "O") -> dict[str, Any]:
-    """Return a bearing at rest: of two rows with an axial clearance [m], of one row without."""
+    """Return a bearing at rest.
+
+    Of two rows with an axial clearance [m], of one row without.
+    """
     geometry: dict[str, Any] = {
         "ball_count": BALLS, "ball_diameter": f"{1e3 * BALL} mm", "pitch_diameter": f"{1e3 * PITCH} mm",
         "conformity_inner": 0.515, "conformity_outer": 0.525, "bore_diameter": "40 mm", "outside_diameter": "80 mm",

@@ -24,7 +24,10 @@ def rows_of(catalogue: SqlCatalogue) -> list[BearingRow]:
 
 
 def design(row: BearingRow) -> tuple[int, float, float, float, float]:
-    """Return ball count, ball and pitch diameter, contact angle, distance of the rows (SI)."""
+    """Return the design of double rows.
+
+    Ball count, ball and pitch diameter, contact angle, distance of the rows (SI).
+    """
     values = row.ball_count, row.ball_diameter, row.pitch_diameter, row.contact_angle, row.row_distance
     count, ball, pitch, angle, apart = (value.value for value in values if value is not None)
     return int(count), ball, pitch, angle, apart

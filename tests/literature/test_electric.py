@@ -55,7 +55,10 @@ LOADS = ((1800, 900), (1800, 300), (600, 900))  # F_r, F_a [N]
 
 
 def rig(speed: int, radial: int = 1800, axial: int = 900, temperatures: str = "given") -> BearingModel:
-    """Return a 6205 whose voltage rises slowly, with the oil of the built-in case and smooth surfaces."""
+    """Return a 6205 under rising voltage.
+
+    With the oil of the built-in case and smooth surfaces.
+    """
     case = api.case("6208-axial-1300").with_(
         bearing={"designation": "6205", "maker": "SKF", "geometry": None, "clearance": None},
         loads={"radial": f"{radial} N", "axial": f"{axial} N"},
@@ -70,7 +73,10 @@ def rig(speed: int, radial: int = 1800, axial: int = 900, temperatures: str = "g
 
 
 def first_breakdown(model: BearingModel, seeds: int = 15) -> float:
-    """Return the median over seeds of the first breakdown on the ramp [V]."""
+    """Return the first breakdown voltage [V].
+
+    Median over seeds on the ramp.
+    """
     contacts, bearing = contacts_of_equilibria(equilibria(model, 1), 0.02), of_model(model)
     found = []
     for seed in range(seeds):

@@ -73,13 +73,19 @@ def stiffness(angle: float) -> tuple[float, float]:
 
 
 def moved(place: np.ndarray, z: float, sine: float) -> float:
-    """Return how far a ring that moves by z comes nearer to a ball along its radius; its circle bends away [m]."""
+    """Return a ring's approach to a ball [m].
+
+    The ring moves by z, along the ball's radius; its circle bends away.
+    """
     radius = 0.5 * PITCH + float(place[1])
     return radius - math.hypot(radius - z * sine, z * math.sqrt(1.0 - min(sine * sine, 1.0)))
 
 
 class Reference:
-    """A four-point contact bearing at rest whose inner ring moves along x and z, balls at their azimuths."""
+    """Reference of a four-point contact bearing.
+
+    At rest; the inner ring moves along x and z, balls at their azimuths.
+    """
 
     def __init__(self, azimuths: np.ndarray, angle: float) -> None:
         self.azimuths, self.k = azimuths, stiffness(angle)
@@ -90,7 +96,10 @@ class Reference:
         self.outer = [(-side * outer * math.sin(SHIM), 0.25 * clearance - outer * math.cos(SHIM)) for side in (1, -1)]
 
     def forces(self, place: np.ndarray, x: float, radial: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return the four loads, their forces on the ball and the sum on the ring, of a ball at a place."""
+        """Return a ball's loads and forces.
+
+        Four loads, their forces on the ball and the sum on the ring, of a ball at a place.
+        """
         loads, on_ball, on_ring = [], np.zeros(2), np.zeros(2)
         for i, (axial, up) in enumerate([*self.inner, *self.outer]):
             moved = np.array([x, radial]) if i < 2 else np.zeros(2)
@@ -105,7 +114,10 @@ class Reference:
         return np.array(loads), on_ball, on_ring
 
     def solve(self, axial: float, force: float, near: np.ndarray) -> tuple[float, float, np.ndarray]:
-        """Return displacements x and z of the ring and the loads of every ball, shape (Z, 4), from a start [m]."""
+        """Return displacements and loads.
+
+        x and z of the ring and the loads of every ball, shape (Z, 4), from a start [m].
+        """
         count, cosines = self.azimuths.size, np.sin(self.azimuths)
 
         def residual(unknowns: np.ndarray) -> np.ndarray:

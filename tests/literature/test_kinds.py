@@ -30,7 +30,10 @@ def angular(catalogue: SqlCatalogue) -> list[BearingRow]:
 
 
 def design(row: BearingRow) -> tuple[int, float, float, float]:
-    """Return ball count, ball and pitch diameter [m], contact angle [rad]."""
+    """Return the design.
+
+    Ball count, ball and pitch diameter [m], contact angle [rad].
+    """
     assert row.ball_count is not None
     assert row.ball_diameter is not None
     assert row.pitch_diameter is not None

@@ -33,7 +33,10 @@ CAPACITANCE = CONTACT_CHANNELS.index("capacitance")
 
 
 def light(load: float, film: float) -> dict[str, Any]:
-    """Return the inputs of a law for the outer contact of a 6208 at 3000 1/min."""
+    """Return a light contact's law inputs.
+
+    The outer contact of a 6208 at 3000 1/min.
+    """
     R_x, R_y, _, _, _ = groove_6208(inner=False)
     ellipse = hertz_contact(load, R_x, R_y, STEEL)
     return {
@@ -84,7 +87,10 @@ def test_capacitance_is_continuous_from_no_load_to_full_load(name: str) -> None:
 
 
 def touching_outer_ring(distances: FloatArray, *changes: str) -> tuple[FloatArray, FloatArray]:
-    """Return load and capacitance of an unloaded ball's outer contact as the ball moves outwards [N, F]."""
+    """Return outer load and capacitance [N, F].
+
+    Of an unloaded ball as it moves outwards.
+    """
     case: dict[str, Any] = {
         "name": "6208", "bearing": {"designation": "SKF 6208"}, "loads": {"radial": "1 kN"},
         "lubricant": {"name": "FVA3", "temperature": "60 degC"}, "operation": {"speed": "3000 rpm"},

@@ -15,7 +15,10 @@ from .test_physics_angular_contact import BALLS, CASE
 
 
 def fast_thrust(*changes: str) -> Equilibrium:
-    """Return the 218 under 4.45 kN of thrust at 10 000 1/min in an oil bath, without weight."""
+    """Return the 218 under thrust.
+
+    4.45 kN at 10 000 1/min in an oil bath, without weight.
+    """
     model = api.check(CASE, ["operation.speed=10000 rpm", "loads.axial=4450 N", "gravity.z=0 m/s2", *changes])
     return solve(model)
 

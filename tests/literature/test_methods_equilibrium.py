@@ -65,7 +65,10 @@ def test_analytical_capacitance_from_the_equilibrium(solved: Solver, load: int, 
 
 
 def _spring_constant(equilibrium: Equilibrium) -> float:
-    """Ball and both raceways in series with the (fitted) Hertz constants of the case's own law [N/m^1.5]."""
+    """Return K of both raceways [N/m^1.5].
+
+    In series with the (fitted) Hertz constants of the case's own law.
+    """
     model = equilibrium.context.model
     g, ball, ring = model.geometry, model.ball_material, model.inner_material
     e_eff = reduced_modulus(ball.youngs_modulus, ball.poisson_ratio, ring.youngs_modulus, ring.poisson_ratio)

@@ -25,7 +25,10 @@ RPM = math.pi / 30.0
 
 
 def fva3(celsius: float) -> float:
-    """Kinematic viscosity of the FVA3 oil [m2/s]: Vogel and density of Wingertszahn et al. 2023, table A1."""
+    """Return the viscosity of FVA3 [m2/s].
+
+    Kinematic: Vogel and density of Wingertszahn et al. 2023, table A1.
+    """
     dynamic = 0.062e-3 * math.exp(1021.7 / (celsius + 101.5517))
     return dynamic / (887.6 - 0.6 * (celsius - 15.0))
 

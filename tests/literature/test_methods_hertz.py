@@ -45,7 +45,10 @@ DIMENSIONLESS = [
 
 
 def _dimensionless(curvature_difference: float) -> tuple[float, float, float]:
-    """a*, b*, delta* from the product: curvature sum 2 per metre, F(rho) given, load and modulus of one."""
+    """Return a*, b*, delta* from the product.
+
+    Curvature sum 2 per metre, F(rho) given, load and modulus of one.
+    """
     across, along = 1.0 / (1.0 - curvature_difference), 1.0 / (1.0 + curvature_difference)
     contact = hertz_contact(1.0, along, across, 1.0)
     unit = (3.0 / 2.0) ** (1.0 / 3.0)  # [3 Q/(2 sum rho) * (2/E')]^(1/3) with sum rho = 2, Q = E' = 1

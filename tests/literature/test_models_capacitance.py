@@ -30,7 +30,10 @@ CASES = {700: (13.66, 13.55), 1300: (15.14, 15.06), 2000: (16.37, 16.31)}
 
 
 def contact(axial: int, inner: bool) -> dict[str, Any]:
-    """Film, ellipse and groups of one contact, isothermal; permittivity at the largest pressure as in the paper."""
+    """Return film, ellipse and groups.
+
+    Of one contact, isothermal: permittivity at the largest pressure as in the paper.
+    """
     angles = [math.radians(angle) for angle in CASES[axial]]
     angle = angles[0 if inner else 1]
     load = axial / 9.0 / math.sin(angle)
@@ -152,12 +155,18 @@ def test_capacitance_of_two_spheres_without_contact_pressure() -> None:
 
 
 def open_contact(R_x: float, R_y: float, radius: float, gap: float) -> float:
-    """Capacitance in vacuum over eps_0 of a ball that touches nothing, as the core computes it [m]."""
+    """Return capacitance over eps_0 [m].
+
+    In vacuum, of a ball that touches nothing, as the core computes it.
+    """
     return gap_capacitance(gap, R_x, R_y, radius) / EPS_0
 
 
 def groove_6208(inner: bool) -> tuple[float, float, float, float, float]:
-    """R_x, R_y, ball radius, groove radius, radius of the raceway of the 6208 at zero contact angle [m]."""
+    """Return the 6208's groove [m].
+
+    R_x, R_y, ball radius, groove radius, radius of the raceway at zero contact angle.
+    """
     radius, groove, race = 5.955e-3, 6.1932e-3, 0.5 * (48.083e-3 if inner else 71.917e-3)
     R_x = 1.0 / (1.0 / radius + (1.0 if inner else -1.0) / race)
     return R_x, 1.0 / (1.0 / radius - 1.0 / groove), radius, groove, race
@@ -179,7 +188,9 @@ def test_gap_of_an_open_contact_is_the_integral_over_the_balls_projection(gap: f
 
 
 def plates(inner: bool, gap: float) -> tuple[float, float]:
-    """Integral of dA/distance between the exact sphere and the exact groove, along the ball's normals [m].
+    """Return the integral of dA/distance [m].
+
+    Between the exact sphere and the exact groove, along the ball's normals.
 
     Elements of the ball's surface, and of its projection: what the paraboloids stand for, in two readings.
     """
@@ -195,7 +206,10 @@ def plates(inner: bool, gap: float) -> tuple[float, float]:
         low, high = np.full_like(theta, radius), np.full_like(theta, 6.0 * radius)
 
         def beyond(length: NDArray[np.float64], x: Any = x, t: Any = t, n: Any = n) -> NDArray[np.bool_]:
-            """Whether a point of the ray lies behind the groove's surface."""
+            """Tell whether a point is behind the groove.
+
+            It is on the ray.
+            """
             radial = np.hypot(length * t, ball + side * length * n)
             return np.asarray(np.hypot(radial - centres, length * x) > groove)
 

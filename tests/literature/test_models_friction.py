@@ -19,7 +19,10 @@ CLEARANCE = 30e-6
 
 
 def oil() -> dict[str, float]:
-    """Ambient viscosity, alpha_p and beta of FVA3 at the bath temperature, from the law itself."""
+    """Return FVA3's data at bath temperature.
+
+    Ambient viscosity, alpha_p and beta from the law itself.
+    """
 
     def ln_eta(p: float, T: float) -> float:
         return float(evaluate("rheology/vogel-dicke", FVA3, p=p, T=T)[0][0])
@@ -33,7 +36,10 @@ def oil() -> dict[str, float]:
 
 
 def rolling_torque(name: str, force: float, rpm: float) -> float:
-    """Rolling torque of the 6319 [N mm]: power 2 F u_m per contact over the speed, mean over the balls' position."""
+    """Return the 6319's rolling torque [N mm].
+
+    Power 2 F u_m per contact over the speed, mean over the balls' position.
+    """
     speed = rpm * math.pi / 30.0
     u_mean = B6319.mean_velocity(speed)
     sums = []
@@ -107,7 +113,9 @@ def test_strips_agree_with_the_point_contact_formula() -> None:
 
 
 def inlet_integral(U: float, W: float, G: float) -> float:
-    """1/2 int (h - h_c) dp over the inlet, over R_x/alpha_p: Grubin's inlet of a line contact.
+    """Return Grubin's inlet integral.
+
+    1/2 int (h - h_c) dp over the inlet of a line contact, over R_x/alpha_p.
 
     Hertz's gap outside the contact (half-width b) over the film h_c, Reynolds' equation for the reduced pressure
     q = (1 - exp(-alpha p))/alpha; h_c such that q reaches 1/alpha at the edge (Grubin 1949).
@@ -121,7 +129,10 @@ def inlet_integral(U: float, W: float, G: float) -> float:
     gap = 0.5 * b * b * shape  # over R_x
 
     def reduced(film: float) -> np.ndarray[Any, np.dtype[np.float64]]:
-        """alpha q along the inlet, from far ahead to the edge; dq/dx = 12 eta u (h - h_c)/h^3."""
+        """Return alpha q along the inlet.
+
+        From far ahead to the edge; dq/dx = 12 eta u (h - h_c)/h^3.
+        """
         h = film + gap
         slope = 12.0 * U * G * b * gap / h**3
         return np.asarray(-cumulative_trapezoid(slope[::-1], X[::-1], initial=0.0))

@@ -19,7 +19,10 @@ NU, RHO = 36.6e-6, 858.0
 
 
 def flooded_6319() -> Context:
-    """6319 of Syla et al. 2026, Table 3, every ball immersed: the sum over balls does not depend on their position."""
+    """Return the flooded 6319.
+
+    Syla et al. 2026, Table 3, every ball immersed: the sum over balls does not depend on their position.
+    """
     return dataclasses.replace(
         trial_context("fluid_drag"),
         ball_count=9,
@@ -34,7 +37,10 @@ def flooded_6319() -> Context:
 
 
 def torque(name: str, rpm: float, **parameters: float | str) -> float:
-    """Loss of all balls at kinematic speeds over the speed [N mm]."""
+    """Return the balls' loss over speed [N mm].
+
+    At kinematic speeds.
+    """
     context, speed = flooded_6319(), rpm * math.pi / 30.0
     v, omega = kinematic_speeds(context, speed)
     given = {"v_orbit": v, "omega_spin": omega, "azimuth": 0.3, "nu": NU, "rho": RHO}

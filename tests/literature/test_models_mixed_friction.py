@@ -17,7 +17,9 @@ ROUNDING = "rounding; the slip of full friction at rest, 1 um/s, against 1 mm/s 
 
 
 def carter(stuck: float) -> float:
-    """Shear force over mu times load of Carter's traction, a stuck strip of the share `stuck` at the inlet.
+    """Return Carter's relative traction.
+
+    Shear force over mu times load, a stuck strip of the share `stuck` at the inlet.
 
     q = mu p_0/b [sqrt(b^2 - x^2) - sqrt(c^2 - (x + b - c)^2)], the second root in the stuck strip alone, integrated
     over the contact (Johnson, Contact Mechanics, eq. 8.15 and Fig. 8.4).

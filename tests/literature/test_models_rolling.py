@@ -23,7 +23,9 @@ COLD: dict[str, Any] = {"beta": 0.0, "k_oil": 0.137, "alpha_p": ALPHA, "E_eff": 
 
 
 def strip(name: str, U: float, W: float, *, exponent: float = 0.0) -> float:
-    """Return F/l over E' R_x of one strip, from the sum over an ellipse whose middle strip carries W.
+    """Return one strip's F/l over E' R_x.
+
+    From the sum over an ellipse whose middle strip carries W.
 
     `exponent` is the law's power of W: sqrt(pi) Gamma(m + 1)/Gamma(m + 1.5) of the width HALF is the strip's share.
     """
@@ -77,7 +79,10 @@ def test_elliptic_integral(ratio: float, published: float) -> None:
 
 
 def hertz(shape: float, load: float) -> dict[str, Any]:
-    """Return ellipse and load of a contact R_y/R_x = `shape`, exact after Hertz."""
+    """Return ellipse and load of a contact.
+
+    R_y/R_x = `shape`, exact after Hertz.
+    """
     found = evaluate("normal_contact/hertz-exact", delta=1e-6, R_x=R, R_y=shape * R, E_eff=STEEL)
     scale = (load / found[0]) ** (1.0 / 3.0)
     return {"semi_a": scale * found[1], "semi_b": scale * found[2], "load": load}
@@ -114,7 +119,10 @@ def test_point_law_on_the_6319() -> None:
 
 
 def _strips(q: float) -> float:
-    """Return the sum over the strips by SciPy's adaptive quadrature, in pieces that grow from the ellipse's tips."""
+    """Return the strips' sum by quadrature.
+
+    SciPy's adaptive one, in pieces that grow from the ellipse's tips.
+    """
 
     def share(u: float) -> float:
         square = math.sin(u) ** 2

@@ -21,7 +21,10 @@ OUTER_FIRST = pytest.mark.parametrize("ring", ["outer", pytest.param("inner", ma
 
 
 def one_of_each(few: int, many: int) -> pytest.MarkDecorator:
-    """Each ring and each order once; how they go the other way round is run by name."""
+    """Return each ring and order once.
+
+    The other combinations are run by name.
+    """
     twice = [("outer", few), ("inner", many)]
     other = [pytest.param(ring, order, marks=pytest.mark.slow) for ring, order in (("outer", many), ("inner", few))]
     return pytest.mark.parametrize(("ring", "order"), [*twice, *other])
@@ -34,7 +37,10 @@ STEADY = 0.1  # [s]
 
 @dataclass(frozen=True)
 class Vibration:
-    """Motion of the inner ring of the 6208 under 700 N of thrust, its start left out."""
+    """Motion of a vibrating inner ring.
+
+    The 6208 under 700 N of thrust, its start left out.
+    """
 
     times: NDArray[np.float64]
     position: NDArray[np.float64]  # (n, 3) [m]
@@ -50,18 +56,24 @@ class Vibration:
         return self._amplitude(self.position[:, axis], frequency)
 
     def rocking(self, frequency: float) -> float:
-        """Return the amplitude of the tilt at one frequency, about both axes [rad]."""
+        """Return the tilt's amplitude [rad].
+
+        At one frequency, about both axes.
+        """
         return math.hypot(*(self._amplitude(self.tilt[:, axis], frequency) for axis in (0, 1)))
 
     def _amplitude(self, values: NDArray[np.float64], frequency: float) -> float:
-        """Return the amplitude of one frequency, by least squares with a mean and a slope."""
+        """Return the amplitude at one frequency.
+
+        By least squares with a mean and a slope.
+        """
         wave = 2.0 * np.pi * frequency * self.times
         basis = np.stack([np.cos(wave), np.sin(wave), np.ones_like(wave), self.times - self.times.mean()], axis=1)
         found = np.linalg.lstsq(basis, values, rcond=None)[0]
         return float(np.hypot(found[0], found[1]))
 
     def strongest(self, axis: int, above: float = 20.0) -> float:
-        """Return the frequency of the largest line of the velocity [Hz]."""
+        """Return the velocity's strongest frequency [Hz]."""
         velocity = np.gradient(self.position[:, axis], INTERVAL)
         spectrum = np.abs(np.fft.rfft(velocity * np.hanning(velocity.size), 8 * velocity.size))
         frequencies = np.fft.rfftfreq(8 * velocity.size, INTERVAL)
@@ -70,7 +82,9 @@ class Vibration:
 
 
 def lever(geometry: Geometry, angle: float) -> float:
-    """Return dx/dA of a bearing under constant thrust whose raceway rises radially by A all around.
+    """Return dx/dA of a bearing.
+
+    Under constant thrust; its raceway rises radially by A all around.
 
     Z Q sin a = F with Q ~ delta^1.5, delta = s - B, B = r_i + r_o - D_w, s the distance of the groove centres: ds = dx
     sin a, da = dx cos a/s, ddelta = ds + A cos a. Then dx = A cos a/[sin a + (2/3)(delta/s) cos^2 a/sin a]. The free

@@ -57,7 +57,10 @@ HARRIS = "Harris, Rolling Bearing Analysis, example of the 218 under 17.8 kN of 
 
 @dataclass(frozen=True)
 class Ball:
-    """One of the balls, all alike, in the frame that turns with it."""
+    """Ball in the frame that turns with it.
+
+    All balls are alike.
+    """
 
     angles: np.ndarray  # inner, outer [rad]
     loads: np.ndarray  # inner, outer [N]
@@ -69,7 +72,10 @@ class Ball:
 
     @property
     def pitch_angle(self) -> float:
-        """Return beta, of the spin axis against the shaft in the radial plane [rad]."""
+        """Pitch angle beta [rad].
+
+        Of the spin axis against the shaft in the radial plane.
+        """
         return math.atan2(self.spin[1], -self.spin[0])
 
 
@@ -92,19 +98,28 @@ def ball(*changes: str) -> Ball:
 
 
 def outer_control(one: Ball) -> float:
-    """tan(beta) = sin(alpha_o)/(cos(alpha_o) + D/d_m): no spin at the outer ring (Jones 1959; Harris, ch. 8)."""
+    """Return the pitch angle of outer control.
+
+    tan(beta) = sin(alpha_o)/(cos(alpha_o) + D/d_m): no spin at the outer ring (Jones 1959; Harris, ch. 8).
+    """
     alpha = float(one.angles[1])
     return math.atan2(math.sin(alpha), math.cos(alpha) + GAMMA)
 
 
 def inner_control(one: Ball) -> float:
-    """tan(beta) = sin(alpha_i)/(cos(alpha_i) - D/d_m): no spin at the inner ring (the same)."""
+    """Return the pitch angle of inner control.
+
+    tan(beta) = sin(alpha_i)/(cos(alpha_i) - D/d_m): no spin at the inner ring (the same).
+    """
     alpha = float(one.angles[0])
     return math.atan2(math.sin(alpha), math.cos(alpha) - GAMMA)
 
 
 def weak(ring: str, stress: str) -> tuple[str, ...]:
-    """Return changes that leave hardly any friction at one ring: film alone, and a weak one there."""
+    """Return changes for weak friction.
+
+    At one ring: film alone, and a weak one there.
+    """
     return (
         f"forces.ball_{ring}.parameters.traction.tau_eyring={stress}",
         f"forces.ball_{ring}.parameters.traction.limit_ratio=0.006",
@@ -123,7 +138,9 @@ def test_static_angle_and_load() -> None:
 
 
 def jones(speed: float, force: float, share: float) -> tuple[float, float]:
-    """Return contact angles after Jones 1960 (Harris, ch. 9): centrifugal force and gyroscopic moment of outer control.
+    """Return contact angles after Jones 1960.
+
+    Harris, ch. 9: centrifugal force and gyroscopic moment of outer control.
 
     Parameters
     ----------

@@ -32,7 +32,10 @@ def channel(equilibrium: Equilibrium, name: str) -> np.ndarray:
 
 
 def check_equal(values: np.ndarray) -> None:
-    """All balls of an axially loaded bearing are alike."""
+    """Check that all balls are alike.
+
+    The bearing is axially loaded.
+    """
     assert np.ptp(values, axis=0) == pytest.approx(np.zeros(2), abs=1e-9 * np.abs(values).max())
 
 

@@ -109,7 +109,10 @@ def test_iso_approach_lies_below_the_half_space() -> None:
 
 
 def cylindrical(count: int) -> RollerBearing:
-    """Return rollers of 11 x 12 mm without profile and clearance on a pitch circle of 65.5 mm."""
+    """Return plain rollers.
+
+    11 x 12 mm without profile and clearance on a pitch circle of 65.5 mm.
+    """
     sizes = (11e-3, 12e-3, 12e-3, 65.5e-3, 40e-3, 90e-3, 23e-3, 69.5e3, 75e3, 9e3)
     return RollerBearing("NU", count, *sizes, profile="none")
 
@@ -117,7 +120,10 @@ def cylindrical(count: int) -> RollerBearing:
 def loads_of(
     bearing: RollerBearing, radial: float, axial: float, tilt: float = 0.0, slices: int = 30
 ) -> RollerEquilibrium:
-    """Return the equilibrium under loads along x and y, at a tilt about z."""
+    """Return the equilibrium under loads.
+
+    Along x and y, at a tilt about z.
+    """
     place = np.array([0.0, 0.0, 0.0, 0.0, tilt])
     return balance(bearing, np.array([axial, radial, 0.0, 0.0, 0.0]), displacement=place, slices=slices)
 
@@ -134,7 +140,10 @@ def test_stribeck_number_of_rollers() -> None:
 
 
 def even_life(count: int) -> tuple[RollerLife, float]:
-    """Return the life of laminae without profile and stress riser, and the closed form."""
+    """Return the life of plain laminae.
+
+    Without profile and stress riser, and the closed form.
+    """
     rating, load = 69.5e3, 6e3
     found = loads_of(cylindrical(15), load, 0.0, slices=count)
     ratings = lamina_ratings(rating, 15, 11.0 / 65.5, count)
@@ -159,7 +168,10 @@ R5_SOURCE = "report of a bearing program for the HR30306J after ISO 16281 [R2]"
 
 
 def r5(drops: float) -> tuple[FloatArray, RollerLife]:
-    """Return loads and life for a multiple of the profile of ISO 16281, 40 laminae, tilt 0.24 mrad."""
+    """Return loads and life of a profile.
+
+    A multiple of that of ISO 16281, 40 laminae, tilt 0.24 mrad.
+    """
     count, diameter, length, pitch, degrees, dynamic, _ = R5
     diameter, length, pitch, angle = diameter * 1e-3, length * 1e-3, pitch * 1e-3, math.radians(degrees)
     half = rib.tapered_angles(diameter, pitch, angle).half
@@ -257,7 +269,10 @@ VISCOSITY = 0.05  # [Pa s], about FVA3 at 50 degC
 
 
 def rolling_of_32216(radial_load: float, scale: float = 0.0) -> tuple[float, FloatArray]:
-    """Return the torque of raceway rolling [N m] and the loads of the rollers [N]; `scale` of a log profile [m]."""
+    """Return the 32216's rolling torque [N m].
+
+    With the loads of the rollers [N]; `scale` of a log profile [m].
+    """
     bearing = replace(
         TAPERED_32216, profile="logarithmic" if scale else "none", profile_scale=scale, profile_length=LENGTH
     )

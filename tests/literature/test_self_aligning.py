@@ -39,7 +39,10 @@ LOAD, ANGLE = CONTACT_CHANNELS.index("load"), CONTACT_CHANNELS.index("contact_an
 
 
 def case(*, radial: float = 0.0, axial: float = 0.0, tilt: float = 0.0, **bearing: Any) -> dict[str, Any]:
-    """Return the 1208E at rest, its inner ring tilted about y [rad]."""
+    """Return the 1208E at rest.
+
+    Its inner ring is tilted about y [rad].
+    """
     held = {"tilt_y": {"mode": "prescribed", "motion": f"{1e3 * tilt} mrad"}} if tilt else {}
     return {
         "name": "aligning",
@@ -78,7 +81,10 @@ def equilibrium(**what: Any) -> Equilibrium:
 
 
 def reference(g: Geometry, azimuths: np.ndarray, axial: float, radial: float) -> tuple[float, float, np.ndarray]:
-    """Return displacements x, z of the inner ring [m] and the loads of all balls [N]."""
+    """Return displacements and ball loads.
+
+    x, z of the inner ring [m] and the loads of all balls [N].
+    """
     angle, ball, pitch = g.contact_angle, g.ball_diameter, g.pitch_diameter
     inner = g.groove_radius_inner
     reach = (0.5 * pitch + 0.25 * g.clearance) / math.cos(angle)
@@ -200,7 +206,10 @@ def aligning(catalogue: SqlCatalogue) -> list[BearingRow]:
 
 
 def design(row: BearingRow) -> tuple[int, float, float, float]:
-    """Return ball count, ball and pitch diameter [m], contact angle [rad]."""
+    """Return the design.
+
+    Ball count, ball and pitch diameter [m], contact angle [rad].
+    """
     values = row.ball_count, row.ball_diameter, row.pitch_diameter, row.contact_angle
     assert None not in values
     count, ball, pitch, angle = (value.value for value in values if value is not None)

@@ -55,7 +55,10 @@ KERNELS = SharedKernels()
 
 
 def pair(force_x: float = 0.0, preload: float = 0.0, arrangement: str = "O", **shaft: Any) -> dict[str, Any]:
-    """Return two bearings 20 mm apart with a preload [m] of each, and an axial force [N] on the shaft."""
+    """Return two preloaded bearings.
+
+    20 mm apart with a preload [m] of each, and an axial force [N] on the shaft.
+    """
     left, right = {"O": ("+x", "-x"), "X": ("-x", "+x"), "T": ("+x", "+x")}[arrangement]
     more = {"preload": f"{1e6 * preload:.9g} um"} if preload else {}
     bearings = {
@@ -68,7 +71,10 @@ def pair(force_x: float = 0.0, preload: float = 0.0, arrangement: str = "O", **s
 
 @cache
 def constant(angle: float) -> float:
-    """Return K of both contacts of a ball in series [N/m^1.5], Hertz's radii at a contact angle."""
+    """Return K of both contacts [N/m^1.5].
+
+    Of a ball in series, Hertz's radii at a contact angle.
+    """
     each = [
         stiffness_constant(*ball_raceway_radii(BALL, PITCH, f * BALL, angle, inner=inner), STEEL)
         for f, inner in ((INNER, True), (OUTER, False))
@@ -77,7 +83,10 @@ def constant(angle: float) -> float:
 
 
 def reaction(pose: FloatArray, angle: float) -> FloatArray:
-    """Return force and moment on the inner ring at a pose against the outer one: x, y, z, about y, about z."""
+    """Return force and moment at a pose.
+
+    On the inner ring against the outer one: x, y, z, about y, about z.
+    """
     x, y, z, tilt_y, tilt_z = pose
     total = np.zeros(5)
     for j in range(COUNT):
@@ -94,12 +103,18 @@ def reaction(pose: FloatArray, angle: float) -> FloatArray:
 
 
 def of_touching(closed: float) -> FloatArray:
-    """Return the pose of rings pressed together along x by a displacement from where they touch [m]."""
+    """Return the pose of pressed rings [m].
+
+    Together along x by a displacement from where they touch.
+    """
     return np.array([DISTANCE * math.sin(FREE) + closed, 0.0, 0.0, 0.0, 0.0])
 
 
 def thrust(closed: float) -> float:
-    """Return the axial force of one bearing [N], Hertz's radii at the contact angle that it has."""
+    """Return a bearing's axial force [N].
+
+    Hertz's radii at the contact angle that it has.
+    """
     pose = of_touching(closed)
     return -float(reaction(pose, math.atan2(pose[0], DISTANCE * math.cos(FREE)))[0])
 

@@ -45,7 +45,10 @@ def solved(case: dict[str, Any]) -> tuple[MachineModel, ShaftState]:
 
 @cache
 def overhung() -> tuple[MachineModel, ShaftState]:
-    """Bearings at 30 and 150 mm, a force beyond the second one at 200 mm; the left one locates."""
+    """Return an overhung shaft.
+
+    Bearings at 30 and 150 mm, a force beyond the second one at 200 mm; the left one locates.
+    """
     return solved(
         {
             "shaft": {

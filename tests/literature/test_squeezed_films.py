@@ -29,7 +29,10 @@ RACEWAY = {"layer": "8 um", "thinnest_film": "1 um", "time_constant": "0 s"}
 
 
 def raceway_force(gap: float, *, layer: str = "8 um", radii: tuple[float, float] = (R_X, R_Y), **given: float) -> float:
-    """Return the film's force on a ball [N]; a slow bearing, so that the film at first touch is the roughness."""
+    """Return the film's force on a ball [N].
+
+    A slow bearing, so that the film at first touch is the roughness.
+    """
     context = dataclasses.replace(trial_context("ball_inner"), speed=1e-6, radius_x=radii[0], radius_y=radii[1])
     inputs: dict[str, Any] = {"delta": -gap, "delta_dot": SPEED, "load": 0.0, "semi_a": 0.0, "semi_b": 0.0}
     inputs |= {"eta0": ETA, "alpha_p": 2e-8, "R_x": radii[0], "R_y": radii[1], **given}
@@ -37,7 +40,10 @@ def raceway_force(gap: float, *, layer: str = "8 um", radii: tuple[float, float]
 
 
 def reynolds(h0: float, edge: float, r_x: float, r_y: float) -> float:
-    """Return the force of a film between paraboloids [N] that ends where the gap is `edge`: finite volumes."""
+    """Return a film's force by finite volumes [N].
+
+    Between paraboloids; it ends where the gap is `edge`.
+    """
     n = 160
     a, b = math.sqrt(2.0 * r_x * (edge - h0)), math.sqrt(2.0 * r_y * (edge - h0))
     x, dx = np.linspace(-a, a, n, retstep=True)
@@ -87,7 +93,10 @@ def test_a_film_pushes_only_and_flows_no_more_under_pressure() -> None:
 
 
 def pocket_out(gap: float, width: float, name: str, context: Any = None, *, eta: float = ETA, slip: Any = 0.0) -> Any:
-    """Return the force on a ball that closes along the tangent, `gap` from the pocket's wall."""
+    """Return the force on a closing ball.
+
+    Along the tangent, `gap` from the pocket's wall.
+    """
     context, n = context or trial_context("ball_cage"), np.array([0.0, 0.0, 1.0])
     place: Any = (0.5 * context.pocket_clearance - gap) * n
     return evaluate(
@@ -117,7 +126,9 @@ def test_a_film_follows_the_oils_temperature_without_a_bend(rpm: float) -> None:
 
 
 def pocket_reynolds(ball: float, play: float, h0: float, half_wall: float) -> float:
-    """Return force over viscosity and speed [m] of a ball in a bore with a wall of `half_wall` on either side.
+    """Return the relative force of a bore [m].
+
+    Force over viscosity and speed of a ball, with a wall of `half_wall` on either side.
 
     Finite volumes on a quarter of the ball, a circular bore unrolled to a quarter turn, cells finer to the middle.
     """

@@ -25,7 +25,10 @@ SEAL = {
 
 
 def tables(**changes: Any) -> dict[str, Any]:
-    """Return the case that init writes, with a spring and changes."""
+    """Return the template's tables with changes.
+
+    With a spring.
+    """
     return tomllib.loads(geared_shaft("box")) | {"connections": {"seal": SEAL}} | changes
 
 

@@ -23,7 +23,10 @@ END = 0.015  # [s]
 
 @pytest.fixture(scope="module")
 def engine() -> MachineEngine:
-    """Return the gearbox shaft in motion: the 6206 sets the steps, the 6208 rests between them."""
+    """Return the gearbox shaft in motion.
+
+    The 6206 sets the steps, the 6208 rests between them.
+    """
     found = machine_engine(resolve_machine(tables()))
     assert found.advance(END).ok
     return found

@@ -25,7 +25,10 @@ Solved = tuple[MachineModel, ShaftState, list[Equilibrium]]
 
 @pytest.fixture(scope="module")
 def solved() -> Solved:
-    """Return the gearbox shaft, its right bearing on springs, and the equilibria of its bearings with friction."""
+    """Return the gearbox shaft and its equilibria.
+
+    Its right bearing is on springs; friction is included.
+    """
     case = tomllib.loads(geared_shaft("box"))
     case["bearings"]["right"]["support"] = {"x": "free", "y": "50 N/um", "z": "80 N/um"}
     model = resolve_machine(case)

@@ -42,7 +42,10 @@ ONE: dict[str, Any] = {
 
 
 def alone(**elastic: Any) -> api.BearingModel:
-    """Return the bearing of that shaft in a case of its own, with the shaft's mass."""
+    """Return the shaft's bearing alone.
+
+    In a case of its own, with the shaft's mass.
+    """
     body = resolve_machine(ONE).body
     return api.check({
         **COMMON, "name": "alone", "bearing": BEARING, "elastic": elastic, "loads": {"radial": "16 kN"},
@@ -52,7 +55,10 @@ def alone(**elastic: Any) -> api.BearingModel:
 
 @pytest.fixture(scope="module")
 def complete() -> MachineEngine:
-    """Return the shaft in its one bearing at the beginning of its motion."""
+    """Return the shaft in one bearing.
+
+    At the beginning of its motion.
+    """
     return machine_engine(resolve_machine(ONE))
 
 
@@ -84,7 +90,10 @@ def test_motion_of_one_bearing(complete: MachineEngine) -> None:
 
 
 def feels_the_same(engine: MachineEngine) -> FloatArray:
-    """Compare balls and waves of every bearing with the same alone, bit for bit; returns the whole shared state."""
+    """Compare every bearing with itself alone.
+
+    Balls and waves, bit for bit; returns the complete shared state.
+    """
     y, bundle = engine._memory.y, engine.context.bundle
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
     assert core().evaluate(0.0, y, bundle, dydt, rates, 1) == 1

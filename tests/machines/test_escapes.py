@@ -46,7 +46,10 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def texts(file: h5py.File) -> Iterator[tuple[str, str]]:
-    """Yield every text of a file: dataset, or object and attribute."""
+    """Yield every text of a file.
+
+    Of a dataset, or of an object and attribute.
+    """
     objects = [("/", file)]
     file.visititems(lambda name, item: objects.append((name, item)))
     for name, item in objects:
@@ -56,7 +59,10 @@ def texts(file: h5py.File) -> Iterator[tuple[str, str]]:
 
 
 def spoil(file: h5py.File, name: str, key: str) -> None:
-    """Put an escape into a text of a file, everywhere in it."""
+    """Put an escape into a text.
+
+    Everywhere in a file.
+    """
     item = file[name]
     if key:
         item.attrs[key] = f"{item.attrs[key]}{ESCAPE}"

@@ -18,7 +18,10 @@ from lambda_core.model.machine_templates import geared_shaft
 
 
 def mistakes(changes: Mapping[str, Any]) -> dict[str, str]:
-    """Return what is wrong with the case that init writes after changes, by its path."""
+    """Return the mistakes by path.
+
+    Of the template's case after changes.
+    """
     with pytest.raises(api.CaseError) as caught:
         api.check(merged(tomllib.loads(geared_shaft("box")), changes))
     found = {problem.where: problem.message for problem in caught.value.problems}

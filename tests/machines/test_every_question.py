@@ -65,7 +65,10 @@ Step = tuple[list[str], str] | Callable[[Path], None]
 
 
 def in_motion(name: str, *more: str) -> list[str]:
-    """Return the command of a short run into a file of its own."""
+    """Return the command of a short run.
+
+    Into a file of its own.
+    """
     return [
         "run",
         "box.toml",
@@ -82,7 +85,10 @@ def in_motion(name: str, *more: str) -> list[str]:
 
 
 def watched(folder: Path) -> None:
-    """Observers of every bearing are channels; an event ends the run at its sample; the record follows its options."""
+    """Check observers and events of bearings.
+
+    Observers are channels: an event ends the run at its sample; the record follows its options.
+    """
     found = api.result(folder / "watched.h5")
     for one in found.bearings.values():
         assert one["time"][-1] == pytest.approx(0.35e-3)
@@ -91,7 +97,7 @@ def watched(folder: Path) -> None:
 
 
 def lives(folder: Path) -> None:
-    """Lives and catalogue torques stand in the result of a run."""
+    """Check lives and catalogue torques in results."""
     summary = api.result(folder / "box.h5").summary()
     assert summary.system_life_h
     for one in summary.bearings.values():
@@ -107,7 +113,10 @@ def lives(folder: Path) -> None:
 
 
 def notebook(folder: Path) -> None:
-    """A result, its summary and an equilibrium show, draw and tabulate themselves, and answer for a changed case."""
+    """Check answers in a notebook.
+
+    A result, its summary and an equilibrium show, draw and tabulate themselves, and answer for a changed case.
+    """
     found, summary = api.result(folder / "box.h5"), api.result(folder / "box.h5").summary()
     assert "box" in repr(found)
     assert "box" in repr(summary)
@@ -133,7 +142,10 @@ def notebook(folder: Path) -> None:
 
 
 def live_circuit(folder: Path) -> None:
-    """The circuit runs with the motion; every row has a checksum; the run goes on from its checkpoint."""
+    """Check the circuit of a motion.
+
+    Every row has a checksum; the run goes on from its checkpoint.
+    """
     found = api.result(folder / "box.h5")
     assert all(one.currents is not None for one in found.summary().bearings.values())
     kept = found.checkpoint()
@@ -142,7 +154,10 @@ def live_circuit(folder: Path) -> None:
 
 
 def stored_case(folder: Path) -> None:
-    """The case in the result, run again, gives the same numbers bit for bit."""
+    """Check the case stored in the result.
+
+    Run again, it gives the same numbers bit for bit.
+    """
     found = api.result(folder / "box.h5")
     (folder / "again.toml").write_text(found.case_toml, encoding="utf-8")
     again = api.run(folder / "again.toml", out=folder / "again.h5")
@@ -152,14 +167,20 @@ def stored_case(folder: Path) -> None:
 
 
 def coupled(folder: Path) -> None:
-    """Another program pushes the gear step by step."""
+    """Check a coupled gear.
+
+    Another program pushes it step by step.
+    """
     stepping = api.iterate(folder / "box.toml", ["solver.duration=1 ms"])
     stepping.give("gears.wheel.force_z", -500.0)
     assert set(stepping.step_to(1e-4).bearings) == {"left", "right"}
 
 
 def table_of_python(folder: Path) -> None:
-    """A study from Python has a row for every point, with the numbers of the equilibrium."""
+    """Check a study from Python.
+
+    It has a row for every point, with the numbers of the equilibrium.
+    """
     machine = lb.Machine.from_case(folder / "box.toml")
     asked = ["system_life_h", "left.force_N.z", "right.misalignment_mrad.y"]
     weak, strong = machine.study({"gears.wheel.power": ["5 kW", "15 kW"]}, asks=asked, executor="here").rows()
@@ -249,7 +270,10 @@ ABOUT_ONE = ("stribeck", "compare", "electric-map")
 
 @pytest.fixture(scope="session")
 def box_run(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
-    """Run a shaft in two bearings, with the circuit, a seal, finer contacts and an own interval of samples."""
+    """Run a shaft in two bearings.
+
+    With the circuit, a seal, finer contacts and an own interval of samples.
+    """
 
     def fill(folder: Path) -> None:
         case = api.init_case("box", template="geared-shaft", path=folder / "box.toml")
@@ -260,7 +284,10 @@ def box_run(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
 
 @pytest.fixture
 def box(box_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Work in a folder with case, run, studies, duty cycle and plugin."""
+    """Work in a folder with examples.
+
+    Case, run, studies, duty cycle and plugin.
+    """
     for name in ("box.toml", "box.h5"):
         (tmp_path / name).write_bytes((box_run / name).read_bytes())
     for name, text in STUDIES.items():

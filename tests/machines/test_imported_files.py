@@ -42,7 +42,10 @@ def plain(body: ElasticBody) -> dict[str, Any]:
 
 
 def problems(path: Path) -> list[str]:
-    """Return the messages for a case whose shaft is the file."""
+    """Return the messages for a shaft file.
+
+    The shaft of the case is the file.
+    """
     ledger = Ledger()
     assert (reduced_shaft(path, ledger) is None) == bool(ledger.problems)
     assert {problem.where for problem in ledger.problems} <= {"shaft.reduced"}

@@ -26,7 +26,10 @@ SOLVER = Solver(
 
 
 def known(torque: float, half_width: float, revolutions: int = 6) -> Window:
-    """Return the window of a bearing with a mean torque and half-width [N m]."""
+    """Return a bearing's window.
+
+    With a mean torque and half-width [N m].
+    """
     first, last = np.zeros(len(COLUMNS)), np.zeros(len(COLUMNS))
     last[COLUMNS.index("relative_angle")] = 10.0
     last[COLUMNS.index("loss.drag")] = 10.0 * torque

@@ -104,7 +104,10 @@ def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) 
 
 
 def check_text(report: Any, vectors: dict[str, Callable[[Any], list[float]]]) -> None:
-    """The table for people has every direction of every vector: rows of y and z stand below that of x."""
+    """Check the directions in the table.
+
+    Of every vector: rows of y and z are below that of x.
+    """
     lines = report.text(80).splitlines()
     for head, vector in vectors.items():
         first = next(number for number, line in enumerate(lines) if line.startswith(head))

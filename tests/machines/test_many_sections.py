@@ -21,7 +21,10 @@ STEEL = BodyMaterial(2.08e11, 0.3, 7850.0)
 
 
 def cut(pieces: int, step: float) -> dict[str, Any]:
-    """Return the geared shaft with each section cut into pieces whose diameters alternate [mm]."""
+    """Return the shaft cut into pieces.
+
+    Each section of the geared shaft, with diameters that alternate [mm].
+    """
     tables = tomllib.loads(geared_shaft("box"))
     found = []
     for section in tables["shaft"]["sections"]:

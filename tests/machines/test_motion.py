@@ -35,7 +35,10 @@ STIFF = (5e7, 1e8, 1e8, 1e3, 1e3)  # of a bearing [N/m, N m/rad]
 
 
 def tables(**changes: Any) -> dict[str, Any]:
-    """Return the case that init writes, with an unbalance and changes."""
+    """Return the template's tables with changes.
+
+    With an unbalance.
+    """
     found = tomllib.loads(geared_shaft("box")) | changes
     if "wheel" in found["discs"]:
         found["discs"]["wheel"]["unbalance"] = "50 g mm"
@@ -54,7 +57,10 @@ LONG = {
 
 
 def frequencies(model: MachineModel, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
-    """Return natural frequencies of the lumps and of the beam on the same springs."""
+    """Return natural frequencies of lumps and beam.
+
+    On the same springs.
+    """
     lumped, beam = shaft.stiffness.copy(), model.body.stiffness.copy()
     places = np.array(PLACES)
     for bearing in model.bearings:
@@ -93,7 +99,10 @@ def engine() -> MachineEngine:
 
 
 def evaluated(engine: MachineEngine, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return dy/dt and the forces on the bodies, friction left out."""
+    """Return dy/dt and forces without friction.
+
+    The forces act on the bodies.
+    """
     bundle = engine.context.bundle
     bundle.system["friction_on"], bundle.system["guides_on"] = 0, 0
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
@@ -134,7 +143,10 @@ def test_slopes_and_energy_of_the_ties(engine: MachineEngine) -> None:
 
 
 def check_slopes(engine: MachineEngine) -> None:
-    """What the columns of a twist leave out is of the order of the tilts, 2e-4 of it."""
+    """Check the slopes.
+
+    The columns of a twist leave out terms of the order of the tilts, 2e-4 of them.
+    """
     bundle, y = engine.context.bundle, engine._memory.y.copy()
     base = L.NB * int(bundle.system["balls"][0])
     middle = next(
@@ -176,7 +188,10 @@ def test_a_shaft_that_twists() -> None:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a folder with a case and a run of 6 ms of it that went on to 9 ms, as after a kill."""
+    """Return a folder with a continued run.
+
+    A case and a run of 6 ms of it that went on to 9 ms, as after a kill.
+    """
     found = tmp_path_factory.mktemp("motion")
     (found / "box.toml").write_text(geared_shaft("box"))
     arguments = ["--set", 'discs.wheel.unbalance="50 g mm"', "--quiet", "--band", "none"]
@@ -188,7 +203,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def abandon(path: Path) -> None:
-    """Leave a file as a killed writer does: still marked as open, so that HDF5 lets nobody write to it."""
+    """Leave a file as a killed writer.
+
+    Still marked as open, so that HDF5 lets nobody write to it.
+    """
     kill = "import h5py, os, sys; f = h5py.File(sys.argv[1], 'r+', libver='latest'); f.swmr_mode = True; os._exit(0)"
     again = "import h5py, os, sys; from pathlib import Path; from lambda_core.results import hdf5; "
     again += "p = Path(sys.argv[1]); f = hdf5.open_for_reading(p); "

@@ -21,7 +21,10 @@ DEFECT = {"models": {"surface": "defect"}, "parameters": {"surface": {"width": "
 
 @pytest.fixture(scope="module")
 def engine() -> MachineEngine:
-    """Return a shaft whose left bearing has a defect on its outer raceway."""
+    """Return a shaft with a defect.
+
+    It is on the left bearing's outer raceway.
+    """
     tables: dict[str, Any] = tomllib.loads(geared_shaft("box"))
     tables["bearings"]["left"]["forces"] = {"ball_outer": DEFECT}
     return machine_engine(resolve_machine(tables))

@@ -18,7 +18,7 @@ from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 
 
 def tables(left: dict[str, Any], right: dict[str, Any], **changes: Any) -> dict[str, Any]:
-    """Return the case that init writes with prescribed motions of its seats."""
+    """Return the template with prescribed seats."""
     seats = {"left": {"support": left}, "right": {"support": right}}
     return merged(tomllib.loads(geared_shaft("box")), {"bearings": seats, **changes})
 
@@ -87,7 +87,10 @@ BOX = {"x": "85 mm", "z": "-40 mm", "length": "160 mm", "width": "120 mm", "heig
 
 
 def boxed(hold: dict[str, Any]) -> dict[str, Any]:
-    """Return the case that init writes with both bearings in a body that the ground holds."""
+    """Return the template with bearings in a body.
+
+    The ground holds the body.
+    """
     held = dict.fromkeys(("x", "y", "z", "tilt_x", "tilt_y", "tilt_z"), "locked")
     case = tables({}, {}, bodies={"box": {**BOX, "support": {**held, **hold}}})
     for bearing in case["bearings"].values():

@@ -43,7 +43,10 @@ def beam() -> MachineModel:
 
 
 def alone(model: MachineModel) -> ElasticBody:
-    """Return the beam without the disc, which the case has, with its lumps."""
+    """Return the beam without the disc.
+
+    The case has the disc; with its lumps.
+    """
     disc = model.body.discs[0]
     rows, mass, gyroscopic = model.body.rows(disc.position), model.body.mass.copy(), model.body.gyroscopic.copy()
     mass[rows, rows] -= np.diag([disc.mass] * 3 + [disc.polar_inertia] + [disc.transverse_inertia] * 2)
@@ -57,7 +60,10 @@ def alone(model: MachineModel) -> ElasticBody:
 
 
 def of_file(model: MachineModel, path: Path) -> MachineModel:
-    """Return the case with the file as its shaft, the gear by the name of its node."""
+    """Return the case with a shaft file.
+
+    The gear by the name of its node.
+    """
     write_reduced(alone(model), path)
     found = tables(shaft={"reduced": path.name, "temperature": "50 degC"})
     found["gears"]["wheel"]["at"] = f"n{model.body.node(0.085)}"

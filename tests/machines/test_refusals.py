@@ -27,12 +27,18 @@ def tables(**changes: Any) -> dict[str, Any]:
 
 @pytest.fixture
 def ross(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Stand in for the package, which is refused before anything of it is used."""
+    """Stand in for the package ross.
+
+    It is refused before anything of it is used.
+    """
     monkeypatch.setitem(sys.modules, "ross", ModuleType("ross"))
 
 
 def alone() -> ElasticBody:
-    """Return the shaft of init without its disc: a free body."""
+    """Return the shaft without its disc.
+
+    The disc is a free body.
+    """
     return resolve_machine(tables(discs=None)).body
 
 

@@ -34,7 +34,10 @@ MOUNT = {
 
 
 def tables(**changes: Any) -> dict[str, Any]:
-    """Return the case of init in a housing of 12 kg on four mounts, the left bearing's seat damped."""
+    """Return the template in a housing.
+
+    Of 12 kg on four mounts, the left bearing's seat damped.
+    """
     found = tomllib.loads(geared_shaft("box"))
     found["bodies"] = {"box": {"x": "85 mm", "z": "-40 mm", "length": "160 mm", "width": "120 mm", "height": "80 mm"}}
     feet = {f"{a}{b}": (x, y) for a, x in (("l", 10), ("r", 160)) for b, y in (("f", -60), ("b", 60))}
@@ -167,7 +170,10 @@ def test_a_housing_in_motion(model: MachineModel) -> None:
 
 
 def check_columns(engine: MachineEngine, number: int) -> None:
-    """Slopes of the accelerations of a body with its own motion against differences (3e-4, the tilts)."""
+    """Check the accelerations' slopes of a body.
+
+    With its own motion, against differences (3e-4, the tilts).
+    """
     bundle, y = engine.context.bundle, engine._memory.y.copy()
     base = L.NB * int(bundle.system["balls"][0])
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))

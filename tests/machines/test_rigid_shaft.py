@@ -13,7 +13,10 @@ from lambda_core import api
 
 
 def machine(**changes: Any) -> dict[str, Any]:
-    """Return a machine of one bearing without sections of the shaft."""
+    """Return a machine of one bearing.
+
+    Its shaft has no sections.
+    """
     tables: dict[str, Any] = {
         "name": "rigid",
         "bearings": {"b": {"designation": "SKF 6208", "at": "9 mm"}},

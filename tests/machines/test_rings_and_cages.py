@@ -28,7 +28,10 @@ def tables(**changes: Any) -> dict[str, Any]:
 
 
 def on_springs(**changes: Any) -> dict[str, Any]:
-    """Return it with the left outer ring on the springs of a connection."""
+    """Return it with a ring on springs.
+
+    The left outer ring, on those of a connection.
+    """
     seat = {"bearings": {"left": {"support": {"y": "free", "z": "free"}}}}
     return tables(**merged({**seat, "connections": {"seat": {"at": "left.outer_ring", **SEAT}}}, changes))
 

@@ -47,7 +47,10 @@ def solved(case: dict[str, Any]) -> tuple[MachineModel, ShaftState]:
 
 
 def motor(**more: Any) -> dict[str, Any]:
-    """Return the case of a motor shaft: NU 208 floats, 6308 locates."""
+    """Return the case of a motor shaft.
+
+    NU 208 floats, 6308 locates.
+    """
     return {
         "shaft": {"sections": [{"length": "380 mm", "diameter": "40 mm"}]},
         "bearings": {
@@ -59,7 +62,10 @@ def motor(**more: Any) -> dict[str, Any]:
 
 
 def pair(preload: str, force: str = "0 N", at: str = "30 mm", across: str = "0 N") -> dict[str, Any]:
-    """Return two 32208 in X arrangement on a short thick shaft, both as near to its middle as they can."""
+    """Return two 32208 in X arrangement.
+
+    On a short thick shaft, both as near to its middle as they can.
+    """
     return {
         "shaft": THICK,
         "bearings": {

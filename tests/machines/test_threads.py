@@ -36,13 +36,19 @@ print(time.process_time() - processor, time.perf_counter() - clock)
 
 
 def threads() -> set[int]:
-    """Return the numbers of threads of the linear algebra libraries that are loaded."""
+    """Return the linear algebra's thread numbers.
+
+    Of the libraries that are loaded.
+    """
     return {library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"}
 
 
 @pytest.fixture(autouse=True)
 def two_threads() -> Iterator[None]:
-    """Have two threads, as on a machine of two cores where nothing is set."""
+    """Set two threads.
+
+    As on a machine of two cores where nothing is set.
+    """
     with threadpool_limits(2, user_api="blas"):
         if threads() != {2}:
             pytest.skip("the linear algebra library of this machine has a fixed number of threads")
@@ -51,7 +57,10 @@ def two_threads() -> Iterator[None]:
 
 @pytest.fixture
 def seen(monkeypatch: pytest.MonkeyPatch) -> set[int]:
-    """Return the numbers of threads with which linear algebra is done from now on."""
+    """Return thread numbers from now on.
+
+    Of linear algebra.
+    """
     found: set[int] = set()
 
     def watched(function: Callable[..., Any]) -> Callable[..., Any]:

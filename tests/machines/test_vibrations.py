@@ -34,12 +34,18 @@ DEFECT = {
 
 
 def box(solver: dict[str, Any] | None = None, **changes: Any) -> dict[str, Any]:
-    """Return the case that init writes, with settings of the solver and changes."""
+    """Return the template with solver settings.
+
+    And changes.
+    """
     return tomllib.loads(geared_shaft("box")) | ({"solver": solver} if solver is not None else {}) | changes
 
 
 def kicked(force: float, solver: dict[str, Any]) -> dict[str, Any]:
-    """Return a shaft in one bearing and a bushing, struck at its wheel for a millisecond."""
+    """Return a shaft after a kick.
+
+    In one bearing and a bushing, struck at its wheel for a millisecond.
+    """
     found = box(solver, connections={"right": {"at": "148 mm", "y": "100 N/um", "z": "100 N/um"}})
     del found["bearings"]["right"]
     points = [["0 s", "0 N"], ["2 ms", "0 N"], ["2.5 ms", f"{force} N"], ["3 ms", "0 N"], ["3.5 ms", "0 N"]]
@@ -48,7 +54,10 @@ def kicked(force: float, solver: dict[str, Any]) -> dict[str, Any]:
 
 
 def ringing(solver: dict[str, Any]) -> Callable[[FloatArray], FloatArray]:
-    """Return what a kick moves the wheel by over time [m]: half the difference of one upwards and one downwards."""
+    """Return the wheel's ringing [m].
+
+    Over time: half the difference of a kick upwards and one downwards.
+    """
     found = []
     for force in (30.0, -30.0):
         engine = machine_engine(resolve_machine(kicked(force, solver)))
@@ -223,7 +232,10 @@ def test_the_end_of_the_case_holds_where_none_is_given(tmp_path: Path) -> None:
 
 
 def lines(solver: dict[str, Any]) -> tuple[FloatArray, FloatArray]:
-    """Return frequencies [Hz] and the spectrum of the shaft's velocity at the damaged bearing, (n, 2) [m/s]."""
+    """Return the spectrum of the shaft's velocity.
+
+    Frequencies [Hz], at the damaged bearing, (n, 2) [m/s].
+    """
     rate, count, found = 81920.0, 4096, box(solver)
     found["bearings"]["right"]["forces"] = DEFECT
     engine = machine_engine(resolve_machine(found))

@@ -24,7 +24,10 @@ OIL = Oil("oil", "mineral", 335.65, 0.134, 2000.0)
 
 
 def _context(series: str = "63") -> Context:
-    """The 6319 of Syla et al. 2026, whose pitch diameter is the mean of bore and outside diameter."""
+    """Return the 6319 of Syla et al. 2026.
+
+    Its pitch diameter is the mean of bore and outside diameter.
+    """
     return Context(
         "fluid_drag", 9, 0.03, 0.1475, 0.095, 0.2, 0.045, series, 157.0, 4e3, STEEL, STEEL, OIL, oil_level=0.0
     )

@@ -36,7 +36,10 @@ def test_carried_load_of_one_ball() -> None:
 
 
 def _oil(resolved: BearingModel) -> Oil:
-    """The model's oil by its own rheology kernel, in plain Python."""
+    """Return the model's oil.
+
+    By its own rheology kernel, in plain Python.
+    """
     law = resolved.laws["ball_inner"]["rheology"]
     prepare = law.model.prepare
     assert prepare is not None

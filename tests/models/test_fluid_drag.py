@@ -27,7 +27,10 @@ LAWS = ["skf-catalogue", "schaeffler-catalogue", "sphere-drag"]  # of a bath
 
 
 def losses(name: str, context: Context, speed: float, turn: float = 0.0, **parameters: Any) -> Any:
-    """Return force and moment on each ball at kinematic speeds, shape (balls, 2)."""
+    """Return force and moment on each ball.
+
+    At kinematic speeds, shape (balls, 2).
+    """
     v, omega = kinematic_speeds(context, speed)
     azimuths = turn + np.arange(context.ball_count) * 2.0 * math.pi / context.ball_count
     given: dict[str, Any] = {"v_orbit": v, "omega_spin": omega, "nu": NU, "rho": RHO}
@@ -36,7 +39,10 @@ def losses(name: str, context: Context, speed: float, turn: float = 0.0, **param
 
 
 def torque(name: str, context: Context, speed: float, **parameters: Any) -> float:
-    """Return the bearing's loss over its speed [N m], averaged over the position of the balls."""
+    """Return the bearing's loss over speed [N m].
+
+    Averaged over the position of the balls.
+    """
     v, omega = kinematic_speeds(context, speed)
     turns = np.arange(24) / 24 * 2.0 * math.pi / context.ball_count
     power = [(losses(name, context, speed, turn, **parameters) @ [v, omega]).sum() for turn in turns]

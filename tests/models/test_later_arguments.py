@@ -16,7 +16,10 @@ from lambda_core.testing import check_model, evaluate
 
 @law("damping", "of-the-film", role_api=3, reference="own work")
 def of_the_film(delta, delta_dot, load, u_mean, eta0, par, out):  # type: ignore[no-untyped-def]
-    """Viscosity times what the contact rolls on, as a number to be recognised."""
+    """Write a recognisable number.
+
+    Viscosity times the arguments of the contact.
+    """
     out[0] = eta0 * (1.0 + u_mean) * delta_dot
     return OK
 

@@ -17,7 +17,10 @@ HEAVY = ("numba", "scipy", "h5py", "sqlalchemy", "matplotlib", "textual", "xarra
 
 
 def call(*arguments: str, cwd: Path, path: Path | None = None) -> subprocess.CompletedProcess[str]:
-    """Run Python in another folder; `path` is searched before everything else."""
+    """Run Python in another folder.
+
+    `path` is searched before everything else.
+    """
     environment = {**os.environ, "LAMBDA_BEARING_PACK": "0"}  # its machine code is looked at in test_pack.py
     environment |= {"PYTHONPATH": str(path)} if path else {}
     command = [sys.executable, *arguments]
@@ -36,7 +39,10 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The wheel in a folder of its own; libraries come from the environment of the tests."""
+    """Return the wheel in a folder.
+
+    Libraries come from the environment of the tests.
+    """
     folder = tmp_path_factory.mktemp("installed")
     options = ["install", "-q", "--no-deps", "--no-index", "--target", str(folder), str(wheel)]
     done = call("-m", "pip", *options, cwd=folder)

@@ -52,7 +52,10 @@ def kernel(Lambda, par, out):
 
 
 def call(*arguments: str, cwd: Path, **variables: str) -> subprocess.CompletedProcess[str]:
-    """Run Python in another folder, with environment variables of its own."""
+    """Run Python in another folder.
+
+    With environment variables of its own.
+    """
     environment = {name: value for name, value in os.environ.items() if not name.startswith("LAMBDA_BEARING_CODE")}
     command = [sys.executable, "-W", "ignore", *arguments]
     return subprocess.run(command, cwd=cwd, env=environment | variables, capture_output=True, text=True, check=False)
@@ -148,7 +151,10 @@ def test_a_wheel_without_a_c_compiler_has_no_pack_and_says_so(tmp_path: Path) ->
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The wheel with its pack in a folder of its own; libraries come from the environment of the tests."""
+    """Return the wheel with its pack.
+
+    In a folder of its own; libraries come from the environment of the tests.
+    """
     folder = tmp_path_factory.mktemp("packed")
     options = ["-q", "--no-deps", "--no-index"]
     built = call("-m", "pip", "wheel", *options, "--no-build-isolation", "-w", str(folder), str(ROOT), cwd=folder)

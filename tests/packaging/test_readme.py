@@ -118,7 +118,10 @@ def test_the_output_shown_is_what_a_run_prints(
 
 
 def _labels(text: str) -> list[str]:
-    """Return the first words of each line of a summary; continued lines are indented."""
+    """Return the labels of a summary.
+
+    The first words of each line: continued lines are indented.
+    """
     return [found[1] for line in text.splitlines() if (found := re.match(r"([a-z][a-z ]*?)  ", line))]
 
 

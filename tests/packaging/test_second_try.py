@@ -61,7 +61,10 @@ TESTS = {
 
 
 def run(folder: Path, *names: str, **environment: str) -> tuple[int, str]:
-    """Run some of the tests in a process of xdist; returns exit code and output."""
+    """Run some tests in xdist.
+
+    Return exit code and output.
+    """
     for name in names:
         (folder / name).write_text(textwrap.dedent(TESTS[name]))
     (folder / "pytest.ini").write_text("[pytest]\naddopts = -p no:asyncio -p no:hypothesispytest\n")

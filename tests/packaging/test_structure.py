@@ -93,7 +93,10 @@ CIRCLES = {
 
 
 def imports_of(room: Path) -> dict[str, set[str]]:
-    """Return which modules of a package each of them imports, in functions and for type checkers, too."""
+    """Return the imports of each module.
+
+    Within a package, in functions and for type checkers, too.
+    """
     prefix = ".".join(room.relative_to(ROOT).parts)
     paths = {f"{prefix}.{'.'.join(p.relative_to(room).with_suffix('').parts)}": p for p in room.rglob("*.py")}
     graph: dict[str, set[str]] = {}
@@ -109,7 +112,10 @@ def imports_of(room: Path) -> dict[str, set[str]]:
 
 
 def circles(graph: dict[str, set[str]]) -> set[str]:
-    """Return groups of modules that reach each other, as their last names."""
+    """Return import circles.
+
+    Groups of modules that reach each other, as their last names.
+    """
     reached = {}
     for name in graph:
         found, left = set(), [name]

@@ -34,7 +34,10 @@ packages = ["{module}"]
 
 
 def write_package(root: Path, name: str, code: str, version: str = "0.3") -> Path:
-    """Write the sources of a small plugin package and return its folder."""
+    """Write a small plugin package.
+
+    Return the folder of its sources.
+    """
     folder, module = root / name, name.replace("-", "_")
     (folder / module).mkdir(parents=True)
     (folder / "pyproject.toml").write_text(PYPROJECT.format(name=name, version=version, module=module))
@@ -43,7 +46,10 @@ def write_package(root: Path, name: str, code: str, version: str = "0.3") -> Pat
 
 
 def pip_install(target: Path, sources: Sequence[Path]) -> None:
-    """Install local packages into a folder, without network and without their dependencies."""
+    """Install local packages into a folder.
+
+    Without network and without their dependencies.
+    """
     command = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-build-isolation", "--no-index"]
     done = subprocess.run(
         [*command, "--target", str(target), *map(str, sources)], capture_output=True, text=True, check=False
@@ -52,7 +58,10 @@ def pip_install(target: Path, sources: Sequence[Path]) -> None:
 
 
 def unpack(target: Path, sources: Sequence[Path]) -> None:
-    """Build local packages and unpack them into a folder: what pip does with wheels of Python alone."""
+    """Build local packages and unpack them.
+
+    Into a folder, as pip does with wheels of Python alone.
+    """
     from hatchling.build import build_wheel
 
     for source in sources:
@@ -65,7 +74,7 @@ def unpack(target: Path, sources: Sequence[Path]) -> None:
 
 @dataclass(frozen=True)
 class Answer:
-    """What the program said."""
+    """Answer of the program."""
 
     code: int
     out: str
@@ -84,7 +93,10 @@ class Installation:
     warm: Warm
 
     def python(self, code: str, *arguments: str, **environment: str) -> Answer:
-        """Run Python code in a new process that sees the packages."""
+        """Run Python code in a new process.
+
+        It sees the packages.
+        """
         env = os.environ | {"PYTHONPATH": self.path} | environment
         done = subprocess.run(
             [sys.executable, "-c", code, *arguments], env=env, capture_output=True, text=True, check=False
@@ -93,11 +105,17 @@ class Installation:
         return Answer(done.returncode, done.stdout, done.stderr)
 
     def program(self, *arguments: str, **environment: str) -> Answer:
-        """Run ``lambda-bearing`` in a process of its own that sees the packages."""
+        """Run ``lambda-bearing`` in its own process.
+
+        It sees the packages.
+        """
         return self.forked(PROGRAM, *arguments, **environment)
 
     def forked(self, code: str, *arguments: str, **environment: str) -> Answer:
-        """Run Python code in a process of its own that begins with everything imported."""
+        """Run Python code in a forked process.
+
+        It begins with everything imported.
+        """
         process = self.warm.start(code, *arguments, env={"PYTHONPATH": self.path} | environment)
         out, said = process.communicate()
         assert "Traceback" not in said, said
@@ -106,7 +124,10 @@ class Installation:
 
 @pytest.fixture(scope="session")
 def install(tmp_path_factory: pytest.TempPathFactory, warm: Warm) -> Callable[..., Installation]:
-    """Install packages into a new folder: built and unpacked, or as `how` has it."""
+    """Install packages into a new folder.
+
+    Built and unpacked, or as `how` has it.
+    """
 
     def installed(sources: Sequence[Path], how: Callable[[Path, Sequence[Path]], None] = unpack) -> Installation:
         target = tmp_path_factory.mktemp("site")

@@ -86,7 +86,10 @@ def test_a_package_with_its_test_is_at_most_60_lines(name: str) -> None:
 
 
 def settings_on_the_page() -> list[str]:
-    """Return what docs/plugin-reference.md writes into cases to use the packages, as ``--set`` takes it."""
+    """Return the page's settings of packages.
+
+    Those of docs/plugin-reference.md for cases, as ``--set`` takes them.
+    """
     page = (EXAMPLES.parent / "docs" / "plugin-reference.md").read_text()
     below = page[page.index("## Channels and events of your own") :]
     return [

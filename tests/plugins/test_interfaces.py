@@ -76,7 +76,10 @@ def site(install: Callable[..., Installation]) -> Installation:
 
 @pytest.fixture(scope="module")
 def run(site: Installation, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A short run of the maker's bearing and oil with the stranger's law."""
+    """Return a short run with foreign law.
+
+    The maker's bearing and oil with the stranger's law.
+    """
     path = tmp_path_factory.mktemp("foreign") / "run.h5"
     changes = [word for change in CHANGES for word in ("--set", change)]
     answer = site.program("run", "6208-axial-1300", *changes, "--duration", "4 ms", "--quiet", "--out", str(path))

@@ -46,7 +46,10 @@ def by_hand(slip: Any, p: Any, T: Any, ln_eta: Any, h: float, par: Any, tau: Any
 
 @pytest.fixture(autouse=True)
 def untouched(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
-    """Leave the process as it was: no file named, no law handed over."""
+    """Leave the process as it was.
+
+    No file named, no law passed.
+    """
     monkeypatch.setenv(ON_VARIABLE, "")
     monkeypatch.setenv(manager.OFF_VARIABLE, "")
     monkeypatch.setattr(local_files, "user_folder", lambda: tmp_path / "config" / "plugins")

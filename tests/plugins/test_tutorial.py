@@ -24,7 +24,10 @@ TEST_CODE = re.findall(r"^```python\n(from hyperbolic_limit.*?)^```$", TUTORIAL,
 
 
 def steps() -> list[tuple[str, list[str]]]:
-    """Return every command of the page with the output lines printed below it."""
+    """Return the page's commands and outputs.
+
+    Each command with the output lines printed below it.
+    """
     found: list[tuple[str, list[str]]] = []
     for line in "".join(CONSOLE).splitlines():
         if line.startswith("$ "):
@@ -36,7 +39,10 @@ def steps() -> list[tuple[str, list[str]]]:
 
 @pytest.fixture(scope="module")
 def followed(tmp_path_factory: pytest.TempPathFactory, warm: Warm) -> tuple[Path, dict[str, str], dict[str, str]]:
-    """Follow the page from top to bottom; return folder, environment and what each command said."""
+    """Follow the page from top to bottom.
+
+    Return folder, environment and the output of each command.
+    """
     root = tmp_path_factory.mktemp("tutorial")
     for name, text in FILES:
         (root / name).parent.mkdir(parents=True, exist_ok=True)

@@ -26,7 +26,10 @@ _VOID = {"meta", "link", "br", "hr", "img", "input"}
 
 
 class Page(HTMLParser):
-    """Text, tags and addresses of a page; fails on tags that do not close."""
+    """Text, tags and addresses of a page.
+
+    Fails on tags that do not close.
+    """
 
     def __init__(self, text: str) -> None:
         super().__init__(convert_charrefs=True)

@@ -31,7 +31,7 @@ FAKE_RUN = f"import sys; sys.path.insert(0, {_HERE!r}); from fake_run import mai
 
 @dataclass(frozen=True)
 class Truth:
-    """What the engine is made to do."""
+    """Behaviour of the fake engine."""
 
     balls: int = 9
     speed: float = 157.08  # of the inner ring [rad/s]

@@ -64,21 +64,30 @@ def undisturbed(resolved, tmp_path_factory: pytest.TempPathFactory) -> dict[str,
 
 
 def start(warm: Warm, verb: str, path: Path, wanted: dict[str, object] = WANTED) -> Started:
-    """Start a run in a process of its own and wait until it is about to integrate."""
+    """Start a run and wait.
+
+    In its own process, until it is about to integrate.
+    """
     process = warm.start(FAKE_RUN, verb, str(path), json.dumps(wanted))
     assert process.stdout.readline() == "ready\n"
     return process
 
 
 def under_way(path: Path, process: Started) -> None:
-    """Wait until a run has written samples: by then it listens to signals."""
+    """Wait for a run's first samples.
+
+    By then it listens to signals.
+    """
     while not path.exists() or Result(path).status().rows.samples < 2:
         assert process.poll() is None, process.communicate()
         time.sleep(0.01)
 
 
 def kill_and_resume(warm: Warm, path: Path, delays: list[float], reference: dict[str, np.ndarray]) -> None:
-    """Kill a run and its continuations after the given times, then let one finish."""
+    """Kill a run and its continuations.
+
+    After the given times, then let one finish.
+    """
     verb = "run"
     for delay in delays:
         process = start(warm, verb, path)

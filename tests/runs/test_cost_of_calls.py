@@ -19,7 +19,10 @@ CALLS = {
 
 
 def spent(command: list[str], folder: Path, threads: str) -> float:
-    """Return the processor time of a process, the smallest of three [s]."""
+    """Return a process's processor time [s].
+
+    The smallest of three.
+    """
     found = []
     environment = {**os.environ, "OMP_NUM_THREADS": threads, "OPENBLAS_NUM_THREADS": threads}
     if not threads:

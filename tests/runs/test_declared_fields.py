@@ -24,7 +24,10 @@ COLOURS = dict.fromkeys(("success", "warning", "error"), "red")
 
 
 class WiderSummary(BearingSummary):
-    """A summary with one more number, which only its declaration knows."""
+    """Summary with one more number.
+
+    Only its declaration knows it.
+    """
 
     creep_um: float = quantity(
         "creep of the outer ring in its seat", "um", label="creep of the outer ring", column="creep", decimals=2,
@@ -50,7 +53,10 @@ def run_file(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
 
 
 def widened(path: Path) -> Summary:
-    """Return the summary of a run whose bearing has the number."""
+    """Return a summary with the number.
+
+    It is that of the run's bearing.
+    """
     found = api.summary(path)
     (name, one), *_ = found.bearings.items()
     return found.model_copy(update={"bearings": {name: WiderSummary(**dict(one))}})

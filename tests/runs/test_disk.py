@@ -31,7 +31,7 @@ def run(warm: Warm, verb: str, path: Path, **wanted: object) -> tuple[int | None
 
 @pytest.fixture(scope="module")
 def complete(warm: Warm, tmp_path_factory: pytest.TempPathFactory) -> Result:
-    """The same run with room enough."""
+    """Return the same run with enough room."""
     path = tmp_path_factory.mktemp("whole") / "r.h5"
     assert run(warm, "run", path, **WANTED) == (0, "")
     return Result(path)

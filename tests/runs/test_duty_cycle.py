@@ -25,7 +25,10 @@ def cycle(*phases: dict[str, Any]) -> dict[str, Any]:
 
 @pytest.fixture(scope="module")
 def day() -> DutyCycle:
-    """A quarter of the time under a load of its own, a quarter at rest."""
+    """Return a duty of two quarters.
+
+    One under a load of its own, one at rest.
+    """
     return api.duty(
         cycle(
             {"name": "as it is", "time": "12 h"},
@@ -64,7 +67,10 @@ def test_damages_add(day: DutyCycle) -> None:
 
 
 def phase(share: float, speed: float, load: float) -> PhaseResult:
-    """A phase of a bearing with C = 10 kN by L = (C/P)^3."""
+    """Return a phase of a duty cycle.
+
+    Bearing with C = 10 kN by L = (C/P)^3.
+    """
     life = 1e6 * (10e3 / load) ** 3 / (60.0 * speed) if speed else None
     return PhaseResult(
         name="", share=share, speed_rpm=speed, equivalent_load_N=load, basic_life_h=life, reference_life_h=None,

@@ -62,7 +62,10 @@ class Kind:
     check: Callable[[Any, list[str]], BearingModel | MachineModel]
 
     def model(self) -> BearingModel | MachineModel:
-        """Return the model of the whole run, with a checkpoint behind every record."""
+        """Return the model of the complete run.
+
+        A checkpoint follows every record.
+        """
         found = self.check(self.source, [f"solver.duration={self.duration}"])
         if isinstance(found, BearingModel):
             return replace(found, output=replace(found.output, checkpoint_interval=0.0))
@@ -95,7 +98,7 @@ def undisturbed(kind: Kind, tmp_path_factory: pytest.TempPathFactory) -> Content
 
 @pytest.fixture(scope="module")
 def finished(kind: Kind, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A short run, which nobody changes."""
+    """Return a short run that nobody changes."""
     path = tmp_path_factory.mktemp("finished") / "run.h5"
     api.run(kind.source, ["solver.duration=0.1 ms"], out=path)
     return path
@@ -103,7 +106,7 @@ def finished(kind: Kind, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def short(finished: Path, tmp_path: Path) -> Path:
-    """A copy of the short run."""
+    """Return a copy of the short run."""
     return Path(shutil.copy(finished, tmp_path / "run.h5"))
 
 
@@ -116,7 +119,10 @@ def content(path: Path) -> Content:
 
 @contextmanager
 def copied(path: Path, moments: tuple[tuple[Any, str], ...]) -> Iterator[dict[str, Path]]:
-    """Copy a file whenever a moment finds it changed; yield the copies by moment."""
+    """Copy a file at each moment.
+
+    A moment may find it changed: yield the copies by moment.
+    """
     found: dict[str, Path] = {}
     last: list[bytes] = []
 
@@ -144,7 +150,10 @@ def copied(path: Path, moments: tuple[tuple[Any, str], ...]) -> Iterator[dict[st
 
 
 def wrong(copies: dict[str, Path], model: BearingModel | MachineModel, undisturbed: Content) -> list[str]:
-    """Go on with every copy; return the moments after which it is not the undisturbed run."""
+    """Return the moments with wrong continuations.
+
+    Every copy goes on: the result must be that of the undisturbed run.
+    """
     found = []
     for moment, path in copies.items():
         try:

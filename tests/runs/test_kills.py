@@ -44,14 +44,20 @@ def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Series:
 
 
 def start(warm: Warm, verb: str, path: Path) -> Started:
-    """Start a process and wait until it is about to begin."""
+    """Start a process and wait.
+
+    Until it is about to begin.
+    """
     process = warm.start((HERE / "real_run.py").read_text(encoding="utf-8"), verb, str(path))
     assert process.stdout.readline() == "ready\n", process.communicate()[1]
     return process
 
 
 def wait_for_life(path: Path, process: Started) -> None:
-    """Wait until the process has the file in its hands, or has ended."""
+    """Wait until the process has the file.
+
+    Or has ended.
+    """
     while process.poll() is None:
         if path.exists():
             status = api.result(path).status()
@@ -68,7 +74,10 @@ def wait_for_samples(path: Path, process: Started) -> None:
 
 
 def is_beginning_of(found: Series, complete: Series) -> None:
-    """Check that what a killed run left behind is the beginning of the undisturbed one, bit for bit."""
+    """Check a killed run's remains.
+
+    They are the beginning of the undisturbed one, bit for bit.
+    """
     for name in set(found) - {"integrals"}:  # the last record may stand between two of the grid
         values = found[name]
         assert values.tobytes() == complete[name][: len(values)].tobytes(), name
@@ -78,7 +87,9 @@ def is_beginning_of(found: Series, complete: Series) -> None:
 def kill_and_resume(
     warm: Warm, path: Path, chance: random.Random, complete: Series, most: int = KILLS
 ) -> tuple[int, int]:
-    """Kill a run and its continuations, look at what each leaves, let the last one finish.
+    """Kill a run and its continuations.
+
+    Look at what each leaves, let the last one finish.
 
     Returns the number of kills, and of those that struck between the first sample and the end.
     """

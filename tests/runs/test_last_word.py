@@ -47,7 +47,10 @@ def test_killed_before_its_last_word(
 
 def test_a_limit_that_is_met_before_the_first_step_is_no_failure(provenance: MakeProvenance, tmp_path: Path) -> None:
     class Slow(FakeEngine):
-        """Its first step takes longer than the limit of wall time, and is not through when it is asked to pause."""
+        """Engine with a slow first step.
+
+        It takes longer than the limit of wall time, and is not through when it is asked to pause.
+        """
 
         def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
             while pause is not None and not pause():

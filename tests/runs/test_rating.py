@@ -26,7 +26,10 @@ LOCKED = {"bodies": {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}}}
 
 @pytest.fixture(scope="module")
 def ratings() -> tuple[Rating, Rating]:
-    """Return the messages with the tilt free and with the tilt locked."""
+    """Return the messages for both tilts.
+
+    With the tilt free and with the tilt locked.
+    """
     free, locked = (solve(api.check({**CASE, **more})) for more in ({}, LOCKED))
     return rating_of(free, registry().methods), rating_of(locked, registry().methods)
 

@@ -26,7 +26,7 @@ from lambda_core.runs.progress import Progress
 
 @pytest.fixture(scope="module")
 def content(resolved: BearingModel, tmp_path_factory: pytest.TempPathFactory) -> bytes:
-    """Bytes of one finished result."""
+    """Return the bytes of a finished result."""
     model = replace(resolved, solver=replace(resolved.solver, duration=0.12))
     path = tmp_path_factory.mktemp("content") / "r.h5"
     return run(FakeEngine(Truth(noise=0.1)), Provenance.alone(model, {"core": "abc"}), path).path.read_bytes()

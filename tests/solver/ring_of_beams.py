@@ -12,7 +12,9 @@ from lambda_core.domain.arrays import FloatArray
 def waves_of_beams(
     radius: float, bending: float, bed: float, forces: FloatArray, azimuths: FloatArray, waves: int, elements: int = 360
 ) -> FloatArray:
-    """Return the amplitudes of cosine and sine of `waves` waves of the radial displacement, outwards [m].
+    """Return the amplitudes of beam waves [m].
+
+    Cosine and sine of `waves` waves of the radial displacement, outwards.
 
     Euler-Bernoulli beams (Przemieniecki 1968, Theory of Matrix Structural Analysis, eq. 5.116) that hardly stretch, on
     radial springs, loaded at their corners.

@@ -59,7 +59,10 @@ class State:
 
 @dataclass
 class Machine:
-    """A model on the compiled core, evaluated at states of the test's choice."""
+    """Model on the compiled core.
+
+    It is evaluated at states of the test's choice.
+    """
 
     model: BearingModel
     angle: float = 0.0  # contact angle at which the contacts' radii are frozen [rad]
@@ -76,11 +79,17 @@ class Machine:
 
     @property
     def active(self) -> NDArray[np.int64]:
-        """Indices of the free shared states in the flat (3, 12) array."""
+        """Indices of the free shared states.
+
+        In the flat (3, 12) array.
+        """
         return np.asarray(self.context.bundle.active)
 
     def constant(self, name: str) -> FloatArray:
-        """Return a constant by its name in the records: of the row of balls, or of each raceway or body."""
+        """Return a constant by its name.
+
+        In the records: of the row of balls, or of each raceway or body.
+        """
         bundle = self.context.bundle
         if name in bundle.bodies.dtype.names:
             return np.array(bundle.bodies[name])
@@ -98,7 +107,10 @@ class Machine:
         return State(y[: L.NB * self.count].reshape(-1, L.NB).copy(), shared.reshape(-1, L.NS))
 
     def at_rest(self, azimuth: float = 0.0) -> State:
-        """Return balls in the middle of the play, everything centred and at rest."""
+        """Return a centred state at rest.
+
+        Balls are in the middle of the play.
+        """
         z, g = self.count, self.model.geometry
         balls, shared = np.zeros((z, L.NB)), np.zeros((self.context.bundle.bodies.size, L.NS))
         balls[:, L.BR] = 0.5 * g.pitch_diameter
@@ -134,7 +146,10 @@ class Machine:
 
     @contextmanager
     def frictionless(self) -> Iterator[None]:
-        """Leave only the normal forces of the raceways (of a model whose cage contacts are none)."""
+        """Leave only the raceways' normal forces.
+
+        Of a model whose cage contacts are none.
+        """
         system = self.context.bundle.system[0]
         system["friction_on"] = 0
         try:
@@ -149,14 +164,17 @@ class Machine:
 
 
 def time_function(m: Machine, kind: str, body: int, component: int, t: float) -> FloatArray:
-    """Return value and two derivatives of a load or motion at time t, as compiled code sees them."""
+    """Return a time function's value and derivatives.
+
+    Two derivatives of a load or motion at time t, as compiled code reads them.
+    """
     m.evaluate(m.vector(m.at_rest()), t, want=0)
     return np.array(m.context.bundle.inputs[kind][body, component].tolist())
 
 
 @dataclass(frozen=True)
 class Motion:
-    """What the integrator wrote."""
+    """Motion that the integrator wrote."""
 
     times: FloatArray  # (n,)
     states: FloatArray  # (n, size)
@@ -177,7 +195,10 @@ def integrate(
     fine: bool = False,
     longest: float | None = None,
 ) -> Motion:
-    """Integrate from any state, sampled at equal intervals from 0 on; `fine` with the formula for vibrations."""
+    """Integrate from any state.
+
+    Sampled at equal intervals from 0 on; `fine` with the formula for vibrations.
+    """
     return integrate_tables(m.context, y, duration, tolerance, samples, fine=fine, longest=longest)
 
 
@@ -217,7 +238,10 @@ def machine(*overrides: str, case: str = CASE, angle: float = 0.0) -> Machine:
 
 
 def inertial(psi: float, v: FloatArray) -> FloatArray:
-    """Turn components x, r, t at azimuth psi into x, y, z."""
+    """Turn components x, r, t into x, y, z.
+
+    At azimuth psi.
+    """
     c, s = np.cos(psi), np.sin(psi)
     return np.array([v[0], c * v[1] - s * v[2], s * v[1] + c * v[2]])
 
@@ -241,7 +265,9 @@ def angular_velocity(body: FloatArray) -> FloatArray:
 
 
 def jostle(m: Machine, state: State, rng: np.random.Generator, shift: float = 1.0, motion: float = 1.0) -> State:
-    """Return a state with every ball and body displaced, tilted and moving at random.
+    """Return a random state.
+
+    Every ball and body displaced, tilted and moving.
 
     At 1 displacements are some 20 um, tilts 0.3 mrad, velocities 0.3 m/s, spins 30 rad/s on top of the state.
     """
@@ -254,7 +280,10 @@ def jostle(m: Machine, state: State, rng: np.random.Generator, shift: float = 1.
 
 
 def rolling(m: Machine, speed: float, azimuth: float = 0.0) -> State:
-    """Return `at_rest` with the inner ring at `speed` [rad/s] and everything rolling without slip."""
+    """Return a rolling state.
+
+    `at_rest` with the inner ring at `speed` [rad/s] and everything rolling without slip.
+    """
     state, g = m.at_rest(azimuth), m.model.geometry
     inner = speed * (0.5 * g.pitch_diameter - 0.5 * g.ball_diameter)
     state.balls[:, L.BVT] = 0.5 * inner

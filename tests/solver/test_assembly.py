@@ -36,7 +36,10 @@ def alone() -> list[Assembly]:
 
 
 def together(alone: list[Assembly]) -> Assembly:
-    """Return both as one assembly, the bodies of one behind those of the other."""
+    """Return both as one assembly.
+
+    The bodies of one are behind those of the other.
+    """
     bearings = [
         replace(one.bearings[0], name=f"number {i}", members=(3 * i, 3 * i + 1, 3 * i + 2))
         for i, one in enumerate(alone)

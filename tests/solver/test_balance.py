@@ -20,12 +20,18 @@ RIM = "6319-cp10-1500"
 
 @pytest.fixture
 def in_python(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let the estimate call its sum as plain Python: there is no machine code behind a part of the solver."""
+    """Let the estimate call plain Python.
+
+    There is no machine code behind a part of the solver.
+    """
     monkeypatch.setattr(balance, "_energy_of_bends", balance._energy_of_bends.py_func)
 
 
 def memory(new: float, y: float, y1: float, h: float, h1: float) -> SimpleNamespace:
-    """Return what the estimate reads, for one speed of mass 1."""
+    """Return the estimate's inputs.
+
+    For one speed of mass 1.
+    """
     w = h / h1
     control = np.zeros(1, dtype=M.CONTROL).view(np.recarray)
     control["last_step"], control["back"] = h1, w * w / (1.0 + 2.0 * w)

@@ -32,7 +32,10 @@ from lambda_core.solver.vec import cosine_sine
 
 @pytest.fixture(scope="module", autouse=True)
 def untouched() -> Iterator[None]:
-    """Take back the law that was handed over: other tests of this process know nothing of it."""
+    """Take back the inline law.
+
+    Other tests of this process do not know it.
+    """
     before = dict(inline_laws._laws)
     yield
     inline_laws._laws.clear()
@@ -45,7 +48,10 @@ _CONTACTS, _CELLS = 11, 5
 
 
 def together(role: Any, drawn: list[list[Any]]) -> list[Any]:
-    """Return the arguments of several contacts as a compiled law takes them."""
+    """Return several contacts' law arguments.
+
+    As a compiled law takes them.
+    """
     found: list[Any] = []
     for argument, *values in zip(role.arguments, *drawn, strict=True):
         if argument.each:

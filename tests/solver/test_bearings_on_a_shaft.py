@@ -23,7 +23,10 @@ from .test_power import MODELS, machine, random_state
 
 @dataclass(frozen=True)
 class Shaft:
-    """Equal bearings whose inner rings are one body, their planes at some places along its axis [m]."""
+    """Equal bearings on one shaft.
+
+    Their inner rings are one body, their planes at some places along its axis [m].
+    """
 
     single: Machine
     places: tuple[float, ...]
@@ -34,7 +37,10 @@ class Shaft:
         return len(self.places) * self.single.count
 
     def states(self, *each: FloatArray) -> FloatArray:
-        """Return the state from those of single bearings, brought to their places."""
+        """Return the state from single bearings.
+
+        Theirs, brought to their places.
+        """
         moved = [self._at(state, place) for state, place in zip(each, self.places, strict=True)]
         return together(self.single.context, moved)
 
@@ -46,7 +52,10 @@ class Shaft:
         return moved
 
     def evaluate(self, y: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return dy/dt, the forces on the balls (all, 6) and on the bodies (all, 6)."""
+        """Return dy/dt and all forces.
+
+        On the balls (all, 6) and on the bodies (all, 6).
+        """
         dydt, bundle = np.full(y.size, np.nan), self.context.bundle
         assert core().evaluate(0.0, y, bundle, dydt, np.zeros(L.power_count(bundle)), 1) == 1
         forces = (bundle.ball_wrenches, bundle.body_wrenches)

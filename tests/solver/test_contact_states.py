@@ -30,7 +30,10 @@ TURN = 3.0  # turns of the spiral over its decay
 
 @pytest.fixture(scope="module", autouse=True)
 def untouched() -> Iterator[None]:
-    """Take back the laws that were handed over: other tests of this process know nothing of them."""
+    """Take back the inline laws.
+
+    Other tests of this process do not know them.
+    """
     before = dict(inline_laws._laws)
     yield
     inline_laws._laws.clear()
@@ -47,7 +50,10 @@ SPIRAL = (State("rest", "-", "real part", scale=1.0, start=1.0), State("turned",
 
 @law("contact_state", "spiral", Tau, role_api=3, reference="own work", states=SPIRAL)
 def spiral(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):  # type: ignore[no-untyped-def]
-    """Two coupled states: dz/dt = -(1 + 3i) z/tau."""
+    """Write two coupled states.
+
+    dz/dt = -(1 + 3i) z/tau.
+    """
     out[0] = (3.0 * par.turned - par.rest) / par.tau
     out[1] = (-3.0 * par.rest - par.turned) / par.tau
     return OK
@@ -56,14 +62,20 @@ def spiral(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi
 @law("contact_state", "warmth", role_api=3, reference="own work",
      states=(State("warmth", "K", "temperature over the oil's", scale=1.0),))  # fmt: skip
 def warmth(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):  # type: ignore[no-untyped-def]
-    """Heat of a lump: 2e-4 J/K, 0.2 W/K."""
+    """Write a lump's heat.
+
+    2e-4 J/K, 0.2 W/K.
+    """
     out[0] = (power - 0.2 * par.warmth) / 2e-4
     return OK
 
 
 @law("traction", "thinner", role_api=3, reference="own work", reads={"warmth": 20.0})
 def thinner(slip, p, T, ln_eta, h, par, tau):  # type: ignore[no-untyped-def]
-    """A stress that falls by 3 % per kelvin."""
+    """Write a temperature-dependent stress.
+
+    It falls by 3 % per kelvin.
+    """
     for i in range(tau.size):
         tau[i] = 0.03 * p[i] * slip[i] / (slip[i] + 0.01) / (1.0 + 0.03 * par.warmth)
     return OK
@@ -74,7 +86,10 @@ def engine(laws: dict[str, Any], **sections: Any) -> BearingEngine:
 
 
 def spiral_error(step: float, duration: float = 1e-3) -> float:
-    """Return the largest distance of all contacts' states from z = exp(-(1 + 3i) t/tau)."""
+    """Return the spiral's largest error.
+
+    Distance of all contacts' states from z = exp(-(1 + 3i) t/tau).
+    """
     run = engine({"contact_state": spiral}, solver={"tolerance": 1e-2, "max_step": f"{1e6 * step:g} us"})
     run.advance(duration)
     found = run.samples()
@@ -214,14 +229,20 @@ DEPTH = State("wear_depth", "m", "depth worn off", scale=1e-9, lower=0.0)
 
 @law("contact_state", "worn", role_api=3, reference="own work", states=(DEPTH,))
 def worn(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):  # type: ignore[no-untyped-def]
-    """Wear that starts at zero, is polished away for half a millisecond, and grows then."""
+    """Write a wear rate of both signs.
+
+    It starts at zero, is polished away for half a millisecond, and grows then.
+    """
     out[0] = -1e-6 if t < 0.5e-3 else 1e-9 * power / (1e-9 + par.wear_depth)
     return OK
 
 
 @law("traction", "rough", role_api=3, reference="own work", reads={"wear_depth": 1e-9})
 def rough(slip, p, T, ln_eta, h, par, tau):  # type: ignore[no-untyped-def]
-    """A stress that reads the root of a depth: no number where the depth is below zero."""
+    """Write a stress by a depth's root.
+
+    No number where the depth is below zero.
+    """
     for i in range(tau.size):
         tau[i] = 0.03 * p[i] * slip[i] / (slip[i] + 0.01) / (1.0 + par.wear_depth**0.5)
     return OK

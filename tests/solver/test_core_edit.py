@@ -43,7 +43,10 @@ print(json.dumps(dict(folder=str(Path(kinematics.__file__).parent), value=solve(
 
 
 class Copy:
-    """The package copied to a folder of its own, where it is edited."""
+    """Editable copy of the package.
+
+    It is in a folder of its own.
+    """
 
     def __init__(self, root: Path) -> None:
         self.root = root
@@ -58,7 +61,10 @@ class Copy:
         self.file.write_text(text.replace(old, new))
 
     def ask(self, code: str) -> dict[str, Any]:
-        """Run in a new process with a cache of its own."""
+        """Run in a new process.
+
+        With a cache of its own.
+        """
         own = {"LAMBDA_BEARING_CACHE": str(self.root / "cache"), "PYTHONDONTWRITEBYTECODE": "1"}
         done = subprocess.run(
             [sys.executable, "-W", "ignore", "-c", code],

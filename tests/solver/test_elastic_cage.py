@@ -30,7 +30,9 @@ ALONE = (
 
 
 def thin_ring(waves: int) -> float:
-    """Return the natural angular frequency of the cage as a free thin ring [rad/s].
+    """Return a thin ring's frequency [rad/s].
+
+    Natural angular frequency of the cage as a free ring.
 
     n (n^2 - 1)/sqrt(n^2 + 1) sqrt(E I/(m/(2 pi R) R^4)) (Love 1927, art. 293), of the cage's mass and the case's words.
     """

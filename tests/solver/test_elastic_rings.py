@@ -38,7 +38,10 @@ def test_in_a_rigid_housing_a_ring_is_rigid(ring: str) -> None:
 
 
 def beam_ring(loads: FloatArray, azimuths: FloatArray, waves: int) -> FloatArray:
-    """Return the amplitudes of `waves` waves of the outer ring's radial displacement, by straight beam elements [m]."""
+    """Return the outer ring's wave amplitudes [m].
+
+    Of `waves` waves of its radial displacement, by straight beam elements.
+    """
     model = api.check(CASE)
     g, steel = model.geometry, model.outer_material
     inside, outside = 0.5 * g.race_diameter_outer, 0.5 * g.outside_diameter

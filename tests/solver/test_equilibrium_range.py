@@ -134,7 +134,9 @@ def test_points_that_once_had_no_solution(start: str, changes: dict[str, object]
 
 
 def _drawn(count: int, seed: int, kind: str) -> list[dict[str, object]]:
-    """Draw operating points: every bearing of a kind with an inner geometry, every oil, usual loads and speeds.
+    """Draw operating points.
+
+    Every bearing of a kind with an inner geometry, every oil, usual loads and speeds.
 
     Angular contact gets the thrust that holds it together.
     """

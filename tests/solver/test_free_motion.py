@@ -50,7 +50,10 @@ def test_balls_fly_on_parabolas() -> None:
 
 
 def attitude(body: FloatArray) -> FloatArray:
-    """Return the body's axes as columns: the least rotation that takes x to its axis, then its spin angle."""
+    """Return the body's axes as columns.
+
+    The least rotation that takes x to its axis, then its spin angle.
+    """
     a = axis_of(body)
     v = np.cross([1.0, 0.0, 0.0], a)
     angle = np.arctan2(np.linalg.norm(v), a[0])

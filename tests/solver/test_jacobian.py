@@ -12,7 +12,10 @@ from .test_power import MODELS, machine, random_state
 
 
 def differences(m: Machine, y: FloatArray) -> FloatArray:
-    """Return d(dy/dt)/dy, central differences of fourth order, steps 1e-5 of the states' scales."""
+    """Return d(dy/dt)/dy by differences.
+
+    Central, of fourth order, steps 1e-5 of the states' scales.
+    """
     dense = np.zeros((y.size, y.size))
     for i in range(y.size):
         step = np.zeros(y.size)
@@ -26,13 +29,19 @@ def differences(m: Machine, y: FloatArray) -> FloatArray:
 
 
 def scaled(m: Machine, matrix: FloatArray) -> FloatArray:
-    """Return the matrix in units of the states' scales: all entries are rates [1/s]."""
+    """Return the scaled matrix.
+
+    In units of the states' scales: all entries are rates [1/s].
+    """
     s = m.context.scale
     return np.array(matrix * s[None, :] / s[:, None])
 
 
 def neighbours(m: Machine) -> np.ndarray:
-    """Mark the entries that couple two balls: only balls without a cage touch each other."""
+    """Mark the entries that couple balls.
+
+    Only balls without a cage touch each other.
+    """
     of = np.repeat(np.arange(m.count), L.NB)
     mark = np.zeros((m.context.size, m.context.size), dtype=bool)
     mark[: of.size, : of.size] = of[:, None] != of[None, :]

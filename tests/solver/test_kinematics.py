@@ -40,7 +40,10 @@ MODEL = (
 
 
 def moved(state: State, j: int, ring: int, h: float) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return ball centre, ring centre and ring axis a time h later, moving as rigid bodies do."""
+    """Return ball and ring after a time.
+
+    Ball centre, ring centre and ring axis a time h later, moving as rigid bodies do.
+    """
     ball, body = state.balls[j], state.shared[ring]
     centre = ball_centre(ball) + h * inertial(ball[L.BPSI], ball[3:6])
     omega, axis = angular_velocity(body), axis_of(body)
@@ -51,7 +54,9 @@ def moved(state: State, j: int, ring: int, h: float) -> tuple[FloatArray, FloatA
 def identify(
     m: Machine, ring: int, centre: FloatArray, origin: FloatArray, axis: FloatArray
 ) -> tuple[float, FloatArray, FloatArray]:
-    """Return penetration, normal from ball to ring and rolling direction of a sphere in a torus.
+    """Return a sphere's contact in a torus.
+
+    Penetration, normal from ball to ring and rolling direction.
 
     The nearest point of the circle of groove centres lies along the way to the ball's centre, less its axial part.
     """
@@ -118,7 +123,9 @@ def test_sphere_in_torus(seed: int) -> None:
 
 
 def angular_contact(m: Machine, inner: float, depth: float = 5e-6) -> tuple[State, float, float]:
-    """Return balls in angular contact that roll truly at both raceways and do not spin on the outer one.
+    """Return rolling balls in angular contact.
+
+    They roll truly at both raceways and do not spin on the outer one.
 
     Also the contact angle [rad] and gamma' = D/d_m at the contacts' centres. Outer ring at rest, no slip, rolling axis
     pitched by beta with tan(beta) = sin(alpha)/(cos(alpha) + gamma') (outer raceway control: Harris and Kotzalas,

@@ -15,7 +15,10 @@ from lambda_core.solver.drivers.viscosity_continuation import StaticReport
 
 
 def nine() -> Any:
-    """Return what the iteration reads of a context with a row of nine balls."""
+    """Return a context of nine balls.
+
+    The iteration reads it; one row.
+    """
     geometry = SimpleNamespace(kind=SimpleNamespace(on_sphere=False), rows=1)
     tables = SimpleNamespace(
         rows=np.array([(L.NB,)], dtype=[("size", int)]), system=np.array([(9 * L.NB,)], dtype=[("tail", int)])

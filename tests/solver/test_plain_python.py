@@ -85,7 +85,10 @@ def states_of(m: Machine) -> FloatArray:
 
 @pytest.fixture(scope="module")
 def plain(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Evaluate every model in one process without a compiler; return the folder of what it found."""
+    """Evaluate every model without a compiler.
+
+    In one process: return the folder of its results.
+    """
     folder = tmp_path_factory.mktemp("plain")
     for name in NAMES:
         give(name, folder / f"{name} given.npz")

@@ -101,7 +101,10 @@ MODES = ("rolling", "sliding", "standing")
 
 
 def random_state(m: Machine, seed: int, mode: str) -> FloatArray:
-    """Return a well-loaded random state: near rolling, balls sliding anyhow, or hardly moving."""
+    """Return a well-loaded random state.
+
+    Near rolling, balls sliding anyhow, or hardly moving.
+    """
     rng = np.random.default_rng(seed)
     state = rolling(m, {"rolling": 150.0, "sliding": -80.0, "standing": 0.0}[mode])
     state = jostle(m, state, rng, motion={"rolling": 1.0, "sliding": 2.0, "standing": 1e-5}[mode])
@@ -130,7 +133,9 @@ def test_no_mechanism_gives_energy(name: str, mode: str) -> None:
 
 
 def energy_rate(m: Machine, y: FloatArray, dydt: FloatArray, t: float) -> tuple[float, float]:
-    """Return d(stored energy)/dt along the motion, a central difference of fourth order, and its rounding [W].
+    """Return the stored energy's rate [W].
+
+    Along the motion, a central difference of fourth order, and its rounding.
 
     The state is moved along the straight line dy/dt, and time with it, by some nanometres: energy is quadratic in
     the velocities and smooth in the positions at that scale. Rounding of positions costs force times eps times radius.

@@ -63,7 +63,10 @@ def row_of(bearing: RollerBearing) -> Any:
 
 
 def roller_of(bearing: RollerBearing, speed: float = 0.0) -> Any:
-    """Return a roller at its nominal place; with a speed of the inner ring it rolls on both raceways."""
+    """Return a roller at its nominal place.
+
+    With a speed of the inner ring it rolls on both raceways.
+    """
     roller, axis = make(records.ROLLER), bearing.angles.roller
     roller.radius = bearing.centre
     roller.azimuth = 0.7
@@ -79,7 +82,10 @@ def roller_of(bearing: RollerBearing, speed: float = 0.0) -> Any:
 
 
 def raceway_of(bearing: RollerBearing, ring: str) -> Any:
-    """Return a raceway; the radius grows with x, so that x is the quasi-static -a."""
+    """Return a raceway.
+
+    The radius grows with x, so that x is the quasi-static -a.
+    """
     raceway, angles, half = make(records.RACEWAY), bearing.angles, 0.5 * bearing.diameter
     side = 1.0 if ring == "outer" else -1.0
     raceway.side, raceway.kind = side, records.LINE

@@ -304,7 +304,10 @@ def test_balls_have_no_ribs() -> None:
 
 
 def slip_of_the_cage(load: str) -> float:
-    """Return how much slower than rollers without slip the cage runs at 9000 1/min, over 0.04 s."""
+    """Return the cage's slip at 9000 1/min.
+
+    Against rollers without slip, over 0.04 s.
+    """
     model = api.check(CASE | {"loads": {"radial": load}, "operation": {"speed": "9000 rpm"}})
     engine = BearingEngine(model, equilibrium=solve(model, strict=False))
     sums = []

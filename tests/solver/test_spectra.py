@@ -22,7 +22,10 @@ LARGEST = 6
 
 
 def velocity(out: Path, *changes: str) -> tuple[FloatArray, FloatArray]:
-    """Return times [s] and the inner ring's velocity [m/s] behind the start of a run."""
+    """Return the inner ring's velocity [m/s].
+
+    With times [s], behind the start of a run.
+    """
     result = api.run(AXIAL, [*DEFECT, *changes], out=out)
     late = result["time"] > 0.012
     return result["time"][late], result["body_velocity"][late, 0, :]
@@ -38,7 +41,10 @@ def lines(times: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray
 
 
 def off(lines_: FloatArray, reference: FloatArray) -> float:
-    """Return the largest relative difference among the largest lines of a reference."""
+    """Return the largest relative difference.
+
+    Among the largest lines of a reference.
+    """
     top = np.argsort(reference)[-LARGEST:]
     return float(np.abs(lines_[top] / reference[top] - 1.0).max())
 

@@ -23,7 +23,10 @@ STEPS = (2e-8, 2e-8, 2e-8, 3e-7, 3e-7)  # [m, rad]: well inside the contacts' co
 
 
 def load_at(found: Equilibrium, displacement: FloatArray) -> FloatArray:
-    """Return force and moment that hold the inner ring at `displacement`, balls re-solved without friction."""
+    """Return force and moment at a displacement.
+
+    They hold the inner ring at `displacement`, balls re-solved without friction.
+    """
     model = found.context.model
     dofs = dict(model.inner_ring.dofs)
     for name, value in zip(NAMES, displacement, strict=True):
@@ -42,7 +45,10 @@ def load_at(found: Equilibrium, displacement: FloatArray) -> FloatArray:
 
 
 def without_friction(found: Equilibrium) -> Equilibrium:
-    """Return the equilibrium of normal forces alone, where differences and matrix are of the same state."""
+    """Return the equilibrium of normal forces.
+
+    Differences and matrix are of the same state there.
+    """
     continue_static(core(), found.context, found.state, friction=False)
     ring = found.context.bundle.bodies_now[0]
     (x, y, z), (ay, az) = ring.position.tolist(), ring.tilt.tolist()

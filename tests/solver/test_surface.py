@@ -27,7 +27,10 @@ WAVES = ("models.surface=waviness", "parameters.surface.amplitude=2 um", "parame
 
 
 def load(m: Machine, azimuth: float, angle: float, pressed: float = 10e-6) -> float:
-    """Load on the inner ring, turned by `angle`, of a ball at rest that is pressed towards it [N]."""
+    """Return the load on the inner ring [N].
+
+    Turned by `angle`, of a ball at rest that is pressed towards it.
+    """
     state = m.at_rest()
     state.balls[0, L.BPSI] = azimuth
     state.balls[0, L.BR] -= pressed

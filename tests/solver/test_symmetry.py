@@ -27,7 +27,10 @@ def loads(direction: float, axial: float, moment_y: float, moment_z: float, spee
 
 
 def turned(angle: float) -> tuple[str, ...]:
-    """Return loads, moments and gravity turned about the shaft by `angle` [deg]."""
+    """Return loads turned about the shaft.
+
+    Moments and gravity, too, by `angle` [deg].
+    """
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     g = 9.80665
     moment_y, moment_z = c * MOMENT_Y - s * MOMENT_Z, s * MOMENT_Y + c * MOMENT_Z
@@ -50,7 +53,10 @@ def equilibrium(overrides: tuple[str, ...], phase: float = 0.0) -> Equilibrium:
 
 
 def check_contacts(found: FloatArray, expected: FloatArray, tolerance: float) -> None:
-    """Compare every channel of every contact, each relative to its own largest value."""
+    """Compare every channel of every contact.
+
+    Each relative to its own largest value.
+    """
     largest = np.abs(expected).max(axis=(0, 1), where=np.isfinite(expected), initial=0.0)
     both = np.isfinite(expected)
     assert np.array_equal(both, np.isfinite(found))
@@ -87,7 +93,9 @@ def test_mirrored_load_quasi_static(
 
 
 def run(overrides: tuple[str, ...], phase: float = 0.0) -> dict[str, FloatArray]:
-    """Return the samples of the first 5 ms, at a tight tolerance.
+    """Return the samples of the first 5 ms.
+
+    At a tight tolerance.
 
     Newton's iteration stops within a share of the tolerance, and a mirrored bearing gets there another way: the
     Jacobian's differences are one-sided. What remains is a small share of the tolerance.

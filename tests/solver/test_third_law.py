@@ -30,7 +30,10 @@ WIDE = "bearing.clearance=200 um"  # room between all parts, so that single cont
 
 
 def resultant(state: State, found: Evaluation) -> tuple[float, float]:
-    """Return |sum of forces| and |sum of moments about the origin|, each over the sum of amounts."""
+    """Return relative sums of forces and moments.
+
+    |sum of forces| and |sum of moments about the origin|, each over the sum of amounts.
+    """
     forces, moments, amount, turning = np.zeros(3), np.zeros(3), 0.0, 0.0
     arm = float(state.balls[0, L.BR])
 

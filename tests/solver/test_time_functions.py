@@ -57,7 +57,10 @@ def test_sum_of_a_constant_and_a_harmonic() -> None:
 
 
 def monotone(times: FloatArray, level: FloatArray) -> PPoly[np.float64]:
-    """Return the cubics with the slopes of Fritsch and Butland 1984, 0 at both ends, written from the paper."""
+    """Return the monotone cubics.
+
+    With the slopes of Fritsch and Butland 1984, 0 at both ends, written from the paper.
+    """
     gap, slope = np.diff(times), np.diff(level) / np.diff(times)
     inner = []
     for (h0, h1), (s0, s1) in zip(pairwise(gap), pairwise(slope), strict=True):

@@ -21,7 +21,10 @@ _GAMMA = 1e-5  # [s]
 
 
 def touching(m: Machine, pairs: tuple[int, ...], seed: int = 0) -> FloatArray:
-    """Return a state in which each named ball is pressed by a micrometre onto the one after it."""
+    """Return a state of touching balls.
+
+    Each named ball is pressed by a micrometre onto the one after it.
+    """
     state = jostle(m, rolling(m, 100.0), np.random.default_rng(seed), shift=0.1, motion=1e-3)
     d, z = m.model.geometry.ball_diameter, m.count
     state.balls[:, L.BX] = 0.0

@@ -29,7 +29,10 @@ AXIAL = "6208-axial-700"
 
 @cache
 def spring() -> Machine:
-    """Return a bearing without contacts whose inner ring hangs on a spring along the shaft."""
+    """Return a ring on a spring.
+
+    A bearing without contacts, along the shaft.
+    """
     empty = machine(*EMPTY, "gravity.z=0 m/s2")
     stiffness = float(empty.constant("mass")[0]) * (2.0 * np.pi * FREQUENCY) ** 2
     held = f'bodies.inner_ring.x={{mode="free", stiffness="{stiffness!r} N/m"}}'
@@ -39,7 +42,10 @@ def spring() -> Machine:
 def swing(
     amplitude: float, cycles: float, *, longest: float, samples: int, tolerance: float = 1e-3, fine: bool = True
 ) -> Motion:
-    """Let the ring swing without a loss, from its turning point."""
+    """Let the ring swing without loss.
+
+    From its turning point.
+    """
     m = spring()
     start = m.at_rest()
     start.shared[0, L.SX] = amplitude
@@ -47,7 +53,10 @@ def swing(
 
 
 def place(motion: Motion) -> FloatArray:
-    """Return where the ring is, of a motion in which all its directions are free."""
+    """Return the ring's place.
+
+    All directions of the motion are free.
+    """
     return np.array(motion.states[:, L.NB * spring().count + list(spring().active).index(L.SX)])
 
 
@@ -175,7 +184,9 @@ def test_a_run_says_how_far_its_vibrations_can_be_believed(tmp_path: Path) -> No
 
 @cache
 def decay(accuracy: str, amplitude: float) -> tuple[float, float]:
-    """Return frequency [Hz] and damping ratio of a ring of 5 kg set swinging along the shaft of a turning 6208.
+    """Return frequency [Hz] and damping ratio.
+
+    A ring of 5 kg swings along the shaft of a turning 6208.
 
     The difference of two runs that are displaced to either side: balls passing, and what the start excites, cancel.
     """
@@ -235,7 +246,9 @@ def test_energy_closes_and_a_continuation_is_the_run_itself() -> None:
 
 
 def kicked_across(*changes: str) -> FloatArray:
-    """Return the speed of the inner ring of an axial 6208 after a kick of 3 mm/s across the shaft [m/s].
+    """Return the ring's speed after a kick [m/s].
+
+    The inner ring of an axial 6208, 3 mm/s across the shaft.
 
     Half the difference of a kick to either side: what balls and cage do anyway cancels.
     """

@@ -36,7 +36,10 @@ values = ["2000 rpm", "3000 rpm"]
 
 @pytest.fixture
 def study(write: Callable[..., Path], tmp_path: Path) -> Folder:
-    """A study whose second point is to do, though its run has come to its last checkpoint; and the table to reach."""
+    """Return a study with an open point.
+
+    Its second point is to do, though its run has come to its last checkpoint; and the table to reach.
+    """
     folder = tmp_path / "runs"
     api.study_run(write(STUDY), folder, executor=HERE)
     rows = api.study_table(folder).rows()
@@ -47,7 +50,7 @@ def study(write: Callable[..., Path], tmp_path: Path) -> Folder:
 
 
 def written_by(path: Path, process: dict[str, str]) -> None:
-    """Say in a result that a process is at work on it."""
+    """Mark a result as being written."""
     status = api.result(path).status()
     with h5py.File(path, "r+") as file:
         running = Status(rows=status.rows, statistics=status.statistics, process=process)
@@ -56,7 +59,7 @@ def written_by(path: Path, process: dict[str, str]) -> None:
 
 @pytest.fixture
 def writer(study: Folder) -> Iterator[subprocess.Popen[bytes]]:
-    """A process that has the second point in hand."""
+    """Start a process with the second point."""
     folder, rows = study
     process = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
     written_by(folder / rows[1]["file"], process_identity(process.pid))
@@ -66,7 +69,10 @@ def writer(study: Folder) -> Iterator[subprocess.Popen[bytes]]:
 
 
 class Ends(logging.Handler):
-    """Ends a process as soon as somebody says that he waits for it."""
+    """Process that ends on request.
+
+    As soon as somebody reports that he waits for it.
+    """
 
     def __init__(self, process: subprocess.Popen[bytes]) -> None:
         super().__init__()

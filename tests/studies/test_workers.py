@@ -32,12 +32,18 @@ Write = Callable[..., Path]
 
 
 def numbers(folder: Path) -> list[dict[str, Any]]:
-    """Return everything of a study's table that must not depend on how it was computed."""
+    """Return a study table's invariant content.
+
+    It must not depend on how the table was computed.
+    """
     return api.study_table(folder).rows()
 
 
 def differences(found: list[dict[str, Any]], expected: list[dict[str, Any]]) -> list[str]:
-    """Return every place where two tables differ, so that a failure says more than that they do."""
+    """Return every difference of two tables.
+
+    So a failure reports more than their inequality.
+    """
     if len(found) != len(expected):
         return [f"{len(found)} rows in place of {len(expected)}"]
     return [
@@ -49,7 +55,10 @@ def differences(found: list[dict[str, Any]], expected: list[dict[str, Any]]) -> 
 
 
 def in_this_process(folder: Path, text: str) -> list[dict[str, Any]]:
-    """Return the table of a study, computed one point after the other in this process."""
+    """Return a study's table, computed here.
+
+    One point after the other in this process.
+    """
     from studies import Inline
 
     path = folder.with_suffix(".toml")
@@ -104,7 +113,10 @@ Start = Callable[..., Any]
 
 @pytest.fixture
 def start(warm: Warm) -> Start:
-    """Start a command of studies in a session of its own, so that it can be killed with everything that it started."""
+    """Start a study command in a session.
+
+    It can be killed with everything that it started.
+    """
 
     def started(verb: str, what: Path, *options: str) -> Any:
         return warm.start(f"import os; os.setsid(); {PROGRAM}", "study", verb, str(what), "--quiet", *options)
@@ -124,7 +136,10 @@ def files(folder: Path) -> int:
 
 
 def is_under_way(folder: Path) -> bool:
-    """Tell whether a run has written samples: by then it listens to signals."""
+    """Tell whether a run has samples.
+
+    By then it listens to signals.
+    """
     return any(api.result(path).status().rows.samples > 1 for path in (folder / "runs").glob("[!.]*.h5"))
 
 
@@ -133,7 +148,10 @@ def _further(folder: Path, runs: int, study: Any) -> bool:
 
 
 def killed_and_resumed(start: Start, path: Path, folder: Path, kills: int, seed: int, last: int = 2) -> None:
-    """Kill a study at random moments, everything that belongs to it at once, and go on each time."""
+    """Kill a study repeatedly and resume.
+
+    At random moments, everything that belongs to it at once.
+    """
     chance = random.Random(seed)
     study = start("run", path, "--out", str(folder), "--workers", "2", "--band", "none")
     for kill in range(kills):
@@ -253,7 +271,10 @@ def test_a_lost_dask_worker_loses_no_point(write: Write, tmp_path: Path, runs_ta
 
 
 def deadly(task: Any) -> Any:
-    """Stand in for a point whose worker dies, whatever one does."""
+    """Stand in for a deadly point.
+
+    Its worker always dies.
+    """
     from lambda_core.studies.job import Outcome
 
     if task.number == 2:

@@ -30,7 +30,10 @@ INNER, OUTER = 0, 1
 
 
 def ln_eta(p: FloatArray | float, t: FloatArray | float) -> Any:
-    """FVA3: Wingertszahn et al. 2023, Lubricants 11, 369, Table A1; p [Pa], t [degC], eta [Pa s]."""
+    """Return ln(eta) of FVA3.
+
+    Wingertszahn et al. 2023, Lubricants 11, 369, Table A1; p [Pa], t [degC], eta [Pa s].
+    """
     bar = np.asarray(p) / 1e5
     pressure = bar / (327.7918 + 2.9862 * t + (4.419e-3 + 3.0115e-4 * t) * bar)
     return np.log(0.062e-3) + 1021.7 / (101.5517 + t) + pressure
@@ -42,7 +45,10 @@ BETA = 1021.7 / (101.5517 + TEMPERATURE) ** 2
 
 
 def _grid() -> tuple[FloatArray, FloatArray]:
-    """Return s = y/a, weights of ds dt and the pressure over p_0 of cells of the unit circle."""
+    """Return cells of the unit circle.
+
+    s = y/a, weights of ds dt and the pressure over p_0.
+    """
     s, ws = np.polynomial.legendre.leggauss(40)
     u, wu = np.polynomial.legendre.leggauss(12)
     chord = np.sqrt(1.0 - s * s)
@@ -57,7 +63,7 @@ STRIPS, WEIGHTS = np.polynomial.legendre.leggauss(100)
 
 @dataclass(frozen=True)
 class Contact:
-    """One contact of a ball with a raceway; contact angle zero.
+    """Ball-raceway contact at zero contact angle.
 
     Hertz after Hamrock and Brewe (Syla et al. 2026, eq. 1-11).
     """
@@ -98,14 +104,20 @@ class Contact:
         return math.pi * k * E_EFF * math.sqrt(eps / (4.5 * F**3 * curvature))
 
     def film(self, u: float) -> float:
-        """Chittenden et al. 1985 with Murch and Wilson 1975, u the mean velocity."""
+        """Return the film after Chittenden.
+
+        Chittenden et al. 1985 with Murch and Wilson 1975, u the mean velocity.
+        """
         U, W, G = ETA * u / (E_EFF * self.R_x), self.load / (E_EFF * self.R_x**2), ALPHA * E_EFF
         side = 1.0 - math.exp(-1.23 * (self.R_y / self.R_x) ** (2.0 / 3.0))
         L = ETA * BETA * u * u / CONDUCTIVITY
         return 4.31 * self.R_x * G**0.49 * U**0.68 * W**-0.073 * side * 3.94 / (3.94 + L**0.62)
 
     def rolling(self, u: float) -> float:
-        """Force on each surface: Biboulet and Houpert 2010 strip by strip, Goksem and Hargreaves' thermal factor."""
+        """Return rolling force on each surface.
+
+        Biboulet and Houpert 2010 strip by strip, Goksem and Hargreaves' thermal factor.
+        """
         a, _ = self.semi_axes
         W = 0.75 * self.load / a * (1.0 - STRIPS**2) / (E_EFF * self.R_x)
         U2 = 2.0 * ETA * u / (E_EFF * self.R_x)
@@ -120,7 +132,10 @@ class Contact:
         return 3.0 / 16.0 * LOSS_FACTOR * self.load * self.semi_axes[1]
 
     def shear(self, centre: float, turning: float, u: float, heated: bool) -> tuple[float, float]:
-        """Return traction on the ball [N] and power [W] of the slip centre + turning s^2/(2 R_def) (Heathcote)."""
+        """Return traction [N] and slip power [W].
+
+        On the ball; slip centre + turning s^2/(2 R_def) (Heathcote).
+        """
         a, b = self.semi_axes
         s, area = CELLS
         groove = GROOVES[self.side]
@@ -135,7 +150,9 @@ class Contact:
 
 
 def _stress(slip: FloatArray, p: FloatArray, h: float, b: float, u: float, heated: bool) -> FloatArray:
-    """Eyring stress below zeta p at the temperature that it causes itself, by bisection over the rise in every cell.
+    """Return the Eyring stress by bisection.
+
+    Below zeta p at the temperature that it causes itself, over the rise in every cell.
 
     Rise: q h/(12 lambda) in the film and 0.376 q sqrt(2 b/(u k rho c)) of each surface, q = tau v.
     """
@@ -154,13 +171,19 @@ def _stress(slip: FloatArray, p: FloatArray, h: float, b: float, u: float, heate
 
 
 def loads(force: float, speed: float, turn: float) -> list[tuple[float, float]]:
-    """Return inner and outer load of every ball under a radial force; centrifugal force at nominal cage speed."""
+    """Return every ball's inner and outer load.
+
+    Under a radial force; centrifugal force at nominal cage speed.
+    """
     stiffness = [Contact(side, 1.0).stiffness for side in (INNER, OUTER)]
     pull = BALL_MASS * 0.5 * PITCH * (0.5 * speed * (1.0 - BALL / PITCH)) ** 2
     psi = turn + 2.0 * math.pi * np.arange(BALLS) / BALLS
 
     def of_ball(approach: float) -> float:
-        """Inner load at which both penetrations add up to the approach of the rings."""
+        """Return the inner load of a ball.
+
+        Both penetrations add up to the approach of the rings.
+        """
 
         def miss(load: float) -> float:
             both = (load / stiffness[0]) ** (2.0 / 3.0) + ((load + pull) / stiffness[1]) ** (2.0 / 3.0)
@@ -211,7 +234,9 @@ def ball_losses(inner: float, outer: float, speed: float, *, heated: bool = True
 
 
 def torques(force: float, rpm: float, *, heated: bool = True, unloaded: bool = True) -> dict[str, float]:
-    """Return the friction torque by mechanism [N mm], mean over eight positions of the balls.
+    """Return the friction torque by mechanism [N mm].
+
+    Mean over eight positions of the balls.
 
     Parameters
     ----------

@@ -18,7 +18,10 @@ from lambda_core import api
 
 
 class Bath:
-    """A runner whose SKF torque is the printed row where the oil has the temperatures below."""
+    """Runner with known temperatures.
+
+    Its SKF torque is the printed row where the oil has the temperatures below.
+    """
 
     TRUE = (63.0, 60.0, 69.0, 64.0, 65.0, 70.0)
 

@@ -20,7 +20,10 @@ PARTS = {"rolling": 30.0, "hysteresis": 10.0, "sliding": 20.0, "spin": 5.0, "skf
 
 
 class Invented:
-    """A runner whose torque is SKF's but for its inputs of load and set."""
+    """Runner with SKF's torque.
+
+    Its inputs of load and set differ.
+    """
 
     def all(self, jobs: list[Job]) -> list[JobResult]:
         return [
@@ -29,7 +32,10 @@ class Invented:
         ]
 
     def axial(self, job: Job) -> dict[str, float]:
-        """SKF's sliding torque is twice as large wherever there is an axial load; nothing else changes."""
+        """Double SKF's sliding torque.
+
+        Wherever there is an axial load; nothing else changes.
+        """
         loaded = any(change.startswith("loads.axial=") and change != "loads.axial=0 N" for change in job.changes)
         sliding = 80.0 if loaded and job.kind == "axial load" else 40.0
         return PARTS | {"skf sliding": sliding, "skf": 60.0 + sliding, "schaeffler load": 7.0}

@@ -29,7 +29,10 @@ CONSTANTS = Path(__file__).parents[2] / "benchmarks" / "endstates.toml"
 
 
 def _flat(tables: dict[str, Any], path: str = "") -> list[str]:
-    """Return the leaves of nested tables as changes of a case."""
+    """Return nested tables as changes.
+
+    Of a case: the leaves.
+    """
     found = []
     for key, value in tables.items():
         where = f"{path}.{key}" if path else key

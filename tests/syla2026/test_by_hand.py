@@ -21,7 +21,10 @@ FINE = ("depth.strips=61", "depth.rows=15")
 
 @cache
 def derived(load: float, rpm: float, heated: bool = True) -> dict[str, float]:
-    """Return the second derivation's torques; it takes seconds, and tests share points."""
+    """Return the second derivation's torques.
+
+    It takes seconds, and tests share points.
+    """
     return by_hand.torques(load, rpm, heated=heated)
 
 

@@ -19,7 +19,10 @@ RESONANCES = [
 
 
 def points(slope: float = -1.0, by_load: float = 1.2, own: float = 0.03, still: float = 0.02) -> list[BoundaryPoint]:
-    """Boundaries v = v_0 f^slope in the declared range, one steeper above, `by_load` higher from load to load."""
+    """Return boundaries v = v_0 f^slope.
+
+    In the declared range, one steeper above, `by_load` higher from load to load.
+    """
     found = []
     for variant in ("A", "B"):
         for i, load in enumerate(LOADS):

@@ -42,12 +42,18 @@ RESONANCE = ("stiffness_N_per_um", "mass_kg", "resonance_Hz", "ball_Hz", "cage_H
 
 @cache
 def resolved(case: str, changes: Sequence[str]) -> BearingModel:
-    """Return a model; experiments of several tests ask for hundreds of the same."""
+    """Return a model.
+
+    Experiments of several tests ask for hundreds of the same.
+    """
     return resolve_point(case, changes)
 
 
 def invented(model: BearingModel) -> Numbers:
-    """Numbers of any reading: torques smooth in speed and temperature, altered running above some excitation."""
+    """Return invented numbers of any reading.
+
+    Torques smooth in speed and temperature, altered running above some excitation.
+    """
     total = 900.0 * (max_speed(model) / 52.0) ** 0.3 * math.exp(-0.015 * (model.oil.temperature - 335.0))
     shares = {name: total / len(MECHANISMS) for name in MECHANISMS}
     names = (
@@ -65,7 +71,10 @@ def invented(model: BearingModel) -> Numbers:
 
 @pytest.fixture
 def lost(monkeypatch: pytest.MonkeyPatch) -> set[str]:
-    """Solve and run nothing; what is put into this set has no solution: names of cases, titles of bearings."""
+    """Solve and run nothing.
+
+    The set has what has no solution: names of cases, titles of bearings.
+    """
     without: set[str] = set()
 
     def static(model: BearingModel) -> Numbers:

@@ -18,7 +18,10 @@ JOBS = [Job("6220-excited", (f"loads.radial={load:g} kN",), "axial resonance") f
 
 @pytest.fixture
 def here(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Do the jobs in this process: what is kept does not depend on where, and a worker takes seconds to start."""
+    """Do the jobs in this process.
+
+    Their place does not matter, and a worker takes seconds to start.
+    """
     monkeypatch.setattr(job_runner, "Processes", lambda workers: pool(HERE, workers))
 
 

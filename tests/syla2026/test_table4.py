@@ -113,7 +113,10 @@ def test_every_law_without_constants_of_the_user_is_calibrated() -> None:
 
 
 class Invented:
-    """A runner whose torque is the measured one at 7 MPa with one pair of laws, half of it with others."""
+    """Runner with measured torques at 7 MPa.
+
+    With one pair of laws, half of it with others.
+    """
 
     PAIR = ("models.elastic_hysteresis=houpert", "models.rolling_resistance=goksem-hargreaves")
 

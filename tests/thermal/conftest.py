@@ -14,7 +14,10 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 @pytest.fixture(scope="session")
 def ordinary() -> dict[str, Any]:
-    """A 6208 in a pillow block, nothing said about its temperatures."""
+    """Return a 6208 in a pillow block.
+
+    The case has no temperatures.
+    """
     return {
         "name": "ordinary",
         "bearing": {"designation": "6208", "maker": "SKF", "clearance": "12 um"},

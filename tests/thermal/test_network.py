@@ -19,7 +19,10 @@ AMBIENT = 293.15
 
 
 def chain(heat: tuple[float, ...] = HEAT, conductance: tuple[float, ...] = G) -> Network:
-    """Four nodes in a row, the last one joined to the surroundings."""
+    """Return four nodes in a row.
+
+    The last one is joined to the surroundings.
+    """
     matrix = np.zeros((5, 5))
     for i, value in enumerate(conductance):
         matrix[i, i + 1] = matrix[i + 1, i] = value
@@ -65,7 +68,10 @@ def test_a_network_without_a_way_out_is_singular() -> None:
 
 
 class _Constant:
-    """A chain with constant heat in the place of a bearing."""
+    """Chain with constant heat.
+
+    It takes the place of a bearing.
+    """
 
     def __init__(self, network: Network, capacity: float) -> None:
         self.names, self.held, self._network, self._capacity = network.names, network.held, network, capacity

@@ -36,7 +36,10 @@ _TICK = 1.0 / os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 0.01
 
 @dataclass(frozen=True)
 class State:
-    """A command, and when in it the signal comes: after so much time of the processor [s], or once a file is there."""
+    """Command with the moment of its signal.
+
+    After so much time of the processor [s], or once a file is there.
+    """
 
     name: str
     command: tuple[str, ...]
@@ -64,7 +67,10 @@ STATES = (
 
 @dataclass(frozen=True)
 class Answer:
-    """Times from the signal to the end of the process [s], and how it ended."""
+    """Times [s] from signal to end.
+
+    And how the process ended.
+    """
 
     wall: float
     processor: float
@@ -73,7 +79,10 @@ class Answer:
 
 
 def time_of(pid: int) -> float:
-    """Return the time of the processor of a process [s]; nothing where it has gone."""
+    """Return a process's processor time [s].
+
+    Nothing where it has gone.
+    """
     try:
         fields = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
     except OSError:
@@ -82,7 +91,10 @@ def time_of(pid: int) -> float:
 
 
 def answer(state: State, number: int, folder: Path, environment: dict[str, str]) -> Answer:
-    """Start a command, send it a signal in a state, and wait."""
+    """Start, signal and await a command.
+
+    The signal comes in a state.
+    """
     process = subprocess.Popen(
         [sys.executable, "-m", "lambda_cli", *state.command], cwd=folder, env=environment, text=True,
         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
@@ -105,7 +117,10 @@ def answer(state: State, number: int, folder: Path, environment: dict[str, str])
 
 
 def measure(folder: Path, wanted: tuple[str, ...] = (), number: int = signal.SIGINT) -> dict[str, Answer]:
-    """Return the answers of the states whose names begin with one of `wanted`, of all without any."""
+    """Return the answers of the states.
+
+    Those whose names begin with one of `wanted`, of all without any.
+    """
     here = folder / "whole"
     here.mkdir()
     subprocess.run(
@@ -126,7 +141,10 @@ def measure(folder: Path, wanted: tuple[str, ...] = (), number: int = signal.SIG
 
 
 def main(wanted: list[str]) -> int:
-    """Print the table; the exit code is 1 where an answer took more than a second of the processor."""
+    """Print the table.
+
+    The exit code is 1 where an answer took more than a second of the processor.
+    """
     late = False
     print("| state | wall time | processor time | exit code |\n|---|---|---|---|")
     for number in (signal.SIGINT, signal.SIGTERM):

@@ -37,7 +37,10 @@ METADATA = "Metadata-Version: 2.1\nName: looping\nVersion: 1.0\n"
 
 @pytest.fixture(scope="session")
 def misbehaving(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, str]:
-    """Return the environment of a process that sees the package ``looping``."""
+    """Return an environment with ``looping``.
+
+    A process sees the package.
+    """
     site = tmp_path_factory.mktemp("site")
     (site / "looping.py").write_text(LAWS, encoding="utf-8")
     record = site / "looping-1.0.dist-info"
@@ -49,7 +52,10 @@ def misbehaving(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, str]:
 
 @pytest.fixture
 def program(tmp_path: Path) -> Callable[..., subprocess.Popen[str]]:
-    """Start ``lambda-bearing`` in a process of its own, in the folder of this test."""
+    """Start ``lambda-bearing`` here.
+
+    In a process of its own, in the folder of this test.
+    """
 
     def start(*arguments: str, env: Mapping[str, str] | None = None) -> subprocess.Popen[str]:
         return subprocess.Popen(

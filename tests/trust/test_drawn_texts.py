@@ -22,7 +22,10 @@ X = np.linspace(1.0, 10.0, 5)
 
 
 def laid_out(figure: Any) -> set[str]:
-    """Return what the figure's texts say once a formula in them would have been read."""
+    """Return the figure's texts as laid out.
+
+    A formula in them would have been read.
+    """
     figure.canvas.draw()
     found = set()
     for text in figure.findobj(Text):

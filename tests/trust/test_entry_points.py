@@ -42,7 +42,7 @@ def stranger(original: Path, tmp_path: Path) -> Path:
 
 
 def odd_files(folder: Path) -> dict[str, Path]:
-    """Return files that are not regular ones, and links to them."""
+    """Return irregular files and links to them."""
     os.mkfifo(folder / "pipe")
     (folder / "folder").mkdir()
     (folder / "link").symlink_to(folder / "pipe")

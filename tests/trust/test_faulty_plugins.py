@@ -106,7 +106,10 @@ def test_a4_words_at_import_do_not_go_where_data_goes(capsys: pytest.CaptureFixt
 
 
 def package(name: str = "guest", **hooks: Any) -> Source:
-    """Return a package that registers one item per hook, or implements a hook that answers."""
+    """Return a package with faulty hooks.
+
+    It registers one item per hook, or implements a hook that answers.
+    """
     module = ModuleType(name)
     for hook, item in hooks.items():
 
@@ -121,7 +124,10 @@ def package(name: str = "guest", **hooks: Any) -> Source:
 
 @pytest.fixture
 def install_also(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Install packages and commands in addition to the present ones, for one test."""
+    """Install further packages and commands.
+
+    In addition to the present ones, for one test.
+    """
 
     def install(*sources: Source, of: tuple[Source, ...] = ()) -> None:
         known = {PLUGINS: [*installed(PLUGINS), *sources], COMMANDS: [*in_use(COMMANDS), *of]}

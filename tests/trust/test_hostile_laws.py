@@ -115,7 +115,10 @@ CASE = "6208-axial-1300"
 
 @pytest.fixture(autouse=True)
 def hostile(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Any:
-    """Take the file of hostile laws into use for one test."""
+    """Use the file of hostile laws.
+
+    For one test.
+    """
     file = tmp_path / "hostile.py"
     file.write_text(LAWS)
     monkeypatch.setenv(ON_VARIABLE, str(file))

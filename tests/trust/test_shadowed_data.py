@@ -25,7 +25,10 @@ SOURCE = "key,title\n{key},Fabricated and Evil 2030\n"
 
 @pytest.fixture
 def brings(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Callable[..., None]]:
-    """Install a package with these seed files next to the installed ones."""
+    """Install a package with seed files.
+
+    Next to the installed ones.
+    """
     monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(tmp_path / "cache"))
 
     def install(**files: str) -> None:
@@ -57,7 +60,7 @@ def findings() -> list[tuple[str, str]]:
 
 
 def source_of_fva3a() -> str:
-    """Return the key of a source that the built-in oil names."""
+    """Return the built-in oil's source key."""
     from lambda_db.built import BUILT_IN
     from lambda_db.seed_files import read_path
 

@@ -48,7 +48,10 @@ def wait_for_life(path: Path, process: Started) -> None:
 
 
 def wait_for_standstill(path: Path, process: Started) -> None:
-    """Wait until the process works for a second of the processor without a new sample: it is in a law for good."""
+    """Wait for a standstill.
+
+    The process works for a second of the processor without a new sample: it is in a law for good.
+    """
     samples, begun = -1, 0.0
     while process.poll() is None and time_of(process.pid) - begun < 1.0:
         time.sleep(0.05)
@@ -75,7 +78,10 @@ def test_c2_4_a_signal_is_answered_within_a_record(number: int, warm: Warm, tmp_
 
 
 def ended(process: Started) -> None:
-    """Wait for the end; what does not come to one is killed."""
+    """Wait for the end or kill.
+
+    A process that does not end is killed.
+    """
     code = process.wait(PATIENCE)
     if code is None:
         process.kill()
@@ -83,13 +89,16 @@ def ended(process: Started) -> None:
 
 
 def children(pid: int) -> list[int]:
-    """Return the processes that a process has started and that still run."""
+    """Return a process's running children."""
     found = Path(f"/proc/{pid}/task/{pid}/children").read_text(encoding="ascii").split()
     return [int(child) for child in found]
 
 
 def is_alive(pid: int) -> bool:
-    """Tell whether a process runs; nobody waits for one that lost its parent, where nothing reaps."""
+    """Tell whether a process runs.
+
+    Nobody waits for one that lost its parent, where nothing reaps.
+    """
     try:
         return Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[0] != "Z"
     except OSError:

@@ -10,7 +10,10 @@ from lambda_core.views.chart import ViewData
 
 
 def boxes(figure: Any) -> dict[str, Any]:
-    """Return where titles, labels and legends of every panel are, and the lines around the panels."""
+    """Return the boxes of texts and panels.
+
+    Titles, labels and legends of every panel, and the lines around the panels.
+    """
     found = {f"text {text.get_text()!r}": text.get_window_extent() for text in figure.texts}
     for number, axes in enumerate(figure.axes):
         parts = {"title": axes._left_title, "x": axes.xaxis.label, "y": axes.yaxis.label, "legend": axes.get_legend()}
@@ -21,7 +24,10 @@ def boxes(figure: Any) -> dict[str, Any]:
 
 
 def collisions(figure: Any) -> list[str]:
-    """Draw a figure; return the pairs of texts that lie on each other by more than a pixel."""
+    """Draw a figure, return overlapping texts.
+
+    Pairs that overlap by more than a pixel.
+    """
     figure.canvas.draw()
     clashes = []
     for (one, a), (other, b) in combinations(boxes(figure).items(), 2):

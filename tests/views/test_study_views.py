@@ -27,7 +27,10 @@ def torque(speed: float, load: float) -> float:
 
 
 def table(failed: tuple[int, ...] = (), design: str = "crossed", **more: Column) -> StudyTable:
-    """Return a crossed study of speed and load whose points `failed` have no result."""
+    """Return a study with failed points.
+
+    Of speed and load, crossed; points `failed` have no result.
+    """
     pairs = [(speed, load) for speed in SPEEDS for load in LOADS]
 
     def column(name: str, unit: str, label: str, values: list[float]) -> Column:
@@ -85,7 +88,10 @@ def test_a_map_is_the_table_on_a_mesh() -> None:
 
 
 def with_a_third(design: str) -> StudyTable:
-    """Return the study with an oil temperature that goes up and down from point to point."""
+    """Return the study with oil temperatures.
+
+    They go up and down from point to point.
+    """
     oil = Column("lubricant.temperature", "degC", "oil temperature", tuple(40.0 + 30.0 * (i % 2) for i in range(12)))
     return StudyTable(**{**vars(table()), "parameters": (*table().parameters, oil), "design": design})
 

@@ -15,7 +15,10 @@ class Whirl(Parameters):
 
 
 def whirls(samples, parameters, model):
-    """Tell at which samples the cage's centre is farther from the inner ring's axis than it may be."""
+    """Mark the samples of cage whirl.
+
+    The cage's centre is farther from the inner ring's axis than it may be.
+    """
     inner, cage = samples["body_position"][:, 0, 1:], samples["body_position"][:, 2, 1:]
     limit = 0.5 * parameters.share * model["cage"]["pocket_clearance"]
     return np.hypot(*(cage - inner).T) > limit

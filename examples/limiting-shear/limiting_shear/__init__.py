@@ -30,7 +30,10 @@ class LimitingShear(Parameters):
     validity="viscous shear of the film; limiting stress linear in pressure, the same at every temperature",
 )
 def gecim_winer(slip, p, T, ln_eta, h, par, tau):
-    """Shear stress of a film, tau = tau_L tanh(eta gamma_dot/tau_L), gamma_dot = v/h."""
+    """Shear stress of a film with limit.
+
+    tau = tau_L tanh(eta gamma_dot/tau_L), gamma_dot = v/h.
+    """
     for i in range(tau.size):
         limit = par.ambient + par.slope * p[i]
         newtonian = math.exp(min(ln_eta[i], 60.0)) * slip[i] / max(h[i], 1e-10)

@@ -38,7 +38,10 @@ def prepare(parameters: Machine, context: Context) -> Pull:
     prepare=prepare,
 )
 def magnetic_pull(t, place, tilt, v_rel, omega_rel, par, out):
-    """Radial force along the eccentricity, F = pi R L B^2 e/(2 mu_0 g)."""
+    """Radial magnetic force along the eccentricity.
+
+    F = pi R L B^2 e/(2 mu_0 g).
+    """
     for i in range(6):
         out[i] = 0.0
     out[1] = par.slope * place[1]

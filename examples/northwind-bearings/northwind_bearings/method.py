@@ -7,7 +7,10 @@ USUAL_CLEARANCE = 5.0  # rounded up for the clearance that bearings have
 
 
 def stribeck(inputs: MethodInputs) -> MethodTable:
-    """Largest ball load of a radially loaded bearing, Q_max = 4.37 F_r/Z, and 5 F_r/Z with clearance."""
+    """Compute the largest ball load after Stribeck.
+
+    Radial load, Q_max = 4.37 F_r/Z, and 5 F_r/Z with clearance.
+    """
     if inputs.radial_load <= 0.0:
         raise NotApplicable("Stribeck's number is for a radial load")
     if inputs.axial_load > 0.1 * inputs.radial_load:

@@ -17,7 +17,9 @@ class ShareOptions(Options):
 
 
 def load_share(run: RunData, options: ShareOptions) -> ViewData:
-    """Largest ball load times the number of balls over the radial load that the balls carry.
+    """Relative largest ball load.
+
+    Times the number of balls over the radial load that the balls carry.
 
     The radial load is the sum of the contact forces at the inner ring in the plane of the balls.
     """

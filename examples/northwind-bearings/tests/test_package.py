@@ -36,7 +36,10 @@ def test_method_says_where_it_does_not_apply():
 
 
 def ring_of_balls(loads):
-    """Return a run with two equal samples of balls evenly around the bearing, contact angle zero."""
+    """Return a run of two equal samples.
+
+    Balls are evenly around the bearing, contact angle zero.
+    """
     count = len(loads)
     azimuth = 2.0 * np.pi * np.arange(count) / count
     pairs = np.stack([loads, loads], axis=1)

@@ -15,7 +15,10 @@ class Pulse(Parameters):
 
 @law("time_function", "half-sine", Pulse, role_api=3, reference="IEC 60068-2-27, half-sine pulse")
 def half_sine(t, par, out):
-    """f = sin(pi (t - t_0)/D) while the shock lasts, with its two derivatives."""
+    """Half sine of a shock.
+
+    f = sin(pi (t - t_0)/D) while the shock lasts, with its two derivatives.
+    """
     turning, since = pi / par.duration, t - par.start
     on = 1.0 if 0.0 < since < par.duration else 0.0
     out[0] = on * sin(turning * since)

@@ -28,7 +28,10 @@ class Archard(Parameters):
 
 
 def wear(samples, parameters, model):
-    """Return dV/dt = K W |v|/H with the load W that asperities carry and the slip v at the contact's centre."""
+    """Return the wear rate.
+
+    dV/dt = K W |v|/H with the load W that asperities carry and the slip v at the contact's centre.
+    """
     touching = samples["asperity_share"] * samples["load"]
     return {"wear_rate": parameters.coefficient * touching * np.abs(samples["slip"]) / parameters.hardness}
 

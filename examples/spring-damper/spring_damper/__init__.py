@@ -13,7 +13,10 @@ class Support(Parameters):
 
 @law("force_element", "spring-damper", Support, role_api=3, reference="Duffing's spring k r + k_3 r^3, Kelvin-Voigt")
 def spring_damper(t, place, tilt, v_rel, omega_rel, par, out):
-    """F = -(k + k_3 r^2) r - c v, against displacement and velocity, without a couple."""
+    """Spring with damper and cubic stiffness.
+
+    F = -(k + k_3 r^2) r - c v, against displacement and velocity, without a couple.
+    """
     square = place[0] * place[0] + place[1] * place[1] + place[2] * place[2]
     for i in range(3):
         out[i] = -(par.stiffness + par.hardening * square) * place[i] - par.damping * v_rel[i]

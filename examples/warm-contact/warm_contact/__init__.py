@@ -25,7 +25,10 @@ WARM = State("contact_temperature", "K", "temperature of each raceway contact", 
 
 @law("contact_state", "warm", Body, role_api=3, reference="own work: heat of one lump", states=(WARM,))
 def warm(t, load, semi_a, semi_b, p_max, u_mean, u_slide, spin, h, Lambda, psi, power, T_film, T_in, par, out):
-    """C dT/dt = P - G (T - T_oil)."""
+    """Heat balance of a contact.
+
+    C dT/dt = P - G (T - T_oil).
+    """
     out[0] = (power - par.conductance * (par.contact_temperature - T_in)) / par.capacity
     return OK
 
@@ -43,7 +46,10 @@ def prepare(parameters: EYRING.parameters, context: Context) -> Film:
 @law("traction", "warm-eyring", EYRING.parameters, role_api=3, reference=EYRING.reference, prepare=prepare,
      reads={"contact_temperature": 350.0})  # fmt: skip
 def warm_eyring(slip, p, T, ln_eta, h, par, tau):
-    """Ree and Eyring's film, its viscosity lower by exp(-beta (T - T_oil))."""
+    """Film of Ree and Eyring, warmed.
+
+    Its viscosity is lower by exp(-beta (T - T_oil)).
+    """
     thinner = par.beta * (par.contact_temperature - par.inlet)
     for i in range(tau.size):
         tau[i] = ln_eta[i] - thinner

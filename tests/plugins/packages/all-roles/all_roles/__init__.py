@@ -188,7 +188,10 @@ def capacitance(C_hertz, h, semi_a, semi_b, R_x, R_y, U, G, W, eps_r0, par, out)
 
 @law("surface", "own", role_api=3, reference="own work")
 def surface(azimuth, contact_angle, par, out):
-    """Both raceways a micrometre higher all around: another clearance."""
+    """Write raceways a micrometre higher.
+
+    Both, all around: another clearance.
+    """
     out[0] = 1e-6
     out[1] = 0.0
     out[2] = 0.0
@@ -197,14 +200,17 @@ def surface(azimuth, contact_angle, par, out):
 
 @law("breakdown", "own", role_api=3, reference="own work")
 def breakdown(h, h_min, sigma, area, u_1, u_2, par, out):
-    """Every film stands 4 V."""
+    """Write a breakdown voltage of 4 V."""
     out[0] = 4.0
     return OK
 
 
 @law("discharge", "own", role_api=3, reference="own work")
 def discharge(V, h, area, par, out):
-    """Arcs of 7 Ohm times the voltage that they begin at, in volts."""
+    """Write arcs of a given resistance.
+
+    7 Ohm times the voltage that they begin at, in volts.
+    """
     out[0] = 7.0 * V
     out[1] = 0.0
     out[2] = 1e-3
