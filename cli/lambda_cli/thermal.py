@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import JsonOption, OverlayOption, SetOption, Units, UnitsOption
+from lambda_cli.options import BandOption, Bands, JsonOption, OverlayOption, SetOption, Units, UnitsOption
 from lambda_cli.pictures import check_overlay
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.files import check_folder
@@ -28,6 +28,7 @@ def thermal(
         Path | None, typer.Option("--draw", metavar="DIR", help="Also write pictures (svg and png) into this folder.")
     ] = None,
     measured: OverlayOption = None,
+    band: BandOption = Bands.MODEL,
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
@@ -53,7 +54,7 @@ def thermal(
         course = None
         if transient is not None:
             course = api.warm_up(source, _seconds(transient), changes or (), announce=speaker.say)
-        found = course or api.thermal(source, changes or (), announce=speaker.say)
+        found = course or api.thermal(source, changes or (), band=band is Bands.MODEL, announce=speaker.say)
         views = api.thermal_pictures(found)
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))
     if draw is not None:

@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lambda_core.analysis.band.effects import Effects
 from lambda_core.analysis.band.graded import Graded, given_range, varied
-from lambda_core.analysis.band.model_band import Effects
+from lambda_core.analysis.band.model_band import deviations
 from lambda_core.analysis.band.quantities import CONDITIONS, TEMPERATURES, Condition, Measured
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.units import from_si, parse
 from lambda_core.domain.written_values import Scale, scale_of
-from lambda_core.fitting.subjects import law_deviations, vocabulary
+from lambda_core.fitting.subjects import vocabulary
 from lambda_core.studies.job import point_model, with_temperatures
 
 if TYPE_CHECKING:
@@ -188,7 +189,7 @@ class MachineSubject:
             local = [path.removeprefix(prefix) for path in own]
             without = [*local, *(f"bearing.{path}" for path in local)]
             effects = Effects(alone_under_load(point.model, point.state, number), kinds, without=without)
-            sizes |= {(one.name, kind): size for kind, size in law_deviations(effects).items()}
+            sizes |= {(one.name, kind): size for kind, size in deviations(effects, kinds).items()}
         for name in names:
             owner, measured = self._readers[name]
             kind = next((kind for kind in _BANDED if name.endswith(kind)), "")

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from lambda_core.analysis.band.graded import Graded, varied
-from lambda_core.analysis.band.model_band import Effects
+from lambda_core.analysis.band.model_band import deviations, effects_alone
 from lambda_core.analysis.band.quantities import (
     CONDITIONS,
     MEASURED,
@@ -32,7 +32,6 @@ from lambda_core.studies.job import resolve_point, with_temperatures
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
-    from lambda_core.analysis.band.roller_band import RollerEffects
     from lambda_core.case.case import Case
     from lambda_core.case.case_io import Source
 
@@ -110,9 +109,8 @@ class BearingSubject:
 
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
         """Return the relative standard deviation of each quantity."""
-        return law_deviations(
-            Effects(with_temperatures(resolve_point(self._toml, tuple(changes))), names, without=fitted)
-        )
+        model = with_temperatures(resolve_point(self._toml, tuple(changes)))
+        return deviations(effects_alone(model, names, fitted), names, model.found_temperatures)
 
 
 class RollerSubject(BearingSubject):
@@ -144,27 +142,6 @@ class RollerSubject(BearingSubject):
         model = roller_model(apply_overrides(self._case, (*changes, *moved)))
         assert model is not None
         return roller_values(model, names)[np.newaxis]
-
-    def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
-        """Return each quantity's relative standard deviation.
-
-        Of those that the ranges move.
-        """
-        from lambda_core.analysis.band.roller_band import RollerEffects
-        from lambda_core.case.case_io import apply_overrides
-        from lambda_core.model.checking import resolve
-        from lambda_core.model.roller_case import roller_model
-
-        case = apply_overrides(self._case, changes)
-        rollers = roller_model(case)
-        assert rollers is not None
-        return law_deviations(RollerEffects(resolve(case, is_static=True), rollers, names, without=fitted))
-
-
-def law_deviations(effects: Effects | RollerEffects) -> dict[str, float]:
-    """Return the relative standard deviation of results by all effects."""
-    variances = sum((effect.variance for effect in effects.all()), np.zeros(len(effects.names)))
-    return dict(zip(effects.names, np.sqrt(variances).tolist(), strict=True))
 
 
 def vocabulary(

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from lambda_core.case.requirements import Requirements
 from lambda_core.domain.elements import SPIN
@@ -266,6 +266,8 @@ class BearingModel:
         Settings.
     thermal : Thermal or None
         The network by which the temperatures are still to be found, before anything runs; None: they are given.
+    found_temperatures : object
+        How the temperatures of the case answer to changes, where its network found them; None: they are given.
     mounting : Mounting or None
         What the clearance follows from as the temperatures change.
     contradictions : tuple of str
@@ -324,6 +326,7 @@ class BearingModel:
     contamination: float | None = None  # e_C of ISO 281; None: not given
     requirements: Requirements = field(default_factory=Requirements)
     rollers: RollerBearing | None = None
+    found_temperatures: Any = field(default=None, compare=False, repr=False)
 
     @property
     def elements(self) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.formulas.elastic.body import ElasticBody
@@ -229,6 +229,8 @@ class MachineModel:
         The thermal network.
     awaits_temperatures : bool
         Whether they are to be computed before anything else.
+    found_temperatures : object
+        How the temperatures of the case answer to changes, where its network found them; None: they are given.
     warnings : tuple of str
         What cannot stand on the shaft as it is drawn.
     """
@@ -264,6 +266,7 @@ class MachineModel:
     part_loads: Mapping[BearingPart, tuple[TimeFunction, ...]] = field(default_factory=dict)
     housing_damping: FloatArray | None = None
     awaits_temperatures: bool = False
+    found_temperatures: Any = field(default=None, compare=False, repr=False)
     warnings: tuple[str, ...] = ()
     electric: ElectricModel | None = None  # circuit of shaft and frame
     case_toml: str = ""  # the case, complete: it runs again as it stands

@@ -323,7 +323,7 @@ def case_hash(model: BearingModel) -> str:
     title, sources and assumptions are left out: two cases that mean the same run share one.
     """
     silent = {"name", "title", "values", "assumptions", "contradictions", "case_toml", "plugins"}
-    silent |= {"contamination", "requirements"}  # of ratings
+    silent |= {"contamination", "requirements", "found_temperatures"}  # of ratings and bands
     if model.thermal is None:
         silent |= {"thermal", "mounting"}
     if model.electric is None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from lambda_core.domain.number_text import NONE, rounded
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.results.model_band import LEAST_SHARE, NARROW, ModelBand
+from lambda_core.results.model_band import LEAST_SHARE, NARROW, TEMPERATURES, ModelBand
 
 
 def banded(value: float | None, ends: Sequence[float], unit: str, plain: str, units: UnitSystem = SI) -> str:
@@ -50,16 +50,27 @@ def ends(found: Sequence[float], unit: str, units: UnitSystem = SI, *, named: bo
     return f"{text} {units.unit(unit)}" if named else text
 
 
-def named_sources(bands: Mapping[str, ModelBand | None]) -> list[str]:
+def named_sources(bands: Mapping[str, ModelBand | None], units: UnitSystem = SI) -> list[str]:
     """Return the sources of a machine's bands.
 
-    Those of the torque only.
+    Those of the torque only, and computed temperatures.
     """
     found = []
     for name, band in bands.items():
         torque = [one for one in band.bands if one.quantity == "friction torque"] if band is not None else []
         found += [f"{name}: friction torque mostly {one.mostly()}" for one in torque if one.mostly()]
+        found += [f"{name}: {text}" for text in (temperature_text(band, units),) if text]
     return found
+
+
+def temperature_text(band: ModelBand | None, units: UnitSystem = SI) -> str:
+    """Return computed temperatures with their bands.
+
+    Empty where they are given.
+    """
+    known = [one for one in (band.bands if band is not None else ()) if one.quantity in TEMPERATURES]
+    texts = [banded(one.value, (one.low, one.high), "degC", units.text(one.value, "degC", 1), units) for one in known]
+    return ", ".join(f"{TEMPERATURES[one.quantity]} {text}" for one, text in zip(known, texts, strict=True))
 
 
 def source_lines(band: ModelBand | None) -> list[str]:

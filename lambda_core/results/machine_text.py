@@ -77,7 +77,7 @@ def _band_lines(found: Summary, units: UnitSystem) -> list[str]:
     """
     if not found.friction_torque_Nmm_band:
         return []
-    sources = named_sources({name: one.model_band for name, one in found.bearings.items()})
+    sources = named_sources({name: one.model_band for name, one in found.bearings.items()}, units)
     both = f"{ends(found.friction_torque_Nmm_band, 'N mm', units, named=True)} of all bearings (90 %)"
     return [line("" if i else "model band", text) for i, text in enumerate([both, *sources])]
 

@@ -20,12 +20,23 @@ FIELDS = {
     "maximum pressure": "max_pressure_GPa",
     "capacitance": "bearing_capacitance_nF",
     "rating life": "reference_life_h",
+    "oil temperature": "oil_temperature_degC",
+    "inner ring temperature": "inner_ring_temperature_degC",
+    "outer ring temperature": "outer_ring_temperature_degC",
 }
+# Quantity -> what it is a temperature of; they have bands where they are computed.
+TEMPERATURES = {name: name.removesuffix(" temperature") for name in FIELDS if name.endswith("temperature")}
 QUANTITIES = tuple(FIELDS)
 _ENDS = "ends of the 90 % model band; empty without one"
+_COMPUTED = "ends of the 90 % model band of a computed temperature; empty where it is given"
 _NAMED = 3  # largest contributors
 LEAST_SHARE = 0.5  # [%] below it a band is not worth its causes
 NARROW = f"within {LEAST_SHARE:g} %"
+
+
+def temperature_of(node: str) -> str:
+    """Return the quantity of a thermal node's temperature."""
+    return f"{node.replace('_', ' ')} temperature"
 
 
 class Contributor(Record):
@@ -58,6 +69,8 @@ class Band(Record):
 
         It is the result of a run, say: they lie as far off in proportion.
         """
+        if value == self.value:
+            return [self.low, self.high]
         if not self.value:
             return [value, value]
         return [value * self.low / self.value, value * self.high / self.value]
@@ -113,17 +126,20 @@ class ModelBand(Record):
         return found
 
     def shares(self) -> list[str]:
-        """Return the uncertainty of each result [%].
+        """Return the uncertainty of each result.
 
-        A line each.
+        A line each, in % or K.
         """
         found = []
         for band in self.bands:
+            why = f"   mostly {band.mostly()}" if band.contributors else ""
+            if band.quantity in TEMPERATURES:
+                found.append(f"{band.quantity} {band.low - band.value:+.1f} .. {band.high - band.value:+.1f} K{why}")
+                continue
             low, high = (100.0 * (end / band.value - 1.0) for end in (band.low, band.high))
             if max(abs(low), abs(high)) < LEAST_SHARE:
                 found.append(f"{band.quantity} {NARROW}")
                 continue
-            why = f"   mostly {band.mostly()}" if band.contributors else ""
             found.append(f"{band.quantity} {low:+.0f} .. {high:+.0f} %{why}")
         return found
 
@@ -145,6 +161,9 @@ class Banded(Record):
     max_pressure_GPa_band: list[float] = Field(description=_ENDS, default=[])
     bearing_capacitance_nF_band: list[float] = Field(description=_ENDS, default=[])
     reference_life_h_band: list[float] = Field(description=_ENDS, default=[])
+    oil_temperature_degC_band: list[float] = Field(description=_COMPUTED, default=[])
+    inner_ring_temperature_degC_band: list[float] = Field(description=_COMPUTED, default=[])
+    outer_ring_temperature_degC_band: list[float] = Field(description=_COMPUTED, default=[])
     model_band: ModelBand | None = Field(
         description="where the bands come from, quasi-static; null without them", default=None
     )

@@ -37,7 +37,7 @@ _LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "pydantic")
 # Of the model these stand in datasets of their own, or follow from the case and are part of the geometry.
 _APART = (
     "values", "assumptions", "case_toml", "plugins", "mounting", "thermal", "contradictions",
-    "contamination", "requirements",
+    "contamination", "requirements", "found_temperatures",
 )  # fmt: skip
 
 
@@ -197,6 +197,7 @@ def machine_data(model: MachineModel) -> dict[str, Any]:
         "warnings",
         "heat",
         "awaits_temperatures",
+        "found_temperatures",
     )  # they are found before
     found = {field.name: plain(getattr(model, field.name)) for field in fields(model) if field.name not in apart}
     seats = {one.name: {**vars(one), "model": one.name} for one in model.bearings}

@@ -446,7 +446,7 @@ def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str
             f"axial limit {units.text(found.axial_limit_N, 'N', 0)}" if found.axial_limit_N is not None else "",
         ),
         *_table(found, units),
-        *band_lines(found.model_band),
+        *band_lines(found.model_band, units),
         *warning_lines([units.sentence(warning) for warning in found.warnings], width),
         line("assumed", f"{len(found.assumptions)} things: --json lists them"),
     ]

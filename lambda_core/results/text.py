@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.number_text import NONE, hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
-from lambda_core.results.band_text import banded, ends, source_lines
+from lambda_core.results.band_text import banded, ends, source_lines, temperature_text
 from lambda_core.results.quantity import quantities, remaining, shown
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *watched_lines(summary),
         *(line("failed" if index == 0 else "", fault) for index, fault in enumerate(summary.plugin_faults)),
         *([line("shoulders", *(_margin(edge, units) for edge in summary.shoulders))] if summary.shoulders else []),
-        *band_lines(summary.model_band),
+        *band_lines(summary.model_band, units),
         line("energy residual", f"{shown(summary, 'energy_residual')} of input", _iteration(summary)),
         *([line("vibrations", summary.vibrations.sentence())] if summary.vibrations else []),
         line("wall time", *_wall(summary)),
@@ -132,9 +132,13 @@ def _torque_lines(summary: Summary, plain: Sequence[str], units: UnitSystem) -> 
     ]
 
 
-def band_lines(band: ModelBand | None) -> list[str]:
-    """Return what the model bands come from."""
-    return [line("" if i else "model band", text) for i, text in enumerate(source_lines(band))]
+def band_lines(band: ModelBand | None, units: UnitSystem = SI) -> list[str]:
+    """Return computed temperatures and sources of bands."""
+    temperatures = temperature_text(band, units)
+    return [
+        *([line("temperatures", temperatures)] if temperatures else []),
+        *(line("" if i else "model band", text) for i, text in enumerate(source_lines(band))),
+    ]
 
 
 def _iteration(summary: Summary) -> str:
@@ -310,7 +314,7 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
         line("shoulders", *(_margin(edge, units) for edge in found.shoulders)),
         *([line("capacitance", found.capacitance_note)] if found.capacitance_note else []),
         *other_lines(found, units),
-        *band_lines(found.model_band),
+        *band_lines(found.model_band, units),
         *table,
         *warning_lines([units.sentence(warning) for warning in found.warnings], width),
         *assumption_lines(found.assumptions),

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from lambda_core.analysis.thermal.temperatures import ready_model
-from lambda_core.case.case_io import is_machine, refuse_bearing
+from lambda_core.case.case_io import is_machine, load_case, parse_case, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError
 from lambda_core.model.api import check
@@ -73,7 +73,7 @@ def quasistatic(
         machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
         with naming_laws(*(bearing.model for bearing in machine.bearings)):
             return machine_equilibrium(machine, band=band, announce=announce)
-    rollers = _roller_answer(source, overrides, band=band)
+    rollers = _roller_answer(source, overrides, announce, band=band)
     if rollers is not None:
         return rollers
     from lambda_core.analysis.rating.engineering import rating_of
@@ -87,12 +87,14 @@ def quasistatic(
         answer = quasistatic_of(found, rating_of(found, registry().methods))
         if not band:
             return answer
-        from lambda_core.analysis.band.model_band import band_of
+        from lambda_core.analysis.band.model_band import band_alone
 
-        return answer.with_band(band_of(model))
+        return answer.with_band(band_alone(model))
 
 
-def _roller_answer(source: Any, overrides: Iterable[str], *, band: bool) -> RollerQuasiStatic | None:
+def _roller_answer(
+    source: Any, overrides: Iterable[str], announce: Callable[[str], None] | None, *, band: bool
+) -> RollerQuasiStatic | None:
     """Return the answer of a roller bearing.
 
     None where the source is no case of one.
@@ -105,14 +107,20 @@ def _roller_answer(source: Any, overrides: Iterable[str], *, band: bool) -> Roll
 
     if isinstance(source, BearingModel):
         return None
-    model = roller_model(source, overrides)
-    answer = None if model is None else roller_quasistatic(model)
-    if model is None or answer is None or not band:
+    model, warm = roller_model(source, overrides), None
+    if model is None:
+        return None
+    if load_case(source, overrides).operation.temperatures == "computed":
+        warm = ready_model(source, overrides, announce, is_static=True)
+        model = roller_model(parse_case(warm.case_toml, warm.name))
+        assert model is not None
+    answer = roller_quasistatic(model)
+    if not band:
         return answer
     from lambda_core.analysis.band.model_band import band_alone
 
     try:
-        return answer.with_band(band_alone(ready_model(source, overrides, is_static=True)))
+        return answer.with_band(band_alone(warm or ready_model(source, overrides, is_static=True)))
     except CaseError:
         return answer
 

@@ -13,6 +13,7 @@ from functools import cache, partial
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.case.option import quantity_of
 from lambda_core.domain.elements import RIBS
 from lambda_core.domain.errors import UsageError, nearest
 from lambda_core.domain.units import UNITS, from_si, parse
@@ -20,6 +21,7 @@ from lambda_core.domain.written_values import Scale, scale_of
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
+    from lambda_core.case.thermal import Thermal
     from lambda_core.model.bearing_model import BearingModel
 
 _FILE = "graded_ranges.toml"
@@ -99,6 +101,67 @@ class Exchange:
     role: str
     laws: tuple[str, ...]
     source: str
+
+
+@dataclass(frozen=True)
+class NetworkRange:
+    """A range of an option of the thermal network.
+
+    Or published sets in its place.
+
+    Attributes
+    ----------
+    option : str
+        Of the section `thermal`.
+    ends : tuple
+        Both ends of the range in SI, shares of the value that is filled in, or the other sets.
+    source : str
+        Where they come from.
+    is_range, is_share : bool
+        Whether the ends are those of a range, and whether they are shares.
+    """
+
+    option: str
+    ends: tuple[float | str, ...]
+    source: str
+    is_range: bool = True
+    is_share: bool = False
+
+    def values(self, usual: float) -> list[float | str]:
+        """Return the values of the option.
+
+        Shares are those of the value that is filled in.
+        """
+        return [end * usual if self.is_share and not isinstance(end, str) else end for end in self.ends]
+
+
+def network_ranges(section: Thermal) -> list[NetworkRange]:
+    """Return the ranges of a thermal network.
+
+    Of options that its section leaves open, and the sets that may replace its own.
+    """
+    found: list[NetworkRange] = []
+    if section.conductances not in _with_housing():
+        return found
+    for row in _data()["network"]:
+        option, source = row["option"], row["source"]
+        if option in section.model_fields_set or (option == "emissivity" and section.conductances != "harris"):
+            continue
+        if "low_share" in row:
+            found.append(NetworkRange(option, (row["low_share"], row["high_share"]), source, is_share=True))
+            continue
+        quantity = quantity_of(type(section), option)
+        ends = tuple(parse(row[end], quantity) if quantity else float(row[end]) for end in ("low", "high"))
+        found.append(NetworkRange(option, ends, source))
+    for row in _data()["network_exchange"]:
+        others = tuple(name for name in row["sets"] if name != section.conductances)
+        found.append(NetworkRange(row["option"], others, row["source"], is_range=False))
+    return found
+
+
+def _with_housing() -> list[str]:
+    """Return the sets of conductances that know a housing."""
+    return [name for row in _data()["network_exchange"] for name in row["sets"]]
 
 
 @cache

@@ -9,16 +9,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lambda_core.analysis.band.effects import SEEN_STEPS, Effect, range_effect
 from lambda_core.analysis.band.graded import CLEARANCE, Graded, graded_parameters
-from lambda_core.analysis.band.model_band import Effect, band_around
-from lambda_core.analysis.band.readings import UNITS_OF
+from lambda_core.case.case_io import parse_case
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.errors import CaseError, SolverError
+from lambda_core.domain.errors import CaseError
 from lambda_core.domain.roles import ROLLER_FRICTION
 from lambda_core.domain.written_values import Scale
 from lambda_core.elements.roller.roller_positions import PLACES
 from lambda_core.model.roller_case import roller_model
-from lambda_core.results.model_band import COVERAGE, QUANTITIES, ModelBand
 from lambda_core.results.roller_quasistatic import (
     RollerQuasiStatic,
     roller_answer,
@@ -37,13 +36,13 @@ _CLASS = "limits of the clearance class (ISO 5753-1)"
 _KEPT = "laws of rollers are not exchanged"
 
 
-def roller_band(model: BearingModel, base: RollerModel, quantities: Sequence[str] = QUANTITIES) -> ModelBand:
-    """Return the 90 % band of a roller bearing.
+class RollerEffects:
+    """Effects of each range on a roller bearing.
 
-    It is the band of its quasi-static answer.
+    See :class:`~.effects.Effects`.
 
-    As :func:`model_band` for balls, with the same ranges: of temperature, clearance, roughness of ribs, and of the
-    parameters of laws that the answer knows. Each is changed at one place of the rollers; laws are not exchanged.
+    The ranges are those of balls: of temperature, clearance, roughness of ribs, and of the parameters of laws that the
+    answer knows. Each is changed at one place of the rollers; laws are not exchanged.
 
     Parameters
     ----------
@@ -52,30 +51,7 @@ def roller_band(model: BearingModel, base: RollerModel, quantities: Sequence[str
     base : RollerModel
         The bearing at its operating point, alone or taken out of a machine.
     quantities : sequence of str
-        As for :func:`model_band`; a capacitance is left out.
-    """
-    from lambda_core.case.case_io import parse_case
-
-    fit = parse_case(model.case_toml, model.name).fit
-    fitted = [row.path for row in fit.parameters] if fit is not None else []
-    found = RollerEffects(model, base, quantities, without=fitted)
-    found.left_out += [f"{path} is left out: it is fitted" for path in fitted]
-    effects, answer = list(found.all()), roller_answer(base, solve_rollers(base))
-    bands = [
-        band_around(name, UNITS_OF[name], i, _read(answer, name, base), effects) for i, name in enumerate(found.names)
-    ]
-    return ModelBand(case=base.name, coverage=COVERAGE, bands=bands, left_out=found.left_out)
-
-
-class RollerEffects:
-    """Effects of each range on a roller bearing.
-
-    See :class:`Effects`.
-
-    Parameters
-    ----------
-    model, base, quantities
-        As for :func:`roller_band`; results that the answer does not have are left out.
+        Results; those that the answer does not have are left out.
     without : collection of str
         Paths of parameters that are not varied.
     """
@@ -83,12 +59,33 @@ class RollerEffects:
     def __init__(
         self, model: BearingModel, base: RollerModel, quantities: Sequence[str], without: Iterable[str] = ()
     ) -> None:
-        self._model, self._base, self._without = model, base, set(without)
+        fit = parse_case(model.case_toml, model.name).fit
+        fitted = [row.path for row in fit.parameters] if fit is not None else []
+        self._model, self._base, self.case = model, base, base.name
+        self._without = {*without, *fitted}
         self._solved = solve_rollers(base, PLACES[:1])
         answer = roller_answer(base, self._solved)
         self.names = tuple(name for name in quantities if _exists(_read(answer, name, base)))
         self._values = np.array([_read(answer, name, base) for name in self.names])
-        self.left_out = [_KEPT]
+        self.left_out = [_KEPT, *(f"{path} is left out: it is fitted" for path in fitted)]
+
+    def values_at_all_positions(self) -> FloatArray:
+        """Return the results, averaged over all positions."""
+        answer = roller_answer(self._base, solve_rollers(self._base))
+        return np.array([_read(answer, name, self._base) for name in self.names])
+
+    def by_seen(self) -> FloatArray:
+        """Return slopes of the logarithms, shape (2, n).
+
+        By the temperature of the oil [1/K] and the clearance [1/m].
+        """
+        case, base = parse_case(self._model.case_toml, self._model.name), self._base
+        warmer = roller_model(case, (f"{_TEMPERATURE}={base.temperature + SEEN_STEPS[0]!r} K",))
+        assert warmer is not None
+        wider = replace(base.bearing, clearance=base.bearing.clearance + SEEN_STEPS[1])
+        moved = (replace(base, oil=warmer.oil), replace(base, bearing=wider))
+        changes = np.array([self._logarithms(one) for one in moved])
+        return np.asarray(changes / np.array(SEEN_STEPS)[:, np.newaxis])
 
     def all(self) -> Iterator[Effect]:
         """Yield the effects of all parameters.
@@ -98,12 +95,11 @@ class RollerEffects:
         for graded, ends in _changed(self._model, self._base, self.left_out):
             if graded.path in self._without:
                 continue
-            try:
-                alternatives = np.array([self._logarithms(one) for one in ends])
-            except SolverError as error:
-                self.left_out.append(f"{graded.short} is left out: {error}")
-                continue
-            yield Effect(graded.short, graded.source, alternatives, is_range=True)
+
+            def rows(ends: tuple[RollerModel, ...] = ends) -> list[FloatArray]:
+                return [self._logarithms(one) for one in ends]
+
+            yield from range_effect(graded, rows, self.left_out)
 
     def _logarithms(self, changed: RollerModel) -> FloatArray:
         """Return ln of relative results at one place.
@@ -123,8 +119,6 @@ def _changed(
 
     The answer depends on the parameter; the ends are those of its range.
     """
-    from lambda_core.case.case_io import parse_case
-
     case = parse_case(model.case_toml, model.name)
     written = roller_model(case)
     values = written.values if written is not None else ()

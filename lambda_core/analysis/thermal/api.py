@@ -13,6 +13,7 @@ from lambda_core.results.answer import answers
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from lambda_core.analysis.thermal.feedback import Steady
     from lambda_core.analysis.thermal.machine_temperature_report import MachineTemperatures, MachineTemperaturesOverTime
     from lambda_core.analysis.thermal.machine_temperatures import MachineLoop
     from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
@@ -28,6 +29,7 @@ def thermal(
     source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
+    band: bool = False,
     announce: Callable[[str], None] | None = None,
 ) -> SteadyTemperatures | MachineTemperatures:
     """Compute the steady temperatures of a bearing or machine.
@@ -39,6 +41,9 @@ def thermal(
         follows the temperatures. Or the result file of a run: the losses are its averages, the cage's among them.
     overrides : iterable of str
         Changes ``path=value`` of a case.
+    band : bool
+        Also compute the 90 % model band of each temperature, from ranges and published alternatives of conductances and
+        from what laws and parameters do to the losses. Of first order, with the loop of temperature and loss.
     announce : callable, optional
         Called with a sentence before something is compiled.
 
@@ -56,22 +61,31 @@ def thermal(
     SolverError
         When there are no steady temperatures: a runaway is named with the gain that caused it.
     """
-    if is_machine(source):
-        from lambda_core.analysis.thermal.machine_temperature_report import steady_of
-
-        loop = _loop(source, overrides, announce)
-        return steady_of(loop, loop.steady())
+    from lambda_core.analysis.band.model_band import temperature_band
     from lambda_core.analysis.thermal.temperatures import run_of, steady_temperatures
+
+    if is_machine(source):
+        loop = _loop(source, overrides, announce)
+        return _of_machine(loop, loop.steady(), "quasi-static points", band=band)
 
     run = run_of(source)
     if run is not None and listed(overrides, "overrides"):
         raise UsageError("the losses of a run accept no overrides: change its case and run it again")
     if run is not None and run.is_machine:
-        from lambda_core.analysis.thermal.machine_temperature_report import steady_of
         from lambda_core.analysis.thermal.machine_temperatures import of_run
 
-        return steady_of(*of_run(run, announce), f"averages of {run.path}")
-    return steady_temperatures(source, overrides, announce)  # type: ignore[arg-type]
+        return _of_machine(*of_run(run, announce), f"averages of {run.path}", band=band)
+    answer, warm = steady_temperatures(source, overrides, announce)  # type: ignore[arg-type]
+    return answer.with_band(temperature_band(warm())) if band else answer
+
+
+def _of_machine(loop: MachineLoop, found: Steady, origin: str, *, band: bool) -> MachineTemperatures:
+    from lambda_core.analysis.band.model_band import temperature_band
+    from lambda_core.analysis.thermal.machine_temperature_report import steady_of
+    from lambda_core.analysis.thermal.machine_temperatures import machine_at_temperatures
+
+    answer = steady_of(loop, found, origin)
+    return answer.with_band(temperature_band(machine_at_temperatures(loop, found))) if band else answer
 
 
 @answers

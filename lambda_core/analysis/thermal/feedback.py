@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,7 @@ from lambda_core.analysis.thermal.losses import Announce, Losses, Point
 from lambda_core.analysis.thermal.machine_network import MachineNetwork
 from lambda_core.analysis.thermal.network import Network
 from lambda_core.analysis.thermal.pillow_block import bearing_network
+from lambda_core.analysis.thermal.surroundings import housing_area
 from lambda_core.case.thermal import Thermal
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
@@ -76,13 +77,31 @@ class Runaway(SolverError):
 
 @dataclass(frozen=True)
 class Steady:
-    """Steady temperatures and everything that belongs to them."""
+    """Steady temperatures and everything that belongs to them.
 
-    temperatures: FloatArray  # of the nodes [K], shape (n,)
-    points: tuple[Point, ...]  # of each bearing
+    Attributes
+    ----------
+    temperatures : float64[:], shape (n,)
+        Of the nodes [K].
+    points : tuple of Point
+        Of each bearing.
+    network : Network
+        With the heat and the conductances there.
+    gain : Gain
+        Of the loop.
+    iterations : int
+        Of Newton's method.
+    outward, inward : float64[:, :], shapes (n, m) and (m, n)
+        d(temperatures)/d(seen) and d(seen)/d(temperatures), see :meth:`Loop.slopes`.
+    """
+
+    temperatures: FloatArray
+    points: tuple[Point, ...]
     network: Network
     gain: Gain
     iterations: int
+    outward: FloatArray
+    inward: FloatArray
 
 
 def clearance_at(model: BearingModel, at: Mapping[str, float]) -> float:
@@ -142,10 +161,26 @@ class Loop(ABC):
     def count(self) -> int:
         """Quasi-static points that were solved."""
 
-    def answer(self, points: Sequence[Point], temperatures: FloatArray) -> tuple[FloatArray, Network]:
+    @abstractmethod
+    def nodes_with(self, change: Callable[[Thermal], Thermal]) -> MachineNetwork:
+        """Return the network with a changed section of the case."""
+
+    @property
+    @abstractmethod
+    def usual_area(self) -> float:
+        """Outer surface of a usual housing [m2]."""
+
+    def answer(
+        self, points: Sequence[Point], temperatures: FloatArray, nodes: MachineNetwork | None = None
+    ) -> tuple[FloatArray, Network]:
         """Return the steady temperatures under given losses.
 
         Under the losses of points, from a first guess, with their network.
+
+        Parameters
+        ----------
+        nodes : MachineNetwork, optional
+            Other conductances than those of the loop.
 
         Raises
         ------
@@ -153,7 +188,7 @@ class Loop(ABC):
             When the conductances to the surroundings do not settle.
         """
         for completed in range(_NETWORK_ROUNDS):
-            network = self.nodes.network(points, temperatures)
+            network = (nodes or self.nodes).network(points, temperatures)
             found = network.steady()
             change = float(np.abs(found - temperatures).max())
             if completed >= _UNDAMPED:
@@ -235,7 +270,7 @@ class Loop(ABC):
             if np.abs(residual).max() < _TOLERANCE:
                 if gain.loop >= 1.0:
                     raise self._runaway(gain, "the only steady state that was found is unstable")
-                return Steady(found, points, network, gain, iteration)
+                return Steady(found, points, network, gain, iteration, outward, inward)
             step = residual if gain.loop >= 1.0 else np.linalg.solve(np.eye(found.size) - outward @ inward, residual)
             temperatures = temperatures + step * min(1.0, _LONGEST / np.abs(step).max())
             free = np.isnan(self.nodes.held)
@@ -281,6 +316,15 @@ class BearingLoop(Loop):
     def __init__(self, model: BearingModel, thermal: Thermal, announce: Announce = None) -> None:
         super().__init__(model.name, bearing_network(model, thermal), thermal, model.oil.temperature)
         self.model, self.losses = model, Losses(model, announce)
+
+    def nodes_with(self, change: Callable[[Thermal], Thermal]) -> MachineNetwork:
+        """Return the network with a changed section of the case."""
+        return bearing_network(self.model, change(self.thermal))
+
+    @property
+    def usual_area(self) -> float:
+        """Outer surface of a usual housing [m2]."""
+        return housing_area(self.model.geometry.outside_diameter)
 
     def seen(self, temperatures: FloatArray) -> FloatArray:
         """Return inlet temperature [K] and clearance [m]."""

@@ -131,13 +131,17 @@ class Losses:
 
         The temperature is that of the inlet.
         """
-        model = self.model
-        return dataclasses.replace(
-            model,
-            geometry=with_clearance(model.geometry, clearance),
-            rollers=model.rollers and rollers_with_clearance(model.rollers, clearance),
-            oil=dataclasses.replace(model.oil, temperature=inlet),
-        )
+        return model_at(self.model, inlet, clearance)
+
+
+def model_at(model: BearingModel, inlet: float, clearance: float) -> BearingModel:
+    """Return a model at an inlet temperature [K] and a clearance [m]."""
+    return dataclasses.replace(
+        model,
+        geometry=with_clearance(model.geometry, clearance),
+        rollers=model.rollers and rollers_with_clearance(model.rollers, clearance),
+        oil=dataclasses.replace(model.oil, temperature=inlet),
+    )
 
 
 def point_of(found: Equilibrium) -> Point:

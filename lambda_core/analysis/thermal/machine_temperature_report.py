@@ -11,12 +11,22 @@ from pydantic import Field
 from lambda_core.analysis.thermal.feedback import Steady
 from lambda_core.analysis.thermal.losses import Point
 from lambda_core.analysis.thermal.machine_temperatures import MachineLoop
-from lambda_core.analysis.thermal.report import HeatFlow, LoopGain, State, flows_of, in_watts, reason_of, state_of
+from lambda_core.analysis.thermal.report import (
+    HeatFlow,
+    LoopGain,
+    State,
+    banded_temperatures,
+    flows_of,
+    in_watts,
+    reason_of,
+    state_of,
+)
 from lambda_core.analysis.thermal.transient import Course, rise_time
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.model.geometry.resolve_clearance import CLEARANCE_HOLDS
 from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
+from lambda_core.results.model_band import ModelBand
 from lambda_core.results.record import INTERFACE, Record
 
 _ZERO_CELSIUS = 273.15
@@ -66,6 +76,10 @@ class MachineTemperatures(Answer):
     losses_from: str = Field(description="quasi-static points, or the averages of a run")
     conductances: str = Field(description="ready set")
     temperatures_degC: dict[str, float] = Field(description="by node")
+    temperatures_degC_band: dict[str, list[float]] = Field(
+        description="ends of the 90 % model band by node; empty without one", default={}
+    )
+    model_band: ModelBand | None = Field(description="where the bands come from; null without them", default=None)
     heat_W: dict[str, float] = Field(description="put in at each node, by losses and by the case")
     shaft: list[PlaceOnShaft] = Field(description="nodes along the shaft")
     bearings: dict[str, BearingState] = Field(description="by name: torque, power and state of each")
@@ -77,6 +91,10 @@ class MachineTemperatures(Answer):
     points_solved: int = Field(description="equilibria of the machine")
     network_assumptions: list[str] = Field(description="of the thermal network, and what it fills in")
     assumptions: list[str] = Field(description="other assumptions of the case")
+
+    def with_band(self, band: ModelBand) -> MachineTemperatures:
+        """Return the same with the bands of its temperatures."""
+        return self.model_copy(update=banded_temperatures(self.temperatures_degC, band))
 
     def text(self, units: UnitSystem = SI) -> str:
         """Return the lines for people."""

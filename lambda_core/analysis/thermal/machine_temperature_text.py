@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from lambda_core.analysis.thermal.temperature_lines import gain_text, node_words
+from lambda_core.analysis.thermal.temperature_lines import gain_text, node_words, temperature_sources
 from lambda_core.domain.number_text import counted, number
 from lambda_core.domain.unit_systems import UnitSystem
 from lambda_core.model.settings.machine_heat import BEARING_NODES, is_numbered
+from lambda_core.results.band_text import ends
 from lambda_core.results.text import assumption_lines, line
 
 if TYPE_CHECKING:
@@ -48,6 +49,7 @@ def steady_text(found: MachineTemperatures, units: UnitSystem) -> str:
             ),
             line("loop gain", gain_text(found.gain)),
             line("energy residual", f"{found.energy_residual:.1e} of input"),
+            *temperature_sources(found.model_band),
             *_assumed(found, units),
         ]
     )  # fmt: skip
@@ -61,6 +63,9 @@ def _bearing_table(found: MachineTemperatures, units: UnitSystem) -> list[str]:
         values = [found.temperatures_degC.get(f"{name}.{node}") for name in names]
         if any(value is not None for value in values):
             lines.append(_row(node_words(node, elements), [units.number(value, "degC") for value in values]))
+            if found.temperatures_degC_band:
+                known = [found.temperatures_degC_band.get(f"{name}.{node}", []) for name in names]
+                lines.append(_row("  model band", [ends(one, "degC", units) for one in known]))
     rows: list[tuple[str, str, Callable[[str], float | None], int]] = [
         ("power loss", "W", lambda name: found.bearings[name].state.power_loss_W, 2),
         ("friction torque", "N mm", lambda name: found.bearings[name].state.friction_torque_Nmm, 1),

@@ -8,23 +8,25 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from lambda_core.analysis.rotor.api import machine_of
 from lambda_core.analysis.thermal.feedback import INLET_STEP, LENGTH_STEP, Loop, Steady, clearance_at, inlet_at
-from lambda_core.analysis.thermal.losses import Announce, Point, point_of
+from lambda_core.analysis.thermal.found_temperatures import FoundTemperatures
+from lambda_core.analysis.thermal.losses import Announce, Point, model_at, point_of
+from lambda_core.analysis.thermal.machine_network import MachineNetwork
 from lambda_core.analysis.thermal.operating import averaged_losses
 from lambda_core.analysis.thermal.shaft_and_housing import network_of
+from lambda_core.analysis.thermal.surroundings import housing_area
 from lambda_core.case.case_io import Source, toml_tables
+from lambda_core.case.thermal import MachineThermal, Thermal
 from lambda_core.case.written import merged
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
-from lambda_core.model.geometry.resolve_geometry import with_clearance
 from lambda_core.model.machine_model import MachineModel, MountedBearing
 from lambda_core.model.resolve_machine import resolve_machine
-from lambda_core.model.rollers_in_motion import with_clearance as rollers_with_clearance
 from lambda_core.model.settings.machine_heat import BEARING_NODES, stretch
 from lambda_core.results.reader import Result
 from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels, solve_shaft
@@ -135,6 +137,21 @@ class MachineLoop(Loop):
         self._known = (seen, outward)
         return outward, inward
 
+    def nodes_with(self, change: Callable[[Thermal], Thermal]) -> MachineNetwork:
+        """Return the network with a changed section of the case.
+
+        What each bearing has of its own is changed, too.
+        """
+        heat = self.machine.heat
+        own = {name: change(one) for name, one in heat.bearings.items()}
+        section = cast("MachineThermal", change(heat.section))  # a copy keeps its class
+        return network_of(replace(self.machine, heat=replace(heat, section=section, bearings=own)))
+
+    @property
+    def usual_area(self) -> float:
+        """Outer surface of a usual housing [m2]."""
+        return sum(housing_area(one.model.geometry.outside_diameter) for one in self.machine.bearings)
+
     def _place(self, seen: FloatArray) -> str:
         inlets, clearances, _ = seen.reshape(3, -1).tolist()
         parts = [
@@ -159,12 +176,7 @@ def _warm(mounted: MountedBearing, inlet: float, clearance: float, grown: float)
     Its outer ring is moved against the shaft's growth.
     """
     model, seating = mounted.model, mounted.seating
-    model = replace(
-        model,
-        geometry=with_clearance(model.geometry, clearance),
-        rollers=model.rollers and rollers_with_clearance(model.rollers, clearance),
-        oil=replace(model.oil, temperature=inlet),
-    )
+    model = model_at(model, inlet, clearance)
     shift = (seating.shift[0] - grown, *seating.shift[1:])
     return replace(mounted, model=model, seating=replace(seating, shift=shift))
 
@@ -205,7 +217,16 @@ def ready_machine_of(
     sentence = _sentence(loop, found)
     if announce is not None:
         announce(sentence)
-    return resolve_machine(_with_temperatures(loop, found, sentence))
+    return machine_at_temperatures(loop, found, sentence)
+
+
+def machine_at_temperatures(loop: MachineLoop, found: Steady, sentence: str = "") -> MachineModel:
+    """Return the machine of a loop at found temperatures.
+
+    Its case says so in a sentence.
+    """
+    warm = resolve_machine(_with_temperatures(loop, found, sentence))
+    return replace(warm, found_temperatures=FoundTemperatures(loop, found))
 
 
 def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Steady]:
@@ -224,8 +245,8 @@ def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Stea
     )
     temperatures, network = loop.answer(measured, loop.first_guess())
     seen = loop.seen(temperatures)
-    gain = loop.gain(*loop.slopes(seen, loop.solved(seen), temperatures))
-    return loop, Steady(temperatures, measured, network, gain, 1)
+    slopes = loop.slopes(seen, loop.solved(seen), temperatures)
+    return loop, Steady(temperatures, measured, network, loop.gain(*slopes), 1, *slopes)
 
 
 def without_temperatures(machine: MachineModel) -> MachineModel:

@@ -6,10 +6,12 @@ For operation.temperatures = "computed".
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from lambda_core.analysis.thermal.feedback import BearingLoop, Steady
+from lambda_core.analysis.thermal.found_temperatures import FoundTemperatures
 from lambda_core.analysis.thermal.losses import Announce
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import parse_case
@@ -54,7 +56,18 @@ def at_own_temperatures(
     sentence = _sentence(loop, found)
     if announce is not None:
         announce(sentence)
-    return resolve(_with_temperatures(parse_case(model.case_toml, model.name), loop, found, sentence))
+    return at_temperatures(loop, found, resolve, sentence)
+
+
+def at_temperatures(
+    loop: BearingLoop, found: Steady, resolve: Callable[[Case], BearingModel], sentence: str = ""
+) -> BearingModel:
+    """Return the model of a loop at found temperatures.
+
+    Its case says so in a sentence.
+    """
+    case = _with_temperatures(parse_case(loop.model.case_toml, loop.model.name), loop, found, sentence)
+    return replace(resolve(case), found_temperatures=FoundTemperatures(loop, found))
 
 
 def _with_temperatures(case: Case, loop: BearingLoop, found: Steady, sentence: str) -> Case:
@@ -101,8 +114,8 @@ def of_run(result: Result, model: BearingModel, announce: Announce = None) -> tu
     measured = point.with_losses(losses)
     temperatures, network = loop.answer((measured,), loop.first_guess())
     seen = np.array([point.inlet, point.clearance])
-    gain = loop.gain(*loop.slopes(seen, (point,), temperatures))
-    return loop, Steady(temperatures, (measured,), network, gain, 1)
+    slopes = loop.slopes(seen, (point,), temperatures)
+    return loop, Steady(temperatures, (measured,), network, loop.gain(*slopes), 1, *slopes)
 
 
 def averaged_losses(result: Result, model: BearingModel) -> dict[str, float]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
+from collections.abc import Iterable
+from typing import Any, Literal
 
 import numpy as np
 from pydantic import Field
@@ -19,6 +20,7 @@ from lambda_core.model.geometry.resolve_clearance import CLEARANCE_HOLDS
 from lambda_core.model.settings.resolve_thermal import network_assumptions
 from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
+from lambda_core.results.model_band import ModelBand, temperature_of
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import merged_cage
 
@@ -86,6 +88,10 @@ class SteadyTemperatures(Answer):
     losses_from: str = Field(description="quasi-static point, or the averages of a run")
     conductances: str = Field(description="ready set")
     temperatures_degC: dict[str, float] = Field(description="by node")
+    temperatures_degC_band: dict[str, list[float]] = Field(
+        description="ends of the 90 % model band by node; empty without one", default={}
+    )
+    model_band: ModelBand | None = Field(description="where the bands come from; null without them", default=None)
     heat_W: dict[str, float] = Field(description="put in at each node, by losses and by the case")
     losses_W: dict[str, float | None] = Field(description="by mechanism; the cage's contacts as one")
     flows: list[HeatFlow] = Field(description="between nodes, the largest first")
@@ -95,6 +101,10 @@ class SteadyTemperatures(Answer):
     iterations: int = Field(description="of Newton's method")
     network_assumptions: list[str] = Field(description="of the thermal network, and what it fills in")
     assumptions: list[str] = Field(description="other assumptions of the case")
+
+    def with_band(self, band: ModelBand) -> SteadyTemperatures:
+        """Return the same with the bands of its temperatures."""
+        return self.model_copy(update=banded_temperatures(self.temperatures_degC, band))
 
     def text(self, units: UnitSystem = SI) -> str:
         """Return the lines for people."""
@@ -144,6 +154,13 @@ class TemperaturesOverTime(Answer):
         from lambda_core.analysis.thermal.temperature_lines import course_text
 
         return units.sentence(course_text(self))
+
+
+def banded_temperatures(nodes: Iterable[str], band: ModelBand) -> dict[str, Any]:
+    """Return the fields of the bands by node."""
+    known = {one.quantity: [one.low, one.high] for one in band.bands}
+    ends = {node: known[name] for node in nodes if (name := temperature_of(node)) in known}
+    return {"temperatures_degC_band": ends, "model_band": band}
 
 
 def _assumptions(loop: BearingLoop) -> tuple[list[str], list[str]]:

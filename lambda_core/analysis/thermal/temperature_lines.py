@@ -5,12 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lambda_core.domain.number_text import number
+from lambda_core.results.band_text import ends, source_lines
 from lambda_core.results.text import assumption_lines, line
 
 if TYPE_CHECKING:
     from lambda_core.analysis.thermal.report import LoopGain, SteadyTemperatures, TemperaturesOverTime
+    from lambda_core.results.model_band import ModelBand
 
 _ROWS = 12  # of the table over time
+_NODES = ("oil", "inner ring", "outer ring", "housing")  # whose bands are explained
 
 
 def node_words(node: str, elements: str) -> str:
@@ -26,6 +29,7 @@ def steady_text(found: SteadyTemperatures) -> str:
     state = found.state
     nodes = [
         f"  {node_words(name, found.elements):<14}{number(value):>9} degC{number(found.heat_W[name], 2):>11} W"
+        f"{_band(found, name)}"
         for name, value in found.temperatures_degC.items()
     ]
     flows = [
@@ -54,9 +58,28 @@ def steady_text(found: SteadyTemperatures) -> str:
             line("clearance", f"{number(state.clearance_um)} um in operation"),
             line("loop gain", gain_text(found.gain)),
             line("energy residual", f"{found.energy_residual:.1e} of input"),
+            *temperature_sources(found.model_band),
             *_assumed(found),
         ]
     )
+
+
+def _band(found: SteadyTemperatures, node: str) -> str:
+    """Return the band of a temperature as it follows the number."""
+    known = found.temperatures_degC_band.get(node)
+    return f"   model {ends(known, 'degC')}" if known else ""
+
+
+def temperature_sources(band: ModelBand | None) -> list[str]:
+    """Return the sources of the bands of temperatures.
+
+    Of oil, rings and housing.
+    """
+    if band is None:
+        return []
+    ending = tuple(f"{node} temperature" for node in _NODES)
+    shown = band.model_copy(update={"bands": [one for one in band.bands if one.quantity.endswith(ending)]})
+    return [line("" if i else "model band", text) for i, text in enumerate(source_lines(shown))]
 
 
 def course_text(found: TemperaturesOverTime) -> str:

@@ -21,10 +21,13 @@ def steady_temperatures(
     source: Source | BearingModel,
     overrides: Iterable[str] = (),
     announce: Callable[[str], None] | None = None,
-) -> SteadyTemperatures:
-    """Find the steady temperatures of one bearing; see :func:`lambda_core.api.thermal`."""
+) -> tuple[SteadyTemperatures, Callable[[], BearingModel]]:
+    """Find the steady temperatures of one bearing.
+
+    See :func:`~.api.thermal`; also what returns its model there.
+    """
     from lambda_core.analysis.thermal.feedback import BearingLoop
-    from lambda_core.analysis.thermal.operating import of_run
+    from lambda_core.analysis.thermal.operating import at_temperatures, of_run
     from lambda_core.analysis.thermal.report import steady_of
 
     run = run_of(source)
@@ -32,10 +35,12 @@ def steady_temperatures(
         from lambda_core.case.case_io import parse_case
 
         loop, found = of_run(run, resolve(parse_case(run.case_toml, str(run.path))), announce)
-        return steady_of(loop, found, f"averages of {run.path}")
-    model = model_of(source, overrides)
-    loop = BearingLoop(model, _section(model), announce)
-    return steady_of(loop, loop.steady())
+        origin = f"averages of {run.path}"
+    else:
+        model = model_of(source, overrides)
+        loop = BearingLoop(model, _section(model), announce)
+        found, origin = loop.steady(), "quasi-static point"
+    return steady_of(loop, found, origin), partial(at_temperatures, loop, found, partial(resolve, is_static=True))
 
 
 def temperatures_over_time(

@@ -30,14 +30,23 @@ class Kernels:
     """Compiled kernels of a model's laws.
 
     Pointers and code stay alive with this object.
+
+    Parameters
+    ----------
+    model : BearingModel
+        The model.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+    near : Kernels, optional
+        Of a model that shares laws with this one, whose code it takes over.
     """
 
-    def __init__(self, model: BearingModel, announce: Announce = None) -> None:
+    def __init__(self, model: BearingModel, announce: Announce = None, near: Kernels | None = None) -> None:
         self._laws, self._contacts = model.laws, contacts_of(model)
         self._guides, self._links, self._times = guides(model), links(model), times(model)
         begin(announce)  # the solver is compiled at the same time
         # one model in several force elements is compiled once
-        known: dict[tuple[str, str], Any] = {}
+        known: dict[tuple[str, str], Any] = {} if near is None else near.of_laws(model)
         self.compiled: dict[tuple[str, str], Any] = {}
         for element, roles in model.laws.items():
             for role, law in roles.items():
@@ -45,6 +54,19 @@ class Kernels:
                 if name not in known:
                     known[name] = compile_kernel(law.model, announce)
                 self.compiled[element, role] = known[name]
+
+    def of_laws(self, model: BearingModel) -> dict[tuple[str, str], Any]:
+        """Return the kernels of laws that another model shares.
+
+        By role and label.
+        """
+        own = {
+            (role, law.model.label): (law.model, self.compiled[element, role])
+            for element, roles in self._laws.items()
+            for role, law in roles.items()
+        }
+        wanted = {(role, law.model.label): law.model for roles in model.laws.values() for role, law in roles.items()}
+        return {name: own[name][1] for name, law in wanted.items() if name in own and own[name][0] is law}
 
     def keys(self) -> dict[str, str]:
         """Return "element/role/model" -> hash of everything the kernel reaches."""
@@ -71,12 +93,19 @@ class Kernels:
         )
 
 
-def check_laws(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> None:
+def check_laws(
+    model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils, tried: BearingModel | None = None
+) -> None:
     """Test every law with this run's parameters.
 
     Before any compiled code calls it.
 
     A law is tried once by a process for each choice of parameters: many runs of it take no longer for that.
+
+    Parameters
+    ----------
+    tried : BearingModel, optional
+        A model whose laws were tried: those that are the same objects need no look at their parameters.
 
     Raises
     ------
@@ -87,6 +116,8 @@ def check_laws(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils:
     for element, roles in model.laws.items():
         context = build_context(model, element, frame, oil_of(oils, element))
         for role, law in roles.items():
+            if tried is not None and tried.laws.get(element, {}).get(role) is law:
+                continue
             compiled = kernels.compiled[element, role]
             key = (compiled.key, element, law.parameters.model_dump_json())
             if key not in _in_order:

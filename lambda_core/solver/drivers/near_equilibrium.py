@@ -45,7 +45,7 @@ def solve_near(
     """
     frame, kernels = near.context.frame, kernels or Kernels(model)
     oils = derive_oils(model, kernels, frame)
-    check_laws(model, kernels, frame, oils)
+    check_laws(model, kernels, frame, oils, near.context.model)
     compiled, context = core(None), assemble(model, kernels, frame, oils)
     if context.size != near.state.size:
         return solve(model, kernels, phase=near.phase)

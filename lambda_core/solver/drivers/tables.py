@@ -79,18 +79,20 @@ class _Parameters:
         self._parts: list[FloatArray] = []
         self._size = 0
         self._contexts: dict[tuple[str, str], Context] = {}  # by bearing and force element
+        self._made: dict[tuple[str, str, str], FloatArray] = {}  # by bearing, force element and role
 
     def add(self, bearing: AssembledBearing, element: str, role: str) -> tuple[int, int]:
         """Append the parameters of a law.
 
         Return where they begin and end.
         """
-        place = (bearing.name, element)
+        place, begin = (bearing.name, element), self._size
         if place not in self._contexts:
             oil = oil_of(bearing.oils, element)
             self._contexts[place] = build_context(bearing.model, element, bearing.frame, oil)
-        context, begin = self._contexts[place], self._size
-        self._parts.append(prepare(bearing.model.laws[element][role], context))
+        if (*place, role) not in self._made:  # raceways of several rows have the same
+            self._made[*place, role] = prepare(bearing.model.laws[element][role], self._contexts[place])
+        self._parts.append(self._made[*place, role])
         self._size += self._parts[-1].size
         return begin, self._size
 
