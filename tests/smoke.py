@@ -25,13 +25,14 @@ REQUIRED = VERSIONS[:3]  # on a newer one the tested versions of the dependencie
 OTHERS = "--others"  # than the Python that runs this
 WHOLE = "--whole"
 CASE = "6208-axial-1300"
+KEPT = "kept"  # for the second process, which need not read all functions again
 INSTALL, COMMAND = 900.0, 1200.0  # [s] at most on a busy machine, the second with compiling; alone it is a tenth
 PIP = ["-m", "pip", "--disable-pip-version-check"]
 # Machine code belongs to one version of Python, and compiling the complete solver takes minutes. What differs from one
 # Python to the next is its bytecode: Numba reads that of every function of the solver and of all laws, and compiles the
 # forces on all bodies. Looking for garbage would take a sixth of the time.
 FORCES = f"""
-import gc
+import gc, sys
 gc.disable()
 import numpy as np
 from numba.core.compiler import run_frontend
@@ -45,11 +46,13 @@ from lambda_core.solver.drivers.compiled_laws import Kernels, derive_oils
 from lambda_core.solver.drivers.first_state import first_frame, first_state
 from lambda_core.solver.drivers.solver_context import assemble
 from lambda_core.solver.roller import units
-starts = [unit for unit, _ in (*entry.UNITS.values(), *units.UNITS.values())]
-starts += [law.kernel for role in ROLES for law in registry().models(role).values()]
-read = {{getattr(one, "py_func", one) for start in starts for one in (start, *reach(start, lenient=True).helpers)}}
-for function in read:
-    run_frontend(function)
+read = set()
+if "{KEPT}" not in sys.argv:
+    starts = [unit for unit, _ in (*entry.UNITS.values(), *units.UNITS.values())]
+    starts += [law.kernel for role in ROLES for law in registry().models(role).values()]
+    read = {{getattr(one, "py_func", one) for start in starts for one in (start, *reach(start, lenient=True).helpers)}}
+    for function in read:
+        run_frontend(function)
 needed = ("wrench", "tangent", "evaluate")
 compiled = []
 def find(name):
@@ -115,7 +118,7 @@ class Smoke:
         """Return what does not work."""
         found: list[str] = []
         first = self._tried(found, "forces", [self.python, "-c", FORCES], "compiled")
-        second = self._tried(found, "forces by kept code", [self.python, "-c", FORCES], " 0 compiled")
+        second = self._tried(found, "forces by kept code", [self.python, "-c", FORCES, KEPT], " 0 compiled")
         if first.split()[:2] != second.split()[:2]:
             found.append(f"kept code gives {second} instead of {first}")
         self._tried(found, "plugins check", [self._program, "plugins", "check", "damping"], "ok  damping/cubic")

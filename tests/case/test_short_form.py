@@ -32,12 +32,13 @@ def cases() -> list[dict[str, Any]]:
 
 
 def test_a_random_bearing_has_the_tables_of_its_machine() -> None:
-    """Every eighth of the 200 cases; all of them in the full suite."""
+    """Every eighth of the 200 cases; three more in the full suite, all of them in the slow one."""
     _compare_tables(cases()[::8])
 
 
-@pytest.mark.full
-@pytest.mark.parametrize("part", range(1, 8))
+@pytest.mark.parametrize(
+    "part", [pytest.param(part, marks=pytest.mark.full if part < 4 else pytest.mark.slow) for part in range(1, 8)]
+)
 def test_every_random_bearing_has_the_tables_of_its_machine(part: int) -> None:
     _compare_tables(cases()[part::8])
 

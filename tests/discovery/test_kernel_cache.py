@@ -181,7 +181,7 @@ def test_damaged_files_are_compiled_anew(package: Package) -> None:
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("place", [0.1, 0.5, 0.9, 1.0])
+@pytest.mark.parametrize("place", [0.1, 1.0])
 def test_c3_flipped_bytes_in_compiled_code_are_compiled_anew_and_mended(package: Package, place: float) -> None:
     package.ask()
     for path in (package.root / "cache").rglob("*.nbc"):

@@ -71,8 +71,14 @@ def test_the_region_holds_the_truth_in_most_synthetic_fits(noise: str) -> None:
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("temperature_error", [0.0, 1.0])
-@pytest.mark.parametrize("noise", S.NOISES)
+@pytest.mark.parametrize(
+    ("noise", "temperature_error"),
+    [
+        pytest.param(noise, error, marks=[pytest.mark.slow] * ((noise == "normal") == (error > 0.0)))
+        for noise in S.NOISES
+        for error in (0.0, 1.0)
+    ],
+)
 def test_the_region_holds_the_truth_in_90_to_99_percent(noise: str, temperature_error: float) -> None:
     inside, alarms = _coverage(noise, 200, is_error_known=True, temperature_error=temperature_error)
     assert 0.90 <= inside <= 0.99

@@ -141,7 +141,7 @@ async def test_a_study_is_saved_for_the_shell(hand_written: Path) -> None:
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("size", [SMALL, LARGE])
+@pytest.mark.parametrize("size", [SMALL, pytest.param(LARGE, marks=pytest.mark.slow)])
 async def test_two_results_say_what_differs(
     size: tuple[int, int], radial_run: Result, combined_run: Result, hand_written: Path
 ) -> None:

@@ -79,19 +79,32 @@ def spoil(file: h5py.File, name: str, key: str) -> None:
 def test_no_text_of_a_machine_s_result_drives_the_terminal(
     made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Each text in turn, by every command that reads the result of a machine: shown or refused, and written out."""
+    """Each text in turn is shown or refused, and written out; then all that are shown, by every command.
+
+    The second bearing has the texts of the first.
+    """
     with h5py.File(made) as file:
         names = dict.fromkeys(text for text in texts(file) if text[1] not in ("units", "long_name"))
         found = [text for text in names if "inputs/" not in text[0] or "machine/" in text[0]]
+    found = [text for text in found if not text[0].startswith("bearings/right")]
     assert len(found) > 12
-    driven, run = [], tmp_path / "run.h5"
-    commands = (["show"], ["show", "--json"], ["show", "--bearing", "left"], ["resume", "--quiet"], ["cite"])
-    for text in found:
+    driven, shown, run = [], [], tmp_path / "run.h5"
+
+    def ask(spoilt: list[tuple[str, str]], *commands: list[str]) -> int:
         shutil.copy(made, run)
         with h5py.File(run, "r+") as file:
-            spoil(file, *text)
+            for text in spoilt:
+                spoil(file, *text)
         for command in commands:
-            assert main([*command, str(run)]) in (0, 2, 3, 5), (text, command)
+            code = main([*command, str(run)])
+            assert code in (0, 2, 3, 5), (spoilt, command)
             said = "".join(capsys.readouterr())
-            driven += [(text, command) for sign in set(ESCAPE) & set("\x1b\x07\x9b\u202e") if sign in said]
+            driven.extend((spoilt, command) for sign in "\x1b\x07\x9b\u202e" if sign in said)
+        return code
+
+    for text in found:
+        if ask([text], ["resume", "--quiet"], ["show"]) == 0:
+            shown.append(text)
+    assert shown
+    ask(shown, ["show", "--json"], ["show", "--bearing", "left"], ["cite"])
     assert not driven

@@ -52,9 +52,9 @@ POWER = '[[parameters]]\npath = "gears.wheel.power"\nrange = ["5 kW", "15 kW"]\n
 SPEED = '[[parameters]]\npath = "operation.speed"\nrange = ["1500 rpm", "3000 rpm"]\n'
 STUDIES = {
     "grid": f'responses = ["system_life_h"]\n{POWER}points = 2\n',
-    "sample": f'responses = ["system_life_h"]\n{POWER}{SPEED}[design]\nkind = "latin-hypercube"\nsamples = 3\n',
-    "sobol": f'responses = ["system_life_h"]\n{POWER}{SPEED}[design]\nkind = "saltelli"\nsamples = 2\n',
-    "best": f'responses = ["left.friction_torque_Nmm"]\n{POWER}[design]\nkind = "optimise"\nsamples = 4\n'
+    "sample": f'responses = ["system_life_h"]\n{POWER}{SPEED}[design]\nkind = "latin-hypercube"\nsamples = 2\n',
+    "sobol": f'responses = ["system_life_h"]\n{POWER}[design]\nkind = "saltelli"\nsamples = 2\n',
+    "best": f'responses = ["left.friction_torque_Nmm"]\n{POWER}[design]\nkind = "optimise"\nsamples = 2\n'
             '[optimise]\nminimise = "left.friction_torque_Nmm"\nevaluations = 5\n',
     "runs": f'mode = "dynamic"\nresponses = ["friction_torque_Nmm"]\n[set]\n"solver.duration" = "1 ms"\n{POWER}'
             "points = 2\n",

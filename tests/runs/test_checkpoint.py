@@ -107,9 +107,8 @@ def kill_and_resume(warm: Warm, path: Path, delays: list[float], reference: dict
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("seed", range(2))
-def test_kill_at_random_moments(seed: int, warm: Warm, tmp_path: Path, undisturbed: dict[str, np.ndarray]) -> None:
-    chance = random.Random(seed)
+def test_kill_at_random_moments(warm: Warm, tmp_path: Path, undisturbed: dict[str, np.ndarray]) -> None:
+    chance = random.Random(0)
     kill_and_resume(warm, tmp_path / "r.h5", [chance.uniform(0.0, 0.35) for _ in range(4)], undisturbed)
 
 

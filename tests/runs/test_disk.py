@@ -38,7 +38,12 @@ def complete(warm: Warm, tmp_path_factory: pytest.TempPathFactory) -> Result:
 
 
 @pytest.mark.parametrize(
-    "limit", [*LIMITS[:-2], *(pytest.param(limit, marks=pytest.mark.full) for limit in LIMITS[-2:])]
+    "limit",
+    [
+        *LIMITS[:-2],
+        pytest.param(LIMITS[-2], marks=pytest.mark.slow),
+        pytest.param(LIMITS[-1], marks=pytest.mark.full),
+    ],
 )
 def test_a_full_disk_at_any_point(limit: int, warm: Warm, tmp_path: Path, complete: Result) -> None:
     path = tmp_path / "r.h5"

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from studies import MAP, RUNS
+from studies import MAP, RUNS, Inline
 from warm import PROGRAM, Warm
 
 from lambda_core import api
@@ -59,8 +59,6 @@ def in_this_process(folder: Path, text: str) -> list[dict[str, Any]]:
 
     One point after the other in this process.
     """
-    from studies import Inline
-
     path = folder.with_suffix(".toml")
     path.write_text(text, encoding="utf-8")
     api.study_run(path, folder, executor=Inline())
@@ -147,7 +145,9 @@ def _further(folder: Path, runs: int, study: Any) -> bool:
     return files(folder) > runs or study.poll() is not None
 
 
-def killed_and_resumed(start: Start, path: Path, folder: Path, kills: int, seed: int, last: int = 2) -> None:
+def killed_and_resumed(
+    start: Start, path: Path, folder: Path, kills: int, seed: int, last: Executor | None = None
+) -> None:
     """Kill a study repeatedly and resume.
 
     At random moments, everything that belongs to it at once.
@@ -161,7 +161,7 @@ def killed_and_resumed(start: Start, path: Path, folder: Path, kills: int, seed:
         study.wait()
         if kill < kills - 1:
             study = start("resume", folder, "--workers", "2")
-    api.study_resume(folder, workers=last)
+    api.study_resume(folder, workers=2, executor=last or "processes")
 
 
 @pytest.mark.full
@@ -169,7 +169,7 @@ def test_a_killed_study_goes_on_to_the_same_table(
     start: Start, write: Write, tmp_path: Path, runs_table: list[dict[str, Any]]
 ) -> None:
     folder = tmp_path / "killed"
-    killed_and_resumed(start, write(RUNS.format(duration="0.02 s", speeds=2, loads=2)), folder, 1, 1, last=1)
+    killed_and_resumed(start, write(RUNS.format(duration="0.02 s", speeds=2, loads=2)), folder, 1, 1, last=Inline())
     assert differences(numbers(folder), runs_table) == []
 
 
