@@ -7,10 +7,10 @@ import os
 import re
 import tempfile
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from difflib import SequenceMatcher
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import tomlkit
 from tomlkit.items import AoT, Array, Table, Trivia
@@ -19,16 +19,21 @@ from tomlkit.toml_document import TOMLDocument
 from lambda_core.case.builtin import builtin_cases, builtin_text
 from lambda_core.case.case_io import read_case, toml_tables
 from lambda_core.case.electric import Series
+from lambda_core.case.machine import Housing, MachineCase, Shaft
 from lambda_core.case.signals import Table as TimeTableFile
 from lambda_core.case.written import Written, validate
 from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.domain.files import check_new, check_target
 
 _PLAIN = re.compile(r"[\w .+/-]*", re.ASCII)  # texts without anything to escape
+C = TypeVar("C", bound=Written)
 _INLINE_KEYS = frozenset({"kind", "mode", "points"})  # small tables that read best on one line
 
+# Option that names a file, relative to that of the case, by the section.
+_FILES = {TimeTableFile: "file", Series: "file", Shaft: "reduced", Housing: "reduced"}
 
-def case_toml(case: Written, original: str | None = None) -> str:
+
+def case_toml(case: Written, original: str | None = None, folder: Path | None = None) -> str:
     """Write a case as TOML.
 
     Parameters
@@ -38,8 +43,10 @@ def case_toml(case: Written, original: str | None = None) -> str:
     original : str, optional
         Text of the file it came from; its comments, order and the spelling of unchanged
         values are kept.
+    folder : pathlib.Path, optional
+        Where the text will stand: the files that the case names are found from there. Default: the case's own.
     """
-    written = case.written()
+    written = case.written() if folder is None else _relocated(case, folder)
     if original is None:
         return _fresh(written)
     try:
@@ -52,11 +59,52 @@ def case_toml(case: Written, original: str | None = None) -> str:
 
 
 def standalone_toml(case: Written) -> str:
-    """Write a case that needs no other file.
+    """Write a case for any folder.
 
-    CSV tables become points in the text.
+    CSV tables become points in the text, paths of reduced models absolute.
     """
-    return _fresh(_inlined(case, case.written()))
+    return _fresh(_standalone(case))
+
+
+def machine_toml(case: MachineCase, tables: Mapping[str, Any]) -> str:
+    """Write tables of a machine, for any folder."""
+    found = _standalone(case)
+    return tables_toml(tables if found == case.written() else found)
+
+
+def _standalone(case: Written) -> dict[str, Any]:
+    """Return tables that are read from any folder."""
+
+    def change(section: Any, written: Any) -> Any:
+        if isinstance(section, TimeTableFile | Series) and section.file is not None:
+            return section.inlined()
+        if isinstance(section, Shaft | Housing) and section.reduced is not None:
+            return {**written, "reduced": str(((case.folder or Path()) / section.reduced).absolute())}
+        return None
+
+    return dict(_replaced(case, case.written(), change))
+
+
+def in_folder(case: C, folder: Path) -> C:
+    """Name the files of a case from another folder."""
+    return validate(type(case), _relocated(case, folder), case.name, folder)
+
+
+def _relocated(case: Written, folder: Path) -> dict[str, Any]:
+    """Return the tables of a case for another folder."""
+    begin, end = (case.folder or Path()).resolve(), folder.resolve()
+
+    def named_from_there(section: Any, written: Any) -> Any:
+        key = next((key for kind, key in _FILES.items() if isinstance(section, kind)), None)
+        if key is None or getattr(section, key) is None:
+            return None
+        try:
+            way = os.path.relpath(begin / written[key], end)
+        except ValueError:  # another drive
+            way = str(begin / written[key])
+        return {**written, key: written[key] if Path(written[key]).is_absolute() else Path(way).as_posix()}
+
+    return case.written() if begin == end else dict(_replaced(case, case.written(), named_from_there))
 
 
 def _fresh(tables: Mapping[str, Any]) -> str:
@@ -152,7 +200,7 @@ def save_case(case: Written, path: str | Path, original: str | None = None) -> N
             original = target.read_text(encoding="utf-8-sig")
         except OSError as error:
             raise UsageError(f'cannot read "{target}": {error.strerror}') from None
-    save_text(case_toml(case, original), target)
+    save_text(case_toml(case, original, target.resolve().parent), target)
 
 
 def save_text(text: str, target: Path) -> None:
@@ -209,15 +257,15 @@ def write_new(case: Written, original: str, path: Path, overwrite: bool) -> Path
     return path
 
 
-def _inlined(section: Any, written: Any) -> Any:
-    """Replace tables of CSV files by their points."""
-    if isinstance(section, TimeTableFile | Series) and section.file is not None:
-        return section.inlined()
+def _replaced(section: Any, written: Any, change: Callable[[Any, Any], Any]) -> Any:
+    """Replace tables for which `change` returns another one."""
+    if (other := change(section, written)) is not None:
+        return other
     if isinstance(written, Mapping):
         get = section.get if isinstance(section, Mapping) else lambda key: getattr(section, key)
-        return {key: _inlined(get(key), value) for key, value in written.items()}
+        return {key: _replaced(get(key), value, change) for key, value in written.items()}
     if isinstance(written, list) and isinstance(section, list):
-        return [_inlined(part, value) for part, value in zip(section, written, strict=True)]
+        return [_replaced(part, value, change) for part, value in zip(section, written, strict=True)]
     return written
 
 

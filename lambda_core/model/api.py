@@ -261,13 +261,14 @@ def _new_machine(case: Case | MachineCase, name: str, target: Path, overwrite: b
     It is called `name`, with a comment about what to add.
     """
     from lambda_core.case.case import Case
-    from lambda_core.case.case_writer import save_text, tables_toml
+    from lambda_core.case.case_writer import in_folder, save_text, tables_toml
     from lambda_core.domain.files import check_new
     from lambda_core.model.long_form import long_form
 
     if not isinstance(case, Case):
         raise UsageError(_IS_MACHINE)
-    form = long_form(case.with_(name=name))
+    check_new(target, overwrite)
+    form = long_form(in_folder(case.with_(name=name), target.resolve().parent))
     lines = [
         "A bearing on a rigid shaft. Add [gears.NAME], [discs.NAME], [loads.NAME] or [connections.NAME] with "
         'at = "bearing".',
@@ -275,7 +276,7 @@ def _new_machine(case: Case | MachineCase, name: str, target: Path, overwrite: b
         *(f"Not the same as in the case of one bearing: {difference}" for difference in form.differences),
     ]
     comments = "".join(f"# {line}\n" for line in lines)
-    save_text(f"{comments}\n{tables_toml(form.tables)}", check_new(target, overwrite))
+    save_text(f"{comments}\n{tables_toml(form.tables)}", target)
     return target
 
 

@@ -8,6 +8,7 @@ from typing import Literal
 from lambda_core.case.case_io import Source, load_case
 from lambda_core.case.short_form import LongForm, expand
 from lambda_core.domain.elements import POSE
+from lambda_core.elements.roller.roller_equilibrium import takes_one_side
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.bodies.resolve_bodies import shaft_inertia
 from lambda_core.model.checking import resolve
@@ -51,8 +52,9 @@ def long_form(source: Source, overrides: Iterable[str] = ()) -> LongForm:
 def _takes(model: BearingModel) -> Literal["+x", "-x"] | None:
     """Return the thrust that a bearing takes.
 
-    Axial force on the shaft; an angular contact bearing takes that of its axial load.
+    Axial force on the shaft; a bearing of one direction takes that of its axial load.
     """
-    if not model.geometry.contact_angle or model.geometry.rated_rows > 1:
+    is_angular = bool(model.geometry.contact_angle) and model.geometry.rated_rows == 1
+    if not (is_angular if model.rollers is None else takes_one_side(model.rollers)):
         return None
     return "-x" if initial(model.inner_ring.force[0]) < 0.0 else "+x"

@@ -14,7 +14,7 @@ import numpy as np
 
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import Source, read_tables
-from lambda_core.case.case_writer import tables_toml
+from lambda_core.case.case_writer import machine_toml
 from lambda_core.case.machine import MachineCase, bearing_tables, place_in_machine
 from lambda_core.case.salvage import InvalidCase, related
 from lambda_core.case.written import merged, validate
@@ -117,24 +117,9 @@ def resolve_machine(
         if case is not None:
             ledger.problems += machine_fit_problems(case.fit, tables, models)
         resolved = _shaft(case, models, opened, ledger, found) if case else None
-    if found or ledger.problems or resolved is None:
+    if found or ledger.problems or resolved is None or case is None:
         raise CaseError(name, [*found, *independent(found, ledger.problems, tables)])
-    return replace(resolved, case_toml=tables_toml(_anywhere(tables, folder)))
-
-
-def _anywhere(tables: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
-    """Return tables whose files are found from any folder."""
-    found = dict(tables)
-    for name in ("shaft", "housing"):
-        table = tables.get(name)
-        if isinstance(table, Mapping) and "reduced" in table:
-            found[name] = {**table, "reduced": str(((folder or Path()) / table["reduced"]).absolute())}
-    electric = tables.get("electric")
-    series = electric.get("series") if isinstance(electric, Mapping) else None
-    if isinstance(electric, Mapping) and isinstance(series, Mapping) and "file" in series:
-        path = str(((folder or Path()) / series["file"]).absolute())
-        found["electric"] = {**electric, "series": {**series, "file": path}}
-    return found
+    return replace(resolved, case_toml=machine_toml(case, tables))
 
 
 def _bearings(

@@ -70,6 +70,15 @@ def test_thrust_that_no_rib_takes_is_refused(kind: str, thrust: float) -> None:
         balance(bearing, np.array([thrust, 5e3, 0.0, 0.0, 0.0]))
 
 
+def test_too_little_thrust_on_a_tapered_bearing_is_named() -> None:
+    """It ended after 200 steps without a reason."""
+    least = 5e3 * math.tan(TAPERED.angles.outer)
+    with pytest.raises(ArithmeticError, match=r"must be above F_r tan\(a_o\) = "):
+        balance(TAPERED, np.array([0.999 * least, 5e3, 0.0, 0.0, 0.0]))
+    state = balance(TAPERED, np.array([1.3 * least, 5e3, 0.0, 0.0, 0.0]))
+    assert total(TAPERED, state)[1] == pytest.approx(5e3, rel=1e-6)
+
+
 def test_the_rib_has_the_load_of_the_wedge() -> None:
     state = balance(TAPERED, np.array([6e3, 0.0, 0.0, 0.0, 0.0]))
     outer = 6e3 / (16 * math.sin(TAPERED.contact_angle))

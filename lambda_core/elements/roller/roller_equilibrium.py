@@ -206,10 +206,19 @@ def balance(
 
 
 def _refuse(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> None:
-    """Raise ValueError for thrust that nothing takes."""
+    """Raise ValueError for thrust that nothing takes, ArithmeticError for too little of it on a tapered bearing."""
     problem = "" if held[0] else thrust_problem(bearing, float(loads[0]))
     if problem:
         raise ValueError(problem)
+    if bearing.kind == "tapered" and not any(held[:3]) and all(rib.ring == "inner" for rib in bearing.ribs):
+        # sum Q_o sin(a_o) = F_a and sum Q_o cos(a_o) cos(psi) = F_r at the outer raceway, with Q_o >= 0
+        radial = math.hypot(loads[1], loads[2])
+        least = radial * math.tan(bearing.angles.outer)
+        if loads[0] <= least:
+            raise ArithmeticError(
+                f"no equilibrium of the rollers: a thrust of {loads[0]:.4g} N does not hold cone and cup together "
+                f"under a radial load of {radial:.4g} N: it must be above F_r tan(a_o) = {least:.4g} N"
+            )
 
 
 def thrust_problem(bearing: RollerBearing, thrust: float) -> str:

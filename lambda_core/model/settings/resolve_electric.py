@@ -57,7 +57,7 @@ def resolve_machine_electric(
     for name in options.bearings:
         if name not in bearings:
             ledger.problem(f"electric.bearings.{name}", unknown_name("bearing", name, bearings))
-    return resolve_electric(options, registry, ledger)
+    return resolve_electric(options.inlined(), registry, ledger)
 
 
 def with_circuits(models: Mapping[str, BearingModel], circuit: ElectricModel | None) -> dict[str, BearingModel]:
