@@ -190,9 +190,9 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         name=case.name,
         title=roller_title(case, found, geometry),
         bearing=geometry,
-        loads=_loads(case),
+        loads=_loads(case, ledger),
         held=held,
-        speeds=(initial(time_function(case.operation.speed)), 0.0),
+        speeds=(initial(time_function(case.operation.speed)), _outer_speed(case)),
         oil=state,
         friction=replace(friction_parameters(geometry, case.surface.roughness, lubrication, level), **written),
         lubricant=row.name,
@@ -386,10 +386,16 @@ def _limits(bore: float, text: str) -> tuple[float, float]:
         raise LambdaError(str(error)) from None
 
 
-def _loads(case: Case) -> FloatArray:
+def _outer_speed(case: Case) -> float:
+    """Return the speed of the outer ring at t = 0 [rad/s]."""
+    motion = case.bodies.outer_ring.spin.motion
+    return 0.0 if motion is None else initial(time_function(motion))
+
+
+def _loads(case: Case, ledger: Ledger) -> FloatArray:
     """Return the loads at t = 0, (5,).
 
-    They act on the inner ring.
+    They act on the inner ring. Its weight counts where the case gives its mass, and that of the shaft.
     """
     loads = case.loads
     numbers = {
@@ -408,6 +414,10 @@ def _loads(case: Case) -> FloatArray:
     if loads.inner_ring is not None:
         more = ("force_x", "force_y", "force_z", "moment_y", "moment_z")
         found += [initial(time_function(getattr(loads.inner_ring, name))) for name in more]
+    ring, gravity = case.bodies.inner_ring, np.array([case.gravity.x, case.gravity.y, case.gravity.z])
+    if ring.mass is None and gravity.any():
+        ledger.assume("the weight of the inner ring is left out: the case gives no mass of it")
+    found[:3] += ((ring.mass or 0.0) + ring.shaft_mass) * gravity
     return found
 
 

@@ -244,11 +244,12 @@ def headline_of(model: RollerModel, radial: float, axial: float) -> str:
     """
     bearing = model.bearing
     kind = {"tapered": "tapered", "needle": "needle"}.get(bearing.kind, f"cylindrical {bearing.kind}")
-    speed = model.speeds[0] * _RPM
+    inner, outer = (f"{speed * _RPM:.5g} rpm" for speed in model.speeds)
+    speeds = f"inner ring {inner}, outer ring {outer}" if model.speeds[1] else inner
     return (
         f"{model.name}: {model.title}, {kind} roller bearing, {bearing.count} rollers of "
         f"{show(bearing.diameter, 'length', 4)} x {show(bearing.length, 'length', 4)}\n"
-        f"radial {show(radial, 'force', 4)}, axial {show(axial, 'force', 4)}, {speed:.5g} rpm, "
+        f"radial {show(radial, 'force', 4)}, axial {show(axial, 'force', 4)}, {speeds}, "
         f"{model.lubricant} at {show(model.temperature, 'temperature', 4)} ({model.lubrication})"
     )
 

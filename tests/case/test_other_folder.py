@@ -1,4 +1,4 @@
-"""Test cases that name files and are read or written in another folder."""
+"""Test cases that name files, from other folders."""
 
 from __future__ import annotations
 

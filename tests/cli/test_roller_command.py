@@ -267,3 +267,30 @@ def test_a_run_rates_rollers_as_rollers(
     assert "ISO 281" in shown
     assert "shoulders" not in shown
     assert "capacitance" in shown
+
+
+def test_the_speed_of_the_outer_ring_counts_without_motion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It was left out without a word: a bearing whose outer ring turns had no friction."""
+    path, torque = case(tmp_path, "NU 208"), []
+    for inner, outer in (("0 rpm", "3000 rpm"), ("3000 rpm", "3000 rpm"), ("1500 rpm", "-1500 rpm")):
+        speeds = ("--set", f"operation.speed={inner}", "--set", f"bodies.outer_ring.spin.motion={outer}")
+        assert main(["quasistatic", path, "--json", *speeds]) == 0
+        torque.append(json.loads(capsys.readouterr().out)["friction_torque_Nmm"])
+    assert torque[0] > 50.0
+    assert torque[1] is None
+    assert torque[2] == pytest.approx(torque[0], rel=0.2)
+
+
+def test_the_weight_of_a_given_mass_loads_the_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A shaft of a tonne changed nothing; the load acts downwards as the weight does."""
+    path, found = case(tmp_path, "NU 208"), []
+    for changes in (
+        ("bodies.inner_ring.mass=1 kg", "bodies.inner_ring.shaft_mass=199 kg", "gravity.z=-10 m/s2"),
+        ("gravity.z=0 m/s2", "loads.radial=8 kN"),
+        ("gravity.z=-10 m/s2",),
+    ):
+        assert main(["quasistatic", path, "--json", *(part for one in changes for part in ("--set", one))]) == 0
+        found.append(json.loads(capsys.readouterr().out))
+    assert found[0]["max_load_N"] == pytest.approx(found[1]["max_load_N"], rel=1e-9)
+    said = ["weight of the inner ring is left out" in " ".join(one["assumptions"]) for one in found]
+    assert said == [False, False, True]

@@ -206,7 +206,10 @@ def balance(
 
 
 def _refuse(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> None:
-    """Raise ValueError for thrust that nothing takes, ArithmeticError for too little of it on a tapered bearing."""
+    """Refuse thrust that nothing takes.
+
+    ValueError; ArithmeticError for too little of it on a tapered bearing.
+    """
     problem = "" if held[0] else thrust_problem(bearing, float(loads[0]))
     if problem:
         raise ValueError(problem)
