@@ -104,7 +104,12 @@ CHANNELS: tuple[Channel, ...] = (
     Channel("capacitance_hertz", ("ball", "ring"), "F", "capacitance of the Hertzian area"),
     Channel("capacitance", ("ball", "ring"), "F", "capacitance of the contact; inf where asperities short it"),
     Channel("contact_loss", ("ball", "ring"), "W", "power dissipated in each raceway contact"),
-    Channel("pocket_force", ("ball", "cylindrical"), "N", "force of the cage on each ball: axial, radial, tangential"),
+    Channel(
+        "pocket_force",
+        ("ball", "cylindrical"),
+        "N",
+        "force of the cage, or without one of the next roller, on each ball: axial, radial, tangential",
+    ),
     Channel("land_force", ("ring", "axis"), "N", "force of each ring's land on the cage"),
     Channel("bearing_capacitance", (), "F", "balls in parallel, inner and outer contact in series"),
     Channel("input_torque", (), "N m", "torque of the drive about the inner ring's axis"),

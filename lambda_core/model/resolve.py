@@ -159,7 +159,9 @@ def resolve(
     _possible(case, ledger)
     lubrication = lubrication_of(case.lubricant, lubricant)
     oil_level = resolve_oil_level(case.lubricant, lubricant, geometry.ball_diameter, ledger)
-    cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, materials["cage"], ledger)
+    cage, cage_estimate = resolve_cage(
+        case.bodies.cage, cage_row, geometry, materials["cage"], ledger, is_there=case.depth.cage
+    )
     inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
     elastic = resolve_elastic(case, geometry, (cage, inertias["cage"].mass), materials, ledger)
     bodies = {name: resolve_body(name, case, inertias[name]) for name in BODIES}

@@ -282,6 +282,7 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
             rib_roughness=rollers.rib_roughness,
             series=row.series if row else "",
             limiting_speed=row.limiting_speed.value if row and row.limiting_speed else None,
+            caged=case.depth.cage,
             **_profile(rollers, row, number["roller_diameter"], ledger),
         )
     except ValueError as error:

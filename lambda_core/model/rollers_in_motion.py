@@ -9,16 +9,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lambda_core.case.case import Case
-from lambda_core.case.modelling import ForceElement
+from lambda_core.case.modelling import ForceElement, Forces
 from lambda_core.case.parts import InlineGeometry
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.catalogue.roller_designation import roller_designation
-from lambda_core.domain.elements import RIBS, TILTS
+from lambda_core.domain.elements import NEIGHBOURS, RIBS, TILTS
 from lambda_core.domain.errors import CaseError, Problem
 from lambda_core.domain.roles import DEFAULT_LINE_MODELS, DEFAULT_ROLLER_MODELS
+from lambda_core.domain.units import show
 from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import thrust_problem
 from lambda_core.elements.roller.roller_friction import RIB_ASPERITIES, SKF_CONSTANTS, skf_kind
@@ -38,6 +39,7 @@ _ELEMENTS = ("ball_inner", "ball_outer")
 _SIDES = {1: "+x", -1: "-x"}
 # Laws that know the shape of the elements, and their defaults for rollers.
 _SHAPED = {"cage_contact": "roller-pocket", "fluid_drag": "none"}
+NEIGHBOUR, _NEIGHBOURS = next(iter(NEIGHBOURS)), "roller-roller"
 
 
 def rollers_of(
@@ -66,14 +68,7 @@ def rollers_of(
     if rollers is not None:
         if place is str:
             _refuse_thrust(case, rollers, ledger)
-        if rollers.full_complement:
-            ledger.problem(
-                "bearing.designation",
-                f"{rollers.kind} rollers, a full complement, run neither in time nor on a shaft yet: "
-                "quasistatic computes a bearing that is alone",
-            )
-    if not case.depth.cage:
-        ledger.problem("depth.cage", "rollers in motion need their cage: full complements are computed by quasistatic")
+        _check_complement(case, rollers, ledger)
     for part in (name for name in type(case.elastic).model_fields if getattr(case.elastic, name) is not None):
         ledger.problem(f"elastic.{part}", "rings and cages of rollers are rigid: leave it out")
     _refuse_parameters(case, ledger)
@@ -87,6 +82,26 @@ def rollers_of(
     if not rollers.ribs:
         ledger.assume("rollers are guided along the shaft by the pockets of their cage: no height of a rib is known")
     return rollers, roller_title(case, found, rollers), tuple(ledger.assumptions)
+
+
+def _check_complement(case: Case, rollers: RollerBearing, ledger: Ledger) -> None:
+    """Refuse cages that a kind does not have.
+
+    Or cannot do without; say how much room a full complement has.
+    """
+    if not rollers.full_complement:
+        if case.models.cage_contact == _NEIGHBOURS:
+            told = f'"{_NEIGHBOURS}" is the contact without a cage: it needs depth.cage = false'
+            ledger.problem("models.cage_contact", told)
+        return
+    if case.depth.cage and "cage" in case.depth.model_fields_set:
+        ledger.problem("depth.cage", f"{rollers.kind} rollers are a full complement without a cage: write false")
+    if rollers.kind == "tapered":
+        ledger.problem("depth.cage", "tapered rollers in motion need their cage: write true")
+    ledger.assume(
+        f"no cage: neighbouring rollers touch; they leave {show(rollers.room, 'length', 3)} of the pitch circle free, "
+        "even gaps at the start"
+    )
 
 
 def _refuse_thrust(case: Case, rollers: RollerBearing, ledger: Ledger) -> None:
@@ -115,7 +130,7 @@ def _refuse_parameters(case: Case, ledger: Ledger) -> None:
             written |= {f"forces.{name}.parameters.{role}": role for role in force.parameters}
             written |= {f"forces.{name}.models.{role}": role for role in force.models.model_fields_set}
     for path, role in written.items():
-        if role in fixed:
+        if role in fixed and not path.startswith(f"forces.{NEIGHBOUR}."):
             ledger.problem(path, "rollers in motion take the law's own values here: leave it out")
 
 
@@ -154,12 +169,28 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
     pressed = rollers.kind == "tapered" or bool(case.loads.axial)
     silent = [dof for dof in (*(() if pressed else ("x",)), *TILTS) if dof not in inner.model_fields_set]
     inner = inner.model_copy(update={dof: type(getattr(inner, dof))(mode="locked") for dof in silent})
-    models = case.models.model_copy(update=dict.fromkeys((*DEFAULT_LINE_MODELS, *_SHAPED)))
+    # Without a cage models.cage_contact is refused, as it is with balls.
+    own = {*DEFAULT_LINE_MODELS, *_SHAPED} - ({"cage_contact"} if rollers.full_complement else set())
+    models = case.models.model_copy(update=dict.fromkeys(own))
     bodies = case.bodies.model_copy(update={"inner_ring": inner})
     parameters = {role: values for role, values in case.parameters.items() if role not in DEFAULT_LINE_MODELS}
     forces = case.forces.model_copy(update={rib: ForceElement() for rib in RIBS})
+    if rollers.full_complement:
+        forces = forces.model_copy(update={NEIGHBOUR: _of_other_roles(forces)})
+    depth = case.depth.model_copy(update={"cage": not rollers.full_complement})
     changed = {"forces": forces, "bearing": bearing, "bodies": bodies, "models": models, "parameters": parameters}
-    return case.model_copy(update={**changed, "fit": None})
+    return case.model_copy(update={**changed, "depth": depth, "fit": None})
+
+
+def _of_other_roles(forces: Forces) -> ForceElement:
+    """Return what a case says of neighbouring rollers.
+
+    But for their contact, whose laws are not those of balls.
+    """
+    given: ForceElement = getattr(forces, NEIGHBOUR)
+    models = given.models.model_copy(update={"cage_contact": None})
+    parameters = {role: values for role, values in given.parameters.items() if role != "cage_contact"}
+    return ForceElement(models=models, parameters=parameters)
 
 
 def with_ribs(balls: Case, case: Case) -> Case:
@@ -204,12 +235,15 @@ def with_rollers(
     """
 
     def chosen(role: str, name: str) -> ChosenLaw:
+        written = case.parameters.get(role, {}) if role in DEFAULT_LINE_MODELS and name != "none" else {}
+        return read(role, name, written)
+
+    def read(role: str, name: str, written: Mapping[str, Any], under: str = "") -> ChosenLaw:
         found = law(role, name)
         if role in (*DEFAULT_LINE_MODELS, *_SHAPED) and found.contact == "point":
-            problem = Problem(f"models.{role}", f'"{name}" is a law of balls: choose one of rollers')
+            problem = Problem(f"{under}models.{role}", f'"{name}" is a law of balls: choose one of rollers')
             raise CaseError(case.name, [problem])
-        written = case.parameters.get(role, {}) if role in DEFAULT_LINE_MODELS and name != "none" else {}
-        ledger = Ledger()
+        ledger = Ledger(place=lambda path: under + path)
         values = written_parameters(found, role, written, ledger)
         ledger.check(case.name)
         assert values is not None  # else a problem says why
@@ -226,9 +260,15 @@ def with_rollers(
     for element in _ELEMENTS:
         supply = _with_constants(laws[element]["supply"], rollers)
         laws[element] = {**laws[element], **lines, "supply": supply}
-    shaped = {role: chosen(role, getattr(case.models, role) or name) for role, name in _SHAPED.items()}
-    laws["ball_cage"] = {"cage_contact": shaped["cage_contact"]}
-    laws["fluid_drag"] = {"fluid_drag": _with_constants(shaped["fluid_drag"], rollers)}
+    drag = chosen("fluid_drag", case.models.fluid_drag or _SHAPED["fluid_drag"])
+    laws["fluid_drag"] = {"fluid_drag": _with_constants(drag, rollers)}
+    if rollers.full_complement:
+        given = getattr(case.forces, NEIGHBOUR)
+        name, written = given.models.cage_contact or _NEIGHBOURS, given.parameters.get("cage_contact", {})
+        laws[NEIGHBOUR] = {"cage_contact": read("cage_contact", name, written, f"forces.{NEIGHBOUR}.")}
+    else:
+        pocket = chosen("cage_contact", case.models.cage_contact or _SHAPED["cage_contact"])
+        laws["ball_cage"] = {"cage_contact": pocket}
     values, told = _of_laws(model, laws, case)
     ratings = tuple(
         ResolvedValue(f"bearing.{name}", getattr(rollers, name), "force", "of the rollers", "", "given")
@@ -259,8 +299,8 @@ def _of_laws(
     for element, role in ((e, r) for e, roles in laws.items() for r in roles):
         if laws[element][role] is not model.laws.get(element, {}).get(role):
             changed |= {f"forces.{element}.{kind}.{role}" for kind in ("models", "parameters")}
-            asked = getattr(case.forces, element) if element in RIBS else None
-            if asked is None or role in asked.parameters or role in asked.models.model_fields_set:
+            asked = getattr(case.forces, element) if element in (*RIBS, NEIGHBOUR) else None
+            if asked is None or element == NEIGHBOUR or {role} & {*asked.parameters, *asked.models.model_fields_set}:
                 given = getattr(case.models if asked is None else asked.models, role, None) is not None
                 record_law(ledger, element, role, laws[element][role], "given" if given else "default")
     for value in model.values:

@@ -99,7 +99,7 @@ def _roller_answer(
 
     None where the source is no case of one.
 
-    Bearings that do not run in time, full complements, have no band: the ranges are those of laws in motion.
+    Bearings that do not run in time have no band: the ranges are those of laws in motion.
     """
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.roller_case import roller_model

@@ -97,6 +97,7 @@ _LAWS: dict[str, dict[str, str]] = {
         "land-guidance": "cage_contact:land_guidance",
         "ball-ball": "cage_contact:ball_ball",
         "roller-pocket": "roller_pocket:roller_pocket",
+        "roller-roller": "roller_pocket:roller_roller",
         "none": "cage_contact:none",
     },
     "force_element": {

@@ -1,6 +1,6 @@
-"""Define the contact of a roller with its pocket.
+"""Define contacts of a roller with its pocket or neighbours.
 
-Two bars across rolling, two end faces along the roller.
+A pocket has two bars across rolling and two end faces along the roller; without a cage rollers touch each other.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import math
 from typing import Annotated, NamedTuple
 
 from lambda_core.plugins import OK, Context, FloatArray, Quantity, law, parameter
-from lambda_plugins.cage_contact import Guide, Pocket, push_back
+from lambda_plugins.cage_contact import CageContact, Guide, Pocket, push_back
 from lambda_plugins.shapes import at_least
 
 _LIMITS_AT = 1e-12  # [m] below this distance from the pocket's axis no direction of contact is defined
@@ -25,6 +25,36 @@ class RollerPocket(Pocket):
         status="assumed",
         ge=0.0,
     )
+
+
+class Neighbours(CageContact):
+    """Constants of two neighbouring rollers."""
+
+    film_width: float = parameter(
+        0.2,
+        "half the width of the oil film between the rollers over their diameter; 0: no oil between them",
+        source="assumption: as in pockets",
+        status="assumed",
+        ge=0.0,
+        le=0.5,
+    )
+    thinnest_film: Annotated[float, Quantity("small_length")] = parameter(
+        "1 um",
+        "film at first touch of the rollers: roughness",
+        source="assumption: as in pockets",
+        status="assumed",
+        gt=0.0,
+    )
+
+
+class RollerPair(NamedTuple):
+    """Two neighbouring rollers as the kernel sees them."""
+
+    contact: Guide
+    reduced: float  # radius of both [m]; 0: no oil is squeezed
+    reach: float  # half of the width of the film [m]
+    length: float  # of the contact [m]
+    touch: float  # film at first touch [m]
 
 
 class RollerGuide(NamedTuple):
@@ -61,8 +91,24 @@ def prepare_roller(parameters: RollerPocket, context: Context) -> RollerGuide:
     )
 
 
-def squeezed_line(guide: RollerGuide, gap: float, closing: float, eta0: float) -> float:
-    """Return the squeeze force of roller and bar [N].
+def prepare_pair(parameters: Neighbours, context: Context) -> RollerPair:
+    """Return the distance of first touch and the film.
+
+    The rollers' diameter; the film is that of two cylinders, R_x = R/2.
+    """
+    radius, width = 0.5 * context.ball_diameter, parameters.film_width
+    wet = width > 0.0 and context.radius_y > 0.0
+    return RollerPair(
+        Guide(parameters, context.ball_diameter, radius),
+        0.5 * radius if wet else 0.0,
+        width * context.ball_diameter,
+        context.radius_y if wet else 0.0,
+        parameters.thinnest_film,
+    )
+
+
+def squeezed_line(guide: RollerGuide | RollerPair, gap: float, closing: float, eta0: float) -> float:
+    """Return the squeeze force of rollers and bars [N].
 
     They close at a speed; no film pulls.
 
@@ -122,4 +168,35 @@ def roller_pocket(
         out[3] += share * (p0 - out[3])
         out[4] += share * (p1 - out[4])
         out[5] += share * (p2 - out[5])
+    return OK
+
+
+@law(
+    "cage_contact",
+    "roller-roller",
+    Neighbours,
+    role_api=3,
+    reference="Teutsch 2005; Reynolds' equation; Yang et al. 2001, J. Tribol. 123, 36 (what is left out)",
+    validity="parallel cylinders but for small angles; boundary friction; all constants are assumptions",
+    prepare=prepare_pair,
+    contact="line",
+)
+def roller_roller(
+    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: RollerPair, out: FloatArray
+) -> int:
+    """Two neighbouring rollers of a bearing without a cage.
+
+    They touch when their axes are a diameter apart. r is the position of one axis from the other's. Contact law and
+    friction are those of pockets. Both surfaces move at the same speed in opposite directions, so that no oil is drawn
+    in: the rollers slide with boundary friction, and a film that heat makes there (Yang et al. 2001) is left out.
+    Before they touch, :func:`squeezed_line` pushes them apart.
+    """
+    out[:] = 0.0
+    apart = math.sqrt(r[1] * r[1] + r[2] * r[2])
+    if apart > _LIMITS_AT:
+        n1, n2 = -r[1] / apart, -r[2] / apart
+        over = par.contact.play - apart
+        film = squeezed_line(par, -over, n1 * v_rel[1] + n2 * v_rel[2], eta0) if par.reduced > 0.0 else 0.0
+        if over > 0.0 or film > 0.0:
+            push_back(0.0, n1, n2, over, r, v_rel, omega_rel, par.contact, film, out)
     return OK

@@ -128,8 +128,14 @@ def test_what_cannot_be(
     [
         ("32216", "0 N", "", "needs thrust on the inner ring along x"),
         ("NU 208", "500 N", "", "takes no thrust in this direction"),
-        ("NCF 3008", "0 N", "", "full complement, run neither in time nor on a shaft yet"),
-        ("NU 208", "0 N", "[depth]\ncage = false\n", "need their cage"),
+        ("NCF 3008", "0 N", "[depth]\ncage = true\n", "a full complement without a cage"),
+        ("NCF 3008", "0 N", '[models]\ncage_contact = "roller-pocket"\n', "contradicts depth.cage = false"),
+        ("32216", "3 kN", "[depth]\ncage = false\n", "tapered rollers in motion need their cage"),
+        ("NU 208", "0 N", '[models]\ncage_contact = "roller-roller"\n', "it needs depth.cage = false"),
+        ("NU 208", "0 N", "[forces.ball_ball.parameters.cage_contact]\nmu_s = 0.1\n", "needs depth.cage = false"),
+        ("NCF 3008", "0 N", '[forces.ball_ball.models]\ncage_contact = "ball-ball"\n', "is a law of balls"),
+        ("NCF 3008", "0 N", "[forces.ball_ball.parameters.cage_contact]\nx = 1\n", "forces.ball_ball.parameters"),
+        ("NCF 3008", "0 N", "[forces.ball_ball.parameters.supply]\nx = 1\n", "ball_ball has no such role"),
         ("NU 208", "0 N", "[parameters.film_thickness]\nx = 1\n", "parameters.film_thickness"),
         ("NU 208", "0 N", '[models]\nfluid_drag = "skf-catalogue"\n', "is a law of balls"),
         ("NU 208", "0 N", '[models]\ncage_contact = "spherical-pocket"\n', "is a law of balls"),
@@ -158,7 +164,7 @@ def test_a_slip_in_a_designation_names_the_nearest(tmp_path: Path, capsys: pytes
     assert "NU 208" in capsys.readouterr().err
 
 
-def test_shafts_take_rollers_but_full_complements(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_shafts_take_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "shaft.toml"
     path.write_text(
         """\
@@ -172,9 +178,9 @@ bearings = { left = { designation = "SKF 6208", at = "21 mm" }, right = { design
     )
     assert main(["compare", str(path), "--bearing", "right"]) == 0
     assert "rib [N mm]" in capsys.readouterr().out
-    path.write_text(path.read_text(encoding="utf-8").replace("NU 208", "NCF 3008"), encoding="utf-8")
-    assert main(["check", str(path)]) == 3
-    assert "bearings.right.designation NCF rollers, a full complement" in " ".join(capsys.readouterr().err.split())
+    path.write_text(path.read_text(encoding="utf-8").replace('"NU 208"', '"NCF 3008", takes = "+x"'), encoding="utf-8")
+    assert main(["check", str(path)]) == 0
+    assert "neighbouring rollers touch; they leave 3.51 mm" in " ".join(capsys.readouterr().out.split())
 
 
 def test_own_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -68,5 +68,11 @@ def test_a_bearing_on_a_shaft_has_the_band_of_one_that_is_alone() -> None:
     assert on_shaft == pytest.approx(alone, rel=5e-3)
 
 
-def test_full_complements_answer_without_a_band() -> None:
-    assert api.quasistatic(case("SKF NCF 3008", "1000 rpm", radial="5 kN"), band=True).model_band is None
+def test_full_complements_have_a_band() -> None:
+    torque = band(case("SKF NCF 3008", "1000 rpm", radial="5 kN")).band("friction torque")
+    assert torque.low < torque.value < torque.high
+
+
+def test_tapered_full_complements_answer_without_a_band() -> None:
+    source = case("SKF 32216", "1000 rpm", axial="5 kN") | {"depth": {"cage": False}}
+    assert api.quasistatic(source, band=True).model_band is None

@@ -84,6 +84,7 @@ CHECKED: dict[str, tuple[str, str]] = {
     "cage_contact/land-guidance": BLOW,
     "cage_contact/ball-ball": BLOW,
     "cage_contact/roller-pocket": (LINES, "test_bars_and_ends_of_a_pocket"),
+    "cage_contact/roller-roller": (LINES, "test_two_rollers_push_rub_and_squeeze"),
     "cage_contact/none": NOTHING,
     "fluid_drag/skf-catalogue": (LOSSES, "test_skf_drag_of_the_6319"),
     "fluid_drag/schaeffler-catalogue": (LOSSES, "test_schaeffler_idle_torque_of_the_6319"),

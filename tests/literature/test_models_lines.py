@@ -11,7 +11,7 @@ from lambda_plugins import line_contact, roller_drag, roller_pocket
 from lambda_plugins.damping import SqueezeFilm
 from lambda_plugins.elastic_hysteresis import LossFactor
 from lambda_plugins.film_thickness import FilmFloors
-from lambda_plugins.roller_pocket import RollerPocket
+from lambda_plugins.roller_pocket import Neighbours, RollerPocket
 from lambda_plugins.rolling_resistance import InletShear
 from scipy.integrate import quad
 
@@ -172,6 +172,31 @@ def test_a_bar_squeezes_oil_as_a_cylinder_does() -> None:
     found = roller_pocket.squeezed_line(par, gap, speed, 0.05)
     Published(total, "Reynolds' equation, integrated", "closed form", rel=1e-6).check(found)
     assert roller_pocket.squeezed_line(par, gap, -speed, 0.05) == 0.0
+
+
+def test_two_rollers_push_rub_and_squeeze() -> None:
+    """cage_contact, roller-roller: k (e - e_0/2) once the axes are a diameter apart, mu times it, a film before."""
+    context = replace(trial_context("ball_ball"), radius_y=LENGTH)
+    par = roller_pocket.prepare_pair(Neighbours(mu_s=0.08, mu_d=0.05), context)
+    diameter, over, still, out = context.ball_diameter, 3e-6, np.zeros(3), outputs(6)
+    push, spin = 5e6 * (over - 0.25e-6), np.array([200.0, 0.0, 0.0])
+    place = np.array([0.0, 0.0, over - diameter])
+    # the surface of the other moves as fast the other way: twice the spin against the frame that turns with it
+    roller_pocket.roller_roller(place, np.cross(-spin, place), 0.0 * spin, 0.05, par, out)
+    assert out == pytest.approx([0.0, 0.05 * push, -push, 0.0, 0.0, over - 0.5 * diameter])
+    roller_pocket.roller_roller(np.array([1e-3, -diameter - 1e-6, 0.0]), still, spin, 0.05, par, out)
+    assert not out.any()
+    gap, speed = 20e-6, 0.01
+    apart, closing = np.array([0.0, diameter + gap, 0.0]), np.array([0.0, -speed, 0.0])
+    roller_pocket.roller_roller(apart, closing, still, 0.05, par, out)
+    width = 0.2 * diameter
+
+    def pressure(x: float) -> float:
+        end, h = (gap + par.touch + 2.0 * at * at / diameter for at in (width, x))
+        return 6.0 * 0.05 * speed * 0.25 * diameter * (h**-2 - end**-2)
+
+    total = quad(pressure, -width, width, points=(0.0,))[0] * LENGTH
+    Published(total, "Reynolds' equation, integrated", "closed form", rel=1e-6).check(out[1])
 
 
 @pytest.mark.parametrize("width", [0.0, 5e-5, 2e-4])

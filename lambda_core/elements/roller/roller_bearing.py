@@ -93,6 +93,8 @@ class RollerBearing:
         Direction of a along x of the shaft, 1 or -1: where thrust on the shaft points that presses the rollers.
     limiting_speed : float or None
         Of the catalogue [rad/s].
+    caged : bool
+        Whether a cage keeps the rollers apart, where the kind has one.
     """
 
     kind: str
@@ -121,6 +123,7 @@ class RollerBearing:
     series: str = ""
     faces: int = 1
     limiting_speed: float | None = None
+    caged: bool = True
 
     def __post_init__(self) -> None:
         """Refuse what cannot be built.
@@ -142,7 +145,16 @@ class RollerBearing:
     @property
     def full_complement(self) -> bool:
         """True without a cage."""
-        return self.kind in FULL_COMPLEMENT
+        return self.kind in FULL_COMPLEMENT or not self.caged
+
+    @property
+    def room(self) -> float:
+        """Circumferential clearance [m].
+
+        The arc of the pitch circle that touching rollers leave free.
+        Neighbours that touch stand 2 asin(D_we/D_pw) apart (Harris and Kotzalas, vol. 1, ch. 2: chords).
+        """
+        return (math.pi - self.count * math.asin(self.diameter / self.pitch_diameter)) * self.pitch_diameter
 
     @property
     def mean_diameter(self) -> float:

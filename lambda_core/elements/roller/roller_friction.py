@@ -163,9 +163,9 @@ def friction(
 
 def skf_kind(bearing: RollerBearing) -> str:
     """Return the name of a bearing in SKF's friction model."""
-    if bearing.full_complement:
-        return "full complement"
-    return bearing.kind if bearing.kind in ("tapered", "needle") else "cylindrical"
+    if bearing.kind in ("tapered", "needle"):
+        return bearing.kind
+    return "full complement" if bearing.full_complement else "cylindrical"
 
 
 def replenishment(bearing: RollerBearing, speed: float, viscosity: float, constant: float) -> float:

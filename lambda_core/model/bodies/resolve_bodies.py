@@ -108,11 +108,11 @@ def _sphered_ring(g: Geometry, density: float) -> Inertia:
 
 
 def resolve_cage(
-    spec: CageBody, row: CageRow, geometry: Geometry, material: Material, ledger: Ledger
+    spec: CageBody, row: CageRow, geometry: Geometry, material: Material, ledger: Ledger, *, is_there: bool
 ) -> tuple[Cage, Inertia]:
     """Return the cage's geometry and inertia.
 
-    After the formula of its type.
+    After the formula of its type; one that is not there is not checked.
 
     m = density fill pi d_m (radial D_w) (axial D_w); inertia of a hollow cylinder of that
     radial thickness and width about the pitch circle.
@@ -140,10 +140,11 @@ def resolve_cage(
         ledger.problem("bodies.cage.land_clearance", f'is required: cage type "{row.name}" has no usual land clearance')
     else:
         land = length("land_clearance", row.land_clearance_ratio.value if row.land_clearance_ratio else math.nan, what)
-    ledger.assume(
-        f"cage {row.name}: pocket clearance {show(pocket, 'small_length', 4)}, mass and inertia after the "
-        f"formula of its type ({row.pocket_clearance_ratio.source})"
-    )
+    if is_there:
+        ledger.assume(
+            f"cage {row.name}: pocket clearance {show(pocket, 'small_length', 4)}, mass and inertia after the "
+            f"formula of its type ({row.pocket_clearance_ratio.source})"
+        )
     for name, size, limit in (
         ("radial_thickness", thickness, pitch),
         ("width", width, geometry.outside_diameter),
@@ -154,12 +155,13 @@ def resolve_cage(
             thickness = width = ball
     mass = material.density * row.fill.value * math.pi * pitch * thickness * width * geometry.rows
     width += geometry.row_distance
-    if geometry.rows == 2:
+    if geometry.rows == 2 and is_there:
         ledger.assume("one cage holds both rows, whose balls stand in turn")
     inertia = hollow_cylinder(mass, 0.5 * (pitch - thickness), 0.5 * (pitch + thickness), width)
     if guidance not in ("ball", "inner ring", "outer ring"):
         ledger.problem("bodies.cage.type", f'"{row.name}" has the unknown guidance "{guidance}"')
-    _check_cage(geometry, pocket, land, ledger)
+    if is_there:
+        _check_cage(geometry, pocket, land, ledger)
     return Cage(row.name, pocket, land, width, thickness, guidance), inertia  # type: ignore[arg-type]
 
 

@@ -89,6 +89,8 @@ def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: O
             radius_y=rib.contact.radius_y,
             e_eff=effective_modulus(model.ball_material, partner),
         )
+    if element == "ball_ball" and model.rollers is not None:
+        return dataclasses.replace(common, radius_x=0.25 * g.ball_diameter, radius_y=model.rollers.effective_length)
     if element in ("cage_inner", "cage_outer"):
         land = g.shoulder_diameter_inner if element == "cage_inner" else g.shoulder_diameter_outer
         ring = model.inner_material if element == "cage_inner" else model.outer_material

@@ -14,6 +14,7 @@ import math
 import numpy as np
 
 from lambda_core.solver.arrays.bundle import BPSI, BVT, NB, NR, NS, STHETA
+from lambda_core.solver.arrays.jacobian_blocks import AFTER, BEFORE
 from lambda_core.solver.contact.contact_kinematics import near
 from lambda_core.solver.layout import helper
 from lambda_core.solver.motion.block_rows import force_map
@@ -21,6 +22,7 @@ from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
 from lambda_core.solver.records import BODY_STATE, ROLLER
 from lambda_core.solver.roller.kinematics import apply_roller_wrench
 from lambda_core.solver.roller.motion import roller_rates
+from lambda_core.solver.roller.neighbours import neighbour_forces
 from lambda_core.solver.roller.pocket import pocket_forces
 from lambda_core.solver.roller.rows import roller_drag, roller_wrench, rollers_of, touch_roller
 from lambda_core.solver.vec import clear, clear_each, store
@@ -214,6 +216,63 @@ def _pocket_columns(roller, j, row, bundle, bl):
 
 
 @helper
+def _neighbour_columns(roller, other, j, row, bundle, bl):
+    """Add the contact with a neighbour to roller j's slopes.
+
+    Those with the other's states go into bl.beyond; return 0 on a fault.
+    """
+    fm, near = bl.wrenches, bl.roller.view(ROLLER)
+    bl.beyond[:, :] = 0.0
+    clear_each(fm)
+    if neighbour_forces(roller, other, j, row, bundle, fm[0], fm[1]) < -0.5:
+        return 0
+    if _no_force(fm[0]):
+        return 1
+    for k in range(2 * NR):
+        c = k % NR
+        step = _step(c, True)
+        near[0] = roller if k < NR else other
+        bl.roller[c] += step
+        clear_each(fm[2:])
+        if k < NR:
+            lost = neighbour_forces(near[0], other, j, row, bundle, fm[2], fm[3])
+        else:
+            lost = neighbour_forces(roller, near[0], j, row, bundle, fm[2], fm[3])
+        if lost < -0.5:
+            return 0
+        add_slope(bl.own if k < NR else bl.beyond, c, fm[2], fm[0], step)
+    return 1
+
+
+@helper
+def _neighbour_block(bl, block):
+    """Turn slopes with a neighbour's states into a roller's rows."""
+    for k in range(NR):
+        for c in range(NR):
+            total = 0.0
+            for i in range(6):
+                total += bl.roller_map[k, i] * bl.beyond[i, c]
+            block[k, c] = total
+
+
+@helper
+def _guide_columns(rollers, j, row, bundle, bl):
+    """Add the pocket or the neighbours of roller j.
+
+    Return 0 on a fault.
+    """
+    z, i = row.balls, j - row.first_ball
+    if row.caged == 1:
+        return _pocket_columns(rollers[i], j, row, bundle, bl)
+    for side in (BEFORE, AFTER):
+        other = rollers[(i + (1 if side == AFTER else z - 1)) % z]
+        if _neighbour_columns(rollers[i], other, j, row, bundle, bl) != 1:
+            return 0
+        _neighbour_block(bl, bl.cross[j, side])
+    return 1
+
+
+@helper
 def _drag_columns(roller, row, bundle, bl):
     """Add a roller's drag to its block.
 
@@ -235,20 +294,29 @@ def _drag_columns(roller, row, bundle, bl):
 
 
 @helper
-def _equation_rows(roller, j, row, bundle, bl, a, b):
-    """Turn force slopes into roller j's rows.
+def _write_map(roller, j, row, bundle, bl):
+    """Write the rates of roller j and their slopes.
 
-    With the slopes of its own equations of motion.
+    With forces and moments, in which they are linear.
     """
-    wrench, near_roller, index = bundle.ball_wrenches[j], bl.roller.view(ROLLER), bl.reach.index[row.number]
-    here, there = bl.moved[0].view(ROLLER), bl.moved[1].view(ROLLER)
+    wrench, here, there = bundle.ball_wrenches[j], bl.moved[0].view(ROLLER), bl.moved[1].view(ROLLER)
     roller_rates(roller, wrench, row, here[0])
-    for i in range(6):  # linear in forces and moments
+    for i in range(6):
         _push(wrench, i, 1.0)
         roller_rates(roller, wrench, row, there[0])
         _push(wrench, i, -1.0)
         for k in range(NR):
             bl.roller_map[k, i] = bl.moved[1, k] - bl.moved[0, k]
+
+
+@helper
+def _equation_rows(roller, j, row, bundle, bl, a, b):
+    """Turn force slopes into roller j's rows.
+
+    With the slopes of its own equations of motion; call after _write_map.
+    """
+    wrench, near_roller, index = bundle.ball_wrenches[j], bl.roller.view(ROLLER), bl.reach.index[row.number]
+    there = bl.moved[1].view(ROLLER)
     for c in range(NR):
         near_roller[0] = roller
         step = _step(c, False)
@@ -295,20 +363,21 @@ def _body_rows(p, index, bl, c_block):
 
 
 @helper
-def _blocks(roller, j, row, bundle, bl):
+def _blocks(rollers, j, row, bundle, bl):
     """Write the blocks A, B, C of roller j.
 
     And its part of D; return 0 on a fault.
     """
-    reach, r, system = bl.reach, row.number, bundle.system[0]
+    reach, r, system, roller = bl.reach, row.number, bundle.system[0], rollers[j - row.first_ball]
     bl.parts[j, :, :, :] = 0.0
     bl.own[:, :] = 0.0
     bl.to_shared[:, :] = 0.0
     bl.from_ball[:, :, :] = 0.0
+    _write_map(roller, j, row, bundle, bl)
     if _raceway_columns(roller, j, row, bundle, bl) != 1:
         return 0
     if system.friction_on == 1:
-        if system.guides_on == 1 and row.caged == 1 and _pocket_columns(roller, j, row, bundle, bl) != 1:
+        if system.guides_on == 1 and _guide_columns(rollers, j, row, bundle, bl) != 1:
             return 0
         if row.drag_on == 1 and _drag_columns(roller, row, bundle, bl) != 1:
             return 0
@@ -336,6 +405,6 @@ def jacobian(y, r, bundle, bl):
             continue
         bl.changed[r], bl.newer[j] = 1, 1
         due += 1
-        if _blocks(rollers[i], j, row, bundle, bl) != 1:
+        if _blocks(rollers, j, row, bundle, bl) != 1:
             return -1
     return due

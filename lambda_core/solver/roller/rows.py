@@ -22,6 +22,7 @@ from lambda_core.solver.roller.capacitance import in_series, loaded_capacitance,
 from lambda_core.solver.roller.kinematics import apply_roller_wrench, line_kinematics, rib_kinematics
 from lambda_core.solver.roller.line import closest, line_energy, line_losses, line_wrench
 from lambda_core.solver.roller.motion import from_own, roller_energy, roller_rates
+from lambda_core.solver.roller.neighbours import neighbour_energy, neighbour_forces
 from lambda_core.solver.roller.pocket import pocket_energy, pocket_forces
 from lambda_core.solver.row_code import CONTACTS, GUIDES, POCKETS
 from lambda_core.solver.vec import clear, dot, increase, store, turning
@@ -118,12 +119,7 @@ def _contacts(rollers, row, bundle, losses, want):
 
 @helper
 def _pockets(rollers, row, bundle, own, want):
-    """Add the pockets of a row.
-
-    Rollers without a cage do not feel each other.
-    """
-    if row.caged == 0:
-        return 1
+    """Add the pockets of a row."""
     cage, on_cage = bundle.bodies_now[row.cage], bundle.body_wrenches[row.cage]
     for i in range(row.balls):
         j = row.first_ball + i
@@ -132,6 +128,20 @@ def _pockets(rollers, row, bundle, own, want):
             return 0
         if want == 1:
             own.pocket += lost
+    return 1
+
+
+@helper
+def _neighbours(rollers, row, bundle, own, want):
+    """Add the contacts of neighbouring rollers of a row without a cage."""
+    for i in range(row.balls):
+        j, k = row.first_ball + i, (i + 1) % row.balls
+        on_next = bundle.ball_wrenches[row.first_ball + k]
+        lost = neighbour_forces(rollers[i], rollers[k], j, row, bundle, bundle.ball_wrenches[j], on_next)
+        if lost < -0.5:
+            return 0
+        if want == 1:
+            own.land += lost
     return 1
 
 
@@ -185,6 +195,8 @@ def evaluate(stage, t, y, r, bundle, dydt, rates, want):
         return _contacts(rollers, row, bundle, losses_of(rates, bundle.raceways.size), min(want, 1))
     own = powers_of_bearing(bundle, row.bearing, running_of(rates)[0])
     if stage == GUIDES:
+        if row.caged == 0:
+            return _neighbours(rollers, row, bundle, own, min(want, 1))
         return _pockets(rollers, row, bundle, own, min(want, 1))
     return _move(rollers, rollers_of(dydt, row), row, bundle, own, min(want, 1))
 
@@ -192,7 +204,7 @@ def evaluate(stage, t, y, r, bundle, dydt, rates, want):
 def energy(y, r, bundle):
     """Return the rollers' energy [J].
 
-    Kinetic and elastic, of a row with its contacts and pockets.
+    Kinetic and elastic, of a row with its contacts, pockets or neighbours.
     """
     row, rollers, total = bundle.rows[r], rollers_of(y, bundle.rows[r]), 0.0
     kin = bundle.scratch[0].kinematics[0]
@@ -207,8 +219,12 @@ def energy(y, r, bundle):
                 total += line_energy(raceway, kin, bundle)
             else:
                 total += contact_energy(raceway, kin.penetration, bundle)
-        if row.caged == 1 and bundle.system[0].guides_on == 1:
+        if bundle.system[0].guides_on == 0:
+            continue
+        if row.caged == 1:
             total += pocket_energy(rollers[i], bundle.bodies_now[row.cage], row.first_ball + i, row, bundle)
+        else:
+            total += neighbour_energy(rollers[i], rollers[(i + 1) % row.balls], row, bundle)
     return total
 
 
@@ -278,6 +294,25 @@ def _channels(roller, j, row, raceway, bundle, shorted, values, losses, rates):
     return loaded_capacitance(raceway, kin, bundle, shorted, touching, sample)
 
 
+@helper
+def _show_guide(rollers, j, row, bundle, force):
+    """Write the force of the cage on a roller.
+
+    Without a cage that of the roller after it; return 0 on a fault.
+    """
+    i, on_roller = j - row.first_ball, bundle.ball_wrenches[j]
+    clear(on_roller)
+    if row.caged == 1:
+        cage = bundle.bodies_now[row.cage]
+        lost = pocket_forces(rollers[i], cage, j, row, bundle, on_roller, bundle.body_wrenches[row.cage])
+    else:
+        k = (i + 1) % row.balls
+        on_next = bundle.ball_wrenches[row.first_ball + k]
+        lost = neighbour_forces(rollers[i], rollers[k], j, row, bundle, on_roller, on_next)
+    store(force, on_roller.force)
+    return 0 if lost < -0.5 else 1
+
+
 def observe(stage, y, r, bundle, shorted, contacts, pockets, losses, rates):
     """Write a sample of rollers.
 
@@ -290,13 +325,8 @@ def observe(stage, y, r, bundle, shorted, contacts, pockets, losses, rates):
     for i in range(row.balls):
         j = row.first_ball + i
         if stage == POCKETS:
-            on_roller = bundle.ball_wrenches[j]
-            clear(on_roller)
-            if row.caged == 1:
-                cage = bundle.bodies_now[row.cage]
-                if pocket_forces(rollers[i], cage, j, row, bundle, on_roller, bundle.body_wrenches[row.cage]) < -0.5:
-                    return -1.0
-            store(pockets[j], on_roller.force)
+            if _show_guide(rollers, j, row, bundle, pockets[j]) != 1:
+                return -1.0
             continue
         one, other = 0.0, 0.0
         for k in range(row.raceways):
