@@ -5,7 +5,8 @@ from __future__ import annotations
 import datetime
 import math
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -81,17 +82,39 @@ def fit_report(
         )
     except ValueError as error:
         raise UsageError(f"{data.name}: {error}") from None
-    suggestion = _suggestion(problem, found) if suggest and not found.is_interrupted else None
-    sizes = {} if found.is_interrupted else discrepancy_sizes(problem, found)
-    report = _report(subject, data, problem, found, suggestion, sizes)
-    unseen = [] if predict is None or found.is_interrupted else _unseen(subject, problem, found, sizes, predict)
-    posterior = None
-    if sample and not found.is_interrupted:
+    # what an interruption leaves out: the values are known
+    rest: dict[str, Any] = {"sizes": {}, "suggestion": None, "predictions": [], "posterior": None}
+    try:
+        for name, part in _rest(subject, problem, found, suggest, predict, sample, announce):
+            rest[name] = part
+    except KeyboardInterrupt:
+        found = replace(found, is_interrupted=True)
+    report = _report(subject, data, problem, found, rest.pop("suggestion"), rest.pop("sizes"))
+    return report.model_copy(update={**rest, "seconds": time.perf_counter() - begin})
+
+
+def _rest(
+    subject: Subject,
+    problem: CaseProblem,
+    found: Fit,
+    suggest: bool,
+    predict: str | Path | Measurements | None,
+    sample: int,
+    announce: Announce | None,
+) -> Iterator[tuple[str, Any]]:
+    """Yield what follows from fitted values, by name."""
+    if found.is_interrupted:
+        return
+    sizes = discrepancy_sizes(problem, found)
+    yield "sizes", sizes
+    if suggest:
+        yield "suggestion", _suggestion(problem, found)
+    if predict is not None:
+        yield "predictions", _unseen(subject, problem, found, sizes, predict)
+    if sample:
         if announce is not None:
             announce("sampling the posterior")
-        posterior = _posterior(problem, found, sample)
-    more = {"predictions": unseen, "posterior": posterior}
-    return report.model_copy(update={**more, "seconds": time.perf_counter() - begin})
+        yield "posterior", _posterior(problem, found, sample)
 
 
 def _reporting(problem: CaseProblem, progress: Progress) -> Model:
@@ -316,7 +339,7 @@ def _list(names: Sequence[str]) -> str:
 def _warnings(problem: CaseProblem, found: Fit) -> list[str]:
     warnings = []
     if found.is_interrupted:
-        warnings.append("The fit was interrupted: these are the best values so far, and their errors are rough.")
+        warnings.append("The fit was interrupted: these are the best values so far; what was not computed is left out.")
     patterns = [test for test in found.tests if test.is_significant]
     if patterns:
         first = patterns[0]

@@ -266,6 +266,7 @@ def fit(
         held = search.inseparable()
         if held:
             search.run(held)
+        return search.outcome()
     except KeyboardInterrupt:
         search.stop()
     return search.outcome()

@@ -127,6 +127,19 @@ def _region(found: Fit) -> tuple[FloatArray, FloatArray]:
     return np.maximum(low, found.values - reach), np.minimum(high, found.values + reach)
 
 
+def _corners(count: int) -> FloatArray:
+    """Return corners of a unit cube: all of up to three sides.
+
+    Of more, twice the power of two above their number: a Hadamard matrix and its mirror image, in which effects of
+    single parameters and of pairs stay apart (Plackett and Burman 1946, Biometrika 33, 305; Box and Wilson 1951).
+    """
+    from scipy.linalg import hadamard
+
+    signs = hadamard(2 ** count.bit_length())[:, 1 : count + 1]
+    found: FloatArray = np.unique(np.vstack([signs, -signs]), axis=0) / 2.0 + 0.5
+    return found
+
+
 def _interpolation(
     model: Model, found: Fit, low: FloatArray, high: FloatArray
 ) -> tuple[Callable[[FloatArray], FloatArray], float]:
@@ -139,8 +152,7 @@ def _interpolation(
 
     computed = _PER_PARAMETER * low.size
     sequence = qmc.Halton(low.size, scramble=False).random(computed + _CHECKED + 1)[1:]  # the first is a corner
-    corners = np.array(np.meshgrid(*[(0.0, 1.0)] * low.size)).reshape(low.size, -1).T
-    shares = np.vstack([corners, sequence])
+    shares = np.vstack([_corners(low.size), sequence])
     values = np.array([model(low + (high - low) * share) for share in shares])
     known = len(shares) - _CHECKED
     found_at = RBFInterpolator(shares[:known], values[:known], kernel="cubic", degree=2)

@@ -15,6 +15,7 @@ from lambda_cli.main import main
 from lambda_core import api
 from lambda_core.case.case_writer import case_toml
 from lambda_core.domain.errors import CaseError, SolverError, UsageError
+from lambda_core.fitting import fit_case
 from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.operating_points import point_values
 from lambda_core.fitting.subjects import subject_of
@@ -22,6 +23,7 @@ from lambda_core.fitting.subjects import subject_of
 CASE = "6319-cp10-1500"
 HEADER = "speed [1/min],radial load [kN],oil temperature [degC],friction torque [N mm],friction torque error [%]"
 POINTS = ((300, 8, 60), (3000, 8, 62), (300, 30, 65), (3000, 30, 60))
+FEW = "speed [1/min],friction torque [N mm],friction torque error [%]\n500,925,3\n1500,1306,3\n3000,1564,3"
 TRUTH = ("parameters.elastic_hysteresis.loss_factor=0.04", "parameters.traction.tau_eyring=6 MPa")
 
 
@@ -183,3 +185,19 @@ def test_points_resolved_once_agree_with_the_changed_case() -> None:
         np.testing.assert_allclose(found[-1], anew, rtol=1e-7)
     np.testing.assert_array_equal(found[0], found[2])
     assert np.abs(found[1] / found[0] - 1.0).max() > 0.1
+
+
+@pytest.mark.parametrize("stage", ["_suggestion", "_posterior"])
+def test_an_interruption_after_the_search_keeps_its_values(stage: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*args: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(fit_case, "check_count", lambda count: None)
+    monkeypatch.setattr(fit_case, "_posterior", interrupted)
+    monkeypatch.setattr(fit_case, stage, interrupted)
+    report = api.fit(CASE, parse_measurements(FEW, "rig.csv"), ["loss_factor"], sample=100)
+    assert report.is_interrupted
+    assert report.parameters[0].state == "fitted"
+    assert report.posterior is None
+    assert (report.next_point is None) == (stage != "_posterior")
+    assert any("interrupted" in warning for warning in report.warnings)

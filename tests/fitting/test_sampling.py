@@ -12,7 +12,7 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.fitting.least_squares import Data, fit
 from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.parameters import Parameter
-from lambda_core.fitting.sampling import sample
+from lambda_core.fitting.sampling import _corners, sample
 
 from . import synthetic as S
 
@@ -41,6 +41,20 @@ def test_samples_stay_within_the_range_and_lean_on_its_end() -> None:
     x = np.linspace(0.0, 1.0, 2001)
     density = np.exp(-0.5 * ((x - 1.2) / 0.2) ** 2 / found.factor)
     assert drawn.mean() == pytest.approx(float((x * density).sum() / density.sum()), abs=0.01)
+
+
+@pytest.mark.parametrize(("count", "corners"), [(1, 2), (2, 4), (3, 8), (4, 16), (7, 16), (12, 32)])
+def test_corners_stay_few_and_see_every_parameter(count: int, corners: int) -> None:
+    """Columns are balanced, and no product of two of them is a third: pairs are not taken for single parameters."""
+    found = _corners(count)
+    assert found.shape == (corners, count)
+    signs = 2.0 * found - 1.0
+    assert np.all(np.abs(signs) == 1.0)
+    assert np.all(signs.sum(axis=0) == 0.0)
+    assert np.array_equal(signs.T @ signs, corners * np.eye(count))
+    for i in range(count):
+        for j in range(i):
+            assert np.all((signs[:, i] * signs[:, j]) @ signs == 0.0)
 
 
 @pytest.mark.full
