@@ -37,6 +37,7 @@ from lambda_core.fitting.report import (
 )
 from lambda_core.fitting.sampling import check_count
 from lambda_core.fitting.sampling import sample as sample_posterior
+from lambda_core.fitting.scores import relative
 from lambda_core.fitting.subjects import Subject, subject_of
 from lambda_core.fitting.uncertainty import correlations
 
@@ -67,7 +68,8 @@ def fit_report(
     if not listed(vary, "vary"):
         raise UsageError("nothing to fit: name a parameter, for example --vary loss_factor")
     subject = subject_of(source, overrides, bearing)
-    data = measured if isinstance(measured, Measurements) else read_measurements(measured, subject.words)
+    data = _read(measured, subject)
+    unseen = None if predict is None else _read(predict, subject)
     problem = CaseProblem(subject, data, [subject.varied(text) for text in vary])
     if announce is not None:
         announce(f"fitting to {len(problem.entries)} measured values; parameters: {len(problem.parameters)}")
@@ -85,7 +87,7 @@ def fit_report(
     # what an interruption leaves out: the values are known
     rest: dict[str, Any] = {"sizes": {}, "suggestion": None, "predictions": [], "posterior": None}
     try:
-        for name, part in _rest(subject, problem, found, suggest, predict, sample, announce):
+        for name, part in _rest(subject, problem, found, suggest, unseen, sample, announce):
             rest[name] = part
     except KeyboardInterrupt:
         found = replace(found, is_interrupted=True)
@@ -93,12 +95,16 @@ def fit_report(
     return report.model_copy(update={**rest, "seconds": time.perf_counter() - begin})
 
 
+def _read(source: str | Path | Measurements, subject: Subject) -> Measurements:
+    return source if isinstance(source, Measurements) else read_measurements(source, subject.words)
+
+
 def _rest(
     subject: Subject,
     problem: CaseProblem,
     found: Fit,
     suggest: bool,
-    predict: str | Path | Measurements | None,
+    unseen: Measurements | None,
     sample: int,
     announce: Announce | None,
 ) -> Iterator[tuple[str, Any]]:
@@ -109,8 +115,8 @@ def _rest(
     yield "sizes", sizes
     if suggest:
         yield "suggestion", _suggestion(problem, found)
-    if predict is not None:
-        yield "predictions", _unseen(subject, problem, found, sizes, predict)
+    if unseen is not None:
+        yield "predictions", _unseen(subject, problem, found, sizes, unseen)
     if sample:
         if announce is not None:
             announce("sampling the posterior")
@@ -127,7 +133,7 @@ def _reporting(problem: CaseProblem, progress: Progress) -> Model:
     def predict(values: FloatArray) -> FloatArray:
         nonlocal best
         found = problem.predict(values)
-        best = min(best, 100.0 * _rms(found / measured - 1.0))
+        best = min(best, 100.0 * _rms(relative(found - measured, measured)))
         progress(problem.solved, best)
         return found
 
@@ -156,13 +162,12 @@ def _posterior(problem: CaseProblem, found: Fit, count: int) -> SampledPosterior
 
 
 def _unseen(
-    subject: Subject, problem: CaseProblem, found: Fit, sizes: dict[str, float], source: str | Path | Measurements
+    subject: Subject, problem: CaseProblem, found: Fit, sizes: dict[str, float], data: Measurements
 ) -> list[PredictedPoint]:
     """Return unseen measured points with predictions.
 
     The fit has not used them.
     """
-    data = source if isinstance(source, Measurements) else read_measurements(source, subject.words)
     asked = problem.elsewhere(data)
     values, _, new = predicted(problem, found, sizes, asked)
     return [
@@ -220,8 +225,8 @@ def _report(
     sizes: dict[str, float],
 ) -> FitReport:
     free = [problem.varied[index].short for index in found.free]
-    share = found.predicted / found.data.values - 1.0
-    left_out = found.left_out / found.data.values
+    share = relative(found.predicted - found.data.values, found.data.values)
+    left_out = relative(found.left_out, found.data.values)
     is_known, degrees = found.data.is_error_known, found.degrees
     chi_square = float(np.sum(found.standardised**2)) / degrees if is_known and degrees > 0 else None
     return FitReport(
@@ -262,7 +267,7 @@ def _report(
 
 
 def _rms(values: FloatArray) -> float:
-    return math.sqrt(float(np.mean(values**2)))
+    return math.sqrt(float(np.mean(values**2))) if values.size else 0.0
 
 
 def _parameters(problem: CaseProblem, found: Fit) -> list[FittedParameter]:

@@ -22,7 +22,7 @@ from lambda_core.domain.files import user_data_folder
 from lambda_core.domain.lists import listed
 from lambda_core.fitting.measurements import Measurements, parse_measurements, read_measurements
 from lambda_core.fitting.operating_points import condition_change, point_values, roller_values
-from lambda_core.fitting.scores import interval_score
+from lambda_core.fitting.scores import interval_score, relative
 from lambda_core.results.record import INTERFACE, Record
 
 if TYPE_CHECKING:
@@ -103,11 +103,11 @@ class MeasuredComparison(Record):
 
 
 def _point(point: ComparedPoint) -> str:
-    error = 100.0 * (point.predicted / point.measured - 1.0)
+    error = f" ({100.0 * (point.predicted / point.measured - 1.0):+.1f} %)" if point.measured else ""
     band = f", band {point.band[0]:.4g}..{point.band[1]:.4g}" if point.band else ""
     return (
         f"line {point.line}: {point.quantity} measured {point.measured:.4g} {point.unit}, "
-        f"predicted {point.predicted:.4g} {point.unit} ({error:+.1f} %){band}"
+        f"predicted {point.predicted:.4g} {point.unit}{error}{band}"
     )
 
 
@@ -216,12 +216,12 @@ def _compared(one: _Loaded, band: bool) -> ComparedSeries:
     except LambdaError as error:
         return _not_computed(series, " ".join(str(error).split()))
     measured, predicted = (np.array([getattr(p, name) for p in points]) for name in ("measured", "predicted"))
-    errors = 100.0 * (predicted / measured - 1.0)
+    errors = 100.0 * relative(predicted - measured, measured)
     inside, score = None, None
     if all(point.band for point in points):
         low, high = (np.array([point.band[end] for point in points]) for end in (0, 1))
         inside = int(np.sum((low <= measured) & (measured <= high)))
-        score = float(np.mean(interval_score(low, high, measured) / np.abs(measured)))
+        score = float(relative(interval_score(low, high, measured), np.abs(measured)).mean())
     return ComparedSeries(
         series=series,
         points=points,

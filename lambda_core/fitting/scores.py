@@ -22,3 +22,10 @@ def interval_score(low: FloatArray, high: FloatArray, measured: FloatArray, cove
         high - low + penalty * np.maximum(low - measured, 0.0) + penalty * np.maximum(measured - high, 0.0)
     )
     return found
+
+
+def relative(difference: FloatArray, measured: FloatArray) -> FloatArray:
+    """Return differences over measured values, without those of zeros."""
+    known = measured != 0.0
+    found: FloatArray = difference[known] / measured[known]
+    return found

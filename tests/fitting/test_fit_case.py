@@ -18,6 +18,7 @@ from lambda_core.domain.errors import CaseError, SolverError, UsageError
 from lambda_core.fitting import fit_case
 from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.operating_points import point_values
+from lambda_core.fitting.scores import relative
 from lambda_core.fitting.subjects import subject_of
 
 CASE = "6319-cp10-1500"
@@ -201,3 +202,13 @@ def test_an_interruption_after_the_search_keeps_its_values(stage: str, monkeypat
     assert report.posterior is None
     assert (report.next_point is None) == (stage != "_posterior")
     assert any("interrupted" in warning for warning in report.warnings)
+
+
+def test_points_to_predict_are_read_before_the_fit(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(fit_case, "fit_values", None)
+    with pytest.raises(UsageError, match=r'cannot read ".*none\.csv"'):
+        api.fit(CASE, parse_measurements(FEW, "rig.csv"), ["loss_factor"], predict=tmp_path / "none.csv")
+
+
+def test_relative_errors_leave_measured_zeros_out() -> None:
+    assert relative(np.array([1.0, 2.0, -3.0]), np.array([0.0, 4.0, 6.0])).tolist() == [0.5, -0.5]
