@@ -103,14 +103,10 @@ def _values(model: BearingModel | MachineModel) -> Iterator[ValueReport]:
     """
     from lambda_core.api import value_reports
 
-    bearings = getattr(model, "bearings", None)
-    if bearings is None:
-        yield from value_reports(cast("BearingModel", model))
-        return
-    for number, bearing in enumerate(bearings):
-        for value in value_reports(bearing.model):
-            if value.path.startswith("bearing."):
-                own = f"bearings.{bearing.name}.{value.path.removeprefix('bearing.')}"
+    for number, (name, bearing) in enumerate(model.bearing_models.items()):
+        for value in value_reports(bearing):
+            if name and value.path.startswith("bearing."):
+                own = f"bearings.{name}.{value.path.removeprefix('bearing.')}"
                 yield value.model_copy(update={"path": own})
             elif number == 0:
                 yield value

@@ -77,7 +77,7 @@ class FitScreen(Screen[None]):
     def __init__(self, draft: Draft, model: BearingModel | MachineModel) -> None:
         super().__init__()
         self._draft, self._name, self._case = draft, model.name, tomllib.loads(model.case_toml)
-        self._bearings = [bearing.name for bearing in getattr(model, "bearings", ())]
+        self._bearings = [name for name in model.bearing_models if name]
         folder = draft.path.resolve().parent if draft.path else Path.cwd()
         names = {
             _PARAMETER: _parameters(model),
@@ -225,13 +225,9 @@ class FitScreen(Screen[None]):
 
 
 def _parameters(model: BearingModel | MachineModel) -> list[str]:
-    """Return the laws' parameters with published range.
-
-    They are for completion.
-    """
-    models = [bearing.model for bearing in getattr(model, "bearings", ())] or [model]
+    """Return the parameters of laws that have a published range, for completion."""
     found: dict[str, None] = {}
-    for one in models:
+    for one in model.bearing_models.values():
         for roles in one.laws.values():
             for role, law in roles.items():
                 for name, info in type(law.parameters).model_fields.items():

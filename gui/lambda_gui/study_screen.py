@@ -79,7 +79,7 @@ class StudyScreen(Screen[None]):
     ) -> None:
         super().__init__()
         self._draft, self._model = draft, model
-        self._usual = asked(bearing.name for bearing in getattr(model, "bearings", ()))
+        self._usual = asked(filter(None, model.bearing_models))
         self._around = Names({_OPTION: studied(draft.root, options)})
         varies = path if path in self._around.names(_OPTION) else ""
         self.values: Values = first_values(model.name, varies, written)

@@ -101,7 +101,7 @@ class MachineSubject:
         for one in self._machine.bearings:
             if path.startswith(f"bearings.{one.name}."):
                 path, own = path.removeprefix(f"bearings.{one.name}."), one.name
-        known = {one.name: one.model for one in self._machine.bearings}
+        known = self._machine.bearing_models
         refused: UsageError | None = None
         for owner in known if own is None else (own,):
             local = f"bearing.{path}" if own is not None and path in _values(self._tables, ("bearings", own)) else path

@@ -7,7 +7,7 @@ Frames: x is the shaft axis, y horizontal, z up; gravity acts along -z; azimuth 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -327,6 +327,15 @@ class BearingModel:
     requirements: Requirements = field(default_factory=Requirements)
     rollers: RollerBearing | None = None
     found_temperatures: Any = field(default=None, compare=False, repr=False)
+
+    @property
+    def bearing_models(self) -> dict[str, BearingModel]:
+        """Itself, under the empty name of a bearing that is alone; a machine has the same property."""
+        return {"": self}
+
+    def with_each(self, change: Callable[[BearingModel], BearingModel]) -> BearingModel:
+        """Return the model changed; a machine changes each of its bearings."""
+        return change(self)
 
     @property
     def elements(self) -> str:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any, Literal, NamedTuple
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal, NamedTuple
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.formulas.elastic.body import ElasticBody
@@ -279,6 +279,15 @@ class MachineModel:
         parts = [body for mounted in self.bearings for body in (mounted.model.outer_ring, mounted.model.cage_body)]
         own = [dof.motion for part in parts for dof in part.dofs.values() if dof.mode == "prescribed"]
         return [self.speed_over_time, *seats, *(lead for body in self.bodies for lead in body.prescribed), *shaft, *own]
+
+    @property
+    def bearing_models(self) -> dict[str, BearingModel]:
+        """Models of the bearings by name, from left to right."""
+        return {bearing.name: bearing.model for bearing in self.bearings}
+
+    def with_each(self, change: Callable[[BearingModel], BearingModel]) -> MachineModel:
+        """Return the machine with the model of each bearing changed."""
+        return replace(self, bearings=tuple(replace(one, model=change(one.model)) for one in self.bearings))
 
     @property
     def solver(self) -> Solver:

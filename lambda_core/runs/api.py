@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from lambda_core.analysis.thermal.temperatures import ready_model
-from lambda_core.case.case_io import is_machine, load_case, parse_case, refuse_bearing
+from lambda_core.case.case_io import is_machine
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError
 from lambda_core.model.api import check
@@ -71,7 +71,7 @@ def quasistatic(
         from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
 
         machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
-        with naming_laws(*(bearing.model for bearing in machine.bearings)):
+        with naming_laws(*machine.bearing_models.values()):
             return machine_equilibrium(machine, band=band, announce=announce)
     rollers = _roller_answer(source, overrides, announce, band=band)
     if rollers is not None:
@@ -354,13 +354,10 @@ def cross_check(
     CaseError, SolverError
         With a sentence about the case, or about which integrator could not go on.
     """
-    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.runs.crosscheck import cross_check as ask
 
     model = ready(source, overrides, announce)
-    if isinstance(model, BearingModel):
-        refuse_bearing(bearing)
-    elif bearing is not None:
+    if bearing is not None:
         from lambda_core.analysis.rotor.bearing_alone import bearing_alone
 
         model = bearing_alone(model, bearing, announce)

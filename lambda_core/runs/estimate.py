@@ -97,7 +97,7 @@ def machine_estimate(model: MachineModel, announce: Callable[[str], None] | None
         When there is no equilibrium.
     """
     start = machine_start(model, announce)
-    bearings = [bearing.model for bearing in model.bearings]
+    bearings = list(model.bearing_models.values())
     turn = max(_cage_turn(one, found) for one, found in zip(bearings, start.equilibria, strict=True))
     simulated = max(
         (_simulated_time(one, found) for one, found in zip(bearings, start.equilibria, strict=True)),

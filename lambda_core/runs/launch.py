@@ -35,6 +35,7 @@ from lambda_core.results.provenance import (
 )
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.reader import Result
+from lambda_core.results.samples import ALONE
 from lambda_core.runs.law_blame import BlamingBearingEngine, naming_laws
 from lambda_core.runs.loop import resume, run
 from lambda_core.runs.progress import Report
@@ -110,13 +111,8 @@ def relaunch(path: Path, model: Runnable, *, report: Report | None = None, annou
 
 
 def _check_same(result: Result, model: Runnable) -> None:
-    """Refuse a case with other values.
-
-    It resolves to other values than those of the run.
-    """
-    models = {one.name: one.model for one in model.bearings} if isinstance(model, MachineModel) else {}
-    if isinstance(model, BearingModel):
-        models = dict.fromkeys(result.bearing_names[:1], model)
+    """Refuse a case that resolves to other values than those of the run."""
+    models = {name or ALONE: own for name, own in model.bearing_models.items()}
     if tuple(models) != result.bearing_names:
         raise ResultError(f"{result.path} is damaged: its case has other bearings than the result")
     for name, own in result.bearings.items():
@@ -233,7 +229,7 @@ def _machine(model: MachineModel, announce: Announce | None) -> tuple[RunEngine,
     from lambda_core.solver.drivers.machine_motion import machine_start
 
     live = _live(model, announce)
-    with naming_laws(*(one.model for one in model.bearings)):
+    with naming_laws(*model.bearing_models.values()):
         engine = BlamingMachineEngine(machine_start(model, announce), announce)
     start = engine.start
     if announce is not None:

@@ -76,7 +76,7 @@ def watch_problems(model: BearingModel | MachineModel) -> list[Problem]:
     list of Problem
         Empty also where the case has none of them, or no start.
     """
-    bearings = {"": model} if isinstance(model, BearingModel) else {one.name: one.model for one in model.bearings}
+    bearings = model.bearing_models
     if not any(one.observers or one.events for one in bearings.values()):
         return []
     try:
@@ -99,13 +99,9 @@ def _first_two(model: BearingModel | MachineModel) -> dict[str, Any]:
     from lambda_core.runs.launch import prepared
 
     def often(one: BearingModel) -> BearingModel:
-        return replace(one, output=replace(one.output, interval=_INTERVAL), electric=None)
+        return replace(one, output=replace(one.output, interval=_INTERVAL))
 
-    if isinstance(model, BearingModel):
-        engine, _, _ = prepared(often(model), None)
-    else:
-        bearings = tuple(replace(one, model=often(one.model)) for one in model.bearings)
-        engine, _, _ = prepared(replace(model, bearings=bearings, electric=None), None)
+    engine, _, _ = prepared(replace(model.with_each(often), electric=None), None)
     advance = engine.advance(1.5 * _INTERVAL)
     if not advance.ok:
         raise SolverError(advance.message)

@@ -375,16 +375,9 @@ class Stepping(Iterator[Step]):
 
 
 def _in_steps(model: BearingModel | MachineModel, interval: float) -> BearingModel | MachineModel:
-    """Return the model with limited steps.
+    """Return the model with no step of the integrator longer than an interval [s]."""
 
-    No step of the integrator is longer than an interval [s].
-    """
-    if isinstance(model, BearingModel):
-        return _bearing_in_steps(model, interval)
-    bearings = tuple(replace(one, model=_bearing_in_steps(one.model, interval)) for one in model.bearings)
-    return replace(model, bearings=bearings)
+    def bounded(one: BearingModel) -> BearingModel:
+        return replace(one, solver=replace(one.solver, max_step=min(interval, one.solver.max_step)))
 
-
-def _bearing_in_steps(model: BearingModel, interval: float) -> BearingModel:
-    longest = min(interval, model.solver.max_step)
-    return replace(model, solver=replace(model.solver, max_step=longest))
+    return model.with_each(bounded)

@@ -21,7 +21,6 @@ from lambda_core.case.case_io import refuse_bearing
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.lists import listed
 from lambda_core.domain.units import parse
-from lambda_core.model.bearing_model import BearingModel
 from lambda_core.studies.definition import Parameter, Study
 from lambda_core.studies.design import Plan
 from lambda_core.studies.folders import is_study, prepare, resume, start, status
@@ -280,7 +279,7 @@ def map_of(folder: Path, bearing: str | None = None) -> RiskMap:
     SolverError
         When no point has a solution.
     """
-    from lambda_core.analysis.electric.circuit_bearing import of_machine, of_model
+    from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
     from lambda_core.analysis.electric.outcome import assumptions, source_words
     from lambda_core.analysis.electric.risk_map import RiskMap, RiskPoint
 
@@ -289,12 +288,9 @@ def map_of(folder: Path, bearing: str | None = None) -> RiskMap:
         wall = float(manifest.meta("wall") or 0.0)
     speeds, temperatures = map_axes(table, folder)
     model = point_model(case_toml, Plan(study).point(0).changes)
-    if isinstance(model, BearingModel):
-        refuse_bearing(bearing)
-        own, circuit = "", of_model(model)
-    else:
-        circuit = of_machine(model)[bearing_number(model, bearing)]
-        own = f"{circuit.name}."
+    number = bearing_number(model, bearing)
+    circuit, prefix = circuit_bearings(model)[number], list(model.bearing_models)[number]
+    own = f"{prefix}." if prefix else ""
     found = {}
     for row, speed, temperature in zip(table.rows(), speeds, temperatures, strict=True):
         message = {"pending": "not computed yet"}.get(row["state"], row["reason"])

@@ -26,16 +26,15 @@ Read = Callable[[DynamicPoint], Number]
 
 def observed_responses(model: BearingModel | MachineModel) -> dict[str, Response]:
     """Return the responses of observers, events and states, by name."""
-    from lambda_core.model.machine_model import MachineModel
-
-    if not isinstance(model, MachineModel):
-        return _of_bearing(model)
     found = {}
-    for bearing in model.bearings:
-        for one in _of_bearing(bearing.model).values():
+    for bearing, own in model.bearing_models.items():
+        for one in _of_bearing(own).values():
             assert one.dynamic is not None
-            name, meaning = f"{bearing.name}.{one.name}", f"{bearing.name}: {one.meaning}"
-            found[name] = Response(name, one.unit, meaning, dynamic=_inside(bearing.name, one.dynamic))
+            named = one
+            if bearing:
+                dynamic, meaning = _inside(bearing, one.dynamic), f"{bearing}: {one.meaning}"
+                named = Response(f"{bearing}.{one.name}", one.unit, meaning, dynamic=dynamic)
+            found[named.name] = named
     return found
 
 

@@ -255,11 +255,8 @@ def asks_currents(names: Sequence[str]) -> bool:
 
 
 def bearing_names(model: BearingModel | MachineModel) -> tuple[str, ...]:
-    """Return the names of a machine's bearings.
-
-    None for the model of one bearing.
-    """
-    return tuple(bearing.name for bearing in getattr(model, "bearings", ()))
+    """Return the names of a machine's bearings; none for the model of one bearing."""
+    return tuple(filter(None, model.bearing_models))
 
 
 def responses_of(model: BearingModel | MachineModel) -> Mapping[str, Response]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lambda_core.analysis.electric.circuit_bearing import of_machine, of_model, of_run, own_options
+from lambda_core.analysis.electric.circuit_bearing import circuit_bearings, of_run, own_options
 from lambda_core.analysis.electric.contacts import (
     PHASES,
     contacts_of_equilibria,
@@ -51,7 +51,7 @@ def electric_of_model(model: BearingModel, announce: Announce = None, *, window:
     SolverError
         When there is no equilibrium, or the circuit cannot be solved.
     """
-    bearing = of_model(model)
+    (bearing,) = circuit_bearings(model)
     contacts = contacts_of_equilibria(equilibria(model, announce=announce), bearing.options.duration)
     return simulate(contacts, bearing, announce=announce, window=window)
 
@@ -84,7 +84,7 @@ def electric_of_machine(
     SolverError
         When a bearing has no equilibrium, or the circuit cannot be solved.
     """
-    bearings = of_machine(machine)
+    bearings = circuit_bearings(machine)
     found = [
         equilibria(held(mounted.model, pose.tolist()), phases, announce, own)
         for mounted, pose, own in zip(machine.bearings, poses, kernels or [None] * len(poses), strict=True)

@@ -79,30 +79,16 @@ def electric_model(options: Electric | None, name: str) -> ElectricModel:
     return found
 
 
-def of_model(model: BearingModel) -> CircuitBearing:
-    """Return a resolved model with its circuit.
-
-    A case without the section gets the defaults.
-    """
-    chosen = model.electric or electric_model(None, model.name)
-    materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
-    found = _circuit_bearing("bearing", model.name, chosen, model.geometry, materials, model.oil, model.roughness)
-    return dataclasses.replace(found, of_lines=model.rollers is not None)
-
-
-def of_machine(machine: MachineModel) -> list[CircuitBearing]:
-    """Return the bearings of a machine with their circuit.
-
-    A case without the section gets the defaults.
-    """
-    chosen = machine.electric or electric_model(MachineElectric(), machine.name)
+def circuit_bearings(model: BearingModel | MachineModel) -> list[CircuitBearing]:
+    """Return the bearings of a model with their circuit; a case without the section gets the defaults."""
+    absent = MachineElectric() if isinstance(model, MachineModel) else None
+    chosen = model.electric or electric_model(absent, model.name)
     found = []
-    for mounted in machine.bearings:
-        model = mounted.model
-        own = dataclasses.replace(chosen, options=own_options(chosen.options, mounted.name))
-        materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
-        one = _circuit_bearing(mounted.name, machine.name, own, model.geometry, materials, model.oil, model.roughness)
-        found.append(dataclasses.replace(one, of_lines=model.rollers is not None))
+    for name, one in model.bearing_models.items():
+        own = dataclasses.replace(chosen, options=own_options(chosen.options, name))
+        materials = {"ball": one.ball_material, "inner": one.inner_material, "outer": one.outer_material}
+        bearing = _circuit_bearing(name or "bearing", model.name, own, one.geometry, materials, one.oil, one.roughness)
+        found.append(dataclasses.replace(bearing, of_lines=one.rollers is not None))
     return found
 
 

@@ -109,13 +109,13 @@ def static_numbers(found: Equilibrium, kernels: Any) -> CurrentNumbers:
     SolverError
         When there is no equilibrium at another position, or the circuit cannot be solved.
     """
-    from lambda_core.analysis.electric.circuit_bearing import of_model
+    from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
     from lambda_core.analysis.electric.contacts import contacts_of_equilibria
     from lambda_core.analysis.electric.simulation import simulate
     from lambda_core.solver.drivers.equilibrium import solve
 
     model = found.context.model
-    bearing = of_model(model)
+    (bearing,) = circuit_bearings(model)
     others = [solve(model, kernels, phase=k / PHASES) for k in range(1, PHASES)]
     return numbers_of(simulate(contacts_of_equilibria([found, *others], bearing.options.duration), bearing))
 

@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from lambda_core.analysis.electric.circuit import surroundings
-from lambda_core.analysis.electric.circuit_bearing import of_model
+from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
 from lambda_core.case.electric import check_series
 from lambda_core.case.pairs import read_pairs
 from lambda_core.domain.arrays import FloatArray
@@ -189,7 +189,7 @@ def film_from_series(
     """
     model = found[0].context.model
     values = read_measured(path, frequency)
-    bearing = of_model(model)
+    (bearing,) = circuit_bearings(model)
     film = bearing.options.film
     if film.ball_permittivity is not None or film.roughness != "smooth" or bearing.options.cage is not None:
         raise UsageError("the inversion assumes conducting balls, smooth films and no cage: remove those options")

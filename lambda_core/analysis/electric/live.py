@@ -10,7 +10,7 @@ import numpy as np
 
 from lambda_core.analysis.electric import columns as L
 from lambda_core.analysis.electric.circuit import bearing_capacitance
-from lambda_core.analysis.electric.circuit_bearing import of_machine, of_model
+from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
 from lambda_core.analysis.electric.circuit_integrator import UNCHARGED, CircuitSolution, joined
 from lambda_core.analysis.electric.contacts import CHANNELS, Contacts, contacts_of_samples, films, turned
 from lambda_core.analysis.electric.events import events_of
@@ -45,10 +45,7 @@ class Live:
     """
 
     def __init__(self, model: BearingModel | MachineModel, announce: Any = None) -> None:
-        if isinstance(model, MachineModel):
-            self._bearings, models = of_machine(model), [mounted.model for mounted in model.bearings]
-        else:
-            self._bearings, models = [of_model(model)], [model]
+        self._bearings, models = circuit_bearings(model), list(model.bearing_models.values())
         self._options = self._bearings[0].options
         self._laws = film_laws(self._bearings[0].laws, self._bearings[0].contexts, announce)
         self._network = network_of(self._bearings, [one.geometry.balls for one in models], announce)

@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from lambda_core.case.case_io import refuse_bearing
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.model.bearing_model import BearingModel, DofState, TimeFunction
@@ -16,36 +17,39 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
 
 
-def bearing_number(machine: MachineModel, name: str | None) -> int:
-    """Return the index of a bearing in a machine.
-
-    No name is needed where there is one bearing.
+def bearing_number(model: BearingModel | MachineModel, name: str | None) -> int:
+    """Return the place of a bearing among those of a model; no name is needed where there is one.
 
     Raises
     ------
     UsageError
         When a name is needed, or there is no bearing of that name.
     """
-    names = [bearing.name for bearing in machine.bearings]
+    names = list(model.bearing_models)
+    if names == [""]:
+        refuse_bearing(name)
+        return 0
     if name is None and len(names) > 1:
-        raise UsageError(f"{machine.name} has {len(names)} bearings; choose one with --bearing ({', '.join(names)})")
+        raise UsageError(f"{model.name} has {len(names)} bearings; choose one with --bearing ({', '.join(names)})")
     if name is not None and name not in names:
         raise UsageError(unknown_name("bearing", name, names))
     return 0 if name is None else names.index(name)
 
 
 def bearing_alone(
-    machine: MachineModel, name: str | None, announce: Callable[[str], None] | None = None
+    model: BearingModel | MachineModel, name: str | None, announce: Callable[[str], None] | None = None
 ) -> BearingModel:
     """Return one bearing of a machine alone.
 
     Under the constant load and at the misalignment that it has at t = 0.
 
     Its inner ring is free along x, y and z and carries the load; its tilts are held where shaft and housing hold them,
-    as is x of cylindrical rollers.
+    as is x of cylindrical rollers. A bearing that is alone already is returned as it is.
     """
-    number = bearing_number(machine, name)
-    return alone_under_load(machine, solve_shaft(machine, announce), number)
+    number = bearing_number(model, name)
+    if isinstance(model, BearingModel):
+        return model
+    return alone_under_load(model, solve_shaft(model, announce), number)
 
 
 def bearing_of_run(result: Result) -> BearingModel:
@@ -64,7 +68,7 @@ def bearing_of_run(result: Result) -> BearingModel:
     from lambda_core.model.api import check
 
     model = check(toml_tables(result.case_toml, str(result.path)))
-    return model if isinstance(model, BearingModel) else bearing_alone(model, result.of_bearing().bearing)
+    return bearing_alone(model, result.of_bearing().bearing if result.is_machine else None)
 
 
 def alone_under_load(machine: MachineModel, state: ShaftState, number: int) -> BearingModel:

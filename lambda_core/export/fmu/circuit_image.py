@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from lambda_core.analysis.electric import columns as L
-from lambda_core.analysis.electric.circuit_bearing import of_machine, of_model
+from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
 from lambda_core.analysis.electric.circuit_integrator import compiled
 from lambda_core.analysis.electric.simulation import network_of
 from lambda_core.domain.arrays import FloatArray
@@ -141,7 +141,7 @@ def circuit(
     if model.electric is None:
         return None
     balls = sum(span.balls for span in spans)
-    bearings = [of_model(model)] if isinstance(model, BearingModel) else of_machine(model)
+    bearings = circuit_bearings(model)
     what = (
         "rollers" if any(one.of_lines for one in bearings) else "four-point contacts" if contacts != 2 * balls else ""
     )
