@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 _ELEMENTS = ("ball_inner", "ball_outer")
 _SIDES = {1: "+x", -1: "-x"}
 # Laws that know the shape of the elements, and their defaults for rollers.
-_SHAPED = {"cage_contact": "roller-pocket", "fluid_drag": "none"}
+_SHAPED = {"cage_contact": "roller-pocket", "fluid_drag": "skf-rollers"}
 NEIGHBOUR, _NEIGHBOURS = next(iter(NEIGHBOURS)), "roller-roller"
 
 

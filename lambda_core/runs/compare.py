@@ -68,7 +68,7 @@ def compare(
     from lambda_core.results.reader import Result
     from lambda_core.results.roller_quasistatic import solve_rollers
     from lambda_core.runs.compare_rollers import compare_rollers
-    from lambda_core.runs.comparison import comparison_of
+    from lambda_core.runs.comparison import comparison_of, simulated_by
 
     if contamination is not None and not 0.0 <= contamination <= 1.0:
         raise UsageError(f"contamination {contamination:g}: e_C lies between 0 and 1")
@@ -89,13 +89,14 @@ def compare(
         return _compare_in_machine(source, overrides, bearing, (chosen, of_rollers), contamination, announce)
     refuse_bearing(bearing)
     rollers = roller_model(source, overrides) if not hasattr(source, "laws") else None  # type: ignore[arg-type]
-    if rollers is not None:
-        if result is not None:
-            raise UsageError("results of roller bearings in motion do not exist: leave the result out")
-        clean = _clean(contamination, rollers.contamination, rollers.bearing.pitch_diameter)
-        return compare_rollers(rollers, solve_rollers(rollers), of_rollers, clean)
-    model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
     simulated = result if result is None or isinstance(result, Result) else Result(result)
+    if rollers is not None:
+        clean = _clean(contamination, rollers.contamination, rollers.bearing.pitch_diameter)
+        columns = []
+        if simulated is not None:
+            columns.append(simulated_by(ready_model(source, overrides, announce, is_static=True), simulated))  # type: ignore[arg-type]
+        return compare_rollers(rollers, solve_rollers(rollers), of_rollers, clean, columns)
+    model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
     clean = _clean(contamination, model.contamination, model.geometry.pitch_diameter)
     answers = ask(model, chosen, contamination=clean[0], announce=announce)
     return comparison_of(model, answers, clean, simulated)

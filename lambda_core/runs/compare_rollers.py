@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from lambda_core.results.roller_quasistatic import SolvedRollers, headline_of
-from lambda_core.runs.comparison import Comparison, compared
+from lambda_core.runs.comparison import ComparedMethod, Comparison, compared
 from lambda_core.views.method import Method, RollerMethodInputs, evaluate_methods
 
 if TYPE_CHECKING:
@@ -14,7 +14,11 @@ if TYPE_CHECKING:
 
 
 def compare_rollers(
-    model: RollerModel, solved: SolvedRollers, methods: Iterable[Method], clean: tuple[float, bool]
+    model: RollerModel,
+    solved: SolvedRollers,
+    methods: Iterable[Method],
+    clean: tuple[float, bool],
+    simulated: Iterable[ComparedMethod] = (),
 ) -> Comparison:
     """Ask every method about a solved roller bearing.
 
@@ -22,6 +26,8 @@ def compare_rollers(
     ----------
     clean : (float, bool)
         e_C of ISO 281 for modified lives, and whether case or caller gives it.
+    simulated : iterable of ComparedMethod
+        Columns of simulations of the same case, before those of the methods.
     """
     radial, axial = solved.state.carried
     inputs = RollerMethodInputs(
@@ -43,7 +49,7 @@ def compare_rollers(
         case=model.name,
         title=model.title,
         headline=headline_of(model, radial, axial),
-        methods=[compared(answer) for answer in evaluate_methods(methods, inputs)],
+        methods=[*simulated, *map(compared, evaluate_methods(methods, inputs))],
         assumptions=list(model.assumptions),
         contamination=clean[0],
         contamination_given=clean[1],

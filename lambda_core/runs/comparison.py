@@ -112,22 +112,31 @@ def comparison_of(
     """
     from lambda_core.model.checks.describe import headline
 
-    methods = [compared(answer) for answer in answers]
-    if result is not None:
-        changed = differences(result.model, model_data(model))
-        if changed:
-            more = f" and {len(changed) - 3} more" if len(changed) > 3 else ""
-            raise UsageError(f"{result.path} is of another case: {', '.join(changed[:3])}{more} differ")
-        methods.insert(0, _simulated(result.summary(), model))
+    simulated = [] if result is None else [simulated_by(model, result)]
     return Comparison(
         case=model.name,
         title=model.title,
         headline="\n".join(headline(model)),
-        methods=methods,
+        methods=[*simulated, *map(compared, answers)],
         assumptions=list(model.assumptions),
         contamination=clean[0],
         contamination_given=clean[1],
     )
+
+
+def simulated_by(model: BearingModel, result: Result) -> ComparedMethod:
+    """Return the rows of a simulation that methods have too.
+
+    Raises
+    ------
+    UsageError
+        When the result is of another case.
+    """
+    changed = differences(result.model, model_data(model))
+    if changed:
+        more = f" and {len(changed) - 3} more" if len(changed) > 3 else ""
+        raise UsageError(f"{result.path} is of another case: {', '.join(changed[:3])}{more} differ")
+    return _simulated(result.summary(), model)
 
 
 def compared(answer: MethodAnswer) -> ComparedMethod:

@@ -273,6 +273,20 @@ def test_a_run_rates_rollers_as_rollers(
     assert "ISO 281" in shown
     assert "shoulders" not in shown
     assert "capacitance" in shown
+    assert "32 slices" in shown
+    asked = ["compare", path, "--set", "solver.duration=2 ms", "--result", "case.h5", "--json"]
+    assert main(asked) == 0
+    methods = {one["name"]: one["numbers"] for one in json.loads(capsys.readouterr().out)["methods"]}
+    drag = {
+        name: number["value"]
+        for name, numbers in methods.items()
+        for number in numbers
+        if (number["group"], number["name"]) == ("friction", "drag")
+    }
+    assert drag["simulation"] == pytest.approx(drag["quasi-static"], rel=0.1)
+    asked = ["compare", path, "--set", "loads.radial=1 kN", "--result", "case.h5"]
+    assert main(asked) == 2
+    assert "is of another case" in capsys.readouterr().err
 
 
 def test_the_speed_of_the_outer_ring_counts_without_motion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -15,11 +15,11 @@ from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.laws.context import Context, Material, Oil
 from lambda_core.model.bearing_model import ChosenLaw, ElectricModel
 from lambda_core.model.ledger import Ledger
+from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.settings.resolve_electric import resolve_electric
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
-    from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
 
 _SILICON_NITRIDE = re.compile(r"si3n4|silicon.?nitride", re.IGNORECASE)

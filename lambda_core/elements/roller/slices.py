@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elements.roller.line_contact import EVEN_WIDTH, half_width, iso_approach, iso_load
 
+SLICES = 32  # of a line contact in motion: two of the widest vectors of a processor
 _SWEEPS = 100  # sweeps of widths and active slices; 10 to 20 are usual
 _SETTLED = 1e-12  # change of the loads over the roller's largest that ends them
 _NARROWEST = 1e-3  # least half width over the roller's widest: a slice about to open has a finite compliance

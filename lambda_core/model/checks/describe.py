@@ -10,6 +10,7 @@ from pydantic import BaseModel
 
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.units import from_si, show
+from lambda_core.elements.roller.slices import SLICES
 from lambda_core.model.bearing_model import BearingModel, Body, TableTerm, Term, TimeFunction
 from lambda_core.model.checks.assumption_effects import by_effect
 from lambda_core.model.checks.operating_limits import operating_warnings
@@ -146,7 +147,7 @@ def headline(model: BearingModel) -> list[str]:
     temperature = f"{from_si(model.oil.temperature, 'temperature'):.4g} degC"
     first = [
         model.title,
-        f"{'2 x ' if g.rows == 2 else ''}{g.ball_count} x {g.ball_diameter * 1e3:.3f} mm",
+        f"{'2 x ' if g.rows == 2 else ''}{g.ball_count} x {_size(model)}",
         f"pitch {g.pitch_diameter * 1e3:.6g} mm",
         _clearance(model),
         f"{model.oil.name} at {temperature}",
@@ -155,9 +156,15 @@ def headline(model: BearingModel) -> list[str]:
     turning = f"inner ring {function_text(speed.motion, 'rotational_speed')}"
     if speed.mode == "free":
         turning += " at the start, driven by a torque"
-    depth = f"strips {model.depth.rows}x{model.depth.strips}"
+    depth = f"{SLICES} slices" if model.rollers is not None else f"strips {model.depth.rows}x{model.depth.strips}"
     second = [*_loads(model.inner_ring), turning, depth, f"cage {'on' if model.depth.cage else 'off'}"]
     return ["  ".join(first), "   ".join(second), *filter(None, [laws_line(model)])]
+
+
+def _size(model: BearingModel) -> str:
+    """Write diameter and, of rollers, length of the rolling elements."""
+    diameter, rollers = f"{1e3 * model.geometry.ball_diameter:.3f}", model.rollers
+    return f"{diameter} mm" if rollers is None else f"{diameter} x {1e3 * rollers.length:.5g} mm"
 
 
 def _clearance(model: BearingModel) -> str:

@@ -10,11 +10,10 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError
-from lambda_core.elements.roller.slices import slice_positions
+from lambda_core.elements.roller.slices import SLICES, slice_positions
 from lambda_core.laws.par import flat_kernel
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.law_context import ContactFrame, build_context, prepare
-from lambda_core.solver.drivers.roller_tables import SLICES
 
 _FRAME = ContactFrame((0.0, 0.0), (0.0, 0.0))  # raceways of rollers have one angle everywhere
 _HALVINGS = 60

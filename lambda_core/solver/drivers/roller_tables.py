@@ -14,7 +14,7 @@ from lambda_core.elements.ball import BALL
 from lambda_core.elements.kind import LINE, RIB
 from lambda_core.elements.roller.roller_bearing import Rib, Ring, RollerBearing
 from lambda_core.elements.roller.roller_kinds import ROLLER
-from lambda_core.elements.roller.slices import slice_positions
+from lambda_core.elements.roller.slices import SLICES, slice_positions
 from lambda_core.laws.jit.words import addresses
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel, Cage
     from lambda_core.solver.core import Core
 
-SLICES = 32  # of a line contact: two of the widest vectors
 _BAR = 0.9  # length of the bars that rollers touch, over the effective length: ends are relieved
 
 
