@@ -5,7 +5,7 @@ from __future__ import annotations
 from benchmarks.tables import Section, Table, Target
 from benchmarks.timing import Effort, best, now
 from lambda_core import api
-from lambda_core.analysis.electric.circuit_bearing import of_model
+from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
 from lambda_core.analysis.electric.contacts import contacts_of_equilibria, equilibria
 from lambda_core.analysis.electric.simulation import simulate
 
@@ -28,7 +28,7 @@ def one_second(changes: tuple[str, ...], repeats: int) -> tuple[float, float, fl
     Wall time [s], discharges in it, residuals of energy and charge.
     """
     model = api.check(CASE, [*RADIAL, "electric.duration=1 s", *changes])
-    contacts, bearing = contacts_of_equilibria(equilibria(model), 1.0), of_model(model)
+    contacts, bearing = contacts_of_equilibria(equilibria(model), 1.0), circuit_bearings(model)[0]
     found = simulate(contacts, bearing)  # what a process loads once is not the circuit's
     seconds = best(lambda: simulate(contacts, bearing), repeats)
     outcome = found.outcome

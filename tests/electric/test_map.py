@@ -102,13 +102,13 @@ def test_map_in_customary_units(capsys: pytest.CaptureFixture[str], alone: Path)
 
 def test_point_is_what_the_circuit_of_its_case_gives(alone: Path) -> None:
     """The events behind a point: those of the circuit at three positions of the balls, with the map's seed."""
-    from lambda_core.analysis.electric.circuit_bearing import of_model
+    from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
     from lambda_core.analysis.electric.contacts import contacts_of_equilibria, equilibria
     from lambda_core.analysis.electric.current_numbers import PHASES, numbers_of
     from lambda_core.analysis.electric.simulation import simulate
 
     model = api.check(CASE, [*CHANGES, "operation.speed=500 rpm", "lubricant.temperature=30 degC"])
-    simulation = simulate(contacts_of_equilibria(equilibria(model, PHASES), 0.004), of_model(model))
+    simulation = simulate(contacts_of_equilibria(equilibria(model, PHASES), 0.004), circuit_bearings(model)[0])
     assert simulation.events.time.size > 100
     assert numbers_of(simulation).model_dump() == {name: numbers(alone)[0][name] for name in UNITS}
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.analysis.electric.circuit_bearing import of_model
+from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
 from lambda_core.analysis.electric.contacts import CHANNELS, contacts_of_samples, films
 from lambda_core.analysis.electric.simulation import network_of
 from lambda_core.export.fmu.circuit_image import circuit
@@ -47,7 +47,7 @@ def of_the_program(steps: int) -> tuple[list[list[float]], Any]:
     Largest currents step by step, and the events, of an integration through the same samples.
     """
     stepping = api.iterate(CASE, CHANGES, exact=True)
-    bearing = of_model(stepping.model)
+    bearing = circuit_bearings(stepping.model)[0]
     network = network_of([bearing], [stepping.model.geometry.balls])
     before, rolled, volts = stepping._engine.now(), None, 0.0
     found, events = [], []

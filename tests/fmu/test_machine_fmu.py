@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.analysis.electric.circuit_bearing import of_machine
+from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
 from lambda_core.analysis.electric.circuit_integrator import joined
 from lambda_core.analysis.electric.contacts import CHANNELS, contacts_of_samples, films
 from lambda_core.analysis.electric.simulation import network_of
@@ -82,7 +82,7 @@ def circuit_of_the_program(shaft: Path, steps: int, step: float) -> tuple[list[l
     """
     stepping = api.iterate(shaft, (*CHANGES, *CIRCUIT), exact=True)
     assert isinstance(stepping.model, api.MachineModel)
-    bearings = of_machine(stepping.model)
+    bearings = circuit_bearings(stepping.model)
     network = network_of(bearings, [one.model.geometry.balls for one in stepping.model.bearings])
     before, volts, rolled = stepping._engine.now().bearings, 0.0, [None, None]
     found, events = [], 0

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.analysis.electric.circuit_bearing import of_model
+from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
 from lambda_core.analysis.electric.film_laws import film_laws
 from lambda_core.domain.roles import ROLES
 from lambda_core.export.fmu.image import Image
@@ -52,7 +52,7 @@ def test_a_law_behind_a_pointer_runs_in_a_library(c_compiler: tuple[str, ...], t
     """The words of pointers and arrays, the code behind them, and no Python: the bits of the call from Python."""
     know_pointers()
     kind = numba.types.FunctionType(role_signature(ROLES["breakdown"]))
-    bearing = of_model(api.check("6208-axial-1300"))
+    bearing = circuit_bearings(api.check("6208-axial-1300"))[0]
     law, _ = film_laws(bearing.laws, bearing.contexts)
     signature = numba.types.int64(kind, _ARRAY, _ARRAY, numba.types.float64, _ARRAY)
     host = compile_host(ask, signature, (Path(__file__),))

@@ -10,7 +10,7 @@ import pytest
 from electric.rough_film import breakdown_voltage
 
 from lambda_core import api
-from lambda_core.analysis.electric.circuit_bearing import of_model
+from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
 from lambda_core.analysis.electric.contacts import contacts_of_equilibria, equilibria, films
 from lambda_core.analysis.electric.simulation import simulate
 from lambda_core.case.case_io import apply_overrides, parse_case
@@ -73,11 +73,8 @@ def rig(speed: int, radial: int = 1800, axial: int = 900, temperatures: str = "g
 
 
 def first_breakdown(model: BearingModel, seeds: int = 15) -> float:
-    """Return the first breakdown voltage [V].
-
-    Median over seeds on the ramp.
-    """
-    contacts, bearing = contacts_of_equilibria(equilibria(model, 1), 0.02), of_model(model)
+    """Return the median over seeds of the first breakdown on the ramp [V]."""
+    contacts, bearing = contacts_of_equilibria(equilibria(model, 1), 0.02), circuit_bearings(model)[0]
     found = []
     for seed in range(seeds):
         options = bearing.options.model_copy(update={"seed": seed})
