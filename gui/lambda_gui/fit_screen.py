@@ -225,7 +225,10 @@ class FitScreen(Screen[None]):
 
 
 def _parameters(model: BearingModel | MachineModel) -> list[str]:
-    """Return the parameters of laws that have a published range, for completion."""
+    """Return the laws' parameters with published range.
+
+    They are for completion.
+    """
     found: dict[str, None] = {}
     for one in model.bearing_models.values():
         for roles in one.laws.values():

@@ -330,11 +330,17 @@ class BearingModel:
 
     @property
     def bearing_models(self) -> dict[str, BearingModel]:
-        """Itself, under the empty name of a bearing that is alone; a machine has the same property."""
+        """Itself, under the empty name.
+
+        A machine has the same property, with the names of its bearings.
+        """
         return {"": self}
 
     def with_each(self, change: Callable[[BearingModel], BearingModel]) -> BearingModel:
-        """Return the model changed; a machine changes each of its bearings."""
+        """Return the model changed.
+
+        A machine changes each of its bearings.
+        """
         return change(self)
 
     @property

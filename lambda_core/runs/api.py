@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from lambda_core.analysis.thermal.temperatures import ready_model
-from lambda_core.case.case_io import is_machine
+from lambda_core.case.case_io import is_machine, load_case, parse_case
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError
 from lambda_core.model.api import check

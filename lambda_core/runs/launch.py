@@ -111,7 +111,10 @@ def relaunch(path: Path, model: Runnable, *, report: Report | None = None, annou
 
 
 def _check_same(result: Result, model: Runnable) -> None:
-    """Refuse a case that resolves to other values than those of the run."""
+    """Refuse a case with other values.
+
+    It resolves to other values than those of the run.
+    """
     models = {name or ALONE: own for name, own in model.bearing_models.items()}
     if tuple(models) != result.bearing_names:
         raise ResultError(f"{result.path} is damaged: its case has other bearings than the result")

@@ -375,7 +375,10 @@ class Stepping(Iterator[Step]):
 
 
 def _in_steps(model: BearingModel | MachineModel, interval: float) -> BearingModel | MachineModel:
-    """Return the model with no step of the integrator longer than an interval [s]."""
+    """Return the model with limited steps.
+
+    No step of the integrator is longer than an interval [s].
+    """
 
     def bounded(one: BearingModel) -> BearingModel:
         return replace(one, solver=replace(one.solver, max_step=min(interval, one.solver.max_step)))

@@ -255,7 +255,10 @@ def asks_currents(names: Sequence[str]) -> bool:
 
 
 def bearing_names(model: BearingModel | MachineModel) -> tuple[str, ...]:
-    """Return the names of a machine's bearings; none for the model of one bearing."""
+    """Return the names of a machine's bearings.
+
+    The model of one bearing has none.
+    """
     return tuple(filter(None, model.bearing_models))
 
 

@@ -80,7 +80,10 @@ def electric_model(options: Electric | None, name: str) -> ElectricModel:
 
 
 def circuit_bearings(model: BearingModel | MachineModel) -> list[CircuitBearing]:
-    """Return the bearings of a model with their circuit; a case without the section gets the defaults."""
+    """Return the bearings of a model with their circuit.
+
+    A case without the section gets the defaults.
+    """
     absent = MachineElectric() if isinstance(model, MachineModel) else None
     chosen = model.electric or electric_model(absent, model.name)
     found = []

@@ -18,7 +18,9 @@ if TYPE_CHECKING:
 
 
 def bearing_number(model: BearingModel | MachineModel, name: str | None) -> int:
-    """Return the place of a bearing among those of a model; no name is needed where there is one.
+    """Return the place of a bearing in a model.
+
+    No name is needed where there is one.
 
     Raises
     ------
