@@ -8,10 +8,11 @@ from __future__ import annotations
 import inspect
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache, wraps
 from os import PathLike
-from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, cast
 
 from lambda_core.domain.errors import UsageError, nearest
 from lambda_core.domain.files import system_refusal
@@ -51,15 +52,29 @@ def public(function: Callable[P, R], home: str) -> Callable[P, R]:
         given = _bound(function, args, options)
         for name, value in given.arguments.items():
             given.arguments[name] = _checked(function, name, value)
-        try:
-            return function(*given.args, **given.kwargs)
-        except OSError as error:
-            if refusal := system_refusal(error):
-                raise UsageError(f"{function.__name__}: {refusal}") from error
-            raise
+        with _refusals(function.__name__):
+            found: Any = function(*given.args, **given.kwargs)
+        return cast("R", _guarded(function.__name__, found) if inspect.isgenerator(found) else found)
 
     called.__module__, called.__qualname__ = home, function.__name__
     return called
+
+
+@contextmanager
+def _refusals(name: str) -> Iterator[None]:
+    """Say what the system refuses a function."""
+    try:
+        yield
+    except OSError as error:
+        if refusal := system_refusal(error):
+            raise UsageError(f"{name}: {refusal}") from error
+        raise
+
+
+def _guarded(name: str, steps: Iterator[Any]) -> Iterator[Any]:
+    """Say what the system refuses an iterator."""
+    with _refusals(name):
+        yield from steps
 
 
 def _bound(function: Callable[..., Any], args: Any, options: Mapping[str, Any]) -> inspect.BoundArguments:

@@ -126,9 +126,14 @@ def labels_of(data: h5py.Dataset) -> tuple[int, ...] | tuple[float, ...] | tuple
 def integral_table(group: h5py.Group, rows: int) -> FloatArray:
     """Return the running integrals.
 
-    In the order of INTEGRALS, shape (rows, n).
+    In the order of INTEGRALS, shape (rows, n). Early files have no `support`: their dampers to the ground are among
+    the losses.
     """
-    columns = [group[channel.name][:rows].reshape(rows, -1) for channel in INTEGRALS]
+    columns = [
+        np.zeros((rows, 1)) if channel.name == "support" and "support" not in group
+        else group[channel.name][:rows].reshape(rows, -1)
+        for channel in INTEGRALS
+    ]  # fmt: skip
     return np.concatenate(columns, axis=1, dtype=np.float64)  # a TypeError where one holds texts
 
 

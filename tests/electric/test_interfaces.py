@@ -144,6 +144,11 @@ def test_counts_without_end_are_refused(change: str, words: str, capsys: pytest.
     assert words in capsys.readouterr().err
 
 
+def test_a_window_that_ends_before_it_begins_is_refused() -> None:
+    with pytest.raises(UsageError, match=r"window = \(0\.0002, 0\.0001\) is not allowed: the first time must be"):
+        api.electric("6208-axial-1300", ["electric.duration=0.5 ms"], window=(2e-4, 1e-4))
+
+
 @pytest.mark.parametrize("duration", ["1 ns", "10 us", "0.1 ms"])
 @pytest.mark.filterwarnings("error::RuntimeWarning")
 def test_short_spans(duration: str, combined_run: Result) -> None:

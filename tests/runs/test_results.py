@@ -149,6 +149,18 @@ def test_an_hdf5_file_of_another_program(tmp_path: Path) -> None:
         Result(path)
 
 
+def test_a_file_without_the_energy_of_dampers_to_the_ground_is_read(result: Result) -> None:
+    """Files from before that integral existed were called damaged."""
+    before = result.summary()
+    with h5py.File(result.path, "r+") as file:
+        for group in ("integrals", "revolutions"):
+            del file[f"bearings/bearing/{group}/support"]
+        del file["bearings/bearing/support_power"]
+    again = Result(result.path)
+    assert again.summary() == before
+    assert "friction torque" in again.summary().text()
+
+
 def test_a_layout_of_another_version(result: Result) -> None:
     with h5py.File(result.path, "r+") as file:
         file.attrs["lambda_bearing_layout"] = 99

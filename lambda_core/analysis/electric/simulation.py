@@ -200,6 +200,8 @@ def simulate_circuit(
     SolverError
         When the circuit cannot be solved.
     """
+    if window is not None and not window[0] < window[1]:
+        raise UsageError(f"window = {window} is not allowed: the first time must be before the second [s]")
     options = bearings[0].options
     electric = [films(each, b.options) for each, b in zip(contacts, bearings, strict=True)]
     together = joined(at_common_times(electric))

@@ -191,6 +191,8 @@ def view_stem(source: Sequence[str | PathLike[str]], bearing: str | None = None)
     """
     from lambda_core.export.report.gallery import stem_of
 
+    if not len(source):
+        raise UsageError(_NO_SOURCE)
     stem = stem_of([Path(path) for path in source])
     return f"{stem}-{bearing}" if bearing else stem
 
@@ -411,6 +413,9 @@ def _refuse_existing(path: Path, overwrite: bool) -> None:
         check_folder(path.absolute().parent, path)
 
 
+_NO_SOURCE = "the list of results is empty: give at least one result, or the folder of a study"
+
+
 def subject_of(
     source: str | PathLike[str] | Sequence[str | PathLike[str]], bearing: str | None = None
 ) -> tuple[Any, Subject]:
@@ -418,6 +423,8 @@ def subject_of(
     from lambda_core.studies.folders import is_study, table
 
     if not isinstance(source, str | PathLike):
+        if not len(source):
+            raise UsageError(_NO_SOURCE)
         if len(source) != 1:
             return [_begun(result(one, bearing)) for one in source], "results"
         source = source[0]

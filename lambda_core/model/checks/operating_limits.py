@@ -213,8 +213,8 @@ def load_warnings(model: BearingModel, radial: float, axial: float) -> Iterator[
         )
     if resting > static:
         yield (
-            f"the static load P0 = {_force(resting)} is above the static load rating C0 = {_force(static)}: the balls "
-            "leave dents (ISO 76)"
+            f"the static load P0 = {_force(resting)} is above the static load rating C0 = {_force(static)}: the "
+            "rolling elements leave dents (ISO 76)"
         )
     if turns and equivalent > LARGEST_LIFE_LOAD * dynamic:
         yield f"the load P = {_force(equivalent)} is above C/2 = {_force(0.5 * dynamic)}: ISO 281 gives no life there"
