@@ -19,6 +19,7 @@ from lambda_cli.main import main
 from lambda_core import api
 from lambda_core.analysis.band.changed import is_of_laws, with_value
 from lambda_core.analysis.band.graded import graded_parameters
+from lambda_core.analysis.band.model_band import Effect, band_around
 from lambda_core.analysis.band.neighbours import interpolated, places_of, spread_out
 from lambda_core.analysis.band.over_points import bands_over
 from lambda_core.analysis.rating.engineering import rating_of
@@ -394,6 +395,14 @@ def test_a_report_sets_band_and_scatter_apart(tmp_path: Path) -> None:
     (table,) = model_bands(found.summary())
     assert table.head[1:3] == ("model band (90 %)", "scatter (95 %)")
     assert [row[0] for row in table.rows] == [name for name in FIELDS if name not in TEMPERATURES]
+
+
+def test_the_band_of_several_ranges_holds_nine_tenths_of_their_draws() -> None:
+    spans = np.linspace(0.02, 0.06, 8)
+    effects = [Effect("one", "", np.array([[-span], [span]]), is_range=True) for span in spans]
+    found = band_around("friction torque", "N mm", 0, 100.0, effects)
+    drawn = 100.0 * np.exp(np.random.default_rng(5).uniform(-spans, spans, (20_000, spans.size)).sum(axis=1))
+    assert np.mean((found.low <= drawn) & (drawn <= found.high)) == pytest.approx(0.9, abs=0.01)
 
 
 def test_a_narrow_band_prints_four_digits() -> None:

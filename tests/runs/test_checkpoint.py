@@ -172,7 +172,7 @@ def test_ctrl_c_keeps_a_readable_result_that_continues(
     same(path, undisturbed)
 
 
-@pytest.mark.parametrize("share", [0.2, 0.503, 0.777])
+@pytest.mark.parametrize("share", [0.2, 0.283, 0.503, 0.777])
 def test_a_longer_duration_continues_a_finished_run(
     share: float, provenance: MakeProvenance, tmp_path: Path, undisturbed: dict[str, np.ndarray]
 ) -> None:
