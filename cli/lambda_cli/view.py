@@ -60,7 +60,8 @@ def view(
         check_folder(out, made=True)
     data = [api.view(sources, name, chosen, bearing=bearing)] if name else list(_all(sources, bearing))
     if measured is not None:
-        data = api.with_measured(data, measured)
+        run = sources[0] if not name and len(sources) == 1 and Path(sources[0]).suffix == ".h5" else None
+        data = api.with_measured(data, measured, result=run, bearing=bearing)
     if as_json:
         plain = [one.as_dict() for one in data]
         typer.echo(json.dumps(plain[0] if name else {"version": 1, "views": plain}, indent=2, allow_nan=False))

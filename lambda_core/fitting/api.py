@@ -230,7 +230,9 @@ def traction(
     return traction_of(oil, pressure, temperature, speed, measured=measured, parameters=parameters, announce=announce)
 
 
-def with_measured(pictures: Sequence[ViewData], measured: str | Path) -> list[ViewData]:
+def with_measured(
+    pictures: Sequence[ViewData], measured: str | Path, *, result: str | Path | None = None, bearing: str | None = None
+) -> list[ViewData]:
     """Add a measured series to pictures with its axes.
 
     Parameters
@@ -241,6 +243,11 @@ def with_measured(pictures: Sequence[ViewData], measured: str | Path) -> list[Vi
         CSV file: one column has the name of a horizontal axis, such as ``speed [1/min]`` or ``time [s]``; others have
         those of vertical axes, such as ``friction torque [N mm]``, or of a line and its axis, such as
         ``outer ring temperature [degC]``. Columns of errors are drawn as bars.
+    result : path-like, optional
+        A run, which is one point: for a torque over speed the picture is the Stribeck curve of its case, for
+        temperatures over time the warm-up of its case.
+    bearing : str, optional
+        Which one of a machine.
 
     Returns
     -------
@@ -254,6 +261,11 @@ def with_measured(pictures: Sequence[ViewData], measured: str | Path) -> list[Vi
     CaseError
         With every mistake of the file and its line.
     """
-    from lambda_core.fitting.overlay import overlaid
+    from lambda_core.fitting.overlay import overlaid, pictures_of_case
 
-    return overlaid(pictures, measured)
+    more: list[ViewData] = []
+    if result is not None:
+        from lambda_core.results.reader import Result
+
+        more = pictures_of_case(Result(Path(result)), measured, bearing)
+    return overlaid(more or pictures, measured)

@@ -234,8 +234,8 @@ def _value(where: str, cell: str, column: _Column, problems: list[Problem], word
             raise ValueError(f'"{cell}" is not a finite number')
         if column.kind in ("share", "error", "condition error") and number <= 0.0:
             raise ValueError(f'"{cell}": an error must be above zero')
-        if column.kind == "measured" and number <= 0.0 and not _may_be_negative(column, words):
-            raise ValueError(f'"{cell}": must be above 0, whatever the sense of rotation')
+        if column.kind == "measured" and number < 0.0 and not _may_be_negative(column, words):
+            raise ValueError(f'"{cell}": must be 0 or above, whatever the sense of rotation')
         if column.kind == "share":
             return number / 100.0
         value = parse(f"{cell} {column.unit}", column.quantity)

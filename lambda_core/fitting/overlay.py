@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,11 +14,52 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.domain.units import from_si, units_of
 from lambda_core.domain.written_values import quantities
 from lambda_core.fitting.measurements import Measurements, read_measurements
+from lambda_core.model.settings.resolve_thermal import OWN_NODES
 from lambda_core.views.chart import Axis, Panel, Series, ViewData
+
+if TYPE_CHECKING:
+    from lambda_core.results.reader import Result
 
 _MOST = 200_000  # lines
 _PLAIN = ("ratio", "-")  # quantity and unit of an axis without one
+_WARM_UP = '"time [min],outer ring temperature [degC]"'
 _BAND = "± one standard deviation"
+
+
+def pictures_of_case(result: Result, measured: str | Path, bearing: str | None = None) -> list[ViewData]:
+    """Return pictures of a run's case over measured conditions.
+
+    A run is one point: for a torque over speed it is the curve of its case, for temperatures over time their warm-up.
+    Empty where the file holds neither.
+    """
+    from lambda_core.analysis.thermal.api import thermal_pictures, warm_up
+    from lambda_core.case.case_io import toml_tables
+    from lambda_core.studies.speed_curve import stribeck, stribeck_picture
+
+    head, case = header_of(measured), toml_tables(result.case_toml, str(result.path))
+    if "speed" in head and any(name in head for name in ("torque", "film parameter")):
+        return [stribeck_picture(stribeck(case, bearing=bearing, band=True))]
+    if "time" not in head or "temperature" not in head:
+        return []
+    nodes = [f"{node.replace('_', ' ')} temperature" for node in OWN_NODES if node != "ambient"]
+    words = {name: Measured("", "temperature", "degC", is_signed=True) for name in nodes}
+    data = read_measurements(measured, Vocabulary({"time": Condition("", "time", "time")}, words, _WARM_UP, _MOST))
+    last = float(data.conditions["time"].max()) if "time" in data.conditions else 0.0
+    if not last > 0.0:
+        raise UsageError(f"{data.name}: the times of a warm-up begin at 0 and rise")
+    return thermal_pictures(warm_up(case, last))
+
+
+def header_of(measured: str | Path) -> str:
+    """Return the first line of a file that is no comment.
+
+    In small letters; empty where there is none.
+    """
+    path = Path(measured)
+    if not path.is_file():
+        return ""
+    with path.open(encoding="utf-8", errors="replace") as file:
+        return next((line.casefold() for line in file if line.strip() and not line.lstrip().startswith("#")), "")
 
 
 def overlaid(pictures: Sequence[ViewData], measured: str | Path) -> list[ViewData]:
@@ -112,7 +154,7 @@ def _drawn(panel: Panel, data: Measurements) -> Panel:
         error = data.errors.get(name, data.shares[name] * np.abs(values) if name in data.shares else None)
         low, high = (None, None) if error is None else ((values - error)[known], (values + error)[known])
         words = f"{line}, measured" if line else f"measured, {data.name}"
-        role = next((one.role for one in panel.series if one.name == line and one.role), "reference")
+        role = next((one.role for one in panel.series if one.name == line and one.role), "measured")
         band = _BAND if error is not None else ""
         more.append(Series(words, places[known], values[known], "points", role, low, high, band))
     return replace(panel, series=(*panel.series, *more)) if more else panel

@@ -53,6 +53,7 @@ class CaseProblem:
     def __init__(self, subject: Subject, measurements: Measurements, varied: Sequence[Graded]) -> None:
         self._subject, self._measurements, self.varied = subject, measurements, tuple(varied)
         _refuse_twice(self.varied, measurements)
+        _refuse_zeros(measurements, subject)
         self.parameters = [_parameter(graded) for graded in self.varied]
         self.entries = [
             Entry(row, name)
@@ -257,6 +258,19 @@ def _refuse_twice(varied: Sequence[Graded], measurements: Measurements) -> None:
             )
         if any(graded.path == other.path for other in varied[:index]):
             raise UsageError(f"--vary {graded.path} is given twice: leave one out")
+
+
+def _refuse_zeros(measurements: Measurements, subject: Subject) -> None:
+    """Refuse measured sizes of zero, whose relative errors mean nothing."""
+    for name, values in measurements.measured.items():
+        known = subject.words.measured[name]
+        if known.is_signed or known.quantity == "temperature":
+            continue
+        for row in np.flatnonzero(values == 0.0)[:1]:
+            raise UsageError(
+                f"{measurements.name} line {measurements.lines[row]}: {name} is 0: a fit needs values above 0; "
+                "remove the line"
+            )
 
 
 def _parameter(graded: Graded) -> Parameter:

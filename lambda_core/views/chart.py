@@ -68,8 +68,8 @@ class Series:
     kind : str
         ``line``, ``points``, ``bars`` (side by side, or stacked when the panel says so), ``area`` (stacked).
     role : str
-        What it stands for: ``inner``, ``outer``, ``cage``, ``ball``, ``total``, ``reference``; equal roles look alike
-        in every view. "" for anything else.
+        What it stands for: ``inner``, ``outer``, ``cage``, ``ball``, ``total``, ``reference``, ``measured``; equal
+        roles look alike in every view. "" for anything else.
     low, high : float64[:], shape (n,), optional
         Band around `y`: a spread or a confidence interval, as `band` says.
     band : str

@@ -212,3 +212,9 @@ def test_points_to_predict_are_read_before_the_fit(monkeypatch: pytest.MonkeyPat
 
 def test_relative_errors_leave_measured_zeros_out() -> None:
     assert relative(np.array([1.0, 2.0, -3.0]), np.array([0.0, 4.0, 6.0])).tolist() == [0.5, -0.5]
+
+
+def test_a_measured_torque_of_zero_is_refused_with_its_line() -> None:
+    measured = parse_measurements("speed [1/min],friction torque [N mm]\n500,925\n1500,0\n", "rig.csv")
+    with pytest.raises(UsageError, match=r"rig\.csv line 3: friction torque is 0: a fit needs values above 0"):
+        api.fit(CASE, measured, ["loss_factor"])

@@ -66,8 +66,7 @@ def test_one_of_several_quantities_may_be_missing() -> None:
         ("speed [rpm],power loss [W]\n1,nan\n", '"nan" is not a finite number'),
         ("oil temperature [K],power loss [W]\n-3,1\n", "below absolute zero"),
         ("speed [rpm],power loss [W]\n1,\n", "line 2                 has no measured value"),
-        ("friction torque [N mm]\n-100\n", 'friction torque [N mm]: "-100": must be above 0'),
-        ("friction torque [N mm]\n0\n", 'friction torque [N mm]: "0": must be above 0'),
+        ("friction torque [N mm]\n-100\n", 'friction torque [N mm]: "-100": must be 0 or above'),
         ("power loss [W],power loss error [%]\n1,0\n", "an error must be above zero"),
     ],
 )  # fmt: skip

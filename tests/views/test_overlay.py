@@ -100,3 +100,33 @@ def test_measured_torque_stands_in_the_curve_over_speed(tmp_path: Path, capsys: 
     assert "rig.csv" in (tmp_path / "pictures" / "6319-cp10-1500-stribeck.svg").read_text()
     assert main([*arguments, "--measured", str(file)]) == 2
     assert "--draw DIR" in capsys.readouterr().err
+
+
+def test_a_run_shows_measured_torque_over_speed_and_temperatures_over_time(
+    radial_run: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A run is one point: the curve of its case, and its warm-up, have the measured points."""
+    torque = _file(tmp_path, "speed [1/min],friction torque [N mm]\n800,900\n3000,1500\n")
+    (curve,) = api.with_measured([], torque, result=radial_run.path)
+    panel = curve.panels[0]
+    assert isinstance(panel, Panel)
+    shown = {series.name: series for series in panel.series}
+    assert shown["measured, rig.csv"].role != shown["SKF"].role
+    assert shown["total"].band == "90 % model band"
+    warm = _file(tmp_path, "time [min],oil temperature [degC]\n0,20\n2,25\n")
+    (found,) = api.with_measured([], warm, result=radial_run.path)
+    panel = found.panels[0]
+    assert isinstance(panel, Panel)
+    assert panel.series[-1].name == "oil, measured"
+    assert panel.series[0].x[-1] == pytest.approx(2.0)
+    still = _file(tmp_path, "time [min],oil temperature [degC]\n0,20\n")
+    assert main(["view", str(radial_run.path), "--measured", str(still)]) == 2
+    assert "rig.csv: the times of a warm-up begin at 0 and rise" in capsys.readouterr().err
+
+
+def test_a_gap_in_a_signal_is_named_with_its_line(radial_run: Result, tmp_path: Path) -> None:
+    times = [number * 1e-4 for number in range(60) if number != 30]
+    rows = [f"{time:.4g},{(-1) ** number}" for number, time in enumerate(times)]
+    file = _file(tmp_path, "\n".join(["time [s],acceleration [m/s2]", *rows]))
+    with pytest.raises(UsageError, match=r"rig\.csv line 32: the times of a signal must be evenly spaced and rise"):
+        api.view(radial_run, "vibration", {"measured": str(file)})

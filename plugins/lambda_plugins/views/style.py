@@ -80,6 +80,7 @@ ROLES: dict[str, Look] = {
     "ball": Look("#6b3fa0", "-", "D", True, "xx"),
     "total": Look("#1a1a1a", "-", "o", True, "", 2.3),
     "reference": Look("#9a9a9a", "-", "o", True, "", 1.1),
+    "measured": Look("#b5533c", "-", "X", True, "", 1.1),
 }
 
 # For series without a role, in turn: dark and light alternate.

@@ -154,7 +154,9 @@ def _read(options: VibrationOptions) -> _Signal:
     time, values = data.conditions["time"], data.measured[options.motion]
     steps = np.diff(time)
     if time.size < 2 or not np.all(steps > 0.0) or np.ptp(steps) > 0.01 * steps.mean():
-        raise UsageError(f"{data.name}: the times of a signal must be evenly spaced and rise")
+        usual = np.median(steps) if steps.size else 0.0
+        line = data.lines[int(np.argmax(np.abs(steps - usual))) + 1 if steps.size else 0]
+        raise UsageError(f"{data.name} line {line}: the times of a signal must be evenly spaced and rise")
     if not np.all(np.isfinite(values)):
         line = data.lines[int(np.argmin(np.isfinite(values)))]
         raise UsageError(f"{data.name} line {line}: {options.motion} is empty: a signal has a value at every time")
