@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import tomlkit
-from tomlkit.items import AoT, Array, Table, Trivia
+from tomlkit.items import AoT, Array, Item, Table, Trivia
 from tomlkit.toml_document import TOMLDocument
 
 from lambda_core.case.builtin import builtin_cases, builtin_text
@@ -362,6 +362,14 @@ def _update(container: Any, before: Mapping[str, Any], after: Mapping[str, Any])
             _update_tables(old, before[key], value)
         else:
             container[key] = _apart(_item(value)) if old is None else _item(value)
+            _keep_column(old, container[key])
+
+
+def _keep_column(old: Any, new: Any) -> None:
+    """Leave the comment of a replaced value in its column."""
+    if isinstance(old, Item) and isinstance(new, Item) and new.trivia.comment and not isinstance(new, Table | AoT):
+        longer = len(new.as_string()) - len(old.as_string())
+        new.trivia.comment_ws = " " * max(1, len(old.trivia.comment_ws) - longer)
 
 
 def _apart(item: Any) -> Any:

@@ -28,6 +28,12 @@ def counted(count: int, thing: str) -> str:
     return f"{count} {thing}{'' if count == 1 else 's'}"
 
 
+def percent(value: float) -> str:
+    """Write a percentage to two digits without an exponent."""
+    short = float(f"{value:.2g}")
+    return f"{short:g} %" if abs(short) < 1000.0 else f"{number(short, 0)} %"
+
+
 def hours(life: float) -> str:
     """Write a rating life to two digits.
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from lambda_core.domain.number_text import plus_minus
+from lambda_core.domain.number_text import percent, plus_minus
 from lambda_core.domain.unit_systems import UnitSystem
 from lambda_core.domain.wrapping import wrapped
 
@@ -25,7 +25,7 @@ def report_text(report: FitReport, width: int | None, units: UnitSystem) -> str:
     lines = [report.title, report.sentence, *report.warnings, ""]
     lines += _table([_HEAD, *(_row(parameter) for parameter in report.parameters)])
     lines += _correlations(report)
-    lines.append(_quality(report))
+    lines += _quality(report)
     lines += [f"pattern of residuals: {t.name}, p = {t.adjusted_p_value:.2g}" for t in report.tests if t.is_significant]
     lines += _outliers(report)
     lines += ["", *_points(report, units)]
@@ -77,16 +77,14 @@ def _correlations(report: FitReport) -> list[str]:
     return found
 
 
-def _quality(report: FitReport) -> str:
+def _quality(report: FitReport) -> list[str]:
     if report.scatter_pct is not None:
-        scatter = f"scatter {report.scatter_pct:.2g} % (from the residuals)"
+        scatter = f"scatter {percent(report.scatter_pct)} (from the residuals)"
     else:
         ratio = report.chi_square_per_degree
         scatter = f"chi-square per degree of freedom {ratio:.2g}" if ratio is not None else "no degree of freedom left"
-    return (
-        f"error of the fit {report.rms_error_pct:.2g} %, of each point predicted from all others "
-        f"{report.left_out_rms_error_pct:.2g} %; {scatter}"
-    )
+    others = f"of each point predicted from all others {percent(report.left_out_rms_error_pct)}"
+    return [f"error of the fit {percent(report.rms_error_pct)}, {others}", scatter]
 
 
 def _outliers(report: FitReport) -> list[str]:

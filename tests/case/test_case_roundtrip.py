@@ -21,7 +21,7 @@ from lambda_core.case.case_io import (
     parse_case,
     validate_case,
 )
-from lambda_core.case.case_writer import case_toml, new_case, save_case, standalone_toml
+from lambda_core.case.case_writer import case_toml, new_case, save_case, standalone_toml, tables_toml
 from lambda_core.domain.errors import UsageError
 
 BUILTIN = sorted(builtin_cases())
@@ -71,6 +71,14 @@ def test_unchanged_values_keep_their_spelling(tmp_path: Path) -> None:
     assert '"0.70 kN"' in text
     assert "# inner ring" in text
     assert load_case(path).operation.speed == pytest.approx(104.7197551)
+
+
+@pytest.mark.parametrize("oil", ["VG 32", "an oil of a longer name"])
+def test_a_changed_value_leaves_its_comment_in_the_column(oil: str) -> None:
+    text = '[lubricant]\nname = "FVA3A"       # the oil\ntemperature = "60 degC" # warm\n'
+    line = tables_toml({"lubricant": {"name": oil, "temperature": "60 degC"}}, text).splitlines()[1]
+    written = f'name = "{oil}"'
+    assert line == f"{written:<20} # the oil"
 
 
 def test_none_takes_an_option_back_to_its_default() -> None:

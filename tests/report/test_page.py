@@ -14,8 +14,9 @@ from lambda_core import api
 from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
-from lambda_core.domain.number_text import plus_minus
+from lambda_core.domain.number_text import percent, plus_minus
 from lambda_core.export.report import pdf
+from lambda_core.export.report.gallery import stem_of
 from lambda_core.export.report.page import APPENDICES
 from lambda_core.model.machine_templates import geared_shaft
 
@@ -237,3 +238,18 @@ def test_a_case_of_a_machine_has_a_report_with_its_shaft(tmp_path: Path) -> None
     assert page.tags.count("svg") == 1 + 1 + 2 * 2  # sketch, deflection and bending, section and loads of each
     with pytest.raises(UsageError, match="leave out --bearing"):
         api.report(case, tmp_path / "x.html", bearing="left")
+
+
+@pytest.mark.parametrize(
+    ("names", "stem"),
+    [(["six"], "six"), (["six", "heavy"], "six-vs-heavy"), (["six", "heavy", "light"], "six-vs-2-others")],
+)
+def test_pictures_of_several_results_are_named_after_them(names: list[str], stem: str) -> None:
+    assert stem_of([Path(f"{name}.h5") for name in names]) == stem
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(0.0456, "0.046 %"), (7.66, "7.7 %"), (86.2, "86 %"), (1049.0, "1 000 %"), (0.0, "0 %")]
+)
+def test_percentages_have_no_exponent(value: float, text: str) -> None:
+    assert percent(value) == text

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.unit_systems import UnitSystem
 from lambda_core.export.report.chapters import Chapter, Picture
-from lambda_core.export.report.key_tables import Table
+from lambda_core.export.report.key_tables import Table, rounded
 from lambda_core.export.report.page import Cover, svg
 from lambda_core.fitting.report_text import compact
 from lambda_core.views.other_units import in_units
@@ -47,13 +47,13 @@ def fit_chapter(registry: Registry, report: FitReport, cover: Cover) -> Chapter:
 def _figures(report: FitReport) -> list[tuple[str, str, str]]:
     found = [
         ("measured values", f"{len(report.points)}", ""),
-        ("error of the fit", f"{report.rms_error_pct:.2g}", "%"),
-        ("each point from all others", f"{report.left_out_rms_error_pct:.2g}", "%"),
+        ("error of the fit", rounded(report.rms_error_pct, 2), "%"),
+        ("each point from all others", rounded(report.left_out_rms_error_pct, 2), "%"),
     ]
     if report.chi_square_per_degree is not None:
         found.append(("chi-square per degree", f"{report.chi_square_per_degree:.2g}", ""))
     if report.scatter_pct is not None:
-        found.append(("scatter of the residuals", f"{report.scatter_pct:.2g}", "%"))
+        found.append(("scatter of the residuals", rounded(report.scatter_pct, 2), "%"))
     return found
 
 

@@ -127,9 +127,8 @@ def write(registry: Registry, data: ViewData, folder: Path, stem: str, formats: 
 
 
 def stem_of(paths: Sequence[Path]) -> str:
-    """Return the stem of picture file names.
-
-    For pictures of these results.
-    """
+    """Return the stem of picture file names: "six-vs-heavy"."""
     words = [re.sub(r"[^A-Za-z0-9._-]+", "-", path.resolve().stem or path.name) for path in paths]
-    return words[0] if len(words) == 1 else f"{words[0]}-and-{len(words) - 1}-more"
+    if len(words) <= 1:
+        return words[0]
+    return f"{words[0]}-vs-{words[1] if len(words) == 2 else f'{len(words) - 1}-others'}"
