@@ -75,7 +75,9 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Import what is asked for when it is first asked for: commands start faster without it."""
+    """Import a name at its first use.
+
+    Commands start faster without it."""
     if name == "api":
         return import_module("lambda_core.api")
     if name not in __all__:

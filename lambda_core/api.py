@@ -93,7 +93,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
 
 
 def _declared() -> list[dict[str, str]]:
-    """Return the names of each block above with the modules where they are at home."""
+    """Return each block's names with their modules."""
     blocks = Path(__file__).read_text(encoding="utf-8").split("\nif TYPE_CHECKING:")[1:]
     imports = [re.findall(r"^    from (\S+) import (\([^)]*\)|.*)", block, re.MULTILINE) for block in blocks]
     return [{name: room for room, names in block for name in re.findall(r"\w+", names)} for block in imports]

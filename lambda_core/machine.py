@@ -269,7 +269,7 @@ def _lubricant(oil: Sequence[str] | Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _section(piece: str | Mapping[str, Any]) -> dict[str, Any]:
-    """Return the table of a shaft's piece of ``"length x diameter"``."""
+    """Return a shaft's piece of ``"length x diameter"`` as table."""
     if isinstance(piece, Mapping):
         return dict(piece)
     words: Iterable[str] = (word.strip() for word in piece.split(" x "))

@@ -143,7 +143,7 @@ class Warm:
 
     @property
     def python(self) -> str:
-        """What to start in place of Python, with ``-c`` or ``-P -m``."""
+        """Command in place of Python, with ``-c`` or ``-P -m``."""
         return str(self.path / "python") if _HAS_FORK else sys.executable
 
     def start(

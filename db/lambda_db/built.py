@@ -15,7 +15,7 @@ BUILT_IN = Path(__file__).parent / "seeds"
 
 
 def seed_files(folder: Path) -> list[Path]:
-    """Return the seed files of a folder in a fixed order."""
+    """Return a folder's seed files in a fixed order."""
     return sorted(path for path in folder.iterdir() if path.suffix in (".csv", ".toml"))
 
 

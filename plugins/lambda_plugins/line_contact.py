@@ -209,7 +209,7 @@ def biboulet_houpert_line(
     par: InletShear,
     out: FloatArray,
 ) -> int:
-    """Rolling resistance of a line, Biboulet and Houpert.
+    """Rolling resistance of a line after Biboulet and Houpert.
 
     With Aihara's thermal factor.
 

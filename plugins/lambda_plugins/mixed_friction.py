@@ -41,9 +41,9 @@ class ZhouHoeprich(Parameters):
     validity="constants belong to the roughness that they were fitted with",
 )
 def zhou_hoeprich(Lambda: float, par: ZhouHoeprich, out: FloatArray) -> int:
-    """Share of the load on asperities after Zhou-Hoeprich.
+    """Load share of asperities after Zhou and Hoeprich.
 
-    psi = exp(-B Lambda^C), Zhou and Hoeprich.
+    psi = exp(-B Lambda^C).
 
     Zhou and Hoeprich 1991, J. Tribol. 113, 590; constants as in the tapered roller model of Wingertszahn et al. 2023.
     """

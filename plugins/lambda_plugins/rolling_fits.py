@@ -194,7 +194,7 @@ def biboulet_houpert_point(
     par: InletShear,
     out: FloatArray,
 ) -> int:
-    """Rolling resistance of a point, Biboulet and Houpert.
+    """Rolling resistance of a point after Biboulet and Houpert.
 
     With Aihara's thermal factor.
 

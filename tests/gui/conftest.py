@@ -84,12 +84,12 @@ def no_process_is_left(request: pytest.FixtureRequest, monkeypatch: pytest.Monke
 
 @pytest.fixture
 def fresh_helper() -> None:
-    """Let the helper process of this test start as it does for a user."""
+    """Let the helper process start as for a user."""
 
 
 @pytest.fixture
 def warm_program(monkeypatch: pytest.MonkeyPatch, warm: Warm) -> None:
-    """Let the runs and studies of this test begin with everything imported."""
+    """Let runs and studies begin with everything imported."""
     monkeypatch.setattr(runs, "_PROGRAM", (warm.ready().python, "-P", "-m", "lambda_cli"))
 
 

@@ -17,7 +17,7 @@ class ShareOptions(Options):
 
 
 def load_share(run: RunData, options: ShareOptions) -> ViewData:
-    """Relative largest ball load.
+    """Show the relative largest ball load.
 
     Times the number of balls over the radial load that the balls carry.
 

@@ -335,13 +335,13 @@ def _floor(share: float) -> str:
 
 
 def _floor_of_all(found: ShaftOutcome) -> float:
-    """Return the share of the breakdowns of all bearings at their least voltage."""
+    """Return all bearings' share of breakdowns at least voltage."""
     each = [(one.discharges + one.partial_discharges, one.floor_share) for one in found.bearings.values()]
     return sum(count * share for count, share in each) / max(sum(count for count, _ in each), 1)
 
 
 def _rate(value: float) -> str:
-    """Write a rate with four digits and no power of ten."""
+    """Write a rate with four digits without an exponent."""
     return f"{value:.4g}" if value < 1e3 else number(float(f"{value:.4g}"), 0)
 
 

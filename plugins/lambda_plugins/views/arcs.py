@@ -24,7 +24,7 @@ def _of_arcs(run: RunData, span: Span, ring: str, channel: str, scale: float, *,
 
 
 def arcs(run: RunData, options: Options) -> ViewData:
-    """Loads and contact angles of all four ball contacts."""
+    """Show loads and contact angles of all four contacts."""
     if not _has_arcs(run):
         raise NotApplicable("the rings of this bearing have one groove for each row: arcs are of four-point contact")
     span = averaging(run)

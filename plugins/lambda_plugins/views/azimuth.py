@@ -42,7 +42,7 @@ def load_distribution(run: RunData, options: Options) -> ViewData:
 
 
 def contact_angle(run: RunData, options: Options) -> ViewData:
-    """Contact angles of the loaded contacts over azimuth."""
+    """Show contact angles of the loaded contacts over azimuth."""
     span = averaging(run)
     series = tuple(_series(run, span, "contact_angle", 180.0 / np.pi))
     panel = Panel("", AZIMUTH, Axis("contact angle", "deg", least=1.0), series)
@@ -51,7 +51,7 @@ def contact_angle(run: RunData, options: Options) -> ViewData:
 
 
 def pressure(run: RunData, options: Options) -> ViewData:
-    """Maximum Hertzian pressure over azimuth."""
+    """Show the maximum Hertzian pressure over azimuth."""
     span = averaging(run)
     panel = Panel(
         "", AZIMUTH, Axis("maximum pressure", "GPa", low=0.0), tuple(_series(run, span, "max_pressure", 1e-9))
@@ -60,7 +60,7 @@ def pressure(run: RunData, options: Options) -> ViewData:
 
 
 def film(run: RunData, options: Options) -> ViewData:
-    """Film thickness and film parameter over azimuth.
+    """Show film thickness and film parameter over azimuth.
 
     Central film of the loaded contacts.
     """

@@ -10,7 +10,7 @@ from lambda_plugins.views.common import averaging, of_ring, over_azimuth, source
 
 
 def ball_speeds(run: RunData, options: Options) -> ViewData:
-    """Speeds and sliding of the balls over azimuth.
+    """Show speeds and sliding of the balls over azimuth.
 
     Orbital and spinning speed over kinematics, and sliding at both rings.
     """

@@ -32,7 +32,7 @@ def _circle(radius: float) -> tuple[FloatArray, FloatArray]:
 
 
 def cage_orbit(run: RunData, options: Options) -> ViewData:
-    """Path, whirl and speed of the cage.
+    """Show path, whirl and speed of the cage.
 
     Its whirl speed over the cage speed, and the cage speed over kinematics.
     """
@@ -99,7 +99,7 @@ def _whirl(time: FloatArray, away: FloatArray, spin: FloatArray) -> tuple[Series
 
 
 def pocket_forces(run: RunData, options: Options) -> ViewData:
-    """Forces on the cage over azimuth and time.
+    """Show forces on the cage over azimuth and time.
 
     Of the balls and of the lands.
     """

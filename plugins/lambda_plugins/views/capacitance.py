@@ -14,7 +14,7 @@ _STEADY = 1e-9  # relative swing below which there is no spectrum
 
 
 def capacitance(run: RunData, options: Options) -> ViewData:
-    """Capacitance of the bearing and of its contacts.
+    """Show the capacitance of the bearing and its contacts.
 
     Of the bearing over time and its spectrum, of the contacts over azimuth.
     """

@@ -19,7 +19,7 @@ _PARTS = (
 
 
 def catalogues(run: RunData, options: Options) -> ViewData:
-    """Friction torque of the simulation and of catalogues.
+    """Show the friction torque of simulation and catalogues.
 
     By parts, with SKF's and Schaeffler's models for the same point.
     """

@@ -24,7 +24,7 @@ class ChannelOptions(Options):
 
 
 def channel(run: RunData, options: ChannelOptions) -> ViewData:
-    """One channel over time.
+    """Show one channel over time.
 
     Each entry as a line, or of many their mean and range.
     """

@@ -93,7 +93,7 @@ class Profile:
 
 
 def profile(azimuth: FloatArray, values: FloatArray, keep: NDArray[np.bool_], bins: int = BINS) -> Profile:
-    """Average values over azimuth.
+    """Return average values over azimuth.
 
     Parameters
     ----------

@@ -18,7 +18,7 @@ _TOLD = 8  # differing inputs, at most
 
 
 def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
-    """Friction, slip, films, pressures and loads of several runs.
+    """Compare friction, slip, films, pressures and loads of runs.
 
     Friction by mechanism and load distributions.
     """

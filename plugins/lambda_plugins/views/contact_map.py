@@ -51,7 +51,7 @@ class Choice(Options):
 
 
 def contact_map(run: RunData, options: Choice) -> ViewData:
-    """Maps over one contact ellipse.
+    """Show maps over one contact ellipse.
 
     The contact pipeline computes them from the recorded state.
     """

@@ -44,7 +44,7 @@ def _source(run: Any, found: Simulation) -> str:
 
 
 def voltage(run: Any, options: Seed) -> ViewData:
-    """Voltage between the rings with every discharge.
+    """Show the voltage between the rings with every discharge.
 
     Edge by edge, and its range over the whole span.
     """
@@ -74,7 +74,7 @@ def voltage(run: Any, options: Seed) -> ViewData:
 
 
 def discharges(run: Any, options: Seed) -> ViewData:
-    """Breakdowns of the raceways with voltages and energies.
+    """Show breakdowns of the raceways with voltages and energies.
 
     Share of the breakdowns over each raceway, and the size of voltages and energies.
     """
@@ -101,7 +101,7 @@ def discharges(run: Any, options: Seed) -> ViewData:
 
 
 def impedance(run: Any, options: Options) -> ViewData:
-    """Impedance between the rings over frequency.
+    """Show the impedance between the rings over frequency.
 
     As a meter measures it while the bearing turns.
     """

@@ -18,7 +18,7 @@ _ANGLE, _TIME = COLUMNS.index("relative_angle"), COLUMNS.index("time")
 
 
 def friction_breakdown(run: RunData, options: Options) -> ViewData:
-    """Friction torque by mechanism and ring.
+    """Show the friction torque by mechanism and ring.
 
     Mean of the averaging window.
     """
@@ -62,7 +62,7 @@ def _over_records(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def convergence(run: RunData, options: Options) -> ViewData:
-    """Friction torque over time and its mean.
+    """Show the friction torque over time and its mean.
 
     With the means of whole cage revolutions, and the confidence of their mean.
     """

@@ -13,7 +13,7 @@ from lambda_plugins.views.common import source
 
 
 def heat(run: RunData, options: Options) -> ViewData:
-    """Losses, heat flows and temperatures.
+    """Show losses, heat flows and temperatures.
 
     Losses by mechanism, the nodes that get them, the flows to the surroundings, and the temperatures that follow.
     """

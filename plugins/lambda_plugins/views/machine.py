@@ -12,7 +12,7 @@ _POINTS = 4000  # of a line, at most
 
 
 def orbit(run: Any, options: Options) -> ViewData:
-    """Orbits of the shaft at bearings and extremes.
+    """Show orbits of the shaft at bearings and extremes.
 
     At every bearing and where the shaft moves most.
     """
@@ -35,7 +35,7 @@ def orbit(run: Any, options: Options) -> ViewData:
 
 
 def reactions(run: Any, options: Options) -> ViewData:
-    """Force of every bearing on the shaft over time."""
+    """Show every bearing's force on the shaft over time."""
     machine = _machine(run)
     time, forces = 1e3 * _thinned(machine["time"]), _thinned(machine["reaction_force"])
     along = Axis("time", "ms", low=0.0)

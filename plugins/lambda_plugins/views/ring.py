@@ -17,7 +17,7 @@ _STILL = 1e-12  # [m] below this a ring does not move
 
 
 def ring_orbit(run: RunData, options: Options) -> ViewData:
-    """Path and motion of the inner ring's centre.
+    """Show path and motion of the inner ring's centre.
 
     The path across the shaft, the motion over time.
     """
@@ -62,7 +62,7 @@ def _last_turns(run: RunData, rows: slice) -> int:
 
 
 def ring_spectrum(run: RunData, options: Options) -> ViewData:
-    """Amplitude spectrum of the inner ring's motion.
+    """Show the amplitude spectrum of the inner ring's motion.
 
     With the characteristic frequencies.
     """

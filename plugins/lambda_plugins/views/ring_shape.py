@@ -17,7 +17,7 @@ Orders = dict[int, NDArray[np.float64]]
 
 
 def ring_shape(run: RunData, options: Options) -> ViewData:
-    """Shape of rings and cage, and their waves.
+    """Show the shape and the waves of rings and cage.
 
     At the end of the run, displacements enlarged; the size of every wave over time.
     """

@@ -34,7 +34,7 @@ def _require_rollers(run: RunData) -> None:
 
 
 def line_contact(run: RunData, options: Choice) -> ViewData:
-    """Pressure and load along a roller's contacts.
+    """Show pressure and load along a roller's contacts.
 
     Over the length of both contacts, spread as the law of the contact does.
     """
@@ -89,7 +89,7 @@ def _fields(run: Any, sample: dict[str, Any], roller: int) -> dict[str, LineFiel
 
 
 def lean(run: RunData, options: Options) -> ViewData:
-    """Tilt and skew of the rollers.
+    """Show tilt and skew of the rollers.
 
     Over azimuth, and of all rollers over time.
     """
@@ -115,7 +115,7 @@ def lean(run: RunData, options: Options) -> ViewData:
 
 
 def rib_load(run: RunData, options: Options) -> ViewData:
-    """Loads of the ribs on the rollers.
+    """Show the loads of the ribs on the rollers.
 
     Over azimuth, and their sums over time.
     """

@@ -90,7 +90,7 @@ def _interpolated(px: FloatArray, py: FloatArray, values: FloatArray) -> tuple[F
 
 
 def study_map(table: StudyTable, options: Surface) -> ViewData:
-    """Responses as a surface over two parameters."""
+    """Show responses as a surface over two parameters."""
     panels = []
     for response in responses(table, options.response):
         x, y, mesh_x, mesh_y, mesh = _surface(table, options, response)
@@ -124,7 +124,7 @@ def _levels(low: float, high: float) -> tuple[float, ...]:
 
 
 def friction_stack(table: StudyTable, options: Along) -> ViewData:
-    """Friction torque by mechanism, stacked over one parameter."""
+    """Show stacked friction torque by mechanism over one parameter."""
     parts = [c for c in table.responses if c.name.startswith(BREAKDOWN) and np.isfinite(c.numbers()).any()]
     if not parts:
         raise NotApplicable('the study has no responses "friction_breakdown_Nmm": ask for them')
@@ -184,7 +184,7 @@ def _levelled(panels: list[Panel]) -> tuple[Panel, ...]:
 
 
 def sensitivity(table: StudyTable, options: Which) -> ViewData:
-    """Influence of each parameter on each response."""
+    """Show the influence of each parameter on each response."""
     panels = []
     for response in responses(table, options.response):
         found = sensitivities(table, response.name)
@@ -213,7 +213,7 @@ def _tornado(response: Column, found: Sensitivity) -> Panel:
 
 
 def stability_map(table: StudyTable, options: Threshold) -> ViewData:
-    """Region where a measure of unsteadiness stays small.
+    """Show the region where a measure of unsteadiness is small.
 
     Below a limit, over two parameters.
     """

@@ -28,7 +28,7 @@ _SAME: dict[str, str] = {"friction/total": "friction_torque_Nmm"}
 
 
 def study_curves(table: StudyTable, options: Curves) -> ViewData:
-    """Every response over one parameter.
+    """Show every response over one parameter.
 
     A curve for each combination of the others.
     """
