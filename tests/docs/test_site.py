@@ -9,6 +9,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
+import package_diagram
 import pytest
 
 ROOT = Path(__file__).parents[2]
@@ -43,6 +44,12 @@ def test_nothing_is_loaded_from_elsewhere(site: Path) -> None:
             assert not re.match(r"(https?:)?//", address), f"{path.name} loads {address}"
     for style in site.rglob("*.css"):
         assert not re.search(r"url\(['\"]?(https?:)?//", style.read_text(encoding="utf-8")), style.name
+
+
+def test_the_picture_of_the_packages_has_the_layers_of_today() -> None:
+    assert package_diagram.TARGET.read_text(encoding="utf-8") == package_diagram.drawn(), (
+        "run python docs/tools/package_diagram.py"
+    )
 
 
 def test_commands_can_be_copied(site: Path) -> None:

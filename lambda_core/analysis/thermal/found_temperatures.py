@@ -18,7 +18,7 @@ _STEP = 0.01  # of a loss, for slopes
 
 @dataclass(frozen=True)
 class FoundTemperatures:
-    """Steady temperatures of a network, with the loop that found them.
+    """Steady temperatures of a network with their loop.
 
     Answers are of first order: a change forces the temperatures while losses stay, and the loop of temperature and
     loss follows, dT = (1 - A B)^-1 dT_forced, with A = d(temperatures)/d(seen) and B = d(seen)/d(temperatures).

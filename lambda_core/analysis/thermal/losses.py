@@ -135,7 +135,7 @@ class Losses:
 
 
 def model_at(model: BearingModel, inlet: float, clearance: float) -> BearingModel:
-    """Return a model at an inlet temperature [K] and a clearance [m]."""
+    """Return a model at inlet temperature [K] and clearance [m]."""
     return dataclasses.replace(
         model,
         geometry=with_clearance(model.geometry, clearance),

@@ -65,7 +65,7 @@ def steady_text(found: SteadyTemperatures) -> str:
 
 
 def _band(found: SteadyTemperatures, node: str) -> str:
-    """Return the band of a temperature as it follows the number."""
+    """Return a temperature's band as it follows the number."""
     known = found.temperatures_degC_band.get(node)
     return f"   model {ends(known, 'degC')}" if known else ""
 
