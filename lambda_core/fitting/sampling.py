@@ -128,7 +128,9 @@ def _region(found: Fit) -> tuple[FloatArray, FloatArray]:
 
 
 def _corners(count: int) -> FloatArray:
-    """Return corners of a unit cube: all of up to three sides.
+    """Return corners of a unit cube.
+
+    All of up to three sides.
 
     Of more, twice the power of two above their number: a Hadamard matrix and its mirror image, in which effects of
     single parameters and of pairs stay apart (Plackett and Burman 1946, Biometrika 33, 305; Box and Wilson 1951).

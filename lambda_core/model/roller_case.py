@@ -388,7 +388,7 @@ def _limits(bore: float, text: str) -> tuple[float, float]:
 
 
 def _outer_speed(case: Case) -> float:
-    """Return the speed of the outer ring at t = 0 [rad/s]."""
+    """Return the initial speed of the outer ring [rad/s]."""
     motion = case.bodies.outer_ring.spin.motion
     return 0.0 if motion is None else initial(time_function(motion))
 

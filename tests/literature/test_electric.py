@@ -73,7 +73,7 @@ def rig(speed: int, radial: int = 1800, axial: int = 900, temperatures: str = "g
 
 
 def first_breakdown(model: BearingModel, seeds: int = 15) -> float:
-    """Return the median over seeds of the first breakdown on the ramp [V]."""
+    """Return the median first breakdown on the ramp [V]."""
     contacts, bearing = contacts_of_equilibria(equilibria(model, 1), 0.02), circuit_bearings(model)[0]
     found = []
     for seed in range(seeds):

@@ -111,7 +111,10 @@ def equilibrium() -> Equilibrium:
 
 
 def pressed(pairs: tuple[int, ...]) -> FloatArray:
-    """Return a state in which each named roller is pressed by a micrometre onto the one after it."""
+    """Return a state of touching rollers.
+
+    Each named roller is pressed by a micrometre onto the one after it.
+    """
     context = equilibrium().context
     y = initial_state(equilibrium())
     y = y + np.random.default_rng(0).uniform(-1.0, 1.0, y.size) * 1e-3 * context.scale

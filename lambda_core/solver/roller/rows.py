@@ -133,7 +133,10 @@ def _pockets(rollers, row, bundle, own, want):
 
 @helper
 def _neighbours(rollers, row, bundle, own, want):
-    """Add the contacts of neighbouring rollers of a row without a cage."""
+    """Add the contacts of neighbouring rollers.
+
+    They are those of a row without a cage.
+    """
     for i in range(row.balls):
         j, k = row.first_ball + i, (i + 1) % row.balls
         on_next = bundle.ball_wrenches[row.first_ball + k]
