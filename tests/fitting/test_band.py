@@ -37,6 +37,7 @@ from lambda_core.model.checking import check_bearing
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.results.band_text import banded, ends, source_lines
 from lambda_core.results.model_band import FIELDS, TEMPERATURES, Band, Contributor, ModelBand
+from lambda_core.results.quasistatic import QuasiStatic
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.solver.drivers.near_equilibrium import solve_near
 from lambda_core.studies.job import resolve_point
@@ -425,3 +426,28 @@ def test_a_band_without_width_prints_no_ends_and_no_causes() -> None:
     bands = [one.model_copy(update={"contributors": [cause]}) for one in (narrow, wide)]
     lines = source_lines(ModelBand(case="c", coverage=0.9, bands=bands, left_out=[]))
     assert lines[1:] == ["friction torque: traction.tau_eyring 100 %"]
+
+
+def test_the_band_of_a_6308_holds_two_independent_models_and_not_the_formula_of_skf() -> None:
+    """Torque at F_a/F_r = 0.2 over that under the radial load alone, rings without tilt.
+
+    Least dissipation of each ball over both ellipses, with Coulomb friction: 1.12 to 1.15 for a 6205, 6208 and 6316.
+    Palmgren's load-dependent torque: 1.00, for F_a < 0.4 F_r. SKF's formula steps as soon as an axial load acts.
+    """
+    tables = {
+        "name": "combined", "bearing": {"designation": "SKF 6308/C3"}, "operation": {"speed": "1000 rpm"},
+        "loads": {"radial": "5 kN", "axial": "1 kN"}, "lubricant": {"name": "FVA3", "temperature": "60 degC"},
+        "bodies": {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}},
+    }  # fmt: skip
+    radial = api.quasistatic(tables, ("loads.axial=0 N",))
+    combined = api.quasistatic(tables, band=True)
+    assert isinstance(radial, QuasiStatic)
+    assert isinstance(combined, QuasiStatic)
+    assert radial.friction_torque_Nmm is not None
+    low, high = combined.friction_torque_Nmm_band
+    for ratio in (1.00, 1.12, 1.15):
+        assert low < ratio * radial.friction_torque_Nmm < high
+    assert combined.friction_torque_Nmm == pytest.approx(1.135 * radial.friction_torque_Nmm, rel=0.08)
+    assert combined.rating is not None
+    assert combined.rating.skf_torque_Nmm is not None
+    assert combined.rating.skf_torque_Nmm > 1.2 * high
