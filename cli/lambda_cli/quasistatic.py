@@ -33,8 +33,9 @@ def quasistatic(
 
     Prints loads, contact angles, films and friction at t = 0, without time and cage.
 
-    Of a machine: elastic shaft, bearings, housing, preload, thermal clearance and gear forces, with reactions,
-    deflection, lives and friction of every bearing. --draw is for machines: shaft, deflection and bending moment.
+    For a machine it solves elastic shaft, bearings, housing, preload, thermal clearance and gear forces, and prints
+    reactions, deflection, lives and friction of every bearing. --draw is for machines: shaft, deflection and bending
+    moment.
     """
     from lambda_core import api
 
@@ -70,7 +71,7 @@ def modes(
 
     Prints also natural frequencies and the stiffness of every bearing.
 
-    At the quasi-static equilibrium: bearings as stiff as at the operating point, damped by their films and contacts.
+    The bearings are as stiff as at the quasi-static equilibrium, and damped by their films and contacts.
     --draw writes the Campbell diagram: natural frequencies over speed.
     """
     from lambda_core import api

@@ -304,7 +304,7 @@ class MachineCase(Written):
     def own_problems(cls, data: Mapping[str, Any]) -> list[Problem]:
         """Return problems of names and of the shaft's shape.
 
-        Of plain tables, each at its own path.
+        Each problem of the plain tables has its own path.
         """
         found = _shape_problems(data)
         for table in NAMED:

@@ -217,7 +217,7 @@ class Catalogue(Protocol):
     def bearings(self, text: str = "", limit: int = 50) -> list[BearingRow]:
         """Return the bearings that match `text`.
 
-        By designation, bore, series or maker, best first.
+        The text may be a designation, bore, series or maker; the best come first.
         """
 
     def rollers(self) -> list[RollerRow]:

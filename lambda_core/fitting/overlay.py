@@ -51,7 +51,7 @@ def pictures_of_case(result: Result, measured: str | Path, bearing: str | None =
 
 
 def header_of(measured: str | Path) -> str:
-    """Return the first line of a file that is no comment.
+    """Return a file's first line that is no comment.
 
     In small letters; empty where there is none.
     """

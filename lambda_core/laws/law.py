@@ -108,7 +108,7 @@ class Law:
     def qualified(self) -> str:
         """Name with its package before it.
 
-        Such as "carreau-traction:carreau", which no other package can take.
+        No other package can take it, for example "carreau-traction:carreau".
         """
         project = project_of(self.distribution)
         return f"{project}:{self.name}" if project and project != OWN else self.name

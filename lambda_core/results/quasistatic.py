@@ -118,7 +118,7 @@ class QuasiStatic(Answer, Banded):
     def to_xarray(self) -> Any:
         """Return contacts and numbers as an xarray.Dataset.
 
-        With units; UsageError when xarray is not installed.
+        Every variable has its unit; UsageError when xarray is not installed.
 
         Returns
         -------

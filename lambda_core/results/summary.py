@@ -65,7 +65,7 @@ class FieldOfOneBearingError(BearingNeededError, AttributeError):
 class Summary(Record):
     """Averages of a run and its end state.
 
-    Of the machine, and of each bearing.
+    They are those of the machine, and of each bearing.
 
     With one bearing, the numbers of that bearing are also attributes of the summary: ``summary.min_film_um``.
     The names are stable under one number of `interface`. A number that does not exist
@@ -159,7 +159,7 @@ class Summary(Record):
     def to_xarray(self) -> Any:
         """Return the averages as an xarray.Dataset.
 
-        Of every bearing with units; UsageError without xarray.
+        They are those of every bearing, with units; UsageError without xarray.
 
         Returns
         -------

@@ -60,7 +60,7 @@ class ComparedMethod(Record):
 class Comparison(Answer):
     """Every method on one case at its start.
 
-    With the simulation if a result was given.
+    The simulation is included if a result was given.
     """
 
     interface: int = INTERFACE

@@ -259,7 +259,7 @@ class Stepping(Iterator[Step]):
     def push(self, force: Sequence[float] = (0.0, 0.0, 0.0), moment: Sequence[float] = (0.0, 0.0)) -> None:
         """Put a load on the inner ring.
 
-        In addition to those of the case, from now on until the next call.
+        It adds to the loads of the case, from now on until the next call.
 
         Parameters
         ----------
@@ -319,7 +319,7 @@ class Stepping(Iterator[Step]):
     def state(self) -> dict[str, NDArray[np.float64]]:
         """Return everything for a continuation from here.
 
-        To look ahead, and :meth:`restore`.
+        A caller can look ahead, and :meth:`restore` it.
         """
         own = {f"coupled.{name}": part for name, part in self._coupled.state().items()}
         return {**self._engine.state(samples=False), **own, "before": np.array(self._before)}

@@ -97,7 +97,7 @@ class Series:
 class Mark:
     """Labelled straight line across a panel.
 
-    At one value of one axis.
+    It stands at one value of one axis.
 
     Attributes
     ----------

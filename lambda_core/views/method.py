@@ -159,7 +159,7 @@ class RollerMethodInputs:
 class MethodRow:
     """One number of a method.
 
-    In a unit of its group (:data:`GROUP_UNITS`).
+    It has a unit of its group (:data:`GROUP_UNITS`).
     """
 
     group: Group  # "friction", "capacitance", "life", "rating", "kinematics", "stiffness", "load"

@@ -52,7 +52,7 @@ class Column:
     def is_part(self) -> bool:
         """True for a part of another response.
 
-        Of the friction torque, or a component of a displacement.
+        It is a part of the friction torque, or a component of a displacement.
         """
         return re.search(r"(?<!_per)_(Nmm|um|mrad)\.\w+$", self.name) is not None
 
@@ -136,7 +136,7 @@ class StudyTable:
     def rows(self) -> list[dict[str, Any]]:
         """Return one plain dict per point.
 
-        For tables of any kind.
+        The dicts fit tables of any kind.
         """
         return [
             {

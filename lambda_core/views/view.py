@@ -79,7 +79,7 @@ class RunData(Protocol):
 class MachineData:
     """Data of a machine for a view.
 
-    At its operating point.
+    The machine is at its operating point.
 
     Attributes
     ----------

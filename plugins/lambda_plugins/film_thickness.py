@@ -68,7 +68,7 @@ def chittenden(
 ) -> int:
     """Film after Chittenden et al.
 
-    For entrainment at any angle to the axes of the ellipse.
+    The entrainment may have any angle to the axes of the ellipse.
 
     h = C R_e G^0.49 U^0.68 W^-0.073 {1 - exp[-c (R_s/R_e)^(2/3)]}, C = 4.31, c = 1.23 in the centre and 3.68, 0.67 at
     the minimum; U = eta0 u_m/(E' R_e) with the MEAN velocity, W = Q/(E' R_e^2), G = alpha_p E'; R_e and R_s along and
@@ -115,7 +115,7 @@ def hamrock_dowson(
 ) -> int:
     """Film after Hamrock and Dowson.
 
-    For entrainment along the minor axis.
+    The entrainment is along the minor axis.
 
     h_cen = 2.69 R_x U^0.67 G^0.53 W^-0.067 (1 - 0.61 exp(-0.73 k)), h_min = 3.63 R_x U^0.68 G^0.49 W^-0.073
     (1 - exp(-0.68 k)), k = 1.03 (R_y/R_x)^0.64; U with the mean velocity. Hamrock and Dowson 1977, J. Lubr. Technol.

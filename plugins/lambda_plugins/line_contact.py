@@ -125,7 +125,7 @@ def moes_line(
 ) -> int:
     """Film of a line contact after Moes.
 
-    In all four regimes.
+    The fit covers all four regimes.
 
     The central film of :func:`moes_line_film` for the component of entrainment across the line. The minimum is 0.866
     U^0.01 G^-0.02 W^-0.03 of it, the ratio of Dowson's 2.65 U^0.70 G^0.54 W^-0.13 (Dowson 1968) to Dowson and Toyoda's
@@ -211,7 +211,7 @@ def biboulet_houpert_line(
 ) -> int:
     """Rolling resistance of a line after Biboulet and Houpert.
 
-    With Aihara's thermal factor.
+    Aihara's thermal factor applies.
 
     :func:`rolling_force` times the length, on each surface, in proportion to the speed near rest.
     """
@@ -339,7 +339,7 @@ def line_gap(
 ) -> int:
     """Capacitance of a line contact and its gaps.
 
-    Of the flat and of the gaps on both sides, to where the surfaces are a roller radius apart.
+    The gaps on both sides count to where the surfaces are a roller radius apart.
 
     C = C_Hertz + 2 eps L int_b^X dx/(h + (x^2 - b^2)/(2 R)), X = R: with c^2 = 2 R h - b^2 the integral is
     2 R/c [atan(X/c) - atan(b/c)], or a logarithm where c^2 is negative. Without load the cylinder's own.

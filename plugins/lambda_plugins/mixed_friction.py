@@ -70,7 +70,7 @@ class SpikesOlver(Parameters):
 def spikes_olver(Lambda: float, par: SpikesOlver, out: FloatArray) -> int:
     """Share of boundary friction after Spikes and Olver.
 
-    In mixed lubrication, psi = (1 + Lambda)^-m.
+    In mixed lubrication it is psi = (1 + Lambda)^-m.
 
     From friction measured in rough rolling and sliding contacts, mu = mu_film + (mu_bl - mu_film)/(1 + Lambda)^m,
     Lambda the smooth film over the composite rms roughness: Spikes and Olver 2003, Lubr. Sci. 16(1), 3.

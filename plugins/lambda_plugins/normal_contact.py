@@ -107,7 +107,7 @@ def prepare_fitted(parameters: NoParameters, context: Context) -> Shape:
 def hamrock_brewe(delta: float, R_x: float, R_y: float, E_eff: float, par: Shape, out: FloatArray) -> int:
     """Hertz by the fits of Hamrock and Brewe.
 
-    For ellipse ratio and elliptic integrals.
+    The fits give ellipse ratio and elliptic integrals.
 
     k = a_H^(2/pi), F = pi/2 + q ln a_H, eps = 1 + q/a_H, q = pi/2 - 1, a_H = R_y/R_x or its inverse, whichever is
     >= 1: Syla et al. 2026, eq. 4-11. Against exact integrals, for ratios 12..60 and equal load: p_max -0.2..+1.4 %,

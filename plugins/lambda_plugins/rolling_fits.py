@@ -196,7 +196,7 @@ def biboulet_houpert_point(
 ) -> int:
     """Rolling resistance of a point after Biboulet and Houpert.
 
-    With Aihara's thermal factor.
+    Aihara's thermal factor applies.
 
     F/(E' R_x^2) = (2 a/R_x) {[0.77 b^(-1/3) k^0.12 U2^(-1/12) - 1.8 b^(-1/4)]/(1 + M/6.6) + 1.8 b^(-1/4)} U2^0.75,
     b = (4/pi) E/(1 + R_x/R_y), M = b^(1/4) k W/U2^0.75, U2 = 2 eta0 u_m/(E' R_x), W = Q/(E' R_x^2), k = semi_b/semi_a,

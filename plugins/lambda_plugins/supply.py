@@ -61,7 +61,7 @@ def constant(
 ) -> int:
     """Constant film factor.
 
-    With the rolling resistance of the inlet that leaves this film.
+    The rolling resistance is that of the inlet that leaves this film.
 
     Where the oil has to begin follows from Grubin's inlet (:func:`meniscus`, Wolveridge et al. 1971), the rolling
     resistance from the gap there (:func:`starved_rolling`, Biboulet and Houpert 2010, Part 1, eq. 44).
@@ -118,7 +118,7 @@ def inlet_distance(
 ) -> int:
     """Starvation by the meniscus, after Hamrock and Dowson.
 
-    By the distance of the inlet meniscus.
+    The distance of the inlet meniscus decides.
 
     h/h_ff = [(m - 1)/(m* - 1)]^0.29 below m* = 1 + 3.06 [(R_x/b)^2 H_c]^0.58, H_c = h_cen/R_x, 1 above: Hamrock and
     Dowson 1977, J. Lubr. Technol. 99, 15 (part IV). The oil at the inlet fills the gap there, h + b^2/(2 R_x)

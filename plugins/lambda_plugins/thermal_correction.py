@@ -69,7 +69,7 @@ def zhu_cheng(
 ) -> int:
     """Thermal film factor after Zhu and Cheng.
 
-    With pressure and slide-to-roll ratio.
+    The factor depends on pressure and slide-to-roll ratio.
 
     Phi_T = [1 - 13.2 (p_0/E') L^0.42]/[1 + 0.213 (1 + 2.23 S^0.83) L^0.64], L = eta0 beta u_m^2/lambda, S = slide over
     mean velocity. Gupta, Cheng, Zhu, Forster and Schrand 1992, Tribol. Trans. 35, 269; Wingertszahn et al. 2023,

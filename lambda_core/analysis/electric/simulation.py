@@ -110,7 +110,7 @@ class Simulation:
 class CircuitSimulation:
     """All bearings of a shaft in one circuit.
 
-    Over a span of time.
+    The simulation covers a span of time.
 
     Attributes
     ----------

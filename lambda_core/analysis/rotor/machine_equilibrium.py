@@ -227,7 +227,7 @@ class MachineEquilibrium(Answer):
     def to_xarray(self) -> Any:
         """Return bearings and deflection as an xarray.Dataset.
 
-        With units.
+        Every variable has its unit.
 
         Returns
         -------

@@ -117,7 +117,7 @@ class MachineModes(Answer):
     def to_xarray(self) -> Any:
         """Return natural frequencies as an xarray.Dataset.
 
-        Over speed; UsageError when xarray is not installed.
+        Speed is a dimension; UsageError when xarray is not installed.
 
         Returns
         -------

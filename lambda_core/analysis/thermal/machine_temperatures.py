@@ -77,7 +77,7 @@ class MachineLoop(Loop):
     def grown(self, at: Mapping[str, float]) -> FloatArray:
         """Return the shaft's growth beyond the housing [m].
 
-        At each bearing.
+        There is one value for each bearing.
 
         Where the network has no shaft or no housing, they have the mean temperature of inner or outer rings. A rigid
         shaft has no length along which it could grow.

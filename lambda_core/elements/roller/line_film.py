@@ -124,7 +124,7 @@ def inlet_heat_rolling(
 ) -> FloatArray:
     """Return the factor of inlet heating.
 
-    On the rolling resistance, 1/(1 + 0.29 L^0.78).
+    It multiplies the rolling resistance: 1/(1 + 0.29 L^0.78).
 
     L = eta beta u^2/k: Aihara 1987, J. Tribol. 109, 471, measured with tapered roller bearings.
 

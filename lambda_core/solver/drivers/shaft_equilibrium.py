@@ -85,14 +85,14 @@ class ShaftState:
     def motions(self) -> FloatArray:
         """Motions of shaft, outer rings and bodies.
 
-        In the rows of structure.static_rows.
+        The rows are those of structure.static_rows.
         """
         return np.concatenate([self.displacement, self.outer.ravel(), self.bodies.ravel()])
 
     def pose(self, model: MachineModel, index: int) -> FloatArray:
         """Return a bearing's relative pose.
 
-        Of its inner ring against its outer one, shape (5,).
+        It is that of its inner ring against its outer one, shape (5,).
         """
         rows = model.body.rows(model.bearings[index].position).start + np.array(PLACES)
         return np.asarray(self.displacement[rows] - self.outer[index])
