@@ -151,8 +151,6 @@ def start(
         manifest.write_meta("fingerprint", _fingerprint(ready.plan, ready.case_toml, ready.names))
         if band:
             manifest.write_meta(_BANDED, "yes")
-            if (found := _band_of(ready.case_toml)) is not None:
-                manifest.write_meta(_BAND, found.model_dump_json())
         manifest.add(list(ready.plan.points()))
         return _work(manifest, ready.plan, ready.names, where, workers, report, retry=False)
 
@@ -272,7 +270,9 @@ def _work(
     stop = False
     with manifest.directed():
         sweep(manifest.folder / RUNS)  # a worker that was killed while it packed a finished run
-        todo = manifest.pending(retry)
+        is_banded, todo = bool(manifest.meta(_BANDED)), manifest.pending(retry)
+        if is_banded and not manifest.meta(_BAND) and (band := _band_of(manifest.case_toml)) is not None:
+            manifest.write_meta(_BAND, band.model_dump_json())
         study = manifest.study
         begun = time.monotonic()
         before = manifest.seconds()
@@ -288,12 +288,14 @@ def _work(
                 stop = not done
             finally:
                 workers_pool.close(stop=stop)
-                if not stop and manifest.meta(_BANDED):
+                if not stop and is_banded:
                     _write_bands(manifest)
                 wall = time.monotonic() - begun
                 manifest.write_meta("wall", repr(float(manifest.meta("wall") or 0.0) + wall))
                 spent = manifest.seconds() - before
                 manifest.write_meta("efficiency", repr(spent / (wall * workers_pool.workers)) if wall > 0.0 else "")
+        elif is_banded and not manifest.meta(BANDS):
+            _write_bands(manifest)  # it was killed after its last point
     return _status(manifest).model_copy(update={"interrupted": stop})
 
 

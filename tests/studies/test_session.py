@@ -9,6 +9,7 @@ import json
 import math
 from collections.abc import Callable
 from concurrent.futures import Executor
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.studies import folders
 from lambda_core.studies.effects import sensitivities
 from lambda_core.studies.pool import Given, Inline
+from lambda_core.studies.store import BANDS, Manifest
 from lambda_core.views.method import NotApplicable
 from lambda_core.views.table import Column, StudyTable
 
@@ -48,6 +50,26 @@ def test_a_study_of_a_few_seconds_takes_no_other_process(
     monkeypatch.setattr(folders, "_ALONE", 0.0)
     api.study_run(short, tmp_path / "long")
     assert [where for where, _ in asked] == ["here", "processes", "processes"]
+
+
+def test_a_study_killed_before_its_bands_were_written_gets_them_on_resume(
+    write: Write, inline: Executor, tmp_path: Path
+) -> None:
+    """A kill while the bands were computed, before the first point or after the last one, lost them without a word."""
+    folder = tmp_path / "map"
+    api.study_run(write(MAP), folder, executor=inline, band=True)
+
+    def bands() -> list[str]:
+        with closing(Manifest(folder)) as manifest:
+            return [manifest.meta(name) for name in ("model_band", BANDS)]
+
+    before = bands()
+    assert all(before)
+    with closing(Manifest(folder, write=True)) as manifest:
+        for name in ("model_band", BANDS):
+            manifest.write_meta(name, "")
+    api.study_resume(folder, executor=inline)
+    assert bands() == before
 
 
 def test_each_point_is_what_a_single_solution_gives(write: Write, inline: Executor, tmp_path: Path) -> None:
