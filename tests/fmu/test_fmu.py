@@ -317,7 +317,9 @@ def test_the_command_writes_it(c_compiler: tuple[str, ...], tmp_path: Path, caps
     target = tmp_path / "bearing.fmu"
     command = ["export", "fmu", CASE, "-o", str(target), "--processor", "native", "--json", "--quiet"]
     assert main(command) == 0
-    assert json.loads(capsys.readouterr().out) == {"file": str(target)}
+    said = capsys.readouterr()
+    assert json.loads(said.out) == {"file": str(target)}
+    assert "this FMU has no parameters; --vary PATH=LOW..HIGH makes" in said.err
     assert main(command) == 2
     assert "overwrite it (--force" in capsys.readouterr().err
     with zipfile.ZipFile(target) as archive:

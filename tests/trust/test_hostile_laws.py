@@ -100,6 +100,12 @@ def of_scipy_too(slip, p, T, ln_eta, h, par, tau):
 def sound(slip, p, T, ln_eta, h, par, tau):
     plain(slip, p, tau)
     return OK
+
+@law("force_element", "rope", role_api=3, reference="none", errors={7: "the rope has torn"})
+def rope(t, place, tilt, v_rel, omega_rel, par, out):
+    for i in range(6):
+        out[i] = 0.0
+    return 7 if place[2] < -1e-6 else OK
 """
 FOUND = {
     "outside": "reads or writes outside its arrays: IndexError.*hostile.py, line 17",
@@ -255,3 +261,10 @@ def test_a4_trying_at_thresholds_takes_a_moment() -> None:
     begun = time.process_time()
     check.check_choice(sound, par)
     assert time.process_time() - begun < 10.0  # takes a tenth of a second
+
+
+def test_a_force_element_that_refuses_in_the_equilibrium_says_why() -> None:
+    """Supports were blamed, and the sentence of its status was lost."""
+    changes = ["loads.radial=2 kN", "elements.line.law=rope", "elements.line.second=inner_ring"]
+    with pytest.raises(SolverError, match=r"force_element/rope .*: the rope has torn \(elements.line; t 0, place"):
+        api.quasistatic(CASE, changes)
