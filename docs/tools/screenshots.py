@@ -27,6 +27,7 @@ from lambda_gui.app import BuilderApp
 from lambda_gui.derived import Derived
 from lambda_gui.dialogs import Ask, OpenCase
 from lambda_gui.duty_screen import DutyScreen
+from lambda_gui.fit_screen import FitScreen
 from lambda_gui.results_screen import ResultsScreen
 from lambda_gui.run_screen import RunScreen
 from lambda_gui.study_screen import StudyScreen
@@ -242,6 +243,19 @@ async def duty(pilot: Pilot[None]) -> None:
     await settled(pilot)
 
 
+async def fitting(pilot: Pilot[None]) -> None:
+    """Fit the six torques of docs/fit.md."""
+    guide = (TARGET.parents[1] / "fit.md").read_text(encoding="utf-8")
+    Path("rig.csv").write_text(guide.partition("`rig.csv`:\n\n```\n")[2].partition("```")[0], encoding="utf-8")
+    await estimated(pilot)
+    await pilot.press("ctrl+f")
+    await until(pilot, lambda: isinstance(pilot.app.screen, FitScreen))
+    screen = cast(FitScreen, pilot.app.screen)
+    await pilot.press(*"rig", "enter", *"loss_f", "enter", *"tau_e", "enter", "f5")
+    await until(pilot, lambda: screen.report is not None)
+    await settled(pilot)
+
+
 async def answers(pilot: Pilot[None]) -> None:
     await estimated(pilot)
     await pilot.press("f10")
@@ -318,6 +332,7 @@ SCENES: dict[str, Scene] = {
     "answers": Scene("box.toml", answers),
     "study": Scene(_6208, study),
     "duty": Scene(_6208, duty),
+    "fit": Scene(_6319, fitting),
     "study-curves": Scene(_6208, study_curves),
     "no-results": Scene(_6208, no_results),
     "help": Scene(_6208, helped(builder)),
