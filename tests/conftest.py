@@ -20,7 +20,7 @@ from second_try import DURATIONS
 
 # The same examples on every day: a suite that finds another fault by luck says nothing about the change it is run for.
 # What is drawn anew each time are the campaigns of tests/attacks.
-settings.register_profile("suite", derandomize=True)
+settings.register_profile("suite", derandomize=True, max_examples=40)
 settings.load_profile("suite")
 
 # What takes longest comes first: one file of half a minute at the end keeps one process while the others are done.

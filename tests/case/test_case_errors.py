@@ -332,7 +332,7 @@ def _values() -> st.SearchStrategy[Any]:
     return st.recursive(leaves, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(keys, inner, max_size=3))
 
 
-@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @example("assumptions", "\n")
 @given(st.sampled_from(sorted({*VALID, *option_paths(Case)})), _values())
 def test_any_value_anywhere_is_accepted_or_a_sentence(path: str, value: Any) -> None:

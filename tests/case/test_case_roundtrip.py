@@ -27,7 +27,7 @@ from lambda_core.domain.errors import UsageError
 BUILTIN = sorted(builtin_cases())
 
 
-@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(cases())
 def test_case_to_toml_to_case_is_exact(tables: dict[str, Any]) -> None:
     case = validate_case(tables)

@@ -67,7 +67,7 @@ def tables(draw: st.DrawFn, interpolation: str | None = None) -> TableTerm:
     return TableTerm("table", points, interpolation or draw(st.sampled_from(MODES)))  # type: ignore[arg-type]
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(tables("monotone"), st.lists(st.floats(0.0, 1.0), min_size=5, max_size=5))
 def test_a_table_stays_between_neighbouring_points(term: TableTerm, shares: list[float]) -> None:
     function, times, values = TimeFunction((term,)), term.values[0::2], term.values[1::2]
@@ -80,7 +80,7 @@ def test_a_table_stays_between_neighbouring_points(term: TableTerm, shares: list
     assert (at(times[0] - 1.0)[0], at(times[-1] + 1.0)[0]) == (values[0], values[-1])
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(tables(), st.sampled_from([-2.5, -1e-6, 0.0, 1.0, 1e3]))
 def test_peak_bounds_every_table(term: TableTerm, factor: float) -> None:
     function = scaled(TimeFunction((term,)), factor)
@@ -90,14 +90,14 @@ def test_peak_bounds_every_table(term: TableTerm, factor: float) -> None:
     assert largest <= bound * (1.0 + 1e-9)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(deadline=None)
 @given(tables())
 def test_the_value_at_the_start_is_the_one_that_the_run_begins_with(term: TableTerm) -> None:
     function = TimeFunction((term,))
     assert initial(function) == pytest.approx(course(function)(0.0)[0], rel=1e-9, abs=1e-9 * peak(function))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(deadline=None)
 @given(tables().filter(lambda term: len(term.values) > 4))
 def test_the_rate_has_no_jump(term: TableTerm) -> None:
     """What a table moves has a velocity: at every point, the first and the last ones too, it is one number."""

@@ -59,7 +59,7 @@ def test_comparisons_that_make_no_sense(catalogue: SqlCatalogue, text: str, mess
     assert message in str(error.value)
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(text=st.text(max_size=30))
 def test_anything_typed_is_answered(catalogue: SqlCatalogue, text: str) -> None:
     """Rows, or a sentence: never an error of the database."""

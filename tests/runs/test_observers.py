@@ -5,6 +5,7 @@ What they write, when they end a run, and what their own mistakes do.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -142,46 +143,48 @@ def test_an_event_that_is_recorded_begins_again_and_again(tmp_path: Path) -> Non
     assert np.all(np.diff(begun["time"]) > 0.8e-3)
 
 
-def wrong_shape(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any]) -> dict[str, Any]:
-    return {"loss_sum": np.zeros(1), "contact_power": samples["contact_loss"]}
+def losing(name: str, answer: Callable[[Mapping[str, Any], dict[str, Any]], Any]) -> Observer:
+    """Return an observer with an answer of its own."""
+    total, each = replace(LOSS, name=f"{name}_sum"), replace(EACH, name=f"{name}_power")
+
+    def observe(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any]) -> Any:
+        return answer(samples, {total.name: samples["loss"].sum(axis=1), each.name: samples["contact_loss"]})
+
+    numbers = (Number(f"mean {name}", total.name, "mean", "mean loss"),)
+    return replace(observer(observe), name=name, channels=(total, each), integrals=(), numbers=numbers)
 
 
-def complex_numbers(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any]) -> dict[str, Any]:
-    return {**losses(samples, Factor(), model), "loss_sum": 1j * samples["time"]}
-
-
-def writing(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any]) -> dict[str, Any]:
-    samples["loss"][:] = 0.0
-    return {}
-
-
-def failing(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any]) -> dict[str, Any]:
+def failing(*_: Any) -> Any:
     print("hello")
     raise KeyError("rows")
 
 
-@pytest.mark.parametrize(
-    ("observe", "words"),
-    [
-        (failing, r'the observer "losses" \(guest 1\.0\) fails: KeyError'),
-        (writing, "read-only"),
-        (wrong_shape, "returns loss_sum of shape"),
-        (complex_numbers, "returns loss_sum as complex numbers, not real ones"),
-        (lambda *_: 42, "returns other channels than it declares: loss_sum, contact_power"),
-    ],
-)
-def test_an_observer_that_fails_stays_alone(
-    observe: Callable[..., Any], words: str, complete: Result, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
-    import re
+FAILING: dict[str, tuple[Callable[..., Any], str]] = {
+    "failing": (failing, r'the observer "failing" \(guest 1\.0\) fails: KeyError'),
+    "writing": (lambda samples, right: samples["loss"].fill(0.0), "read-only"),
+    "flat": (lambda samples, right: right | {"flat_sum": np.zeros(1)}, "returns flat_sum of shape"),
+    "complex": (
+        lambda samples, right: right | {"complex_sum": 1j * samples["time"]},
+        "returns complex_sum as complex numbers, not real ones",
+    ),
+    "other": (lambda *_: 42, "returns other channels than it declares: other_sum, other_power"),
+}
 
-    result = launch(model(**with_observer(observer(observe))), tmp_path / "failed.h5")
+
+def test_observers_that_fail_stay_alone(complete: Result, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """Neither the run nor another observer knows of them."""
+    chosen = {name: ChosenObserver(losing(name, answer), Factor()) for name, (answer, _) in FAILING.items()}
+    result = launch(model(observers=chosen | with_observer(observer())["observers"]), tmp_path / "failed.h5")
     assert capfd.readouterr().out == ""
-    np.testing.assert_array_equal(result["load"], complete["load"])
-    assert np.isnan(result["loss_sum"]).all()
-    (fault,) = result.summary().plugin_faults
-    assert re.search(words, fault)
-    assert {number.value for number in result.summary().observed} == {None}
+    for channel in ("load", "loss_sum", "contact_power"):
+        np.testing.assert_array_equal(result[channel], complete[channel])
+    summary = result.summary()
+    assert len(summary.plugin_faults) == len(FAILING)
+    for name, (_, words) in FAILING.items():
+        assert np.isnan(result[f"{name}_sum"]).all()
+        assert any(re.search(words, fault) for fault in summary.plugin_faults), name
+    without = {number.name for number in summary.observed if number.value is None}
+    assert without == {f"mean {name}" for name in FAILING}
 
 
 def test_an_event_that_fails_stays_alone(tmp_path: Path) -> None:

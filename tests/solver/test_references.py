@@ -52,8 +52,7 @@ class Other(NamedTuple):
 outer_t, other_t = reference_t(Outer), reference_t(Other)
 
 
-@njit(types.float64(outer_t))
-def total(outer: Any) -> float:
+def added_up(outer: Any) -> float:
     """Add up everything, through views and shapes."""
     cube, found = outer.cube, 0.0
     for i in range(cube.shape[0]):
@@ -63,20 +62,26 @@ def total(outer: Any) -> float:
     return found + outer.inner.counts.sum() + outer.line[1:].size
 
 
+@pytest.fixture(scope="module")
+def total() -> Any:
+    """Compile it in the one process that needs it."""
+    return njit(types.float64(outer_t))(added_up)
+
+
 def made(kind: Any = Outer, **changes: Any) -> Any:
     """Return a tuple with numbers in it."""
     parts = {"line": np.zeros(4), "inner": Inner(np.arange(5)), "cube": np.arange(24.0).reshape(2, 3, 4)}
     return kind(**(parts | changes))
 
 
-def test_compiled_code_reads_and_writes_what_python_has() -> None:
+def test_compiled_code_reads_and_writes_what_python_has(total: Any) -> None:
     """Arrays of several dimensions, a tuple within the tuple, a view."""
     outer = made()
     assert total(outer) == 276.0 * 32 + 10 + 3
     assert outer.line[0] == 276.0 * 32
 
 
-def test_a_replaced_field_has_an_address_of_its_own() -> None:
+def test_a_replaced_field_has_an_address_of_its_own(total: Any) -> None:
     """The words are those of the tuple at hand, not of the one that it was made from."""
     outer = made()
     before = total(outer)
@@ -85,7 +90,7 @@ def test_a_replaced_field_has_an_address_of_its_own() -> None:
 
 
 @pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda outer: pickle.loads(pickle.dumps(outer))])
-def test_a_copy_has_addresses_of_its_own(copied: Any) -> None:
+def test_a_copy_has_addresses_of_its_own(copied: Any, total: Any) -> None:
     """Words that came along would lead to the arrays of the original, or to freed memory."""
     outer = made()
     before = total(outer)
@@ -105,13 +110,13 @@ def test_a_copy_has_addresses_of_its_own(copied: Any) -> None:
     ],
     ids=["another size", "another kind", "another shape", "another order"],
 )
-def test_an_array_of_another_type_is_refused(changes: dict[str, Any]) -> None:
+def test_an_array_of_another_type_is_refused(changes: dict[str, Any], total: Any) -> None:
     """Compiled code would read past its end, or other numbers than there are."""
     with pytest.raises(TypeError, match="where compiled code takes"):
         total(made(**changes))
 
 
-def test_another_tuple_is_refused() -> None:
+def test_another_tuple_is_refused(total: Any) -> None:
     """With the same fields, and no tuple at all; by the way that runs take, which looks at no types before."""
     entry = total.get_compile_result(types.float64(outer_t)).entry_point
     for wrong in (made(Other), (np.zeros(4), Inner(np.arange(5)), np.zeros((2, 3, 4))), None):

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.signal import filtfilt, firwin
 
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
@@ -67,6 +66,8 @@ def test_what_is_faster_hardly_falls_into_a_spectrum(tmp_path: Path) -> None:
     Across it lines are smaller and much stands above: 6 % (130 % with half the samples). The filter itself and the ends
     of the window take up to 1 %.
     """
+    from scipy.signal import filtfilt, firwin  # half a second for one slow test
+
     times, seen = velocity(tmp_path / "seen.h5")
     interval = float(np.diff(times).mean())
     assert interval * RESOLVE < 1.0 / 5.0

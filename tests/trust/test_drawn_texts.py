@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from lambda_plugins.views import animation
 from lambda_plugins.views.verbatim import verbatim
 from matplotlib.text import Text
 
@@ -51,6 +50,8 @@ def test_c4_formulas_in_texts_are_not_read() -> None:
 
 # Reports draw with the same function.
 def test_c4_a_title_like_a_formula_breaks_no_picture(tmp_path: Path) -> None:
+    from lambda_plugins.views import animation  # which loads Matplotlib
+
     case = api.init_case("hostile", CASE, tmp_path / "case.toml")
     text = case.read_text(encoding="utf-8")
     # As TOML writes it: escapes of the terminal, the zero that ends texts elsewhere.

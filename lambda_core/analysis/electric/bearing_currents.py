@@ -62,6 +62,7 @@ def electric(
         electric_of_model,
         is_result,
     )
+    from lambda_core.analysis.electric.contacts import spins
 
     if is_result(source):
         found = circuit_of_run(Result(str(source)), overrides, announce, window=window)
@@ -72,6 +73,8 @@ def electric(
     from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 
     machine = machine_of(source, overrides)  # type: ignore[arg-type]
+    for mounted in machine.bearings:
+        spins(mounted.model)  # refuses rings at rest before anything is solved
     state = solve_shaft(machine, announce)
     poses = [state.pose(machine, number) for number in range(len(machine.bearings))]
     return electric_of_machine(machine, poses, announce, window=window)
@@ -115,7 +118,7 @@ def film_from_capacitance(
         With a sentence about the series, the case, or about why no film has this capacitance.
     """
     from lambda_core.analysis.electric.contacts import equilibria
-    from lambda_core.analysis.electric.inversion import film_from_series
+    from lambda_core.analysis.electric.inversion import film_from_series, read_measured
     from lambda_core.domain.errors import UsageError
     from lambda_core.domain.units import parse
 
@@ -127,8 +130,9 @@ def film_from_capacitance(
         raise UsageError(f"frequency {frequency}: must be greater than 0 Hz")
     if not 0.0 < uncertainty < 1.0:
         raise UsageError(f"the uncertainty is a share of the capacitance between 0 and 1, not {uncertainty:g}")
+    values = read_measured(Path(measured), hertz)  # before anything is solved
     found = equilibria(_alone(source, overrides, bearing, announce), announce=announce)
-    return film_from_series(found, Path(measured), frequency=hertz, uncertainty=uncertainty)
+    return film_from_series(found, values, uncertainty=uncertainty)
 
 
 def _alone(

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 
 PHASES = 12  # equilibria per ball pitch
+_AT_REST = "at rest no {} passes a point: give the bearing a speed"
 _MOST_SAMPLES = 500_000  # about a gigabyte of nine balls
 _TURNS = 10.0  # of the cage, where nothing says how long
 
@@ -209,6 +210,19 @@ def equilibria(
     return [solve(model, kernels, announce, phase=k / phases) for k in range(phases)]
 
 
+def spins(model: BearingModel) -> tuple[float, float]:
+    """Return the spins of inner and outer ring [rad/s].
+
+    UsageError where they are equal: what creeps by rounding between rings at rest passes no point.
+    """
+    from lambda_core.model.laws.time_functions import initial
+
+    inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
+    if inner == outer:
+        raise UsageError(_AT_REST.format(model.elements[:-1]))
+    return inner, outer
+
+
 def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = None) -> Contacts:
     """Arrange equilibria in time as balls pass.
 
@@ -216,16 +230,15 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
 
     No dynamics: every ball has the film that belongs to its place in the load zone.
     """
-    from lambda_core.model.laws.time_functions import initial
     from lambda_core.solver.records import CONTACT_CHANNELS
 
     model = found[0].context.model
     z, phases = model.geometry.balls, len(found)
     orbit = float(np.mean([e.orbit for e in found]))
-    inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
+    inner, outer = spins(model)
     relative = orbit - outer
-    if inner == outer or relative == 0.0:  # rollers of rings at rest may creep by rounding
-        raise UsageError(f"at rest no {model.elements[:-1]} passes a point: give the bearing a speed")
+    if relative == 0.0:
+        raise UsageError(_AT_REST.format(model.elements[:-1]))
     pitch = 2.0 * math.pi / (z * abs(relative))
     length = default_duration(found) if duration is None else duration
     count = max(math.ceil(length / pitch * phases), 1)

@@ -173,22 +173,18 @@ def _bulk_permittivity(each: Equilibrium, ring: str) -> float:
     return float(found[0])
 
 
-def film_from_series(
-    found: list[Equilibrium], path: Path, *, frequency: float | None, uncertainty: float
-) -> FilmOutcome:
+def film_from_series(found: list[Equilibrium], values: FloatArray, *, uncertainty: float) -> FilmOutcome:
     """Find the film that belongs to a measured series.
 
     Parameters
     ----------
     found : list of Equilibrium
-    path : pathlib.Path
-        CSV file, ``time [s],capacitance [pF]``, or ``time [s],impedance [kOhm]`` with `frequency` [Hz], which is taken
-        as that of a capacitor.
+    values : ndarray
+        From :func:`read_measured`.
     uncertainty : float
         Standard deviation of the measured capacitance, relative; ds/s = -(dC/C)/(d ln C/d ln h).
     """
     model = found[0].context.model
-    values = read_measured(path, frequency)
     (bearing,) = circuit_bearings(model)
     film = bearing.options.film
     if film.ball_permittivity is not None or film.roughness != "smooth" or bearing.options.cage is not None:
@@ -212,6 +208,13 @@ def film_from_series(
 
 def read_measured(path: Path, frequency: float | None) -> FloatArray:
     """Read a measured series as capacitances [F].
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        CSV file, ``time [s],capacitance [pF]``, or ``time [s],impedance [kOhm]``, taken as that of a capacitor.
+    frequency : float or None
+        Of the impedance [Hz].
 
     Raises
     ------
