@@ -93,7 +93,7 @@ def export_fmu(
     ------
     UsageError
         For an unknown version, coupling, platform or processor, a file that exists, a folder that takes none, on
-        another system, or without a C compiler.
+        another system, without a C compiler, or for rollers without a cage.
     CaseError, SolverError
         With a sentence about the case or its equilibrium.
     """
@@ -125,7 +125,7 @@ def export_fmu(
     loaded = read_case(source, overrides)
     options = tuple(listed(vary, "vary"))
     varied(options, loaded)
-    check(loaded)
+    _refuse_touching_rollers(check(loaded))
     target = check_target(Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu"))
     check_folder(check_new(target, overwrite).parent, target)
     task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}
@@ -137,6 +137,19 @@ def export_fmu(
             announce(f"exporting for {processor} (compiling takes one to three minutes the first time)")
         _write_apart(task, processor)
     return target
+
+
+def _refuse_touching_rollers(model: BearingModel | MachineModel) -> None:
+    """Refuse rollers without a cage.
+
+    Exported code of theirs fails when its outputs are read.
+    """
+    from lambda_core.model.machine_model import MachineModel
+
+    bearings = [one.model for one in model.bearings] if isinstance(model, MachineModel) else [model]
+    for one in bearings:
+        if one.rollers is not None and not one.depth.cage:
+            raise UsageError(f"{one.name}: rollers without a cage are not exported: run them, or give them a cage")
 
 
 def _plain(name: str) -> str:
