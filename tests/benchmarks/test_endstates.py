@@ -42,7 +42,9 @@ def test_a_case_without_common_channels_is_not_equal(capsys: pytest.CaptureFixtu
 
 
 @pytest.mark.full
-@pytest.mark.parametrize(("kind", "name"), [("bearings", "default-laws-axial"), ("shafts", "gearbox")])
+@pytest.mark.parametrize(
+    ("kind", "name"), [pytest.param("bearings", "default-laws-axial", marks=pytest.mark.slow), ("shafts", "gearbox")]
+)
 def test_a_recent_case_gives_hashes(kind: str, name: str) -> None:
     """Short runs of both kinds; the circuit and the integrals are among what is compared."""
     entry = endstates.recent_cases()[kind][name] | {"duration": "0.2 ms"}

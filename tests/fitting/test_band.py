@@ -375,16 +375,16 @@ def test_points_between_get_their_bands_from_their_neighbours() -> None:
 
 @pytest.mark.full
 def test_bands_from_neighbours_are_those_of_the_full_computation() -> None:
-    """20 points over factors of 40 in speed and 12 in load, 8 in full: within 15 % of the half-width on average."""
+    """12 points over factors of 40 in speed and 12 in load, 6 in full: within 15 % of the half-width on average."""
     text = standalone_toml(case_of("6319-cp10-1500"))
-    points = [(speed, load) for speed in (100.0, 300.0, 1e3, 2e3, 4e3) for load in (2.0, 6.0, 16.0, 24.6)]
+    points = [(speed, load) for speed in (100.0, 300.0, 1e3, 4e3) for load in (2.0, 6.0, 24.6)]
     places = places_of(list(zip(*points, strict=True)))
 
     def model_at(row: int) -> api.BearingModel:
         speed, load = points[row]
         return resolve_point(text, (f"operation.speed={speed} rpm", f"loads.radial={load} kN"))
 
-    full, few = (bands_over(model_at, places, most) for most in (20, 8))
+    full, few = (bands_over(model_at, places, most) for most in (12, 6))
     for name, exact in full.items():
         missed = np.abs(np.log(few[name] / exact)).max(axis=1) / (0.5 * np.log(exact[:, 1] / exact[:, 0]))
         assert missed.mean() < 0.15, name

@@ -192,7 +192,7 @@ def table_of_python(folder: Path) -> None:
 
 def study(name: str) -> tuple[list[str], str]:
     """Return the command that runs a study."""
-    return ["study", "run", f"{name}.toml", "--executor", "here", "--json", "-q"], '"done"'
+    return ["study", "run", f"{name}.toml", "--executor", "here", "--band", "none", "--json", "-q"], '"done"'
 
 
 LEFT, CIRCUIT = ["--bearing", "left"], ["--set", "electric.duration=2 ms"]

@@ -53,7 +53,7 @@ def test_a_shaft_with_rollers_runs(name: str) -> None:
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", ["motor", pytest.param("gearbox", marks=pytest.mark.slow)])
 def test_a_run_has_the_friction_of_its_equilibrium(name: str, tmp_path: Path) -> None:
     """Torque to 15 %: another model of the raceways' films, a cage, rollers that pass."""
     found = api.run(tables(name), out=tmp_path / "shaft.h5").summary()

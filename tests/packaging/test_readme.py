@@ -57,7 +57,7 @@ def test_ci_runs_what_the_second_command_leaves_out_for_its_cost() -> None:
 
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")
-@pytest.mark.parametrize("failing", ["nothing", "-m tests$", "smoke", "full and"])
+@pytest.mark.parametrize("failing", ["nothing", "-m tests$", "smoke", "full and", "anchors"])
 def test_ci_fails_when_one_part_fails_and_runs_the_others(failing: str, tmp_path: Path) -> None:
     """Stand-ins for Python and pip say how they were called; one of them fails."""
     stand_in = f'#!/bin/sh\necho "$0 $@" >> {tmp_path}/calls\nif echo "$@" | grep -q -e "{failing}"; then exit 3; fi\n'
@@ -69,7 +69,7 @@ def test_ci_fails_when_one_part_fails_and_runs_the_others(failing: str, tmp_path
     path = f"{tmp_path}{os.pathsep}{os.environ['PATH']}"
     done = subprocess.run([tmp_path / ".ci" / "run"], env=os.environ | {"PATH": path}, capture_output=True, check=False)
     assert done.returncode == int(failing != "nothing")
-    assert len((tmp_path / "calls").read_text().splitlines()) == 5
+    assert len((tmp_path / "calls").read_text().splitlines()) == 8
 
 
 def test_c2_5_ci_tries_the_pythons_that_are_promised() -> None:

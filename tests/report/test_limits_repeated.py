@@ -40,10 +40,16 @@ def motor(tmp_path: Path) -> Path:
 
 # The others go the same way with more limits.
 FIRST = ("30 000 rpm", "300 degC")
+LAST = ("0 N", "4 mrad")  # `check` tells these in tests/case/test_operating_limits.py
 
 
 @pytest.mark.parametrize(
-    "limit", [pytest.param(limit, marks=[pytest.mark.full] * (limit not in FIRST), id=limit) for limit in LIMITS]
+    "limit",
+    [
+        *FIRST,
+        *(pytest.param(limit, marks=pytest.mark.full) for limit in LIMITS if limit not in FIRST + LAST),
+        *(pytest.param(limit, marks=pytest.mark.slow) for limit in LAST),
+    ],
 )
 def test_check_run_and_report_say_the_same(
     limit: str, motor: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]

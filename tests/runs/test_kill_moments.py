@@ -191,6 +191,7 @@ def test_a_run_killed_at_any_moment_goes_on_as_the_undisturbed_one(
 
 
 @pytest.mark.full
+@pytest.mark.parametrize("kind", ["one bearing"], indirect=True)  # of two: killed from the start, and at the end
 def test_a_continuation_killed_at_any_moment_goes_on_as_the_undisturbed_one(
     kind: Kind, undisturbed: Content, without_modes: Callable[[], None], tmp_path: Path
 ) -> None:

@@ -84,9 +84,7 @@ def is_beginning_of(found: Series, complete: Series) -> None:
     assert found["integrals"][:-1].tobytes() == complete["integrals"][: len(found["integrals"]) - 1].tobytes()
 
 
-def kill_and_resume(
-    warm: Warm, path: Path, chance: random.Random, complete: Series, most: int = KILLS
-) -> tuple[int, int]:
+def kill_and_resume(warm: Warm, path: Path, chance: random.Random, complete: Series) -> tuple[int, int]:
     """Kill a run and its continuations.
 
     Look at what each leaves, let the last one finish.
@@ -94,7 +92,7 @@ def kill_and_resume(
     Returns the number of kills, and of those that struck between the first sample and the end.
     """
     verb, kills, midway = "run", 0, 0
-    for _ in range(most):
+    for _ in range(KILLS):
         process = start(warm, verb, path)
         if kills == 0:
             wait_for_samples(path, process)
@@ -120,12 +118,6 @@ def kill_and_resume(
         assert found[name].tobytes() == values.tobytes(), name
     assert api.summary(path).state == "finished"
     return kills, midway
-
-
-@pytest.mark.full
-def test_some_kills(warm: Warm, tmp_path: Path, undisturbed: Series) -> None:
-    _, midway = kill_and_resume(warm, tmp_path / "r.h5", random.Random(0), undisturbed, most=2)
-    assert midway > 0
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ import pytest
 
 from lambda_core.solver.arrays import bundle as L
 
-from .support import FloatArray, Machine
+from .support import ALL_FREE, FloatArray, Machine, jostle, rolling
 from .test_power import MODELS, machine, random_state
 
 
@@ -77,3 +77,14 @@ def test_without_friction_nothing_is_left_out(seed: int) -> None:
         exact, ours = scaled(m, differences(m, y)), scaled(m, m.jacobian(y))
     largest = np.abs(exact).max(axis=1, keepdims=True)
     assert np.all(np.abs(ours - exact) < 3e-3 * largest + 1e-3)
+
+
+def test_balls_that_touch_nothing_have_their_weight_and_inertia() -> None:
+    """No stiffness of a contact hides what is small: gravity, Coriolis and gyroscopic terms."""
+    m = machine("bearing.clearance=200 um", *ALL_FREE, "models.cage_contact=none", "models.fluid_drag=none")
+    y = m.vector(jostle(m, rolling(m, 150.0), np.random.default_rng(0)))
+    assert not np.any(m.evaluate(y).ball_forces[:, 3:])
+    exact, ours = scaled(m, differences(m, y)), scaled(m, m.jacobian(y))
+    of_balls = slice(0, m.count * L.NB)
+    largest = np.abs(exact[of_balls]).max(axis=1, keepdims=True)
+    assert np.all(np.abs(ours - exact)[of_balls] < 1e-4 * largest + 1e-6)

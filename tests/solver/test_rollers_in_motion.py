@@ -330,7 +330,7 @@ def test_a_cage_slips_the_more_the_lighter_the_load() -> None:
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("name", ["NU 208", "32216", "NJ 208"])
+@pytest.mark.parametrize("name", [pytest.param("NU 208", marks=pytest.mark.slow), "32216", "NJ 208"])
 def test_the_torque_converges(name: str, tmp_path: Path) -> None:
     """The friction torque of a few revolutions of the cage is known to a percent, and energy is kept."""
     case = CASE | THRUST.get(name, {}) | {"bearing": {"designation": f"SKF {name}"}}

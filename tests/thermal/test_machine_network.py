@@ -269,7 +269,7 @@ def test_a_machine_that_gets_too_hot_is_refused_in_words() -> None:
 @pytest.mark.full
 def test_the_warm_up_of_a_machine_ends_where_it_gets_too_hot() -> None:
     """The same for one bearing in tests/thermal/test_loop.py."""
-    hot = pair(thermal={"limit": "50 degC", "nodes": {"left.inner_ring": {"heat": "400 W"}}})
+    hot = pair(thermal={"start": "46 degC", "limit": "50 degC", "nodes": {"left.inner_ring": {"heat": "400 W"}}})
     course = api.warm_up(hot, 600.0)
     assert course.ended == "limit"
     assert "passed thermal.limit = 50 degC" in course.reason
