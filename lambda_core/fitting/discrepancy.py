@@ -105,7 +105,7 @@ class Prediction:
     def band(self, coverage: float = 0.95) -> FloatArray:
         """Return both ends of each value's band.
 
-        Shape (n, 2).
+        The array has shape (n, 2).
         """
         tail = 0.5 * (1.0 - coverage)
         return np.column_stack([self._quantile(tail), self._quantile(1.0 - tail)])
@@ -203,7 +203,8 @@ def _joined(one: Place, other: Place) -> Place:
 def _beyond(measured: FloatArray, asked: FloatArray) -> NDArray[np.bool_]:
     """Mark the pairs that extrapolate.
 
-    One lies outside the range of measured conditions and the other was measured, shape (n, n).
+    A pair extrapolates where one lies outside the range of measured conditions and the other was measured. Shape (n,
+    n).
 
     Outside, what residuals say of the laws' errors is no evidence: there the discrepancy is as unknown as before.
     """
@@ -217,7 +218,7 @@ def _beyond(measured: FloatArray, asked: FloatArray) -> NDArray[np.bool_]:
 def _grid(dimensions: int) -> list[tuple[float, FloatArray]]:
     """Return sizes and reaches of the discrepancy.
 
-    Sizes over those known beforehand, and a reach for each condition: errors of different laws have both.
+    Sizes are relative to those known beforehand. Each condition has a reach, and errors of different laws have both.
     """
     from scipy.special import ndtri
 
@@ -229,7 +230,7 @@ def _grid(dimensions: int) -> list[tuple[float, FloatArray]]:
 def _kernel(place: Place, reaches: FloatArray) -> FloatArray:
     """Return the correlations of the discrepancy.
 
-    Squared exponential; 0 between different quantities.
+    They are squared exponentials, and 0 between different quantities.
     """
     apart = (place.coordinates[:, None, :] - place.coordinates[None, :, :]) / reaches
     same = np.array([[one == other for other in place.kinds] for one in place.kinds])

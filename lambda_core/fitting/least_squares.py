@@ -163,9 +163,9 @@ class Fit:
         return U.left_out_residuals(self.predicted - self.data.values, self.leverages)
 
     def quantile(self, confidence: float = CONFIDENCE) -> float:
-        """Return the two-sided quantile of Student's distribution.
+        """Return the quantile of Student's distribution for degrees of freedom.
 
-        For the degrees of freedom.
+        It is two-sided.
         """
         from scipy.stats import t
 
@@ -190,7 +190,7 @@ class Fit:
     def prediction_deviation(self, gradients: FloatArray, errors: FloatArray | float = 0.0) -> FloatArray:
         """Return the standard deviation of predicted values.
 
-        Those of new measurements are included where given.
+        It includes that of new measurements where given.
         """
         variance = U.prediction_variance(gradients, self.posterior)
         found: FloatArray = np.sqrt(variance + (np.asarray(errors) * self.scale) ** 2)

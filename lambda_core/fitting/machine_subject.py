@@ -219,7 +219,7 @@ def _readers(names: Sequence[str], bearing: str | None) -> dict[str, tuple[str, 
 def _conditions(names: Sequence[str], bearing: str | None) -> dict[str, Condition]:
     """Return the conditions of the columns.
 
-    For all bearings, and with its name before it for one.
+    A condition of one bearing begins with its name; the others hold for all bearings.
     """
     found = {name: CONDITIONS[name] for name in _SHARED}
     for name in names:
@@ -271,7 +271,7 @@ def _temperature(point: MachinePoint, bearing: str, column: str) -> float:
 def _number(point: MachinePoint, bearing: str, response: str) -> float | None:
     """Return a number of a machine.
 
-    Or of one of its bearings.
+    It may also be a number of one of the machine's bearings.
     """
     from lambda_core.studies.responses import responses_of
 

@@ -89,7 +89,7 @@ class MeasuredComparison(Record):
     def text(self) -> str:
         """Return the lines of the comparison.
 
-        One per series, and one per point of those computed.
+        Each series has one, and so has each point of those computed.
         """
         lines: list[str] = []
         for one in self.compared:
@@ -121,7 +121,7 @@ def _errors(one: ComparedSeries) -> str:
 def all_series() -> list[MeasuredSeries]:
     """Return all measured series.
 
-    Of the program, of plugins and of the user.
+    They are those of the program, of plugins and of the user.
     """
     found: dict[str, MeasuredSeries] = {}
     for folder in _folders():
@@ -135,7 +135,7 @@ def all_series() -> list[MeasuredSeries]:
 def _folders() -> list[Traversable]:
     """Return the folders of series.
 
-    Those of the program, of plugins, and that of the user.
+    They are those of the program, of plugins, and that of the user.
 
     A plugin has them in the folder ``measured`` of the catalogue rows that it brings (hook `lambda_data`).
     """
@@ -276,7 +276,7 @@ def _points(one: _Loaded, band: bool) -> list[ComparedPoint]:
 def _bands(case: Case, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
     """Return both ends of each quantity's model band.
 
-    Only quantities with a band have them.
+    Quantities without a band are left out.
     """
     found = band_alone(ready_model(case, changes, is_static=True), names)
     return {one.quantity: [one.low, one.high] for one in found.bands}

@@ -53,7 +53,7 @@ class ModelCalls:
     def near_slopes(self, point: FloatArray, spread: FloatArray) -> FloatArray:
         """Return the derivatives by an update.
 
-        Of the last ones, at a point (Broyden 1965, Math. Comp. 19, 577).
+        It updates the last ones at a point (Broyden 1965, Math. Comp. 19, 577).
         """
         if self._last is None or point.tobytes() in self._slopes:
             return self.slopes(point)
@@ -70,7 +70,7 @@ class ModelCalls:
     def last_slopes(self, point: FloatArray, count: int) -> FloatArray:
         """Return derivatives without a call of the model.
 
-        At a point, or the last ones there are.
+        They are those at a point, or the last ones there are.
         """
         found = self._slopes.get(point.tobytes())
         if found is None:

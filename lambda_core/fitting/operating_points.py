@@ -84,7 +84,7 @@ class OperatingPoints:
     ) -> FloatArray:
         """Return measured quantities under changes.
 
-        Of the case and of other parameters; see :func:`point_values`.
+        The changes are of the case and of other parameters; see :func:`point_values`.
         """
         options = [
             change for graded, number in parameters if not is_of_laws(graded) for change in graded.changes(number)
@@ -128,7 +128,7 @@ class _Point:
     def values(self, names: Sequence[str], moved: BearingModel | None = None, *, one: bool) -> FloatArray:
         """Return measured quantities as predicted.
 
-        By the model, or one that differs in parameters of laws only.
+        The model, or one that differs only in parameters of laws, predicts them.
         """
         model = self.model if moved is None else moved
         kernels = kernels_of(model)
@@ -148,7 +148,7 @@ ROLLER_QUANTITIES = ("friction torque", "power loss", *(f"displacement {axis}" f
 def roller_values(model: RollerModel, names: Sequence[str]) -> FloatArray:
     """Return measured quantities of a roller bearing.
 
-    As it predicts them; UsageError for one that it does not have.
+    The bearing's model predicts them; a quantity that it lacks raises a UsageError.
     """
     from lambda_core.results.roller_quasistatic import roller_quasistatic
 

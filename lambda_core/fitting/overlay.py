@@ -53,7 +53,7 @@ def pictures_of_case(result: Result, measured: str | Path, bearing: str | None =
 def header_of(measured: str | Path) -> str:
     """Return a file's first line that is no comment.
 
-    In small letters; empty where there is none.
+    It is in small letters, and empty where there is none.
     """
     path = Path(measured)
     if not path.is_file():
@@ -120,7 +120,7 @@ def _physical(axis: Axis) -> tuple[str, str] | None:
 def _across(panel: Panel) -> list[str]:
     """Return the names of the horizontal axis.
 
-    Its label, and for an option of a case its name in a fit.
+    They are its label and, for an option of a case, its name in a fit.
     """
     label = panel.x.label.casefold()
     return [*(name for name, one in CONDITIONS.items() if one.path == label), label]
@@ -129,7 +129,7 @@ def _across(panel: Panel) -> list[str]:
 def _up(panel: Panel) -> dict[str, str]:
     """Return the names of the vertical axis.
 
-    For each the line that it belongs to.
+    Each name has the line that it belongs to.
     """
     label = panel.y.label.casefold()
     lines = {f"{one.name.casefold()} {label}": one.name for one in panel.series if one.name and not one.unlisted}

@@ -39,7 +39,7 @@ def fit_pictures(report: FitReport) -> list[ViewData]:
 def _values(report: FitReport, quantity: str) -> Panel:
     """Return measured and predicted values.
 
-    Over the first condition that varies, a line per set of the others.
+    They are plotted over the first condition that varies; each set of the others has a line.
     """
     points = [point for point in report.points if point.quantity == quantity]
     names = [name for name in points[0].conditions if _moves(report, name)]

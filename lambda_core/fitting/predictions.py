@@ -14,7 +14,7 @@ from lambda_core.fitting.problem import CaseProblem
 def discrepancy_sizes(problem: CaseProblem, found: Fit) -> dict[str, float]:
     """Return the possible relative errors of laws.
 
-    By quantity: the model band of all that is not fitted.
+    The keys are quantities; a size is the model band of all that is not fitted.
 
     0 where nothing that has a range changes the quantity.
     """

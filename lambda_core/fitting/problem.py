@@ -124,7 +124,7 @@ class CaseProblem:
     def input_slopes(self, values: FloatArray) -> FloatArray:
         """Return the derivatives by uncertain conditions.
 
-        Shape (n, k).
+        The array has shape (n, k).
         """
         base, columns = self._stacked(values, self._conditions, one=True), []
         for name, errors in self._measurements.condition_errors.items():
@@ -189,7 +189,7 @@ class CaseProblem:
     def candidate_slopes(self, values: FloatArray, points: Sequence[dict[str, float]]) -> FloatArray:
         """Return the quantity and derivatives at candidates.
 
-        The first quantity, shape (m, 1 + p); NaN without a solution.
+        The array of the first quantity has shape (m, 1 + p), with NaN without a solution.
         """
         quantity, found = self.entries[0].quantity, np.full((len(points), 1 + len(self.parameters)), math.nan)
         for row, conditions in enumerate(points):
@@ -228,7 +228,7 @@ class CaseProblem:
     ) -> FloatArray:
         """Return the quantities at one operating point.
 
-        Equal ones are computed once.
+        Equal points are computed once.
         """
         changes, numbers = self._changes(conditions), values.tolist()
         key = (*changes, *numbers, *names)

@@ -52,7 +52,7 @@ def _row(parameter: FittedParameter) -> tuple[str, ...]:
 def compact(value: float, error: float) -> str:
     """Write a value with its standard error.
 
-    To two digits of the latter, small ones with a power of ten.
+    It has two digits of the error; small values have a power of ten.
     """
     if not error > 0.0 or not math.isfinite(error):
         return f"{value:.4g}"

@@ -40,7 +40,7 @@ class ResidualTest:
 def runs_test(residuals: FloatArray) -> float:
     """Return the p-value of too few sign changes.
 
-    Along ordered residuals.
+    The residuals are ordered.
 
     References
     ----------
@@ -68,7 +68,7 @@ def _ways(runs: int, above: int, below: int) -> int:
 def trend_test(residuals: FloatArray, jacobian: FloatArray, column: FloatArray, *, is_error_known: bool) -> float:
     """Return the p-value of a residual trend.
 
-    A constant, linear and quadratic part over a column.
+    A trend has a constant, a linear and a quadratic part over a column.
 
     Parameters
     ----------

@@ -69,7 +69,7 @@ def sampler_package() -> Any:
 def check_count(count: int) -> None:
     """Refuse a wrong number of samples.
 
-    Too small or too large; UsageError.
+    A number that is too small or too large raises a UsageError.
     """
     if not 1 <= count <= MOST:
         raise UsageError(f"--sample {count} (sample in Python): must be a number from 1 to {MOST}")
@@ -79,7 +79,7 @@ def check_count(count: int) -> None:
 def sample(model: Model, found: Fit, count: int) -> Posterior:
     """Sample the posterior of all parameters.
 
-    Those that the data do not determine are included.
+    It includes parameters that the data do not determine.
 
     Before the measurements each parameter is uniform over its range. Residuals count as in the fit: by Huber's loss,
     over the same errors, and wider by the same factor where they are larger than these.
@@ -130,7 +130,7 @@ def _region(found: Fit) -> tuple[FloatArray, FloatArray]:
 def _corners(count: int) -> FloatArray:
     """Return corners of a unit cube.
 
-    All of up to three sides.
+    It returns all corners for up to three sides.
 
     Of more, twice the power of two above their number: a Hadamard matrix and its mirror image, in which effects of
     single parameters and of pairs stay apart (Plackett and Burman 1946, Biometrika 33, 305; Box and Wilson 1951).
@@ -147,7 +147,7 @@ def _interpolation(
 ) -> tuple[Callable[[FloatArray], FloatArray], float]:
     """Return an interpolation of the model.
 
-    In the region, and its largest error over those of the measured values.
+    It holds in the region. Also return its largest error over those of the measured values.
     """
     from scipy.interpolate import RBFInterpolator
     from scipy.stats import qmc

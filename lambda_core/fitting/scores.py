@@ -11,7 +11,7 @@ from lambda_core.results.model_band import COVERAGE
 def interval_score(low: FloatArray, high: FloatArray, measured: FloatArray, coverage: float = COVERAGE) -> FloatArray:
     """Return the interval score of each band.
 
-    Its width, more for each measured value outside; small is good.
+    It is the width, increased for each measured value outside; a small score is good.
 
     References
     ----------

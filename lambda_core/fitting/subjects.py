@@ -1,6 +1,6 @@
 """Define subjects of a fit.
 
-One bearing, a machine, or one bearing of a machine.
+A subject is one bearing, a machine, or one bearing of a machine.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Subject(Protocol):
     def varied(self, specification: str) -> Graded:
         """Return the named parameter.
 
-        By ``PATH`` or ``PATH=LOW..HIGH``; UsageError where there is none.
+        The name is ``PATH`` or ``PATH=LOW..HIGH``; an unknown path raises a UsageError.
         """
 
     def values(
@@ -60,7 +60,7 @@ class Subject(Protocol):
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
         """Return each quantity's relative standard deviation.
 
-        By the ranges of all that is not fitted.
+        It follows from the ranges of all that is not fitted.
         """
 
 

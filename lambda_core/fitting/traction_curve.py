@@ -127,10 +127,7 @@ def traction_of(
     parameters: Mapping[str, Any] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> TractionCurve:
-    """Return the traction over slide-roll ratio.
-
-    Of an oil, by every law.
-    """
+    """Return an oil's traction over slide-roll ratio by every law."""
     points = None if measured is None else _measured(read_measurements(measured, COLUMNS))
     contact_pressure, inlet = _read("pressure", pressure, "pressure"), _read("temperature", temperature, "temperature")
     mean_speed = _read("speed", speed, "velocity")
@@ -265,7 +262,7 @@ class _Contact:
     def of(model: BearingModel, pressure: float, speed: float, announce: Callable[[str], None] | None) -> _Contact:
         """Return the contact of a pressure.
 
-        With the laws of a model.
+        It has the laws of a model.
         """
         from lambda_core.model.laws.law_context import ContactFrame, build_context, effective_modulus, prepare
         from lambda_core.solver.drivers.compiled_laws import Kernels, check_laws, derive_oils

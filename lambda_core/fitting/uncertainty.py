@@ -1,6 +1,7 @@
-"""Uncertainty of a fit: covariance, separable directions, prediction, leave-one-out errors.
+"""Compute the uncertainty of a fit.
 
-All are linearised at the solution. `jacobian` is that of the predicted values over their errors, shape (n, p).
+Covariance, separable directions, prediction and leave-one-out errors are linearised at the solution. `jacobian` is that
+of the predicted values over their errors, shape (n, p).
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ class Direction:
 def huber_weights(standardised: FloatArray, limit: float = HUBER) -> FloatArray:
     """Return the weights psi(z)/z of residuals.
 
-    In units of their error (Huber 1964).
+    The residuals are in units of their error (Huber 1964).
     """
     weights: FloatArray = np.minimum(1.0, limit / np.maximum(np.abs(standardised), 1e-300))
     return weights
@@ -107,7 +108,7 @@ def correlations(matrix: FloatArray) -> FloatArray:
 def directions(jacobian: FloatArray, names: Sequence[str], spread: FloatArray, factor: float) -> list[Direction]:
     """Return the principal combinations of parameters.
 
-    The best determined first.
+    The best determined one comes first.
 
     Parameters
     ----------
@@ -134,7 +135,7 @@ def directions(jacobian: FloatArray, names: Sequence[str], spread: FloatArray, f
 def separable(jacobian: FloatArray, spread: FloatArray, factor: float) -> list[int]:
     """Return the parameters that data can separate.
 
-    In their order.
+    They keep their order.
 
     References
     ----------

@@ -297,7 +297,7 @@ def _given_radial(changes: Sequence[str]) -> float | None:
 def _template_text(name: str, template: str | None, bearing: str | None, radial: float | None = None) -> str:
     """Return the commented case of a template.
 
-    Or of a bearing in any machine, under a radial load [N].
+    The case may be of one bearing or of a bearing in any machine, under a radial load [N].
     """
     from contextlib import closing
 

@@ -57,7 +57,8 @@ class TableTerm(Term):
 class LawTerm(Term):
     """Time function by a law.
 
-    amplitude * f(t), values (amplitude, f at t = 0, largest |f|, its highest frequency [Hz]).
+    The term is amplitude * f(t). Its values are the amplitude, f at t = 0, the largest |f| and its highest frequency
+    [Hz].
     """
 
     law: str = ""  # the element of it among the laws of a model, "time.loads.radial"
@@ -95,7 +96,7 @@ class DofState:
 class Body:
     """Rigid, axisymmetric body.
 
-    Inner ring with shaft, outer ring with housing, or cage.
+    It is an inner ring with its shaft, an outer ring with its housing, or a cage.
     """
 
     mass: float  # [kg]

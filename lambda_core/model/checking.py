@@ -27,7 +27,7 @@ def check_bearing(
 ) -> BearingModel:
     """Read and resolve the case of one bearing.
 
-    As :func:`lambda_core.api.check`, which takes machines, too.
+    It works as :func:`lambda_core.api.check`, which takes machines, too.
     """
     from lambda_core.case.case_io import load_case
     from lambda_core.case.salvage import InvalidCase

@@ -41,7 +41,7 @@ class Ledger:
     def row(self, path: str, value: Value, quantity: str = "", *, silent: bool = False) -> float:
         """Freeze a catalogue value.
 
-        One that the catalogue assumed becomes an assumption of the run.
+        A value that the catalogue assumed becomes an assumption of the run.
         """
         self.record(path, value.value, quantity, value.source, value.status, value.grade)
         if value.status == "assumed" and not silent:
@@ -57,7 +57,7 @@ class Ledger:
     def contradict(self, sentence: str) -> None:
         """Note a contradiction in the case.
 
-        And which value counts; a warning of `check` and of every result.
+        The note says which value counts. It is a warning of `check` and of every result.
         """
         self.contradictions.append(sentence)
 
@@ -73,7 +73,7 @@ class Ledger:
     def ask(self, where: str, question: Callable[[], T]) -> T | None:
         """Ask the catalogue or registry.
 
-        Its error becomes a problem at `where`, the answer None.
+        An error becomes a problem at `where`, and the answer is None.
 
         A `where` that ends in a dot is a section: the option in it is the one that the error names.
         """
@@ -87,9 +87,6 @@ class Ledger:
         return None
 
     def check(self, source: str) -> None:
-        """Raise one CaseError with all problems.
-
-        Only if there are any.
-        """
+        """Raise one CaseError with all problems, if any."""
         if self.problems:
             raise CaseError(source, [Problem(self.place(one.where), one.message) for one in self.problems])

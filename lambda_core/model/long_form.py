@@ -52,7 +52,7 @@ def long_form(source: Source, overrides: Iterable[str] = ()) -> LongForm:
 def _takes(model: BearingModel) -> Literal["+x", "-x"] | None:
     """Return the thrust that a bearing takes.
 
-    Axial force on the shaft; a bearing of one direction takes that of its axial load.
+    A bearing of one direction takes the axial force on the shaft that has its axial load's direction.
     """
     is_angular = bool(model.geometry.contact_angle) and model.geometry.rated_rows == 1
     if not (is_angular if model.rollers is None else takes_one_side(model.rollers)):

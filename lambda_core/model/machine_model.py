@@ -23,7 +23,7 @@ GROUND, SHAFT = -1, 0  # numbers of bodies; the others follow
 class Seating:
     """Seat of an outer ring in the housing.
 
-    In the order of POSE.
+    Its values have the order of POSE.
 
     Attributes
     ----------
@@ -110,7 +110,7 @@ def is_on_cage(place: Place) -> bool:
 class MachineSpring:
     """Spring and damper between two bodies.
 
-    One may be the ground; they act at one point.
+    They act at one point; one body may be the ground.
     """
 
     name: str
@@ -157,7 +157,7 @@ class ShaftHold:
 class Resistance(NamedTuple):
     """Load that brakes the shaft.
 
-    In proportion to its speed.
+    The load is proportional to the shaft's speed.
     """
 
     position: float  # [m]
@@ -321,7 +321,7 @@ class MachineModel:
     def load_on(self, part: BearingPart) -> tuple[TimeFunction, ...]:
         """Return force and moment on a part.
 
-        An outer ring or a cage [N, N m].
+        The part is an outer ring or a cage; the units are N and N m.
         """
         return self.part_loads.get(part, (ZERO,) * 6)
 

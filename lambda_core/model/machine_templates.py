@@ -118,7 +118,7 @@ MACHINES: dict[str, MachineTemplate] = {
 def geared_shaft(name: str) -> str:
     """Return the commented case of a geared shaft.
 
-    Two bearings and a gear, called `name`.
+    The shaft called `name` has two bearings and a gear.
     """
     text = resources.files("lambda_core.model").joinpath("templates", "geared-shaft.toml").read_text(encoding="utf-8")
     return text.replace('"NAME"', json.dumps(name), 1)

@@ -225,7 +225,7 @@ def _laws_of_ribs(
 ) -> Mapping[str, Mapping[str, ChosenLaw]]:
     """Return the laws at ribs by element.
 
-    From a case with those of ribs at its raceways.
+    The case has those of ribs at its raceways.
     """
 
     def renamed(text: str) -> str:

@@ -116,7 +116,7 @@ class RollerModel:
     def text(self) -> str:
         """Return the text of the bearing.
 
-        Its parts, warnings, the origin of every value, and assumptions.
+        It lists parts, warnings, the origin of every value, and assumptions.
         """
         lines = [self.title, *(f"WARNING  {sentence}" for sentence in self.warnings), "", "values"]
         for value in self.values:
@@ -311,7 +311,7 @@ def _pick(rollers: InlineRollers, row: RollerRow | None, name: str, ledger: Ledg
 def _boundary(case: Case, row: RollerRow | None, ledger: Ledger) -> tuple[float, float, float] | None:
     """Return bore, outside diameter and width [m].
 
-    None after a problem.
+    The result is None after a problem.
     """
     inline, found = case.bearing.geometry, []
     for name in _BOUNDARY:
@@ -326,7 +326,7 @@ def _boundary(case: Case, row: RollerRow | None, ledger: Ledger) -> tuple[float,
 def _ratings(case: Case, row: RollerRow | None, shape: dict[str, Any], ledger: Ledger) -> tuple[float, float, float]:
     """Return C, C_0 and C_u [N].
 
-    The case's, the catalogue's, or those of ISO 281 and ISO 76 for the geometry.
+    They are those of the case, those of the catalogue, or those of ISO 281 and ISO 76 for the geometry.
     """
     inline = case.bearing.geometry
     dynamic = getattr(inline, "dynamic_rating", None) or (row.dynamic_rating.value if row else None)
@@ -345,7 +345,7 @@ def _ratings(case: Case, row: RollerRow | None, shape: dict[str, Any], ledger: L
 def _profile(rollers: InlineRollers, row: RollerRow | None, diameter: float, ledger: Ledger) -> dict[str, Any]:
     """Return the profile's options.
 
-    The case's, the catalogue's, else ISO 16281.
+    They come from the case, otherwise from the catalogue, otherwise from ISO 16281.
     """
     scale = rollers.profile_scale or (row.profile_scale.value if row and row.profile_scale else None)
     length = rollers.profile_length or (row.profile_length.value if row and row.profile_length else None)

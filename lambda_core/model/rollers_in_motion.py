@@ -47,7 +47,7 @@ def rollers_of(
 ) -> tuple[RollerBearing, str, tuple[str, ...]] | None:
     """Return the rollers of a case.
 
-    With their title and assumptions; None of a case with balls.
+    Also return their title and assumptions. The result is None for a case with balls.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def rollers_of(
 def _check_complement(case: Case, rollers: RollerBearing, ledger: Ledger) -> None:
     """Refuse cages that a kind does not have.
 
-    Or cannot do without; say how much room a full complement has.
+    Also refuse a missing cage where the kind needs one. The message says how much room a full complement has.
     """
     if not rollers.full_complement:
         if case.models.cage_contact == _NEIGHBOURS:
@@ -137,7 +137,7 @@ def _refuse_parameters(case: Case, ledger: Ledger) -> None:
 def check_roller_fit(case: Case, model: BearingModel) -> None:
     """Refuse fitted values at unknown paths.
 
-    Neither the model in motion nor the quasi-static answer has them; CaseError.
+    They are paths that neither the model in motion nor the quasi-static answer has. The error is a CaseError.
     """
     if case.fit is None:
         return
@@ -150,7 +150,7 @@ def check_roller_fit(case: Case, model: BearingModel) -> None:
 def as_balls(case: Case, rollers: RollerBearing) -> Case:
     """Return the case with balls for rollers.
 
-    As many balls of the same diameter.
+    It has as many balls of the same diameter.
 
     The shaft holds the inner ring straight, and along its axis where nothing presses rollers on ribs.
     """
@@ -185,7 +185,7 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
 def _of_other_roles(forces: Forces) -> ForceElement:
     """Return what a case says of neighbouring rollers.
 
-    But for their contact, whose laws are not those of balls.
+    The options of their contact are left out, because its laws are not those of balls.
     """
     given: ForceElement = getattr(forces, NEIGHBOUR)
     models = given.models.model_copy(update={"cage_contact": None})
@@ -316,7 +316,7 @@ def _of_laws(
 def facing(model: BearingModel, rollers: RollerBearing, side: int) -> BearingModel:
     """Return a model with thrust on one side.
 
-    Its rollers take thrust on the shaft along x, or against it where `side` is -1.
+    Its rollers take thrust on the shaft along x, or against x where `side` is -1.
     """
     turned = replace(rollers, faces=side)
     return replace(model, rollers=turned, geometry=replace(model.geometry, ribs=_ribs(turned)))
@@ -329,7 +329,7 @@ def _ribs(rollers: RollerBearing) -> str:
 def with_clearance(rollers: RollerBearing, clearance: float) -> RollerBearing:
     """Return rollers with another radial clearance [m].
 
-    That of cones counts across the raceway.
+    The clearance of tapered rollers counts across the raceway.
     """
     return replace(rollers, clearance=clearance * math.cos(rollers.contact_angle))
 

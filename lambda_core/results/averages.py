@@ -35,7 +35,7 @@ INTEGRALS: tuple[Channel, ...] = (
 def _keys() -> tuple[str, ...]:
     """Return the engine's names of the flat columns.
 
-    In the order of INTEGRALS.
+    They have the order of INTEGRALS.
     """
     labels = {"loss": [f"loss.{name}" for name in LOSSES], "position": list(DIMENSIONS["axis"])}
     return tuple(key for channel in INTEGRALS for key in labels.get(channel.name, [channel.name]))
@@ -50,7 +50,7 @@ _ANGLE = _INDEX["cage_angle"]
 def widths() -> tuple[int, ...]:
     """Return the number of columns per integral.
 
-    For each entry of INTEGRALS.
+    There is one number for each entry of INTEGRALS.
     """
     return tuple(math.prod(len(DIMENSIONS[dim]) for dim in channel.dims) for channel in INTEGRALS)
 
@@ -64,7 +64,7 @@ def spans() -> dict[str, slice]:
 def row(time: float, integrals: Mapping[str, float]) -> FloatArray:
     """Return one row of running integrals.
 
-    Shape (len(COLUMNS),), at `time` [s].
+    The row at `time` [s] has shape (len(COLUMNS),).
     """
     return np.array([time if key == "time" else integrals[key] for key in COLUMNS], dtype=np.float64)
 
@@ -143,7 +143,7 @@ class Interval:
     def energy_residual(self) -> float:
         """Return the relative energy residual.
 
-        (input - dissipated - stored) / integral of |input power|; 0 when nothing flowed.
+        It is (input - dissipated - stored) / integral of |input power|, or 0 when nothing flowed.
         """
         dissipated = float((self.last - self.first)[_LOSS].sum()) + self.change("support")
         missing = self.change("input") - dissipated - self.change("stored")
@@ -168,7 +168,7 @@ class Estimate:
 def estimate(values: FloatArray) -> Estimate:
     """Return mean and half-width of batch means.
 
-    95 % confidence; the series is stationary.
+    The half-width holds with 95 % confidence for a stationary series.
 
     Student's t over the batches; where neighbouring batches correlate positively
     (lag-1 coefficient r), the variance of the mean is multiplied by (1 + r)/(1 - r), as
@@ -193,7 +193,7 @@ def estimate(values: FloatArray) -> Estimate:
 def torque_by_revolution(rows: FloatArray) -> FloatArray:
     """Return the friction torque of each interval [N m].
 
-    Between rows (n + 1, len(COLUMNS)), shape (n,).
+    An interval lies between two of the rows, shape (n + 1, len(COLUMNS)); the result has shape (n,).
     """
     growth = np.diff(rows, axis=0)
     with np.errstate(invalid="ignore", divide="ignore"):

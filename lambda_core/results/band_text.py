@@ -27,7 +27,7 @@ def banded(value: float | None, ends: Sequence[float], unit: str, plain: str, un
 def is_narrow(found: Sequence[float]) -> bool:
     """Tell whether a band is narrow.
 
-    Its ends and causes then do not matter.
+    The ends and causes of a narrow band do not matter.
     """
     low, high = found
     return 100.0 * abs(high - low) < LEAST_SHARE * abs(low + high)
@@ -53,7 +53,7 @@ def ends(found: Sequence[float], unit: str, units: UnitSystem = SI, *, named: bo
 def named_sources(bands: Mapping[str, ModelBand | None], units: UnitSystem = SI) -> list[str]:
     """Return the sources of a machine's bands.
 
-    Those of the torque only, and computed temperatures.
+    They are those of the torque, and computed temperatures.
     """
     found = []
     for name, band in bands.items():

@@ -1,6 +1,6 @@
 """Write references as BibTeX.
 
-One entry per publication, for any number of laws and values.
+Any number of laws and values make one entry per publication.
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ def _program(text: str) -> Entry:
 def _method(text: str) -> Entry:
     """Read the publication of the complete model.
 
-    Authors and year, title, journal, DOI.
+    The text names authors, year, title, journal and DOI.
     """
     found = re.fullmatch(
         r"(?P<authors>.+?) (?P<year>\d{4}), (?P<title>.+), (?P<journal>\w+) (?P<volume>\d+)\((?P<number>\d+)\), "
@@ -135,7 +135,7 @@ def _method(text: str) -> Entry:
 def _same(one: Entry, other: Entry) -> bool:
     """Tell whether two references are of one work.
 
-    "Syla et al. 2026, eq. 31" names no journal.
+    A reference such as "Syla et al. 2026, eq. 31" names no journal.
     """
     if (one.fields.get("author"), one.fields.get("year")) != (other.fields.get("author"), other.fields.get("year")):
         return False

@@ -57,7 +57,7 @@ def circuit_channels(bearings: int) -> tuple[Channel, ...]:
 def discharge_channels(bearings: int) -> tuple[Channel, ...]:
     """Return the channels of every breakdown.
 
-    Of several bearings also in which one.
+    A channel tells in which bearing it was where there are several.
     """
     own = (Channel("bearing", (), "", "number of the bearing in the file, from 0"),) if bearings > 1 else ()
     return (*DISCHARGES, *own)

@@ -81,7 +81,7 @@ def window_of(result: Result) -> Window:
 def _allowed(chosen: Window, together: float) -> float:
     """Return the largest allowed half-width [N m].
 
-    Of a bearing's torque, one of several or alone.
+    It holds for a bearing's torque, in a machine or alone.
     """
     return TORQUE_TOLERANCE * max(abs(chosen.interval.torque()), NEGLIGIBLE * abs(together))
 
@@ -154,7 +154,7 @@ def shortfalls_together(windows: Sequence[Window]) -> list[str]:
 def revolutions_wanted(solver: Solver, chosen: Window, together: float = 0.0) -> int:
     """Return the expected whole cage revolutions.
 
-    Of the complete run, as far as can be known now.
+    They are those of the complete run, as far as is known now.
 
     The half-width falls with the root of the number of revolutions. `together` is that of :func:`shortfalls`.
     """
@@ -174,7 +174,7 @@ def torque_together(windows: Sequence[Window]) -> float:
 def half_width_together(windows: Sequence[Window]) -> float:
     """Return the total torque's half-width [N m].
 
-    Of all bearings, added up as :func:`shortfalls_together`.
+    It adds up all bearings, as in :func:`shortfalls_together`.
     """
     return sum(chosen.torque.half_width for chosen in windows)
 
@@ -199,9 +199,9 @@ def are_converged(
 def are_converged_by(
     solvers: Sequence[Solver], known: Sequence[Sequence[FloatArray]], last: Sequence[FloatArray]
 ) -> bool:
-    """Tell whether all bearings are converged, from integrals.
+    """Tell whether all bearings are converged.
 
-    From the integrals kept and the last ones alone.
+    Only the integrals kept and the last ones decide.
     """
     each = zip(solvers, known, last, strict=True)
     windows = [window(solver, np.stack(rows), now) for solver, rows, now in each]

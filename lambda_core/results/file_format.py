@@ -81,7 +81,7 @@ TABLES = {  # of a bearing's inputs, and their columns
 def create(file: h5py.File, provenance: Provenance, channels: RunChannels) -> None:
     """Create all objects of a result.
 
-    Every object and attribute, in an empty file.
+    The file is empty before and has every group and attribute afterwards.
     """
     from lambda_core.model.checks.describe import headline
 
@@ -158,7 +158,7 @@ def _bearing(group: h5py.Group, origin: BearingOrigin, channels: Sequence[Channe
 def bearing_names(file: h5py.File) -> tuple[str, ...]:
     """Return the bearings of a result.
 
-    In the order of the machine; KeyError where one is missing.
+    They have the order of the machine. A missing one raises a KeyError.
     """
     names = tuple(str(name) for name in file.attrs[BEARINGS])
     if set(names) != set(file[BEARINGS]) or not names:
@@ -226,7 +226,7 @@ def _series(group: h5py.Group, channels: Sequence[Channel], along: str = "") -> 
 def _nearest(group: h5py.Group, dim: str) -> h5py.Dataset:
     """Return the labels of a dimension.
 
-    Of this group, or of the nearest one above that has them.
+    This group has them, otherwise the nearest one above that does.
     """
     while not isinstance(group.get(dim), h5py.Dataset) and group.name != "/":  # a bearing may have the name of one
         group = group.parent
@@ -266,7 +266,7 @@ def _pairs(group: h5py.Group, name: str, pairs: Mapping[str, str]) -> None:
 def _table(group: h5py.Group, name: str, columns: Sequence[str], rows: Sequence[dict[str, str]]) -> None:
     """Create a group of text datasets.
 
-    One per column, along the first column.
+    Each column makes one dataset along the first column.
     """
     table = group.create_group(name)
     index = table.create_dataset("row", data=np.arange(len(rows)))

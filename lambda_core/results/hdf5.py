@@ -85,7 +85,7 @@ def sibling_path(path: Path) -> Path:
 def sweep(folder: Path, name: str = "*.h5") -> None:
     """Remove half-made files of killed processes.
 
-    Only names of :func:`sibling_path` in a folder.
+    It removes only names of :func:`sibling_path` in a folder.
     """
     for old in folder.glob(f".{name}.*"):
         number = old.name.rpartition(".")[2]
@@ -134,7 +134,7 @@ def copy(path: Path, rows: Rows, *, compress: bool, stop: layout.Stop = layout.n
 def reason(error: Exception) -> str:
     """Return the system's words for an error.
 
-    Such as "No space left on device".
+    An example is "No space left on device".
     """
     while isinstance(error, SystemError) and isinstance(error.__cause__, Exception):
         error = error.__cause__  # what h5py meant to raise

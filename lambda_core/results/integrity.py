@@ -33,7 +33,7 @@ _LOOKED_AT = 64 << 20  # [byte] from the beginning: a run writes its texts befor
 def heaps_are_intact(path: Path) -> bool:
     """Tell whether the text heaps are intact.
 
-    Each heap near the beginning of a file can be stepped through to its end.
+    A reader can step through each heap near the beginning of a file to the heap's end.
     """
     with path.open("rb") as stream:
         if not stream.seek(0, 2):

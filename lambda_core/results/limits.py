@@ -35,7 +35,7 @@ COARSEST_TOLERANCE = 1e-3
 class Shoulder(Record):
     """Smallest distance of contact ellipses to the shoulder.
 
-    On one ring, to the edge of its shoulder.
+    It is the distance on one ring to the edge of the shoulder.
     """
 
     ring: Ring
@@ -50,7 +50,7 @@ class Shoulder(Record):
     def warning(self) -> list[str]:
         """Return a warning of an ellipse over the edge.
 
-        Or nothing.
+        It is empty where no ellipse passes the edge.
         """
         if self.margin_um >= 0.0:
             return []
@@ -76,7 +76,7 @@ class Shoulder(Record):
 class Grooves:
     """Groove radius and shoulder angles of both rings.
 
-    Inner then outer; of angular contact that of the high one.
+    The inner ring comes first. An angular contact ring has the angle of its high shoulder.
     """
 
     radius: FloatArray  # (2,) [m]
@@ -89,7 +89,7 @@ class Grooves:
     def least_share(self) -> float:
         """Least share of the largest load.
 
-        From it on a contact counts at the high edges.
+        Contacts with at least this share count at the high edges.
 
         A ball of the row that a thrust unloads leans far to the side under its weight alone.
         """
@@ -99,7 +99,7 @@ class Grooves:
     def of(geometry: Mapping[str, Any]) -> Grooves:
         """Take the grooves from the geometry.
 
-        cos(theta) = 1 - |d_shoulder - d_race|/(2 r_groove).
+        The angle follows from cos(theta) = 1 - |d_shoulder - d_race|/(2 r_groove).
         """
         radius = np.array([float(geometry[f"groove_radius_{ring}"]) for ring in get_args(Ring)])
         height = np.array(
@@ -150,7 +150,7 @@ def _nearest(
 ) -> list[Shoulder]:
     """Return the nearest contact to an edge.
 
-    On each ring, by its ellipse's end; or the one farthest beyond it.
+    Each ring has the contact whose ellipse ends nearest to the edge, or lies farthest beyond it.
     """
     margin = np.where(counted, (edge - end) * radius, np.inf)
     found = []
@@ -190,9 +190,9 @@ def tolerance_warning(tolerance: float) -> list[str]:
 
 
 def highest_pressure(kind: str) -> float:
-    """Return the pressure at which steel yields [Pa].
+    """Return the contact pressure at which steel yields [Pa].
 
-    Of a contact, by the name of a kind of bearing.
+    It depends on the kind of bearing.
     """
     return _HIGHEST_PRESSURE_ALIGNING if kinds()[kind].on_sphere else _HIGHEST_PRESSURE
 
@@ -202,7 +202,7 @@ def warnings(
 ) -> list[str]:
     """Return warnings of exceeded limits of laws.
 
-    A sentence for everything in a solution beyond their range.
+    Everything in a solution beyond their range has a sentence.
 
     Parameters
     ----------

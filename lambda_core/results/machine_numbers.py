@@ -30,7 +30,7 @@ class Swing(Record):
 class ElementForce(Record):
     """Force element's results over time.
 
-    Or those of a connection by a law.
+    They may also be those of a connection by a law.
     """
 
     force_N: list[float] = Field(description="mean force x, y, z on the second of its bodies")
@@ -47,7 +47,7 @@ def total(values: Iterable[float | None]) -> float | None:
 def said_once(reasons: Mapping[str, list[str]]) -> list[str]:
     """Return sentences, common ones once.
 
-    Those of one bearing have its name; those that hold for all have none.
+    A sentence on one bearing has its name; one that holds for all has none.
     """
     plain = [text for own in reasons.values() for text in own]
     named = [(name, text) for name, own in reasons.items() for text in own]
@@ -58,7 +58,7 @@ def said_once(reasons: Mapping[str, list[str]]) -> list[str]:
 def machine_warnings(result: Result, bearings: Mapping[str, BearingSummary]) -> list[str]:
     """Return the machine's warnings.
 
-    Those of the machine as it is drawn, then those of its bearings.
+    Those of the machine as drawn come before those of its bearings.
     """
     own = {name: one.warnings for name, one in bearings.items()}
     return [*result.of_machine().case_warnings, *said_once(own)]
@@ -67,7 +67,7 @@ def machine_warnings(result: Result, bearings: Mapping[str, BearingSummary]) -> 
 def machine_numbers(result: Result, bearings: Mapping[str, BearingSummary], start: float) -> dict[str, Any]:
     """Return the numbers of shaft and bodies.
 
-    Of a machine, averaged from time `start` [s].
+    They are averaged from time `start` [s].
     """
     machine, numbers = result.of_machine(), result.machine_numbers
     friction = total(one.friction_torque_Nmm for one in bearings.values())
@@ -96,7 +96,7 @@ _PLACES = ("shaft_position", "body_position", "marker_position")
 def _swings(machine: Result, name: str, start: float) -> dict[Any, Swing]:
     """Return mean and swing of every place.
 
-    Of a channel of displacements.
+    The channel is one of displacements.
     """
     labels = machine.labels(next(c for c in machine.channels if c.name == name).dims[0])
     found = {}
@@ -108,7 +108,7 @@ def _swings(machine: Result, name: str, start: float) -> dict[Any, Swing]:
 def _means(machine: Result, name: str, start: float) -> list[tuple[FloatArray, FloatArray]]:
     """Return mean and half range of values.
 
-    Between smallest and largest value, along the first dimension.
+    The half range is that between smallest and largest value along the first dimension.
     """
     sums, low, high = np.zeros(()), np.array(np.inf), np.array(-np.inf)
     count = 0
@@ -122,7 +122,7 @@ def _means(machine: Result, name: str, start: float) -> list[tuple[FloatArray, F
 def element_numbers(result: Result, start: float) -> dict[str, ElementForce]:
     """Return forces and powers of force elements.
 
-    Of a result from time `start` [s], by name.
+    The keys are names; the averages start at time `start` [s].
     """
     every = {channel.name for channel in result.channels}
     dim = next((dim for dim in ("element", "connection") if f"{dim}_force" in every), "")
@@ -139,7 +139,7 @@ def element_numbers(result: Result, start: float) -> dict[str, ElementForce]:
 def reactions(result: Result, start: float) -> dict[str, list[float]]:
     """Return a bearing's force and moment.
 
-    Of a machine's bearing on the shaft from time `start` [s].
+    They act on the shaft of a machine, averaged from time `start` [s].
     """
     machine, i = result.of_machine(), result.bearing_names.index(result.bearing)
     force, swing = _means(machine, "reaction_force", start)[i]

@@ -73,7 +73,7 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
 def _band_lines(found: Summary, units: UnitSystem) -> list[str]:
     """Return the lines of the model band.
 
-    Of the torque of all bearings, with its causes.
+    They give the torque of all bearings with its causes.
     """
     if not found.friction_torque_Nmm_band:
         return []
@@ -89,7 +89,7 @@ _NO_ROW = ("place", "capacitance", "trust")  # groups that the text of a machine
 def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
     """Return a row for every number of bearings.
 
-    Its name with unit, and a cell for each.
+    A row has the name with its unit, and a cell for each bearing.
     """
     each = list(found.bearings.values())
     groups = {one.group for source in (each[0], each[0].rating) if source for one in quantities(type(source)).values()}
@@ -109,7 +109,7 @@ def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
 def _of_group(each: Sequence[BearingSummary], group: str, units: UnitSystem) -> Iterator[tuple[str, list[str]]]:
     """Yield the rows of a group.
 
-    Of the bearings, then of their ratings, without those that no bearing has.
+    They are of the bearings, then of their ratings, without rows that no bearing has.
     """
     sources: tuple[list[BearingSummary] | list[Rating | None], ...] = (list(each), [one.rating for one in each])
     for source in sources:

@@ -94,7 +94,7 @@ class Band(Record):
 class ModelBand(Record):
     """Bands of the results of a case.
 
-    Or of one bearing of a machine.
+    The case may also be one bearing of a machine.
     """
 
     interface: int = INTERFACE
@@ -128,7 +128,7 @@ class ModelBand(Record):
     def shares(self) -> list[str]:
         """Return the uncertainty of each result.
 
-        A line each, in % or K.
+        Each result has one line in % or K.
         """
         found = []
         for band in self.bands:
@@ -192,7 +192,7 @@ class MachineBand(Record):
     def fields(self) -> dict[str, list[float]]:
         """Return the bands of all bearings' torque.
 
-        Their ends, and those of the power loss.
+        They are the ends of the bands of torque and power loss.
 
         Their errors are those of the same laws: they add up.
         """
@@ -218,7 +218,7 @@ class MachineBand(Record):
 def sum_of_bands(bands: Sequence[Sequence[float] | None]) -> list[float]:
     """Return the sum of correlated bands.
 
-    Their errors go together; empty where one is missing.
+    The errors go together, so their ends add up. The result is empty where a band is missing.
     """
     known = [band for band in bands if band]
     return [sum(band[end] for band in known) for end in (0, 1)] if len(known) == len(bands) and known else []

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def observed_numbers(result: Result, start: float) -> list[ObserverNumber]:
     """Return the numbers of every observer.
 
-    Over the samples from time `start` [s].
+    They use the samples from time `start` [s].
     """
     units = {channel.name: channel.unit for channel in result.channels}
     found = []
@@ -61,7 +61,7 @@ def _largest(values: FloatArray) -> float:
 def occurred_events(result: Result) -> list[EventSeen]:
     """Return how often each event began.
 
-    Also when first and last.
+    Also return when it began first and last.
     """
     rows = result.watched_events
     if not rows:

@@ -36,7 +36,7 @@ class BeingWrittenError(ResultError):
 def opened(path: Path) -> Iterator[h5py.File]:
     """Open a result of this layout.
 
-    Any fault of it, whenever it shows, is a ResultError.
+    Any fault of the file, whenever it shows, raises a ResultError.
     """
     if not path.is_file():
         what = "does not exist"
@@ -98,7 +98,7 @@ def check_alone(file: h5py.File) -> None:
 def channels_of(group: h5py.Group) -> Iterator[tuple[Channel, dict[str, str]]]:
     """Yield the channels of a group.
 
-    With the path of the labels of each dimension: everything there that grows.
+    Yield everything there that grows, with the path of the labels of each dimension.
     """
     root = group.file
     items = {f"{group.name}/{name}": item for name, item in group.items()}
@@ -126,8 +126,8 @@ def labels_of(data: h5py.Dataset) -> tuple[int, ...] | tuple[float, ...] | tuple
 def integral_table(group: h5py.Group, rows: int) -> FloatArray:
     """Return the running integrals.
 
-    In the order of INTEGRALS, shape (rows, n). Early files have no `support`: their dampers to the ground are among
-    the losses.
+    The table has the order of INTEGRALS, shape (rows, n). Early files have no `support`: their dampers to the ground
+    are among the losses.
     """
     columns = [
         np.zeros((rows, 1)) if channel.name == "support" and "support" not in group
@@ -140,7 +140,7 @@ def integral_table(group: h5py.Group, rows: int) -> FloatArray:
 def resolved_value(row: dict[str, str]) -> ResolvedValue:
     """Return a value of the case with its origin.
 
-    From a row of the file's table.
+    It comes from a row of the file's table.
     """
     fields: dict[str, Any] = dict(row)
     if fields.pop("type") == "number":

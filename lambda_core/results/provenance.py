@@ -67,7 +67,7 @@ class BearingOrigin:
     def laws(self) -> list[dict[str, str]]:
         """Return one row per law.
 
-        For each force element, or film of the circuit, and role: the model and its parameters.
+        Each force element or film of the circuit has one for each role, with the model and its parameters.
         """
         circuit = self.model.electric
         films = dict.fromkeys(FILMS, circuit.laws) if circuit is not None else {}
@@ -90,7 +90,7 @@ class BearingOrigin:
     def values(self) -> list[dict[str, str]]:
         """Return one row per resolved value.
 
-        Numbers in SI, written exactly; `type` is "number" or "text".
+        Numbers are in SI and written exactly; `type` is "number" or "text".
         """
         return [
             {field.name: str(getattr(value, field.name)) for field in fields(value)}
@@ -174,7 +174,7 @@ class Provenance:
     def versions(self) -> dict[str, str]:
         """Return all versions.
 
-        Of the program, Python, the libraries, and the platform.
+        They are those of the program, Python, the libraries and the platform.
         """
         ours = {"lambda-bearing": __version__, "python": platform.python_version(), "platform": platform.platform()}
         return ours | _of_libraries()
@@ -187,7 +187,7 @@ class Provenance:
 def machine_data(model: MachineModel) -> dict[str, Any]:
     """Return a machine without its bearings as plain data, SI.
 
-    Of each array there stand its shape and two sums over its numbers: enough to tell whether it has changed.
+    Each array is replaced by its shape and two sums over its numbers, enough to tell whether it has changed.
     """
     apart = (
         "bearings",
@@ -207,7 +207,7 @@ def machine_data(model: MachineModel) -> dict[str, Any]:
 def _sums(values: NDArray[Any]) -> dict[str, Any]:
     """Return shape and sums of an array.
 
-    To the digits that do not depend on the order of additions.
+    The sums have the digits that do not depend on the order of additions.
     """
     flat = np.abs(values.astype(np.float64).ravel())
     weights = 1.0 + np.arange(flat.size) % 997 / 997.0
@@ -217,7 +217,7 @@ def _sums(values: NDArray[Any]) -> dict[str, Any]:
 def model_data(model: BearingModel) -> dict[str, Any]:
     """Return the resolved model as plain data.
 
-    SI; infinite and undefined numbers are text.
+    The data are in SI; infinite and undefined numbers are text.
     """
     return {field.name: plain(getattr(model, field.name)) for field in fields(model) if field.name not in _APART}
 

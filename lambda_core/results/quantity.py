@@ -127,7 +127,7 @@ def quantity(
 ) -> Any:
     """Declare a field that is a number.
 
-    Or a list of numbers of a record; see :class:`Quantity`.
+    It may also hold a list of numbers; see :class:`Quantity`.
 
     The label is the meaning where none is given.
     """
@@ -153,7 +153,7 @@ _KNOWN: dict[type[Record], dict[str, Quantity]] = {}
 def quantities(record: type[Record]) -> dict[str, Quantity]:
     """Return the declared numbers of a record.
 
-    By name, in their order.
+    The keys are names in their order.
     """
     if record in _KNOWN:
         return _KNOWN[record]
@@ -170,7 +170,7 @@ def quantities(record: type[Record]) -> dict[str, Quantity]:
 def quantity_of(record: Record, name: str) -> Quantity:
     """Return the declaration of a record's field.
 
-    Of the only bearing's where the record has none.
+    A record without it takes that of its only bearing.
     """
     own = quantities(type(record))
     return own[name] if name in own else quantity_of(next(iter(record.bearings.values())), name)  # type: ignore[attr-defined]
@@ -179,7 +179,7 @@ def quantity_of(record: Record, name: str) -> Quantity:
 def shown_numbers(record: Record, groups: Sequence[str]) -> list[tuple[Quantity, Any]]:
     """Return the numbers for narrow tables.
 
-    Of a record, and of its only bearing, group by group.
+    They come from a record and its only bearing, group by group.
     """
     each = _columns(record)
     return [(one, getattr(owner, one.name)) for group in groups for one, owner in each if one.group == group]
@@ -188,7 +188,7 @@ def shown_numbers(record: Record, groups: Sequence[str]) -> list[tuple[Quantity,
 def remaining(record: Record, placed: Collection[str]) -> list[tuple[Quantity, Any]]:
     """Return the numbers that are not placed.
 
-    Of a record, and of its only bearing, with a column; their names are not among `placed`.
+    They have a column, belong to a record or its only bearing, and their names are not in `placed`.
     """
     return [(one, getattr(owner, one.name)) for one, owner in _columns(record) if one.name not in placed]
 
@@ -196,7 +196,7 @@ def remaining(record: Record, placed: Collection[str]) -> list[tuple[Quantity, A
 def _columns(record: Record) -> list[tuple[Quantity, Record]]:
     """Return the numbers with a column.
 
-    And their owner: the record, or its only bearing.
+    Also return their owner, which is the record or its only bearing.
     """
     found = {name: (one, record) for name, one in quantities(type(record)).items()}
     if len(bearings := list(getattr(record, "bearings", {}).values())) == 1:

@@ -226,7 +226,7 @@ def _azimuths(found: Equilibrium) -> FloatArray:
 def _ratio(found: Equilibrium) -> float:
     """Return orbital over inner ring speed.
 
-    Both against the outer ring.
+    Both speeds are relative to the outer ring.
     """
     model = found.context.model
     inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))

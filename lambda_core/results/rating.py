@@ -12,7 +12,7 @@ from lambda_core.results.verdict import Found, Limits, Verdict, verdict
 class Rating(Record):
     """Life, safety and catalogue friction of a case.
 
-    At its start; null where a method does not answer.
+    They hold at the start of the case; a value is null where a method does not answer.
     """
 
     basic_life_h: float | None = quantity(
@@ -70,7 +70,7 @@ class Rating(Record):
 def life_that_counts(rating: Rating) -> tuple[str, float | None]:
     """Return the decisive rating life.
 
-    Its name and hours, which a requirement is compared with.
+    Return its name and its hours; a requirement is compared with them.
 
     The loads of every ball count where they are known (ISO/TS 16281), a_ISO where the case gives e_C.
     """

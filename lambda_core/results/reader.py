@@ -426,7 +426,7 @@ class Result:
     def to_xarray(self) -> Any:
         """Return all channels as an xarray.Dataset.
 
-        With dimensions, labels, units and meanings.
+        It has dimensions, labels, units and meanings.
 
         Raises
         ------

@@ -26,7 +26,7 @@ class RingDeformation(Record):
 def ring_deformations(result: Result, start: float) -> list[RingDeformation]:
     """Return the ovality of every elastic part.
 
-    From time `start` [s] on; empty where all are rigid.
+    It is averaged from time `start` [s] on; the result is empty where all parts are rigid.
     """
     written = {channel.name for channel in result.channels}
     names = [f"{body}{_CHANNEL}" for body in BODIES if f"{body}{_CHANNEL}" in written]

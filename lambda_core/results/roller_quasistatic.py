@@ -185,7 +185,7 @@ def with_friction(model: RollerModel, solved: SolvedRollers) -> SolvedRollers:
 def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
     """Solve a roller bearing.
 
-    And put it into the units of the interface; errors as :func:`solve_rollers`.
+    The answer has the units of the interface. The errors are those of :func:`solve_rollers`.
     """
     return roller_answer(model, solve_rollers(model))
 
@@ -240,7 +240,7 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
 def headline_of(model: RollerModel, radial: float, axial: float) -> str:
     """Return the headline of a bearing.
 
-    Its name and its operating point, in two lines.
+    The two lines give its name and its operating point.
     """
     bearing = model.bearing
     kind = {"tapered": "tapered", "needle": "needle"}.get(bearing.kind, f"cylindrical {bearing.kind}")
@@ -338,7 +338,7 @@ def roller_lives(
 def _limit(model: RollerModel, radial: float, motion: RollerMotion) -> AxialLimit | None:
     """Return the permissible axial loads of rollers.
 
-    Of cylindrical rollers between ribs; None of other kinds and at rest.
+    Only cylindrical rollers between ribs have them; other kinds, and rollers at rest, have none.
     """
     bearing = model.bearing
     if bearing.kind not in ("NJ", "NUP", "NCF") or motion.relative == 0.0:

@@ -1,6 +1,6 @@
 """Compute the cage speed of balls without slip.
 
-From samples of a run: the reference of cage slip.
+They come from samples of a run and are the reference of cage slip.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ ROLLING = ("load", "contact_angle", "ball_radius", "ball_spin", "ball_velocity")
 def rolling_of(samples: Mapping[str, NDArray[np.float64]], ball_diameter: float) -> float:
     """Return cage speed over inner ring speed.
 
-    Without slip, see :func:`.kinematics.rolling_ratio`.
+    The balls do not slip; see :func:`.kinematics.rolling_ratio`.
     """
     radius = samples["ball_radius"]
     orbit = samples["ball_velocity"][..., 2] / radius

@@ -23,7 +23,7 @@ from lambda_core.results.run_status import Rows
 class RowSums:
     """CRC-32 of every growing dataset's rows.
 
-    By its path in the file, kept up as rows are appended.
+    The keys are paths in the file; appended rows keep the sums up to date.
     """
 
     def __init__(self) -> None:
@@ -57,7 +57,7 @@ def sums_of(file: h5py.File, rows: Rows) -> RowSums:
 def check_rows(path: Path, position: Position) -> None:
     """Compare the rows with their checksums.
 
-    Those of a result up to a checkpoint; results of earlier versions have none.
+    The rows are those up to a checkpoint. Results of earlier versions have no checksums.
 
     Raises
     ------

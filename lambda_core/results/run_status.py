@@ -102,7 +102,7 @@ class Status:
     def alive(self) -> bool:
         """Tell whether the writing process is at work.
 
-        As far as this host can see.
+        It sees only processes of this host.
         """
         if self.state != "running" or self.process.get("host") != socket.gethostname():
             return False

@@ -71,7 +71,7 @@ class SideBySide(Record):
 def run_names(runs: Sequence[Any]) -> tuple[str, ...]:
     """Return a short name for each run.
 
-    Its case, or its file where cases repeat.
+    The name is that of its case, or that of its file where cases repeat.
     """
     cases = [run.case for run in runs]
     return tuple(cases) if len(set(cases)) == len(cases) else tuple(run.path.stem for run in runs)
@@ -80,7 +80,7 @@ def run_names(runs: Sequence[Any]) -> tuple[str, ...]:
 def differing_inputs(runs: Sequence[Any]) -> list[Differing]:
     """Return the options that differ among runs.
 
-    As the cases have them.
+    They are written as in the cases.
 
     Parameters
     ----------

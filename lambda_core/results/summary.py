@@ -180,7 +180,7 @@ class Summary(Record):
 def field_names() -> dict[str, str]:
     """Return the names of all numbers with meanings.
 
-    Those of a summary, of the machine's first.
+    A summary's names follow the machine's.
     """
     every = BearingSummary.model_fields | Summary.model_fields
     return {name: every[name].description or "" for name in (*Summary.model_fields, *every)}
@@ -189,7 +189,7 @@ def field_names() -> dict[str, str]:
 def summarise(result: Result) -> Summary:
     """Compute the summary of a result.
 
-    From its file: of a machine, or of the bearing that the result looks at.
+    The file is of a machine, or of the bearing that the result looks at.
     """
     status = result.status()
     if not status.rows.samples or not status.rows.records:
@@ -325,7 +325,7 @@ def _is_driven(result: Result) -> bool:
 def _of_rollers(found: BearingSummary, result: Result) -> BearingSummary:
     """Return the summary of rollers.
 
-    Without what holds for balls alone: shoulders, limits of tilt and pressure.
+    It lacks what holds for balls alone: shoulders, limits of tilt and pressure.
     """
     left_out = {"rating life", "capacitance", "bearing capacitance"}
     band = result.model_band
@@ -363,7 +363,7 @@ def _reasons(state: str, message: str, found: list[str]) -> list[str]:
 def merged_cage(parts: Mapping[str, float]) -> dict[str, float | None]:
     """Return torques with the cage as one [N mm].
 
-    By mechanism, from N m, with the cage's contacts as one.
+    The keys are mechanisms, from torques in N m; the cage's contacts are one.
     """
     merged = {name: value for name, value in parts.items() if name not in _MECHANISMS_OF_CAGE}
     merged["cage"] = sum(parts[name] for name in _MECHANISMS_OF_CAGE)
@@ -406,7 +406,7 @@ class _Span:
 def _edges(result: Result) -> list[Shoulder]:
     """Return the contacts nearest to the shoulders.
 
-    Over the whole run.
+    They are those of the whole run.
     """
     grooves, found = Grooves.of(result.model["geometry"]), list[Shoulder]()
     for block in result.blocks(("load", "contact_angle", "semi_axis_a")):
@@ -448,7 +448,7 @@ def contact_list(state: Mapping[str, NDArray[np.float64]]) -> list[Contact]:
 def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64]) -> str:
     """Explain missing capacitances.
 
-    Which contacts have none, shape (element, ring), and so why the bearing may have none.
+    The note tells which contacts have none, shape (element, ring), and so why the bearing may have none.
 
     Contacts under load are counted apart from those that hold no more than the weight and the centrifugal force of a
     ball or a roller.

@@ -42,7 +42,7 @@ _WIDTH = 100  # of sentences where no width is given
 def summary_text(summary: Summary, width: int | None = None, units: UnitSystem = SI) -> str:
     """Return the text of one run.
 
-    A line per subject: the answer first, then where it may be wrong, then the rest.
+    Each subject has a line: the answer first, then where it may be wrong, then the rest.
 
     Parameters
     ----------
@@ -196,7 +196,7 @@ def _four(value: float | None) -> str:
 def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Sequence[float] = ()) -> list[str]:
     """Return the ratings of the run.
 
-    Those of standards and catalogues; their numbers are those of the case at its start.
+    They follow standards and catalogues for the case at its start.
     """
     if rating is None:
         return []
@@ -228,7 +228,7 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Seque
 def _step(rating: Rating, units: UnitSystem) -> list[str]:
     """Explain a large torque of SKF.
 
-    Its sliding torque steps where an axial load begins.
+    The sliding torque of SKF steps where an axial load begins.
     """
     without = rating.skf_torque_without_step_Nmm
     if without is None or rating.skf_torque_Nmm is None:
@@ -325,7 +325,7 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
 def _friction_lines(found: QuasiStatic, units: UnitSystem) -> list[str]:
     """Return torque, its parts and the power.
 
-    At rest there are none.
+    The list is empty at rest.
     """
     if found.friction_torque_Nmm is None:
         return [line("friction torque", "none: nothing turns")]
@@ -355,7 +355,7 @@ def line(head: str, *parts: str) -> str:
 def breakdown_lines(parts: Mapping[str, float | None], units: UnitSystem = SI) -> list[str]:
     """Return the parts of the friction torque.
 
-    One line per ring, one for the rest [N mm].
+    Each ring has one line and the rest has one [N mm].
     """
     shown = {name: units.number(value, "N mm") for name, value in parts.items()}
     width = max(map(len, shown.values()), default=1)
@@ -385,7 +385,7 @@ def _margin(edge: Shoulder, units: UnitSystem) -> str:
 def assumption_lines(assumptions: Sequence[str], file: str = "") -> list[str]:
     """Return the count of assumptions in one line.
 
-    And where they are with their reasons.
+    The line also says where they and their reasons are listed.
     """
     if not assumptions:
         return []

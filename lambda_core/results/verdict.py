@@ -34,7 +34,7 @@ _LEAST_SAFETY = 1.0  # ISO 76: the total dent of 0.0001 D_w is reached at P_0 = 
 class Margin(Record):
     """Margin to a requirement or a limit.
 
-    A requirement of the case, a limit of bearing, oil or standard.
+    A requirement comes from the case, a limit from the bearing, the oil or a standard.
     """
 
     name: str

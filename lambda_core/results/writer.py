@@ -142,7 +142,7 @@ class ResultWriter:
     def add_record(self, record: Mapping[str, FloatArray], revolutions: Mapping[str, Sequence[FloatArray]]) -> None:
         """Take running integrals by bearing.
 
-        And those at the cage revolutions that were completed since the last.
+        Also take those at the cage revolutions that were completed since the last record.
         """
         self._records.append(record)
         for name, rows in revolutions.items():
@@ -172,7 +172,7 @@ class ResultWriter:
     def sums(self) -> dict[str, int]:
         """Return the checksums of flushed data.
 
-        By path of the dataset.
+        The keys are paths of datasets.
         """
         return self._sums.by_name()
 
@@ -195,7 +195,7 @@ class ResultWriter:
     def save(self, checkpoint: Checkpoint) -> None:
         """Put a checkpoint on disk.
 
-        Over the older of the two; flush the rows it counts before.
+        It replaces the older of the two. The rows that it counts are flushed before.
         """
         data = np.frombuffer(checkpoint.to_bytes(), dtype=np.uint8)
         self._reserve(4 * data.size)
@@ -319,7 +319,7 @@ class ResultWriter:
     def _reserve(self, growth: int) -> None:
         """Make sure of room.
 
-        Without it close the result as it is, in order and readable.
+        Without it, close the result as it is, in order and readable.
         """
         try:
             hdf5.reserve(self._file, growth)

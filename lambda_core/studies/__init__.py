@@ -1,4 +1,4 @@
 """Evaluate one case over many points.
 
-Quasi-static or dynamic, on any executor, resumable.
+They are quasi-static or dynamic, run on any executor, and can be resumed.
 """

@@ -70,7 +70,7 @@ class Choice(Record):
     def text(self, units: UnitSystem = SI) -> str:
         """Return the table of bearings.
 
-        Then the reasons why other bearings were left out.
+        The reasons why other bearings were left out follow it.
         """
         torque = f"torque {units.unit('N mm')}"
         head = ("bearing", f"d x D x B {units.unit('mm')}", "life", "C0/P0", "n/limit", torque, "")
@@ -223,7 +223,7 @@ class _Wanted:
     def against(self, row: BearingRow, viscosity: float | None, contamination: float | str | None) -> str:
         """Return the objections to a bearing.
 
-        In plural words; "" where there are none.
+        They are in plural words; the text is empty where there are none.
         """
         if self.bore is not None and not math.isclose(row.bore_diameter.value, self.bore, rel_tol=1e-6):
             return "have another bore"
@@ -251,7 +251,7 @@ class _Wanted:
     def _by_load(self, row: BearingRow, viscosity: float | None, contamination: float | str | None) -> str:
         """Return the objections by load.
 
-        Life, static safety or minimum load (ISO 281, ISO 76).
+        They concern life, static safety or minimum load (ISO 281, ISO 76).
         """
         assert row.dynamic_rating is not None
         assert row.static_rating is not None
@@ -282,7 +282,7 @@ class _Wanted:
 def _si(text: str, quantity: str) -> float:
     """Read a value with its unit.
 
-    UsageError with the right form.
+    A UsageError gives the right form.
     """
     try:
         return parse(text, quantity)
@@ -303,7 +303,7 @@ def _viscosity(
 ) -> float | None:
     """Return the oil's kinematic viscosity in operation [m2/s].
 
-    As one solved bearing has it.
+    It comes from the solution of one bearing.
     """
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.runs.api import quasistatic

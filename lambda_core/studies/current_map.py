@@ -1,6 +1,6 @@
 """Map bearing currents over speed and temperature.
 
-As a study, so it has workers and can be resumed.
+The map is a study, so it has workers and can be resumed.
 """
 
 from __future__ import annotations
@@ -137,7 +137,7 @@ def _read_on(
 def _folder(folder: str | Path | None) -> Iterator[Path]:
     """Give a folder to work in.
 
-    Without a name it is removed afterwards.
+    A folder without a name is removed afterwards.
     """
     if folder is not None:
         yield Path(folder)

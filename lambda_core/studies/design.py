@@ -24,7 +24,7 @@ FIRST_SAMPLES = 4  # per parameter, before an optimisation searches from the bes
 class Coordinate:
     """One parameter with its values.
 
-    Their number, and each as text and as an entry of the table.
+    Each value is stored as text and as an entry of the table.
     """
 
     parameter: Parameter
@@ -44,7 +44,7 @@ class Coordinate:
     def value(self, index: int) -> tuple[str, float | str]:
         """Return the value number `index`.
 
-        As text for the case and as an entry of the table.
+        Return it as text for the case and as an entry of the table.
         """
         if self.parameter.values is None:
             return self.at(index / (self.count - 1) if self.count > 1 else 0.0)
@@ -54,7 +54,7 @@ class Coordinate:
     def at(self, share: float) -> tuple[str, float | str]:
         """Return the value at a share 0..1.
 
-        Of the range (of a list: of its entries).
+        The share is of the range, or of the entries of a list.
         """
         if not self.is_range or self.scale is None:
             return self.value(min(int(share * self.count), self.count - 1))
@@ -77,7 +77,7 @@ class Coordinate:
 class Point:
     """One point.
 
-    Its changes of the case, and the entries of the table.
+    It has its changes of the case and its entries of the table.
     """
 
     changes: tuple[str, ...]  # path=value
@@ -115,7 +115,7 @@ class Plan:
     def count(self) -> int:
         """Number of points.
 
-        Of an optimisation the largest possible number.
+        An optimisation gives the largest possible number.
         """
         design, dimensions = self.study.design, len(self.coordinates)
         if design.kind == "crossed":
@@ -242,7 +242,7 @@ def _a(kind: str) -> str:
 def _refuse_twins(values: Sequence[Value], same: Sequence[float | str]) -> None:
     """Refuse a value that stands twice.
 
-    Also in another unit: both would be the same points.
+    Refuse equal values in different units, too: both would be the same point.
     """
     for index, entry in enumerate(same):
         if entry in same[:index]:

@@ -111,7 +111,7 @@ class DutyCycle(Record):
     def text(self, units: UnitSystem = SI) -> str:
         """Return the table of phases.
 
-        A row per phase, then the sum.
+        Each phase has a row; the sum follows.
         """
         lines = [f"{self.name}: a cycle of {number(self.cycle_h, 2)} h of {self.case}", ""]
         lines += [
@@ -147,7 +147,7 @@ _ADDED = (
 class _Step:
     """One phase to solve.
 
-    Its name, the place of its mistakes, its time [s], its changes.
+    It has a name, the place of its mistakes, a time [s] and its changes.
     """
 
     name: str
@@ -257,7 +257,7 @@ def _read(source: str | Path | Mapping[str, Any]) -> tuple[Cycle, Case | Machine
 def _steps(cycle: Cycle, folder: Path) -> list[_Step]:
     """Return the phases.
 
-    From the file itself or from its spectrum.
+    They come from the file itself or from its spectrum.
     """
     if cycle.spectrum is None:
         return [
@@ -297,7 +297,7 @@ def _refuse_mistakes(steps: Sequence[_Step], case: Case | MachineCase) -> None:
 def _at(step: _Step, case: str, solve: Callable[[], Solved]) -> Solved:
     """Return the result of one phase.
 
-    Its name comes before any error.
+    Any error begins with the phase's name.
     """
     try:
         return solve()

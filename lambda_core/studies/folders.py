@@ -133,7 +133,7 @@ def start(
 ) -> StudyStatus:
     """Start a study and finish it.
 
-    In a new folder; default: its name.
+    The study takes a new folder, by default one with its name.
 
     A study of a few seconds is done by this process alone, where nobody says how many are to work.
     """
@@ -179,7 +179,7 @@ def resume(
 ) -> StudyStatus:
     """Go on with a study.
 
-    With `retry` failed points are done again.
+    With `retry` it does failed points again.
 
     Raises
     ------
@@ -208,10 +208,7 @@ def resume(
 
 
 def status(folder: Path) -> StudyStatus:
-    """Return the state of a study.
-
-    Also while it is at work.
-    """
+    """Return the state of a study, even while it works."""
     with closing(Manifest(folder)) as manifest, readable(folder):
         return _status(manifest)
 
@@ -243,7 +240,7 @@ def is_study(path: Path) -> bool:
 def _fingerprint(plan: Plan, case_toml: str, names: tuple[str, ...]) -> str:
     """Return the hash of a study.
 
-    Of the first point with all its laws, and of the compiled code of the responses.
+    It covers the first point with all its laws, and the compiled code of the responses.
     """
     from lambda_core.analysis.electric.current_numbers import code_folder
     from lambda_core.laws.kernels import sources_key

@@ -121,7 +121,7 @@ def lost(task: Task, reason: str) -> Outcome:
 def point_model(case_toml: str, changes: tuple[str, ...]) -> BearingModel | MachineModel:
     """Return the model of one point.
 
-    Of one bearing or of a machine; CaseError with all problems.
+    The model is one of a bearing or a machine. All problems make one CaseError.
     """
     tables = _machine_tables(case_toml)
     if tables is None:
@@ -147,7 +147,7 @@ def resolve_point(case_toml: str, changes: tuple[str, ...]) -> BearingModel:
 def _machine_tables(case_toml: str) -> dict[str, Any] | None:
     """Return the tables of a machine's case.
 
-    None for that of one bearing.
+    The case of one bearing has none, so the result is None.
     """
     from lambda_core.case.case_io import is_machine_case, toml_tables
 
@@ -158,7 +158,7 @@ def _machine_tables(case_toml: str) -> dict[str, Any] | None:
 def with_temperatures(model: _Model) -> _Model:
     """Return a model at its own temperatures.
 
-    Of a bearing or a machine, where the case wants them computed.
+    The model is of a bearing or a machine whose case wants them computed.
     """
     from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
     from lambda_core.analysis.thermal.operating import at_own_temperatures
@@ -174,7 +174,7 @@ def with_temperatures(model: _Model) -> _Model:
 def point_hash(model: BearingModel | MachineModel) -> str:
     """Return the hash of a point.
 
-    Of all that decides its numbers.
+    It covers all that decides the point's numbers.
     """
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.model.resolve import case_hash
@@ -205,7 +205,7 @@ _kernels: dict[tuple[tuple[str, str, str], ...], Kernels] = {}
 def kernels_of(model: BearingModel) -> Kernels:
     """Return the compiled laws of a model.
 
-    Equal choices of laws are compiled once in a process.
+    A process compiles equal choices of laws only once.
     """
     from lambda_core.solver.drivers.compiled_laws import Kernels
 
@@ -275,7 +275,7 @@ def machine_columns(
 def method_rows(found: Equilibrium, names: tuple[str, ...]) -> dict[str, float | None]:
     """Return the chosen rows of comparison methods.
 
-    Those among `names`; None where a method does not apply.
+    They are those among `names`, or None where a method does not apply.
 
     Raises
     ------
@@ -331,7 +331,7 @@ def _dynamic(
 ) -> tuple[State, str, dict[str, float | None]]:
     """Run a point and read its responses.
 
-    Or go on with an existing part of it.
+    It goes on with an existing part of the run.
     """
     from lambda_core.results.opening import BeingWrittenError
     from lambda_core.studies.responses import DynamicPoint, evaluate, method_rows_among, responses_of

@@ -47,7 +47,7 @@ class MachineDutyCycle(Record):
     def text(self, units: UnitSystem = SI) -> str:
         """Return the table of each bearing.
 
-        Then that of all together.
+        The table of all bearings together follows.
         """
         lines = [f"{self.name}: a cycle of {number(self.cycle_h, 2)} h of {self.case}"]
         for name, own in self.bearings.items():

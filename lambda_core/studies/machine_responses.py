@@ -45,7 +45,7 @@ class MachinePoint:
     def equilibria(self) -> list[Equilibrium]:
         """Equilibria of all bearings with friction.
 
-        At their poses, with the friction of their balls.
+        They hold at the bearings' poses, with the friction of their balls.
         """
         return [ring.equilibrium() for ring in self.state.rings]
 
@@ -68,7 +68,7 @@ class MachinePoint:
     def modes_at_speed(self) -> list[ModeAtSpeed]:
         """Natural frequencies at the point's speed.
 
-        By rising frequency.
+        They are in ascending order.
         """
         from lambda_core.analysis.rotor.machine_modes import modes_at_speed
 
@@ -79,7 +79,7 @@ class MachinePoint:
     def circuit(self) -> Mapping[str, CurrentNumbers]:
         """Bearing currents on quasi-static films.
 
-        Of each bearing, all in one circuit.
+        Each bearing has its own current; one circuit joins all.
         """
         return machine_numbers(
             self.model, self.state, [self.kernels.of(bearing.model) for bearing in self.model.bearings]
@@ -106,7 +106,7 @@ def machine_point(model: MachineModel, kernels: SharedKernels) -> MachinePoint:
 def machine_responses(bearings: tuple[str, ...]) -> Mapping[str, Response]:
     """Return the responses of a machine.
 
-    Its bearings have these names.
+    The responses name the bearings.
     """
     found = [*_of_machine(), *(one for name in bearings for one in _of_bearing(name))]
     return {response.name: response for response in found}
@@ -115,7 +115,7 @@ def machine_responses(bearings: tuple[str, ...]) -> Mapping[str, Response]:
 def usual_responses(bearings: tuple[str, ...], mode: str) -> tuple[str, ...]:
     """Return the default responses of a machine.
 
-    For a study that names none.
+    A study that names none takes them.
     """
     if mode == "quasi-static":
         of_machine = ["system_life_h", "friction_torque_Nmm"]

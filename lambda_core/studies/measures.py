@@ -44,10 +44,7 @@ def static_power(point: StaticPoint) -> float:
 
 
 def static_film(point: StaticPoint) -> float:
-    """Return the smallest minimum film [um].
-
-    Of the contacts under load.
-    """
+    """Return the smallest film of the loaded contacts [um]."""
     return 1e6 * float(_under_load(point, "film_minimum").min())
 
 
@@ -85,16 +82,13 @@ def dynamic_power(point: DynamicPoint) -> float:
 def max_load(point: DynamicPoint) -> float:
     """Return the largest contact load [N].
 
-    On either ring in the averaging window.
+    It is the larger one of both rings in the averaging window.
     """
     return max(float(block["load"].max()) for block in point.result.blocks(("load",), _start(point.result)))
 
 
 def dynamic_lambda(point: DynamicPoint) -> float:
-    """Return the smallest Lambda under load.
-
-    In the averaging window.
-    """
+    """Return the smallest Lambda under load in the averaging window."""
     smallest = math.inf
     for block in point.result.blocks(("load", "film_parameter"), _start(point.result)):
         load = block["load"]
@@ -105,10 +99,7 @@ def dynamic_lambda(point: DynamicPoint) -> float:
 
 
 def dynamic_capacitance(point: DynamicPoint) -> float:
-    """Return the mean capacitance of the bearing [nF].
-
-    In the averaging window.
-    """
+    """Return the bearing's mean capacitance in the averaging window [nF]."""
     values = [
         block["bearing_capacitance"] for block in point.result.blocks(("bearing_capacitance",), _start(point.result))
     ]
@@ -135,7 +126,7 @@ def cage_speed_deviation(point: DynamicPoint) -> float | None:
 def ball_speed_deviation(point: DynamicPoint) -> float | None:
     """Return the rms deviation of the balls' speed.
 
-    Over azimuth bins outside the static load zone of (orbital over kinematic speed - 1).
+    It is the deviation of (orbital over kinematic speed - 1) over azimuth bins outside the static load zone.
 
     The static load zone is where the inner ring loads balls in the equilibrium at the start of the run, from the first
     to the last loaded ball; None when it goes all round.
@@ -183,7 +174,7 @@ def _outside(loaded: NDArray[np.int64]) -> NDArray[np.bool_]:
 def pocket_share(point: DynamicPoint) -> float | None:
     """Return the share of samples with pocket contact.
 
-    In the averaging window: a pocket touches its ball.
+    The share is taken over the averaging window; a contact is a pocket that touches its ball.
     """
     if not point.result.model["depth"]["cage"]:
         return None

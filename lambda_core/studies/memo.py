@@ -12,7 +12,7 @@ from typing import Any
 class Memo:
     """Outcomes in a folder.
 
-    One JSON file each; any process may read and write at any time.
+    Each outcome is one JSON file; any process may read and write at any time.
 
     Parameters
     ----------

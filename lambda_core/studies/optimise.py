@@ -41,7 +41,7 @@ class _Enough(Exception):
 def margins(goal: Goal, responses: Responses) -> list[float] | None:
     """Return the margins of a point.
 
-    To each limit, relative to the limit's size; None when a response is missing.
+    A margin to each limit is relative to the limit's size; it is None when a response is missing.
     """
     found = []
     for constraint in goal.constraints:

@@ -51,7 +51,7 @@ class Pool:
     def close(self, *, stop: bool = False) -> None:
         """Give the workers back.
 
-        With `stop` without waiting for their tasks.
+        With `stop` it does not wait for their tasks.
         """
         raise NotImplementedError
 
@@ -122,7 +122,7 @@ def _end_with(sentinel: int) -> None:
 def _workers_variables() -> Iterator[None]:
     """Set the variables of worker processes.
 
-    Those that start meanwhile get one thread each for Numba and linear algebra, and a safe path.
+    Processes that start meanwhile get one thread each for Numba and linear algebra, and a safe path.
     """
     before = {name: os.environ.get(name) for name in _WORKERS_SET}
     os.environ.update(dict.fromkeys(_WORKERS_SET, "1"))
@@ -148,7 +148,7 @@ def start_apart(command: Sequence[str], folder: Path, said: Path, answer: Path) 
 class Dask(Pool):
     """Workers of dask.distributed.
 
-    Of a scheduler at an address, or of a cluster on this machine.
+    They belong to a scheduler at an address, or to a cluster on this machine.
 
     Parameters
     ----------

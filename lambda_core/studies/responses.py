@@ -95,7 +95,7 @@ class DynamicPoint:
     def circuit(self) -> Mapping[str, CurrentNumbers]:
         """Bearing currents on the films of a run.
 
-        Of each bearing of a machine.
+        Each bearing of a machine has its own.
         """
         return circuit_numbers(self.result)
 
@@ -143,7 +143,7 @@ def _parts() -> list[Response]:
 def of_fields(kind: type[Record], names: Iterable[str]) -> Iterator[Response]:
     """Yield the numbers of a record as responses.
 
-    Without values; of a vector one for each axis.
+    They have no values; a vector yields one for each axis.
     """
     for name in names:
         one = quantities(kind)[name]
@@ -265,7 +265,7 @@ def bearing_names(model: BearingModel | MachineModel) -> tuple[str, ...]:
 def responses_of(model: BearingModel | MachineModel) -> Mapping[str, Response]:
     """Return the responses of a model.
 
-    Of a bearing or a machine, those of its observers, events and states included.
+    The model is of a bearing or a machine; its observers, events and states have responses, too.
     """
     from lambda_core.studies.machine_responses import machine_responses
     from lambda_core.studies.observed_responses import observed_responses

@@ -92,7 +92,7 @@ class QueuedRun:
     def begin(self) -> QueuedRun:
         """Start the process.
 
-        Unless it is at work or the run was taken out of the queue; return the run.
+        Do not start it while it is at work or after the run was taken out of the queue. Return the run.
         """
         if self.state == "waiting":
             self._is_news = True
@@ -128,7 +128,7 @@ class QueuedRun:
     def end(self) -> None:
         """Read the last messages of an ended process.
 
-        And its exit.
+        It also reads the exit code.
         """
         if self.state != "running" or self.program is None:
             return
@@ -212,7 +212,7 @@ _CODE_OF = {"run": _code_of_run, "study": _code_of_study}
 class RunQueue:
     """Queue of runs.
 
-    In the order of the requests, one at a time; a store of the director that starts them.
+    It starts one at a time, in the order of the requests. The director that starts them keeps it.
 
     Parameters
     ----------
@@ -285,7 +285,7 @@ class RunQueue:
     def poll(self) -> bool:
         """Read the messages of all runs.
 
-        Start the next one; tell whether anything is new.
+        It also starts the next one and tells whether anything is new.
         """
         news = [run.take_in() for run in self.runs]
         return self._director.step() or any(news)
@@ -343,6 +343,6 @@ class RunQueue:
 def _never_lost(run: QueuedRun, reason: str) -> QueuedRun:
     """Return the run as it is.
 
-    Its program reports its end.
+    The run's program reports its end.
     """
     return run

@@ -25,7 +25,7 @@ _TRIES = 2  # tries of a task, alone, after a worker died on it
 class StudyProgress(BaseModel):
     """Progress of a study.
 
-    One JSON line each with ``--progress=json``.
+    ``--progress=json`` prints it as one JSON line each.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -142,7 +142,7 @@ class Director(Generic[Task_, Outcome_]):
     def one(self, task: Task_) -> Outcome_:
         """Do one task and return its outcome.
 
-        For searches that need it before they go on.
+        Searches need the outcome before they go on.
         """
         try:
             outcome = self._submit(task).result()
@@ -163,7 +163,7 @@ class Director(Generic[Task_, Outcome_]):
     def step(self, patience: float = 0.0) -> bool:
         """Submit tasks and take results.
 
-        As many as the workers have room for; results within a time.
+        It submits as many as the workers have room for, and takes results within a time.
 
         Parameters
         ----------

@@ -172,7 +172,7 @@ def _bands(
 ) -> list[list[float]]:
     """Return both ends of the torque's model band.
 
-    At each speed; nothing where the bearing has none.
+    Each speed has a pair; the result is empty where the bearing has no band.
     """
     from lambda_core.analysis.band.neighbours import places_of
     from lambda_core.analysis.band.over_points import bands_over
@@ -184,7 +184,7 @@ def _bands(
 def _point(model: Any, kernels: Any) -> tuple[dict[str, float], float | None, float]:
     """Return the torque and Lambda at one speed.
 
-    Parts [N mm], SKF's torque [N mm] and the smallest Lambda.
+    Return the parts [N mm], SKF's torque [N mm] and the smallest Lambda.
     """
     from lambda_core.solver.drivers.equilibrium import solve
 

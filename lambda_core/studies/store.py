@@ -57,7 +57,7 @@ class Heading:
 def readable(folder: Path) -> Iterator[None]:
     """Treat read errors as a damaged manifest.
 
-    Read the manifest of a study in here, and nothing else.
+    The block reads the manifest of a study and nothing else.
 
     Raises
     ------
@@ -109,7 +109,7 @@ class Manifest:
     ) -> Manifest:
         """Start the manifest of a study.
 
-        In `folder`, which is made if needed; it must not hold one yet.
+        It is in `folder`, which is made if needed and must not hold a manifest yet.
         """
         try:
             folder.mkdir(parents=True, exist_ok=True)
@@ -188,7 +188,7 @@ class Manifest:
     def pending(self, retry: bool = False) -> list[tuple[int, tuple[str, ...]]]:
         """Return numbers and changes of open points.
 
-        With `retry` failed ones too.
+        With `retry` they include failed points.
         """
         states = "('pending', 'failed')" if retry else "('pending')"
         rows = self._database.execute(f"SELECT number, changes FROM points WHERE state IN {states} ORDER BY number")

@@ -253,7 +253,7 @@ def _names_together(study: Study, plan: Plan) -> Iterator[tuple[str, tuple[str, 
 def _tried(c: Coordinate) -> Iterator[tuple[str, float | str]]:
     """Yield further values of a parameter.
 
-    After its first, of a list all of them, of a range the last and one between.
+    A list yields all values after its first; a range yields the last one and one between.
 
     The one between shows options that take whole numbers only.
     """
@@ -355,7 +355,7 @@ def _probe_machine(
 def _file_size(model: BearingModel, simulated: float, orbit: float) -> float:
     """Return the size of a run's samples [byte].
 
-    Before compression; `orbit`: mean speed of the balls [rad/s].
+    It counts before compression; `orbit` is the mean speed of the balls [rad/s].
     """
     from lambda_core.domain.channels import CHANNELS, DIMENSIONS
     from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION

@@ -134,7 +134,7 @@ def _wheels(case: MachineCase, spans: Sequence[_Span], outline: Outline) -> Iter
 def _diameter(outline: Outline, place: float) -> float:
     """Return the diameter of the shaft at a place.
 
-    The smaller one at a step; 0 where it is not known.
+    At a step it is the smaller one; it is 0 where the diameter is not known.
     """
     return min((diameter for begin, end, diameter, _ in outline if begin <= place <= end), default=0.0)
 

@@ -60,7 +60,7 @@ class Places:
     def seat(self, name: str) -> int:
         """Return the body that carries an outer ring.
 
-        Its number; the ground where no body can.
+        It is the body's number, or that of the ground where no body can carry the ring.
         """
         found = self.carrier(name)
         return GROUND if isinstance(found, BearingPart) else found
@@ -125,7 +125,7 @@ def places(case: MachineCase, outside: ElasticBody | None, ledger: Ledger) -> Pl
 def bearing_parts(case: MachineCase) -> dict[str, BearingPart]:
     """Return the outer rings and cages as places.
 
-    By their names in a case: "left.outer_ring", "left.cage".
+    The keys are their names in a case, such as "left.outer_ring" and "left.cage".
     """
     return {f"{name}.{part}": BearingPart(name, part) for name in case.bearings for part in PARTS}
 
@@ -179,7 +179,7 @@ def carried(arm: Sequence[float] | FloatArray) -> FloatArray:
 def carried_by_shaft(body: ElasticBody, point: Sequence[float] | FloatArray) -> tuple[float, FloatArray]:
     """Return the node of a shaft's point.
 
-    Its place [m], and how the point moves with it, (6, 6).
+    Also return its place [m] and how the point moves with the node, shape (6, 6).
     """
     node = body.nearest(float(point[0]))
     return node, carried([float(point[0]) - node, *point[1:]])

@@ -76,7 +76,7 @@ def mounted(
 def refuse_motion(name: str, given: MachineBearing, is_carried: bool, ledger: Ledger) -> None:
     """Note motions of a ring that are decided elsewhere.
 
-    `is_carried`: by a body or an elastic housing.
+    `is_carried` tells whether a body or an elastic housing carries the ring.
     """
     for dof in POSE:
         where, motion = f"bearings.{name}.support.{dof}.motion", getattr(given.support, dof).motion
@@ -111,7 +111,7 @@ def _seat(name: str, given: MachineBearing, model: BearingModel, carrier: int, l
 def _stiffness(given: MachineBearing, dof: str) -> float:
     """Return the housing's stiffness of one motion.
 
-    Inf where locked, 0 where free.
+    It is infinite where the motion is locked and 0 where it is free.
     """
     held: Dof = getattr(given.support, dof)
     return 0.0 if dof == "x" and given.preload_force is not None and held.mode == "locked" else held.hold

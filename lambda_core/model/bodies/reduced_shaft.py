@@ -23,7 +23,7 @@ _ALIKE = 1e-6  # relative difference of what has to be equal
 def reduced_shaft(path: Path, ledger: Ledger) -> ElasticBody | None:
     """Return a shaft's model from a file.
 
-    None after a problem, each with its remedy.
+    The result is None after a problem; each problem names its remedy.
     """
     file = ReducedFile(_WHERE, path, ledger)
     body = file.read()
@@ -48,7 +48,7 @@ def reduced_shaft(path: Path, ledger: Ledger) -> ElasticBody | None:
 def _rigid_motions(body: ElasticBody) -> FloatArray:
     """Return the six rigid motions.
 
-    About the left end, shape (rows, 6).
+    The rotations are about the left end; the array has shape (rows, 6).
     """
     found: FloatArray = np.zeros((body.mass.shape[0], NODE))
     for n, x in enumerate(body.positions):
@@ -121,7 +121,7 @@ def _check_mass(body: ElasticBody, rigid: FloatArray, file: ReducedFile) -> None
 def _with_gyroscopic(body: ElasticBody, rigid: FloatArray, ledger: Ledger) -> ElasticBody:
     """Return the body with gyroscopic terms.
 
-    Those of the file, else of the polar inertia of its nodes.
+    The terms come from the file, otherwise from the polar inertia of its nodes.
     """
     if np.any(body.gyroscopic):
         return body

@@ -45,7 +45,7 @@ class Inertia:
 def hollow_cylinder(mass: float, inner_radius: float, outer_radius: float, length: float) -> Inertia:
     """Return the inertia of a hollow cylinder.
 
-    m (R^2 + r^2)/2 and m (3 (R^2 + r^2) + l^2)/12.
+    The moments are m (R^2 + r^2)/2 and m (3 (R^2 + r^2) + l^2)/12.
     """
     squares = inner_radius**2 + outer_radius**2
     return Inertia(mass, mass * (3.0 * squares + length**2) / 12.0, mass * squares / 2.0)
@@ -54,7 +54,7 @@ def hollow_cylinder(mass: float, inner_radius: float, outer_radius: float, lengt
 def groove_volume(groove_radius: float, race_diameter: float, shoulder_diameter: float) -> float:
     """Return the volume [m3] of a groove.
 
-    A circle's segment turned about the shaft (Pappus).
+    The groove is a segment of a circle turned about the shaft (Pappus).
 
     The segment's centroid is taken at 2/5 of its height from the groove's bottom, exact for a parabola.
     """
@@ -68,7 +68,7 @@ def groove_volume(groove_radius: float, race_diameter: float, shoulder_diameter:
 def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: float) -> Inertia:
     """Estimate a ring as a hollow cylinder.
 
-    From its seat to its shoulders, less the groove.
+    The cylinder extends from the ring's seat to its shoulders, less the groove.
 
     On one side of an angular contact ring the shoulder is gone, down to the raceway: with that on both rings, these,
     the balls and the cage have the mass that a catalogue prints (tests/literature/test_kinds.py). So it is of double
@@ -112,7 +112,7 @@ def resolve_cage(
 ) -> tuple[Cage, Inertia]:
     """Return the cage's geometry and inertia.
 
-    After the formula of its type; one that is not there is not checked.
+    The geometry follows the formula of its type. A cage that does not exist is not checked.
 
     m = density fill pi d_m (radial D_w) (axial D_w); inertia of a hollow cylinder of that
     radial thickness and width about the pitch circle.
@@ -184,7 +184,7 @@ def _check_cage(geometry: Geometry, pocket: float, land: float, ledger: Ledger) 
 def resolve_inertia(name: str, spec: InnerRing | OuterRing | CageBody, estimate: Inertia, ledger: Ledger) -> Inertia:
     """Return mass and inertia of a part.
 
-    Each from the case or from the estimate (its inertia scaled to a given mass).
+    Each comes from the case or from the estimate, whose inertia is scaled to a given mass.
     """
     path = f"bodies.{name}"
     _check_mass(f"{path}.mass", spec.mass, ledger)
@@ -258,7 +258,7 @@ def resolve_body(name: BodyName, case: Case, inertia: Inertia) -> Body:
 def body_loads(name: BodyName, case: Case) -> tuple[Vector, Vector]:
     """Return force [N] and moment [N m] on a body.
 
-    (x, y, z) and about x, y, z, inertial frame.
+    Their components are along and about x, y and z of the inertial frame.
     """
     loads = case.loads
     own: Load = getattr(loads, name) or Load()

@@ -34,7 +34,7 @@ _CLASS_OIL = {"thermal_conductivity": 0.137, "specific_heat": 1930.0}
 class PartMaterial:
     """Material for the contact laws.
 
-    With the properties for thermal growth.
+    It has the properties for thermal growth, too.
     """
 
     material: Material
@@ -54,7 +54,7 @@ def resolve_material(
 ) -> PartMaterial:
     """Return the material of a part.
 
-    UNKNOWN after a problem; `usual` is the name where the case has none.
+    The result is UNKNOWN after a problem; `usual` is the name where the case has none.
     """
     where = f"materials.{part}"
     choice = getattr(case.materials, part) or usual
@@ -134,7 +134,7 @@ def _tell_grease(row: LubricantRow, lubricant: Lubricant, ledger: Ledger) -> Non
 def lubrication_of(lubricant: Lubricant, row: LubricantRow | None) -> Lubrication:
     """Return the lubrication method.
 
-    As the case has it, or a bath for an oil.
+    The case names the method; an oil without one lubricates as a bath.
     """
     usual: Lubrication = "grease" if row is not None and is_grease(row) else "oil bath"
     return lubricant.lubrication or usual
@@ -211,7 +211,7 @@ def body_material(
 ) -> BodyMaterial | None:
     """Return the material of a body.
 
-    A shaft, wheel or body; a name that the catalogue lacks is noted at `where`.
+    The body is a shaft, a wheel or a rigid body. A name that the catalogue lacks is noted at `where`.
     """
     if isinstance(choice, InlineMaterial):
         return BodyMaterial(*(getattr(choice, name) for name in _BODY))

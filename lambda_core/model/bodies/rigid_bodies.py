@@ -107,7 +107,7 @@ def refuse_far(where: str, dof: str, motion: TimeFunction, ledger: Ledger) -> No
 def connections(case: MachineCase, stand: Places, ledger: Ledger) -> tuple[MachineSpring, ...]:
     """Return springs, dampers and bushings.
 
-    Along the axes of the case.
+    They act along the axes of the case.
     """
     found = []
     for name, given in case.connections.items():
@@ -223,7 +223,7 @@ def resolve_links(
 def _along(place: Place) -> FloatArray:
     """Return the motion transformation to a place.
 
-    From the axes of the case to those of the place, shape (6, 6).
+    The matrix of shape (6, 6) leads from the axes of the case to those of the place.
     """
     return np.asarray(np.kron(np.eye(2), place.axes.T))
 
@@ -233,7 +233,7 @@ def all_loads(
 ) -> tuple[FloatArray, tuple[tuple[int, TimeFunction], ...]]:
     """Return forces and moments at t = 0.
 
-    On shaft nodes and bodies, and those that change with their rows.
+    They act on shaft nodes and bodies. Also return those that change, with their rows.
     """
     size = body.mass.shape[0]
     found: FloatArray = np.zeros(size + NODE * len(bodies))
@@ -259,7 +259,7 @@ def all_loads(
 def loads_on_parts(case: MachineCase, stand: Places) -> dict[BearingPart, tuple[TimeFunction, ...]]:
     """Return force and moment on rings and cages.
 
-    On outer rings and cages about their centres, those of all loads on each.
+    They are sums of all loads on each outer ring and cage, about its centre.
     """
     found: dict[BearingPart, list[TimeFunction]] = {}
     for name, load in case.loads.items():
@@ -307,7 +307,7 @@ def say_idle_loads(
 def _about_centre(load: PointLoad, place: Place, arm: FloatArray) -> list[TimeFunction]:
     """Return force and moment about a point.
 
-    From it the load's place is at `arm` [m].
+    The place of the load is at `arm` [m] from the point.
     """
     share = carried(arm).T @ _along(place).T  # of each component at the place in each row of its body
     functions = _components(load)

@@ -56,7 +56,7 @@ def effect(assumption: str) -> str:
 def by_effect(assumptions: Sequence[str], *, everything: bool = False) -> list[tuple[str, list[str]]]:
     """Group assumptions by what they affect.
 
-    Load and life first, then friction, film and the rest.
+    Load and life come first, then friction, film and the rest.
 
     Parameters
     ----------

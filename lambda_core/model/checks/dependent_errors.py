@@ -51,7 +51,7 @@ def independent(found: Sequence[Problem], later: Iterable[Problem], tables: Mapp
 def _wrong_names(found: Sequence[Problem], tables: Mapping[str, Any]) -> set[str]:
     """Return the names with something wrong.
 
-    Of markers, bodies and bearings, and of markers on such bodies.
+    They are names of markers, bodies and bearings, and of markers on such bodies.
     """
     places = [problem.where.split(".") for problem in found]
     wrong = {place[1] for place in places if place[0] in _REFERRED and len(place) > 1}

@@ -98,7 +98,7 @@ def verdict_line(name: str, warnings: Sequence[str], assumptions: Sequence[str])
 def assumption_block(assumptions: Sequence[str], *, everything: bool = False) -> list[str]:
     """Return assumptions by what they affect.
 
-    By default those that leave something open, without their sources.
+    By default the block lists those that leave something open, without their sources.
     """
     if everything:
         return _block("assumed", [text for _, some in by_effect(assumptions, everything=True) for text in some])
@@ -141,7 +141,7 @@ def value_reports(model: BearingModel) -> list[ValueReport]:
 def headline(model: BearingModel) -> list[str]:
     """Return the lines that describe the model.
 
-    Bearing and oil; loads, speed and depth; laws of plugins.
+    They list bearing and oil, then loads, speed and depth, then laws of plugins.
     """
     g = model.geometry
     temperature = f"{from_si(model.oil.temperature, 'temperature'):.4g} degC"
@@ -185,7 +185,7 @@ def _clearance(model: BearingModel) -> str:
 def function_text(function: TimeFunction, quantity: str) -> str:
     """Write a time function in a few words.
 
-    For example "harmonic 0.1 mm at 100 Hz".
+    An example is "harmonic 0.1 mm at 100 Hz".
     """
     if not function.terms:
         return _value_text(0.0, quantity)
@@ -255,7 +255,7 @@ def _bodies(model: BearingModel) -> dict[str, str]:
 def _bending_text(model: BearingModel, name: str) -> str:
     """Describe the waves of a ring.
 
-    Their numbers and frequencies; nothing for a rigid body.
+    The text names their numbers and frequencies; it is empty for a rigid body.
     """
     waves = next((waves for body, waves in model.elastic.items() if body == name), None)
     if waves is None:

@@ -75,7 +75,7 @@ def known_numbers(
 ) -> dict[str, ResolvedValue | str | float]:
     """Return the fittable numbers of a case.
 
-    By path, with their quantity, or as written; the case is one of a bearing.
+    The keys are their paths; the values are quantities or numbers as written. The case is one of a bearing.
     """
     own = (value for value in values if value.path.split(".")[0] in FITTED_TABLES and isinstance(value.value, float))
     return {**dict(_of_laws(laws)), **{value.path: value for value in own}}

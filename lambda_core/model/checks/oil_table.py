@@ -68,7 +68,7 @@ class OilTable(BaseModel):
 class OilLaw:
     """Rheology law with one lubricant's parameters.
 
-    ln(eta) and rho at any pressure and temperature.
+    It returns ln(eta) and rho at any pressure and temperature.
     """
 
     def __init__(self, row: LubricantRow, models: Registry, name: str | None = None) -> None:
@@ -83,7 +83,7 @@ class OilLaw:
     def state(self, pressure: float, temperature: float) -> tuple[float, float]:
         """Return ln(eta / Pa s) and rho [kg/m3].
 
-        At a pressure [Pa] and temperature [K].
+        The arguments are a pressure [Pa] and a temperature [K].
         """
         ln_eta, rho = np.full(1, np.nan), np.full(1, np.nan)
         status = self._kernel(np.array([pressure]), np.array([temperature]), self._par, ln_eta, rho)

@@ -124,7 +124,7 @@ def speed_warning(speed: float, limit: float | None) -> Iterator[str]:
 def applied_load(model: BearingModel) -> tuple[float, float] | None:
     """Return the largest applied load [N].
 
-    Radial and axial on the inner ring; None where its place decides them.
+    The radial and axial loads act on the inner ring; the result is None where its place decides them.
 
     The weight of inner ring and shaft counts, as far as gravity is across or along the axis.
     """
@@ -152,7 +152,7 @@ def _mode(body: Body, dof: str) -> str:
 def ratings(model: BearingModel) -> tuple[float, float]:
     """Return C and C_0 [N].
 
-    The catalogue's, or from the geometry (ISO 281, ISO 76).
+    They are the catalogue's, or follow from the geometry (ISO 281, ISO 76).
     """
     g = model.geometry
     size, angle = (g.ball_count, g.ball_diameter, g.pitch_diameter), g.contact_angle
@@ -227,7 +227,7 @@ def _force(newton: float) -> str:
 def _tilt(model: BearingModel) -> list[str]:
     """Judge tilts that the case prescribes.
 
-    Those that follow from the loads are known after solving.
+    Tilts that follow from the loads are known only after solving.
     """
     states = [body.dofs[dof] for body in (model.inner_ring, model.outer_ring) for dof in ("tilt_y", "tilt_z")]
     prescribed = [peak(state.motion) if state.mode == "prescribed" else 0.0 for state in states]
@@ -269,7 +269,7 @@ def _heating(model: BearingModel) -> Iterator[str]:
 def heating_factor(model: BearingModel) -> float | None:
     """Return the factor of inlet heating.
 
-    On the film at the inner ring, None where the laws give none.
+    It reduces the film at the inner ring; it is None where the laws give none.
 
     The chosen law is asked at epicyclic rolling, u = D_w/4 (d_m/D_w) (1 - gamma^2) |Omega_i - Omega_o| with
     gamma = D_w/d_m (the mean of both surfaces where they roll without slip; Harris and Kotzalas, Rolling Bearing

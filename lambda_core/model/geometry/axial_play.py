@@ -12,7 +12,7 @@ from lambda_core.model.geometry.resolve_clearance import picked
 def axial_play(model: BearingModel, clearance: float) -> float:
     """Return the axial play to contact [m].
 
-    From the middle until the elements touch, without load.
+    It is the way from the middle until the elements touch, without load.
 
     A (sin(alpha_0) - sin(alpha_s)) with cos(alpha_0) = cos(alpha_s) - G_r/(2 A), A = r_i + r_o - D_w, alpha_s the
     resting angle of four-point contact, else 0 (Harris and Kotzalas 2006, eq. 2.9 and ch. 2). Of one row. Rollers

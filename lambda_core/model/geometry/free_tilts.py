@@ -1,6 +1,6 @@
 """Lock tilts that a bearing cannot hold.
 
-Where a case says nothing of them.
+It does so where a case says nothing of them.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ TILTS = ("tilt_y", "tilt_z")
 def hold_tilts(case: Case, geometry: Geometry, ledger: Ledger) -> Case:
     """Return the case with locked tilts.
 
-    Those of a self-aligning bearing's inner ring where the case has no option for them.
+    It locks those of a self-aligning bearing's inner ring where the case has no option for them.
 
     The sphere turns under the balls without resistance: nothing in the bearing decides its misalignment.
     """

@@ -95,7 +95,7 @@ def _check_sphere(g: Geometry, say: Callable[[str, str], None]) -> None:
 def _half_width(g: Geometry, ring: str) -> float:
     """Return half the chord of a groove [m].
 
-    At its shoulders; h (2 r - h) is its square.
+    The chord joins the shoulders; its half is the square root of h (2 r - h).
     """
     radius = getattr(g, f"groove_radius_{ring}")
     height = 0.5 * abs(getattr(g, f"shoulder_diameter_{ring}") - getattr(g, f"race_diameter_{ring}"))

@@ -35,7 +35,7 @@ def clearance_as_bought(
 ) -> Limits | None:
     """Return the limits of the bought clearance [m].
 
-    Radial internal clearance; None after a problem.
+    They limit the radial internal clearance; the result is None after a problem.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def _from_class(bearing: Bearing, name: str, bore: float, catalogue: Catalogue, 
 def class_of_kind(table: KindClearance, bearing: Bearing, bore: float, where: str, ledger: Ledger) -> Limits | None:
     """Return the limits of a clearance class [m].
 
-    Of a kind that has its own; CN where none is named; None: a problem.
+    The kind has limits of its own. The class is CN where none is named; the result is None after a problem.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def resolve_mounting(
 ) -> Mounting | None:
     """Return the data of the operating clearance.
 
-    Without the temperatures; None after a problem.
+    It lacks the temperatures; the result is None after a problem.
     """
     fits, given = case.bearing.fits, case.bearing.temperatures
     shaft, housing = _seats(fits, geometry, ledger) if fits else (None, None)
@@ -174,7 +174,7 @@ def resolve_mounting(
 def clearance_in_operation(case: Case, geometry: Geometry, mounting: Mounting, ledger: Ledger) -> float:
     """Return the operating radial clearance [m].
 
-    Of the mounted, warm bearing, each step recorded.
+    It is that of the mounted, warm bearing; each step is recorded.
 
     Without [bearing.fits] and [bearing.temperatures] the clearance counts as that in operation.
     """

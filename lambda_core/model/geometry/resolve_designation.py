@@ -61,7 +61,7 @@ def _with_suffixes(case: Case, read: Designation, ledger: Ledger) -> Case:
 def _clearance(case: Case, written: str, suffix: Suffix, ledger: Ledger) -> Case:
     """Take the clearance class.
 
-    Only where the case has neither a clearance nor both raceway diameters.
+    It does so only where the case has neither a clearance nor both raceway diameters.
     """
     name = {"C0": "CN"}.get(written, f"C{written[2]}" if written.startswith("P") else written)
     inline = case.bearing.geometry
@@ -128,9 +128,6 @@ def _left(case: Case, written: str, suffix: Suffix, other: str, ledger: Ledger) 
 def _filled(
     case: Case, section: str, update: dict[str, Any], value: str, written: str, suffix: Suffix, ledger: Ledger
 ) -> Case:
-    """Return the case with options of a section.
-
-    Freeze what the suffix stood for.
-    """
+    """Return the case with the options that a suffix decides."""
     ledger.record(f"{WHERE}: {written}", value, "", suffix.meaning, "given")
     return case.model_copy(update={section: getattr(case, section).model_copy(update=update)})

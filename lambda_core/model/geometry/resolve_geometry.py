@@ -29,7 +29,7 @@ INNER = ("ball_count", "ball_diameter")
 class Picker:
     """Picker of dimensions.
 
-    From the case, else from the catalogue row; it notes the origin.
+    It takes them from the case, otherwise from the catalogue row, and notes the origin.
     """
 
     inline: InlineGeometry
@@ -187,7 +187,7 @@ def _with_shoulders(geometry: Geometry, picker: Picker) -> Geometry:
 def _contact_angle(bearing: Bearing, row: BearingRow | None, ledger: Ledger) -> float:
     """Return the free contact angle [rad].
 
-    Of angular contact the case's, else the row's; 0 of radial contact.
+    Angular contact bearings take it from the case, otherwise from the row; it is 0 for radial contact.
 
     A value of the clearance takes the place of the row's angle; a class is one of radial contact and is refused.
     """
@@ -211,7 +211,7 @@ def _contact_angle(bearing: Bearing, row: BearingRow | None, ledger: Ledger) -> 
 def _clearance_of_angle(angle: float, distance: float, ledger: Ledger) -> Limits:
     """Return the clearance of a contact angle.
 
-    2 A (1 - cos(alpha_0)) (Harris and Kotzalas 2006, eq. 2.9).
+    It is 2 A (1 - cos(alpha_0)) (Harris and Kotzalas 2006, eq. 2.9).
     """
     clearance = 2.0 * distance * (1.0 - math.cos(angle))
     ledger.record("bearing.clearance", clearance, "small_length", "from the free contact angle", "derived")
@@ -234,7 +234,7 @@ def _races(picker: Picker) -> tuple[float | None, float | None]:
 def _ratings(picker: Picker) -> None:
     """Record limiting speed and load ratings.
 
-    For limits, life and catalogue methods.
+    They serve limits, life and catalogue methods.
 
     A geometry of one's own has none of the row's ratings.
     """

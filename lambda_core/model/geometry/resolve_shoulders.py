@@ -16,7 +16,7 @@ SHOULDER_SPREAD = 1.21
 def shoulder(picker: Picker, ring: str, ball: float, pitch: float, known: Shoulders | None) -> float:
     """Return the diameter of a ring's shoulder.
 
-    Of angular contact that of the high one, which carries the load.
+    An angular contact bearing has a high shoulder that carries the load; its diameter counts.
 
     Where it is not known it follows from the mean height of its kind; None: deep groove.
     """

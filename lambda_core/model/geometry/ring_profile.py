@@ -42,7 +42,7 @@ def ring_profile(geometry: Geometry, ring: int) -> Callable[[float], float]:
     def surface(way: Raceway, x: float) -> float:
         """Return the groove's surface.
 
-        Where it does not reach, a place far beyond the ball.
+        Where the groove does not reach, the surface is far beyond the ball.
         """
         square = way.groove_radius**2 - (x - way.axial_offset) ** 2
         return way.groove_circle + toward * math.sqrt(square) if square > 0.0 else -toward * math.inf

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 
 def given_parameters(what: str, model: type[BaseModel], texts: Mapping[str, Any], where: str, ledger: Ledger) -> Any:
-    """Return an instance of `model`.
+    """Return an instance of `model`, or None after a mistake.
 
-    Or None with every mistake in the ledger.
+    The ledger takes every mistake.
 
     Parameters
     ----------

@@ -101,7 +101,7 @@ def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: O
 def max_speed(model: BearingModel) -> float:
     """Return the largest planned spin [rad/s].
 
-    Of either ring; 0 when both are free and start at rest.
+    It is that of either ring; it is 0 when both are free and start at rest.
     """
     return max(peak(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
 

@@ -47,7 +47,7 @@ def record_law(ledger: Ledger, element: str, role: str, law: ChosenLaw, chosen_b
 def default_sentences(role: str, law: ChosenLaw, written: Mapping[str, Any]) -> list[str]:
     """Return a sentence for each default parameter.
 
-    Neither the case nor the oil gives it.
+    The sentences name those that neither the case nor the oil gives.
 
     `written` is what its parameters are in a file. The last word is the grade: published, unconfirmed, assumed, or
     numerical (a regularisation without physical meaning). A default that is absent stands for what the law computes,

@@ -35,7 +35,7 @@ def law_called(registry: ModelSource, role: str, name: str, *, given: bool) -> L
 def with_packages(case: Case, registry: ModelSource) -> Case:
     """Return the case with qualified law names.
 
-    For every law of a plugin, "carreau-traction:carreau".
+    Every law of a plugin gets a name such as "carreau-traction:carreau".
 
     So it means the same law in years, whatever else has that name by then. Names that cannot be found stay.
     """

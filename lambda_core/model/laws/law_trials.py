@@ -63,10 +63,7 @@ def law_problems(model: BearingModel) -> tuple[Problem, ...]:
 
 
 def _fault(model: BearingModel, element: str, law: ChosenLaw, frame: ContactFrame) -> str:
-    """Report a law's fault in one force element.
-
-    Or nothing.
-    """
+    """Report a law's fault in one force element, if any."""
     oil = model.oil
     try:
         if law.model.role != "rheology":
@@ -97,7 +94,7 @@ def _at_the_start(model: BearingModel, element: str, law: ChosenLaw, par: FloatA
 def _frame(model: BearingModel) -> ContactFrame:
     """Return contacts at the angle 0.
 
-    With the loads of the case over the balls.
+    The loads of the case are shared by the balls.
     """
     forces = [term.values[0] for f in model.inner_ring.force for term in f.terms if term.kind == "constant"]
     load = max(math.hypot(*forces) if forces else 0.0, 1.0) / model.geometry.ball_count
@@ -107,7 +104,7 @@ def _frame(model: BearingModel) -> ContactFrame:
 def _with_viscosity(model: BearingModel, element: str, frame: ContactFrame) -> Oil:
     """Return the oil with its rheology's values.
 
-    At the bulk temperature, called in plain Python.
+    The values hold at the bulk temperature; the law is called in plain Python.
     """
     law = model.laws[element]["rheology"]
     par = prepare(law, build_context(model, element, frame, model.oil))

@@ -21,7 +21,7 @@ from lambda_core.views.method import EquilibriumState, MethodInputs
 def carried_load(state: EquilibriumState) -> tuple[float, float]:
     """Return the load [N] that the balls carry.
 
-    Radial and axial at the inner ring: the sum of their contact forces.
+    The radial and axial loads at the inner ring are the sum of the balls' contact forces.
     """
     axial, horizontal, vertical = _carried(state)
     return math.hypot(horizontal, vertical), abs(axial)
@@ -30,7 +30,7 @@ def carried_load(state: EquilibriumState) -> tuple[float, float]:
 def _carried(state: EquilibriumState) -> tuple[float, float, float]:
     """Return the sum of the contact forces [N].
 
-    Along x, y and z.
+    Its components are along x, y and z.
     """
     axial = sum(contact.load_inner * math.sin(contact.angle_inner) for contact in state.contacts)
     inward = [(contact.load_inner * math.cos(contact.angle_inner), contact.azimuth) for contact in state.contacts]
@@ -42,7 +42,7 @@ def _carried(state: EquilibriumState) -> tuple[float, float, float]:
 def bearing_load(model: BearingModel, state: EquilibriumState) -> tuple[float, float]:
     """Return the load of the bearing [N].
 
-    Radial and axial: the applied one where the ring is free, the carried one where it is held.
+    Its radial and axial parts are the applied load where the ring is free, and the carried load where it is held.
 
     Along a free axis without support that is force and weight, exactly; contact forces alone leave out the friction
     and the gyroscopic moments of the balls, which hold a part of it.
@@ -61,7 +61,7 @@ def permittivity_over_pressure(
 ) -> Callable[[float], float]:
     """Return the relative permittivity over pressure [Pa].
 
-    At `temperature` [K], from the chosen laws as plain Python.
+    It holds at `temperature` [K] and comes from the chosen laws in plain Python.
 
     Parameters
     ----------

@@ -51,7 +51,7 @@ class ModelSource(Protocol):
 class LawResolver:
     """Resolver that fills every role of every element.
 
-    Of every force element; problems go to the ledger.
+    It takes every force element; problems go to the ledger.
     """
 
     case: Case
@@ -91,7 +91,7 @@ class LawResolver:
     def _check_names(self) -> None:
         """Note roles that an element does not have.
 
-        In [forces.ELEMENT] and [parameters].
+        It looks at [forces.ELEMENT] and [parameters].
         """
         for role in self.case.parameters:
             if role not in MOTION_ROLES:
@@ -170,7 +170,7 @@ class LawResolver:
     def _not_guided(self, element: str) -> str:
         """Report why no land guides the cage.
 
-        In a force element.
+        The cage is in a force element.
         """
         if element in LANDS:
             ring = LANDS[element]
@@ -232,7 +232,7 @@ class LawResolver:
     def _default(self, role: str) -> str:
         """Return the built-in default.
 
-        For a law of the oil, the one that the oil has data for.
+        A law of the oil is the one that the oil has data for.
         """
         if role == "fluid_drag" and self.case.lubricant.lubrication in MIXTURES:
             return CAVITY_DRAG
@@ -311,7 +311,7 @@ class LawResolver:
     def _lacking(self, role: str, chosen: Law, missing: list[str]) -> str:
         """Report what a law needs of the oil.
 
-        One sentence, with the laws that the oil has data for.
+        The report is one sentence that names the laws for which the oil has data.
         """
         assert self.lubricant is not None
         known = [name for name in self.lubricant.parameters.get(role, {}) if name != chosen.name]
@@ -356,7 +356,7 @@ class LawResolver:
     def _explain(self, laws: Mapping[str, Mapping[str, ChosenLaw]]) -> None:
         """Turn defaults and weak data into sentences.
 
-        One per value, with source and grade; the data are the lubricant's.
+        Each value has one sentence with its source and grade; the data are the lubricant's.
         """
         for element, roles in laws.items():
             for role, law in roles.items():

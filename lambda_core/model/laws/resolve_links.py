@@ -26,7 +26,7 @@ def resolve_links(
 ) -> tuple[dict[str, Link], dict[str, dict[str, ChosenLaw]]]:
     """Return the force elements and their laws.
 
-    By name, as the model names them; complete unless there are problems.
+    The keys are their names in the model. They are complete unless there are problems.
     """
     links: dict[str, Link] = {}
     laws: dict[str, dict[str, ChosenLaw]] = {}
@@ -70,7 +70,7 @@ def resolve_markers(case: Case, ledger: Ledger) -> dict[str, Marker]:
 def _end(case: Case, name: str, where: str, ledger: Ledger) -> End | None:
     """Return the body and place of a name.
 
-    None with a problem in the ledger.
+    The result is None after a problem, which the ledger takes.
     """
     if name in case.markers and name in (GROUND, *BODIES):
         ledger.problem(where, f'"{name}" is a marker and also a reserved name: rename the marker')

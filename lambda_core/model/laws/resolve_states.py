@@ -16,7 +16,7 @@ def check_states(
 ) -> None:
     """Note states that nobody keeps.
 
-    Also those that have two units, or the name of an observer's channel.
+    It also notes states that have two units, or the name of an observer's channel.
     """
     known: dict[str, State] = {}
     for element in RACEWAYS:

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 
 def states_of(model: BearingModel, element: str) -> tuple[State, ...]:
-    """Return the states of each contact.
+    """Return the states of each contact of one raceway.
 
-    Of one raceway, in the order of its law.
+    They are in the order of its law.
     """
     return model.laws[element][ROLE].model.states
 
@@ -40,7 +40,7 @@ def arc_channels(model: BearingModel) -> tuple[Channel, ...]:
 def wave_channels(model: BearingModel) -> tuple[Channel, ...]:
     """Return the channels of waves.
 
-    One for each number of waves of each elastic body, then its ovality.
+    Each elastic body has one for each number of waves, then one for its ovality.
     """
     found = []
     for body, waves in model.elastic.items():

@@ -103,7 +103,7 @@ def _term_initial(term: Term) -> float:
 def planned_speed(function: TimeFunction) -> float:
     """Return the value at t = 0.
 
-    Where that is 0 the largest one that is planned, with its sign.
+    Where it is 0, return the largest planned value with its sign.
     """
     values = [initial(function)]
     for term in function.terms:

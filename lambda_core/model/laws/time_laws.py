@@ -68,7 +68,7 @@ def resolve_time_laws(
 ) -> tuple[C, dict[str, dict[str, ChosenLaw]]]:
     """Return the case with resolved time laws.
 
-    Its signals have their courses; also return the laws as the model names them.
+    Its signals have their courses. Also return the laws under their names in the model.
 
     Parameters
     ----------

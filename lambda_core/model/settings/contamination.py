@@ -12,7 +12,7 @@ ASSUMED = "normal cleanliness"  # of bearings whose case gives nothing: shown, a
 def contamination_of(case: Case, pitch_diameter: float, ledger: Ledger) -> float | None:
     """Return the contamination factor e_C.
 
-    Of a level the lower end (ISO 281:2007, table 13); None where none is given.
+    A level has its lower end (ISO 281:2007, table 13); the result is None without a level.
     """
     given = case.life.contamination
     if not isinstance(given, str):

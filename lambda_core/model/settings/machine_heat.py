@@ -69,7 +69,7 @@ class MachineHeat:
     def assumptions(self) -> list[str]:
         """Assumptions of the network.
 
-        Also the values that it adds where the case has none.
+        They include the values that the network adds where the case has none.
         """
         return network_assumptions(self.section) if self.is_alone else _assumptions(self.section)
 
@@ -212,7 +212,7 @@ def _own_nodes(case: MachineCase) -> dict[str, ThermalNode]:
 def _shaft_nodes(case: MachineCase, body: ElasticBody) -> tuple[str, ...]:
     """Return the names of the shaft's nodes.
 
-    Of a bearing, gear, disc or marker, of the ends, otherwise numbers.
+    A node has the name of its bearing, gear, disc, marker or end; the others have numbers.
     """
     named = [(name, gear.place) for name, gear in case.gears.items()]
     named += [(name, disc.place) for name, disc in case.discs.items()]

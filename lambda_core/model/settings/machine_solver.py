@@ -94,7 +94,7 @@ def _outer_speed(mounted: MountedBearing) -> float:
 def _excitation(case: MachineCase) -> float:
     """Return the highest excitation frequency [Hz].
 
-    Of loads and motions; 0 where there is none.
+    It is that of loads and motions, or 0 where there is none.
     """
     signals = [signal for _, signal in changing(case)]
     for bearing in case.bearings.values():

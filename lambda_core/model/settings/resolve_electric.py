@@ -50,7 +50,7 @@ def resolve_machine_electric(
 ) -> ElectricModel | None:
     """Return the circuit of a machine.
 
-    With the laws of all its films; None where it has none.
+    It includes the laws of all its films; the result is None where the machine has no circuit.
     """
     if options is None:
         return None
@@ -63,7 +63,7 @@ def resolve_machine_electric(
 def with_circuits(models: Mapping[str, BearingModel], circuit: ElectricModel | None) -> dict[str, BearingModel]:
     """Return the bearings with their circuits.
 
-    Each has its own options of the machine's circuit.
+    Each bearing adds its own options to the machine's circuit.
     """
     if circuit is None or not isinstance(circuit.options, MachineElectric):
         return dict(models)
@@ -114,7 +114,7 @@ def _arcs_can_burn(options: Electric, law: ChosenLaw, ledger: Ledger) -> None:
 def assumed(laws: Mapping[str, ChosenLaw]) -> list[str]:
     """Return the defaults of the laws.
 
-    A sentence per value.
+    Each value has a sentence.
     """
     return [
         sentence

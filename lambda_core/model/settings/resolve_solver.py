@@ -140,9 +140,9 @@ def resolution(given: Solver, frequency: float, why: str, ledger: Ledger, *, is_
 
 
 def surface_of_its_own(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> str:
-    """Return the raceway that is not nominal.
+    """Return the raceway that is not nominal, in words.
 
-    In words, or nothing.
+    The text is empty where there is none.
     """
     for element, roles in laws.items():
         if "surface" in roles and roles["surface"].model.name != "none":
@@ -168,7 +168,7 @@ def _spins(case: Case) -> tuple[Any, Any]:
 def cage_period(geometry: Geometry, inner: float, outer: float = 0.0) -> float:
     """Return the duration of a cage turn [s].
 
-    One epicyclic turn at the highest planned speeds [rad/s]; inf at rest.
+    It is one epicyclic turn at the highest planned speeds [rad/s]; it is infinite at rest.
 
     omega_c = (Omega_i (1 - D_w/d_m) + Omega_o (1 + D_w/d_m))/2, contact angle 0.
     """
@@ -180,7 +180,7 @@ def cage_period(geometry: Geometry, inner: float, outer: float = 0.0) -> float:
 def _say_what_folds(case: Case, highest: float, ledger: Ledger) -> None:
     """Report samples that are too far apart.
 
-    For the highest frequency that is resolved or excited.
+    They are too far apart for the highest frequency that is resolved or excited.
     """
     interval = case.output.interval
     if interval is not None and highest * LEAST_PER_PERIOD * interval > 1.0:

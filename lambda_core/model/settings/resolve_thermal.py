@@ -41,7 +41,7 @@ _SURROUNDINGS = (173.15, 773.15)  # [K]
 class NodeSet:
     """Nodes of a network and their links.
 
-    With the options of the case.
+    It has the options of the case.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class NodeSet:
     def isolated(self) -> list[str]:
         """Return the nodes without a held temperature.
 
-        No way leads from them to a held temperature; in order.
+        They have no way to a held temperature; the order is that of the nodes.
         """
         return isolated(self.names, self.pairs, self.held)
 
@@ -112,7 +112,7 @@ def held_temperatures(thermal: Thermal) -> dict[str, float]:
 def isolated(names: Iterable[str], pairs: Iterable[Pair], held: Iterable[str]) -> list[str]:
     """Return the nodes without a held temperature.
 
-    No way leads from them to a held temperature; in order.
+    They have no way to a held temperature; the order is that of the nodes.
     """
     reached, links = set(held), list(pairs)
     while True:
@@ -199,7 +199,7 @@ def check_surroundings(thermal: Thermal, ledger: Ledger) -> None:
 def check_nodes(nodes: Mapping[str, ThermalNode], supplies: Iterable[str], ledger: Ledger) -> None:
     """Note nodes that the case cannot change.
 
-    And starts of nodes that are held.
+    Also note start temperatures of nodes that are held.
     """
     if "ambient" in nodes:
         ledger.problem("thermal.nodes.ambient", "is held at thermal.ambient: change that option option")

@@ -77,7 +77,7 @@ def resolve_events(case: Case, registry: WatchSource, ledger: Ledger) -> dict[st
 def _parameters(item: Observer | Event, where: str, texts: Mapping[str, Any], ledger: Ledger) -> Any:
     """Return validated parameters.
 
-    Or None with the problems in the ledger.
+    The result is None after a problem, which the ledger takes.
     """
     what = "observer" if isinstance(item, Observer) else "event"
     return given_parameters(f"the {what} {item.name}", item.parameters, texts, where, ledger)
