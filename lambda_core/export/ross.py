@@ -96,7 +96,7 @@ def _piece(ross: Any, body: ElasticBody, node: int) -> Any:
 def _stiffness(stiffness: FloatArray) -> FloatArray:
     """Return the matrix of a bearing for ROSS.
 
-    In their order, shape (6, 6).
+    Rows and columns have the order of ROSS; the matrix has shape (6, 6).
     """
     matrix = np.zeros((NODE, NODE))
     matrix[np.ix_(_THEIRS, _THEIRS)] = 0.5 * (stiffness + stiffness.T)

@@ -1,6 +1,6 @@
 """Write stiffness and damping of every bearing.
 
-JSON and CSV.
+It writes JSON and CSV.
 """
 
 from __future__ import annotations

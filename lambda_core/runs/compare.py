@@ -119,7 +119,7 @@ def _compare_in_machine(
 ) -> Comparison:  # fmt: skip
     """Compare methods on one bearing of a machine.
 
-    Those for balls and those for rollers, at its pose there.
+    The methods are those for balls and those for rollers, at its pose there.
     """
     import dataclasses
 

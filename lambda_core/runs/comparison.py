@@ -44,7 +44,7 @@ class ComparedNumber(Record):
 class ComparedMethod(Record):
     """Answer of one method.
 
-    Without numbers the reason explains why it does not apply.
+    An answer without numbers has the reason why it does not apply.
     """
 
     name: str
@@ -83,7 +83,7 @@ class Comparison(Answer):
     def text(self, units: UnitSystem = SI) -> str:
         """Return the tables of methods.
 
-        One per group, a row per quantity, a column per method.
+        Each group has a table, each quantity a row, and each method a column.
         """
         lines = [units.sentence(self.headline)]
         for group in GROUP_UNITS:

@@ -139,7 +139,7 @@ def cross_check(
 ) -> CrossCheck:
     """Integrate a model with both integrators and compare.
 
-    From its equilibrium.
+    Both start from the model's equilibrium.
 
     Parameters
     ----------
@@ -251,7 +251,7 @@ def _power_bound(motion: MotionStart[Any, Any], end: float, lost: float, referen
 def _inner_loads(samples: Channels | MachineSamples) -> list[FloatArray]:
     """Return the loads of the inner contacts [N].
 
-    Of every bearing, shape (time, ball).
+    They belong to every bearing; the array has shape (time, ball).
     """
     each = samples.bearings if isinstance(samples, MachineSamples) else [samples]
     return [channels["load"][:, :, RINGS.index("inner")] for channels in each]
@@ -260,7 +260,7 @@ def _inner_loads(samples: Channels | MachineSamples) -> list[FloatArray]:
 def _gripped(load: FloatArray) -> NDArray[np.bool_]:
     """Mark the balls that were always loaded.
 
-    By the inner ring, shape (time, ball), from the inner contacts' loads.
+    The inner ring loads them; the array has shape (time, ball), from the inner contacts' loads.
     """
     pressed = load > CARRYING * load.max(axis=1, keepdims=True)
     return np.asarray(np.logical_and.accumulate(pressed, axis=0))
@@ -269,7 +269,7 @@ def _gripped(load: FloatArray) -> NDArray[np.bool_]:
 def _distance(apart: FloatArray, chosen: NDArray[np.bool_]) -> FloatArray:
     """Return the rms of the chosen states.
 
-    At each time, 0 where there is none.
+    It holds at each time, and is 0 where there is none.
     """
     total: FloatArray = np.sqrt(np.sum(np.where(chosen, apart, 0.0) ** 2, axis=1) / np.maximum(chosen.sum(axis=1), 1))
     return total

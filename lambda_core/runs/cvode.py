@@ -48,7 +48,7 @@ class CvodeRun:
     def dissipated(self) -> FloatArray:
         """Return the dissipated energy of friction [J].
 
-        Since the first time, shape (n,).
+        It counts from the first time; the array has shape (n,).
         """
         lost: FloatArray = self.integrals[:, : self.integrals.shape[1] - L.BESIDE_LOSSES].sum(axis=1)
         return lost
@@ -64,7 +64,7 @@ def integrate(
 ) -> CvodeRun:
     """Integrate a bearing or machine with CVODE's BDF.
 
-    From its equilibrium.
+    The integration starts from the equilibrium.
 
     Parameters
     ----------

@@ -146,7 +146,7 @@ def estimate(
 def _cage_turn(model: BearingModel, found: Equilibrium) -> float:
     """Return the duration of one cage turn [s].
 
-    Against the outer ring; inf at rest.
+    The cage turns against the outer ring; the result is inf at rest.
     """
     speed = abs(found.orbit - initial(model.outer_ring.dofs["spin"].motion))
     return 2.0 * math.pi / speed if speed > 0.0 else math.inf
@@ -173,7 +173,7 @@ def _turns(solver: Solver) -> int:
 class _Trial:
     """First moments of a run.
 
-    Their simulated time [s], their processor time, and the simulated time of the run [s].
+    It has their simulated time [s], their processor time, and the simulated time of the run [s].
     """
 
     simulated: float

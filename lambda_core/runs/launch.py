@@ -61,7 +61,7 @@ def launch(
 ) -> Result:
     """Run a model into a result file.
 
-    From its quasi-static equilibrium.
+    The run starts from the model's quasi-static equilibrium.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def destination(model: Runnable, out: Path | None, overwrite: bool) -> Path:
 def prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Provenance, Attachments]:
     """Return the engine at t = 0 and origin.
 
-    Also what is computed from its samples.
+    Also return what is computed from its samples.
     """
     found = _machine(model, announce) if isinstance(model, MachineModel) else _one(model, announce)
     engine, provenance, live = found

@@ -139,10 +139,7 @@ class BlamingBearingEngine(BlamingEngine[Channels, Sums], BearingEngine):
 
 
 def _of(one: ReadBearing, sentence: str) -> str:
-    """Return a sentence with its bearing.
-
-    Only where there are several.
-    """
+    """Return a sentence with its bearing if there are several."""
     return f"{one.name}: {sentence}" if one.name else sentence
 
 

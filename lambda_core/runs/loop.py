@@ -51,7 +51,7 @@ def run(
 ) -> Result:
     """Simulate from the start until the end.
 
-    Into a new result file.
+    It writes a new result file.
 
     Parameters
     ----------

@@ -88,14 +88,14 @@ class Watch:
     def faults(self) -> tuple[str, ...]:
         """Reasons for stopped observers and events.
 
-        One sentence each.
+        Each reason is one sentence.
         """
         return tuple(self.failed.values())
 
     def keys(self) -> dict[str, str]:
         """Return the hashes of observers and events.
 
-        "observer/NAME" or "event/NAME" -> hash of the function's module.
+        The keys are "observer/NAME" or "event/NAME"; the hash is that of the function's module.
         """
         found = {f"observer/{name}": chosen.item.key for name, chosen in self._observers.items()}
         return found | {f"event/{name}": chosen.item.key for name, chosen in self._events.items()}
@@ -103,7 +103,7 @@ class Watch:
     def take(self, samples: Mapping[str, NDArray[np.float64]]) -> Seen:
         """Call every observer and event.
 
-        With a stretch of samples, channel -> array; events see observers' channels.
+        They get a stretch of samples, a mapping of channel to array; events see observers' channels.
         """
         shown = {name: _locked(values) for name, values in samples.items()}
         channels: dict[str, FloatArray] = {}
@@ -164,7 +164,7 @@ class Watch:
     def _report_without_numbers(self, what: str, arrays: Mapping[str, FloatArray], time: float) -> None:
         """Report each channel without finite numbers once.
 
-        In a stretch of samples.
+        It looks at one stretch of samples.
         """
         for key, values in arrays.items():
             if key not in self.without_numbers and not np.isfinite(values).any():

@@ -94,7 +94,7 @@ def watch_problems(model: BearingModel | MachineModel) -> list[Problem]:
 def _first_two(model: BearingModel | MachineModel) -> dict[str, Any]:
     """Return the first two samples by bearing.
 
-    Of the start and of a moment after it.
+    They are at the start and at a moment after it.
     """
     from lambda_core.runs.launch import prepared
 
@@ -139,7 +139,7 @@ class _Trial:
     def of(self, kind: str, item: Any) -> tuple[list[str], list[str], str]:
         """Return the faults of one plugin.
 
-        With its warnings, and the reason where it was not tested.
+        Also return its warnings, and the reason where it was not tested.
         """
         if kind in ("observer", "event"):
             return self._watched(kind, item)

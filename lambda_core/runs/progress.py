@@ -17,7 +17,7 @@ from lambda_core.domain.processes import STOP_SIGNALS
 class Progress(BaseModel):
     """Progress of a run.
 
-    One JSON line each with ``--progress=json``.
+    ``--progress=json`` prints it as one JSON line each.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")

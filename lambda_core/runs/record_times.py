@@ -19,7 +19,7 @@ RECORDS_PER_REVOLUTION = 40
 def record_interval(engine: RunEngine, models: Sequence[BearingModel]) -> float:
     """Return the time between records [s].
 
-    Simulated time, 1/40 of a nominal cage revolution.
+    It is simulated time, 1/40 of a nominal cage revolution.
 
     The engine's default of SAMPLES_PER_REVOLUTION says how long that is; with an
     interval of one's own, the inner ring's planned speed and D_w/d_m do, of the bearing whose cage turns fastest.
@@ -40,7 +40,7 @@ def record_interval(engine: RunEngine, models: Sequence[BearingModel]) -> float:
 def next_multiple(now: float, interval: float) -> float:
     """Return the next multiple of `interval`.
 
-    After `now`, whatever the rounding.
+    It lies after `now`, whatever the rounding.
     """
     number = math.floor(now / interval) + 1
     while number * interval <= now:

@@ -22,7 +22,7 @@ def ready(
 ) -> BearingModel | MachineModel:
     """Return a model with its temperatures.
 
-    Of a bearing or a machine.
+    The model is one of a bearing or a machine.
     """
     from lambda_core.analysis.thermal.temperatures import ready_model  # `show` starts without what runs need
     from lambda_core.case.case_io import is_machine
@@ -38,7 +38,7 @@ def ready(
 def rerun(found: Result, changes: Mapping[str, Any], out: str | Path | None) -> Result:
     """Run the changed case of a result.
 
-    Into `out` as of :func:`lambda_core.api.run`.
+    The run writes `out` as :func:`lambda_core.api.run` does.
     """
     from lambda_core.case.case_io import read_case, toml_tables
     from lambda_core.runs.launch import launch

@@ -43,7 +43,7 @@ class RunEngine(Protocol):
     def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
         """Integrate until `time` >= `until` [s].
 
-        Or until `pause` is true; samples gather meanwhile.
+        It stops earlier where `pause` is true; samples gather meanwhile.
         """
 
     def samples(self) -> Samples:
@@ -58,13 +58,13 @@ class RunEngine(Protocol):
     def statistics(self) -> dict[str, float]:
         """Return counters of the integrator.
 
-        Since the start, those of a restored state among them.
+        They count from the start and include those of a restored state.
         """
 
     def modes(self) -> list[tuple[float, float]]:
         """Return the modes at `time`.
 
-        Frequency [Hz] and damping ratio.
+        Each has a frequency [Hz] and a damping ratio.
         """
 
     def state(self) -> dict[str, NDArray[np.float64]]:

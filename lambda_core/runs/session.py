@@ -86,7 +86,7 @@ class Attachments:
     def ended_by(self) -> str:
         """Sentence about the event that stopped the run.
 
-        None before.
+        It is None before an event has stopped the run.
         """
         return next((watch.ended_by for watch in self.watches.values() if watch.ended_by), "")
 
@@ -94,7 +94,7 @@ class Attachments:
     def faults(self) -> tuple[str, ...]:
         """Reasons for stopped observers and events.
 
-        One sentence each.
+        Each reason is one sentence.
         """
         return tuple(dict.fromkeys(fault for watch in self.watches.values() for fault in watch.faults))
 
@@ -106,7 +106,7 @@ Last = Mapping[str, FloatArray]  # by bearing: the newest row
 class Session:
     """One stretch of a run.
 
-    From a start or a checkpoint to an end.
+    It lasts from a start or a checkpoint to an end.
     """
 
     def __init__(
@@ -214,7 +214,7 @@ class Session:
     def _advance(self, pause: Callable[[], bool]) -> Advance:
         """Take the engine past the next record.
 
-        Or to where it has to pause, and keep what it brings.
+        It stops earlier where it has to pause, and keeps what the engine brings.
         """
         engine = self._engine
         before = engine.time
@@ -308,7 +308,7 @@ class Session:
     def _collect(self) -> None:
         """Take the samples of the engine.
 
-        Each call of it costs, so not after every record.
+        A call costs time, so it is not made after every record.
         """
         samples = self._engine.samples()
         if len(samples.time):
@@ -327,7 +327,7 @@ class Session:
     def _look(self, samples: Samples) -> None:
         """Keep the newest samples for the progress.
 
-        Those of the bearing with the largest contact load.
+        They are those of the bearing with the largest contact load.
         """
         name = max(samples.bearings, key=lambda name: float(samples.bearings[name]["load"][-1].max()))
         shown = samples.bearings[name]
@@ -411,7 +411,7 @@ class Session:
     def _expected(self, turns: float, wanted: float) -> tuple[float, float]:
         """Return expected cage revolutions and time [s].
 
-        Those of the complete run, by what is known.
+        They are those of the complete run, by what is known.
         """
         now = self._engine.time
         per_turn = now / turns if turns > 0.2 else self._interval * RECORDS_PER_REVOLUTION

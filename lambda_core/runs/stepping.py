@@ -44,7 +44,7 @@ _PUSHES = {
 class Step:
     """State at the end of a step.
 
-    Of a bearing or a machine.
+    It may be that of a bearing or a machine.
 
     Attributes
     ----------
@@ -302,7 +302,7 @@ class Stepping(Iterator[Step]):
     def step_to(self, time_s: float) -> Step:
         """Return the step that ends at a time.
 
-        Exactly at the caller's choice.
+        The caller chooses the time, and the step hits it exactly.
 
         Raises
         ------

@@ -44,7 +44,7 @@ class Warmup(Record):
 def warmup(models: Registry, announce: Callable[[str], None] | None = None) -> Warmup:
     """Compile the solver and every law.
 
-    Those of a registry, into the cache on disk.
+    It compiles the laws of a registry into the cache on disk.
 
     Parameters
     ----------

@@ -14,7 +14,7 @@ from lambda_core.laws.pack import pack
 class Unit:
     """One entry point of compiled code.
 
-    For calls from Python, and as a pointer for other compiled code.
+    Python calls it, and other compiled code calls it as a pointer.
     """
 
     call: Callable[..., int]

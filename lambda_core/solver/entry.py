@@ -76,7 +76,7 @@ def missing() -> list[str]:
 def build(name: str, announce: Callable[[str], None] | None = None) -> Any:
     """Compile one unit or load it.
 
-    Into the cache; return its dispatcher.
+    The cache takes it; return its dispatcher.
     """
     function, signature, sources = _unit(name)
     return compile_host(function, signature, sources, announce, **_OPTIONS.get(name, {})).dispatcher

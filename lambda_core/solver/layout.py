@@ -37,7 +37,7 @@ def record_t(kind: np.dtype[Any]) -> Any:
 def table_t(kind: np.dtype[Any]) -> Any:
     """Return the type of a record array.
 
-    In compiled code.
+    It is for compiled code.
     """
     return types.Array(record_t(kind), 1, "C")
 
@@ -128,7 +128,7 @@ def part(par, span):
 def of(lane, first, count):
     """Return the contacts' numbers from `first` on.
 
-    A view.
+    The result is a view.
     """
     return lane[first : first + count]
 
@@ -137,7 +137,7 @@ def of(lane, first, count):
 def first_of(row, j):
     """Return the first state of ball j.
 
-    Its place in the state vector, for a ball of a row.
+    It is its place in the state vector, for a ball of a row.
     """
     return row.first_state + row.size * (j - row.first_ball)
 
@@ -157,7 +157,7 @@ cells_of = numba.njit(inline="always")(named_cells)
 def losses_of(rates, n):
     """Return the losses of n raceways.
 
-    In an array of powers, by name.
+    They are in an array of powers, by name.
     """
     return Losses(
         rates[:n], rates[n : 2 * n], rates[2 * n : 3 * n], rates[3 * n : 4 * n], rates[4 * n : 5 * n],
@@ -169,6 +169,6 @@ def losses_of(rates, n):
 def running_of(rates):
     """Return the powers behind the losses.
 
-    In an array of powers, behind those of the raceways: a table of one record.
+    They are in an array of powers, after those of the raceways, as a table of one record.
     """
     return rates[rates.size - RUNNING_SIZE :].view(R.RUNNING)

@@ -10,7 +10,7 @@ from lambda_core.solver.layout import helper, rows_helper
 def inner_product(row, other, n):
     """Return the inner product of two rows.
 
-    Of their first n entries, summed in any order: terms do not wait.
+    It covers their first n entries, summed in any order, so that terms do not wait.
     """
     total = 0.0
     for i in range(n):
@@ -32,7 +32,7 @@ def take_multiple(row, factor, other, n):
 def lu_factor(m, pivots):
     """Factor m in place.
 
-    With row pivoting: return 0 when singular.
+    It uses row pivoting; return 0 when singular.
     """
     n = m.shape[0]
     for k in range(n):
@@ -110,7 +110,7 @@ def factor_turned(upper, lower, inverse, pivots):
 def solve_turned(upper, lower, inverse, pivots, b, found):
     """Solve for b in place.
 
-    With the factors of :func:`factor_turned`: rows are filled up, and stay so.
+    It uses the factors of :func:`factor_turned`: rows are filled up, and stay so.
 
     What a sweep has found waits in `found`: a number that was just written among others holds up whoever reads all.
     """

@@ -63,7 +63,7 @@ def _show(kin, contact, sample):
 def _light_capacitance(delta, kin, raceway, j, laws, bundle):
     """Return the capacitance [F] of light contacts.
 
-    Of an open contact or the least one of a light contact, 0 of others; -1 on a fault.
+    It is that of an open contact, the least one of a light contact, or 0 of others; -1 on a fault.
 
     Open contacts come no closer than the film that the oil would leave where they touched, so that capacitance is
     continuous where they do. Beyond the reach of the kinematics the film counts for nothing.
@@ -126,7 +126,7 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
 def _pocket_forces(balls, row, bundle, pockets):
     """Write the pocket forces on balls.
 
-    Of a row.
+    The balls are those of a row.
     """
     scratch, cage, on_cage = bundle.scratch[0], bundle.bodies_now[row.cage], bundle.body_wrenches[row.cage]
     g, out = scratch.guide, scratch.out[:]
@@ -163,7 +163,7 @@ def _land_forces(bundle, forces):
 def _contact_channels(balls, row, bundle, shorted, contacts, losses, rates):
     """Write the raceway contacts' channels.
 
-    Of a row; return the capacitance of its balls, or -1.
+    They are those of a row; return the capacitance of its balls, or -1.
 
     Contacts of a ball with one ring are parallel, its rings in series; raceways of a ring follow each other.
     """

@@ -17,7 +17,7 @@ from lambda_core.solver.layout import helper
 def inverse_root(x):
     """Return 1/sqrt(x) of a normal x > 0.
 
-    To two units in the last place, NaN of NaN.
+    It is exact to two units in the last place; NaN gives NaN.
 
     From half the exponent, then Newton's steps (Muller 2016, Elementary Functions, 3rd ed., chapter 2): products are
     done in half the time of a root and a division, which a loop over cells would wait for.
@@ -89,7 +89,7 @@ def point_velocity(v, w, arm):
 def combine(k, a, b, c):
     """Return the vector of components k.
 
-    Along the axes a, b, c.
+    The components are along the axes a, b, c.
     """
     return (
         k[0] * a[0] + k[1] * b[0] + k[2] * c[0],
@@ -124,7 +124,7 @@ def components(v, a, b, c):
 def turning(v, c, s):
     """Return the turning components x, r, t.
 
-    At the azimuth of cosine c and sine s, of an inertial vector.
+    The vector is inertial; the azimuth has cosine c and sine s.
     """
     return v[0], v[1] * c + v[2] * s, -v[1] * s + v[2] * c
 
@@ -133,7 +133,7 @@ def turning(v, c, s):
 def inertial(v, c, s):
     """Return the inertial components x, y, z.
 
-    Of a vector given in the turning frame.
+    The vector is given in the turning frame.
     """
     return v[0], v[1] * c - v[2] * s, v[1] * s + v[2] * c
 
@@ -189,7 +189,7 @@ _ROUND = 6755399441055744.0  # 1.5 * 2^52: adding it leaves the nearest integer 
 def cosine_sine(angle):
     """Return an angle's cosine and sine.
 
-    Within 2e-16 and the spacing of numbers as large as the angle.
+    They are exact within 2e-16 and the spacing of numbers as large as the angle.
 
     Taylor's series on an eighth of a turn to either side, remainder 5e-17 (Muller 2016, Elementary Functions, 3rd ed.,
     chapter 11, for the reduction): branch-free, a third of the time of two calls of the C library.

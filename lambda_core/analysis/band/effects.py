@@ -116,7 +116,7 @@ class Effects:
     def by_seen(self) -> FloatArray:
         """Return slopes of the logarithms, shape (2, n).
 
-        By the temperature of the oil [1/K] and the clearance [1/m].
+        The slopes are by the temperature of the oil [1/K] and by the clearance [1/m].
         """
         inlet, clearance = self._model.oil.temperature, self._model.geometry.clearance
         moved = (
@@ -173,7 +173,7 @@ class Effects:
     def _others(self, wanted: Sequence[Exchange], resolver: Resolver) -> Iterator[tuple[str, str, BearingModel]]:
         """Yield role, name and model of each other law.
 
-        One model has one other law of every role.
+        Each model replaces the law of one role by another one.
         """
         for number in range(max((len(exchange.laws) for exchange in wanted), default=0)):
             pairs = [(exchange.role, exchange.laws[number]) for exchange in wanted if number < len(exchange.laws)]
@@ -200,7 +200,7 @@ class Effects:
     def _fitted(self, fit: FitOrigin, resolver: Resolver) -> Iterator[Effect]:
         """Yield the effects of fitted and held values.
 
-        Of the errors of the fitted values, and of the ranges of values that were held.
+        They follow from the errors of fitted values and from the ranges of values that were held.
 
         Over the range of a held value the fitted ones follow their regression on it: the data hold for each of its
         values.
@@ -249,7 +249,7 @@ class Effects:
     def _fitted_parameters(self, rows: Sequence[FittedValue]) -> list[Graded]:
         """Return the parameters of a fit.
 
-        CaseError with the nearest valid path for an unknown one.
+        An unknown one raises a CaseError with the nearest valid path.
         """
         found, problems = [], []
         for number, row in enumerate(rows):
@@ -292,7 +292,7 @@ class Effects:
 def range_effect(graded: Graded, ends: Callable[[], Sequence[FloatArray]], left_out: list[str]) -> Iterator[Effect]:
     """Yield the effect of the range of a parameter.
 
-    Where an end has no solution it is left out and named.
+    An end without a solution is left out and named.
 
     Parameters
     ----------

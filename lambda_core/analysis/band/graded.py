@@ -107,7 +107,7 @@ class Exchange:
 class NetworkRange:
     """A range of an option of the thermal network.
 
-    Or published sets in its place.
+    Published sets may replace the range.
 
     Attributes
     ----------
@@ -138,7 +138,7 @@ class NetworkRange:
 def network_ranges(section: Thermal) -> list[NetworkRange]:
     """Return the ranges of a thermal network.
 
-    Of options that its section leaves open, and the sets that may replace its own.
+    They belong to options that its section leaves open. Also return the sets that may replace its own.
     """
     found: list[NetworkRange] = []
     if section.conductances not in _with_housing():
@@ -363,7 +363,7 @@ def _in_unit(text: str, own: Graded) -> float:
 def _of_clearance(model: BearingModel, resolver: Resolver | None) -> list[Graded]:
     """Return the clearance with the limits of its class.
 
-    Only where the case leaves it to the class.
+    It applies only where the case leaves the clearance to the class.
     """
     from lambda_core.case.case_io import apply_overrides, parse_case
     from lambda_core.model.checking import resolve

@@ -113,7 +113,7 @@ def bands_of_machine(
 ) -> MachineBand:
     """Return the bands of a solved machine's bearings.
 
-    Or the band of one of them.
+    They may also be the band of one of the bearings.
 
     The loads that shaft and gears put on a bearing count as known.
     """
@@ -180,7 +180,7 @@ def deviations(
 ) -> dict[str, float]:
     """Return each result's relative standard deviation.
 
-    Of those that ranges and laws move; of a temperature over its value in degC.
+    It covers results that ranges and laws move; that of a temperature is relative to its value in degC.
     """
     (effects,), warmer = _effects([one], found, ("",))
     sizes = {name: _size(effects, i) for i, name in enumerate(one.names) if name in quantities}

@@ -23,7 +23,7 @@ _DECADES = 3.0  # largest over smallest value, from which a quantity counts by i
 def places_of(columns: Sequence[Sequence[float | str]]) -> FloatArray:
     """Return points in coordinates whose distances compare.
 
-    Shape (n, d), from a column per parameter.
+    The array has shape (n, d), from a column per parameter.
 
     Numbers run from 0 to 1 over their range, evenly by their logarithm over wide ranges; two names are 1 apart.
     """
@@ -44,7 +44,7 @@ def places_of(columns: Sequence[Sequence[float | str]]) -> FloatArray:
 def spread_out(places: FloatArray, most: int) -> list[int]:
     """Return rows of places that lie far apart.
 
-    At most so many: first the middle one, then each farthest from all.
+    There are at most so many rows: the middle one comes first, then each row that lies farthest from all others.
 
     Equal places count as one.
     """
@@ -59,7 +59,7 @@ def spread_out(places: FloatArray, most: int) -> list[int]:
 def interpolated(places: FloatArray, known: Sequence[int], values: FloatArray) -> FloatArray:
     """Return values at all places from known ones.
 
-    Shape (n, m): a sum of distances from the known places.
+    The array has shape (n, m), and each value is a sum over distances from the known places.
     """
     from scipy.interpolate import RBFInterpolator
 

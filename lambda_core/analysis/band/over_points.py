@@ -1,6 +1,6 @@
 """Compute model bands of many operating points.
 
-At a few points in full, at the others from these (:mod:`.neighbours`).
+A few points are computed in full, and the others follow from these (:mod:`.neighbours`).
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def bands_over(model_at: Callable[[int], BearingModel | MachineModel], places: F
 def _logarithms(model: BearingModel | MachineModel) -> dict[str, list[float]]:
     """Return the logarithms of both ends.
 
-    Over the value of each result.
+    They are relative to the value of each result.
     """
     from lambda_core.model.machine_model import MachineModel
 
@@ -83,7 +83,7 @@ def _of_bearing(found: ModelBand, prefix: str = "") -> dict[str, list[float]]:
 def _of_machine(found: MachineBand) -> dict[str, list[float]]:
     """Return the logarithms of all bearings.
 
-    Each bearing has its name before them; the last are of all bearings together.
+    Each bearing has its name before them; the last ones are of all bearings together.
     """
     logarithms: dict[str, list[float]] = {}
     for name, band in found.bearings.items():

@@ -77,7 +77,7 @@ class RollerEffects:
     def by_seen(self) -> FloatArray:
         """Return slopes of the logarithms, shape (2, n).
 
-        By the temperature of the oil [1/K] and the clearance [1/m].
+        The slopes are by the temperature of the oil [1/K] and by the clearance [1/m].
         """
         case, base = parse_case(self._model.case_toml, self._model.name), self._base
         warmer = roller_model(case, (f"{_TEMPERATURE}={base.temperature + SEEN_STEPS[0]!r} K",))
@@ -143,7 +143,7 @@ def _changed(
 def _of_class(case: Case, written: RollerModel, base: RollerModel) -> Iterator[tuple[Graded, tuple[RollerModel, ...]]]:
     """Yield the clearance with the limits of its class.
 
-    Only where the case leaves it to the class.
+    It applies only where the case leaves the clearance to the class.
     """
     found = [roller_model(case, (f"bearing.clearance_pick={pick}",)) for pick in ("minimum", "maximum")]
     low, high = (one.bearing.clearance for one in found if one is not None)

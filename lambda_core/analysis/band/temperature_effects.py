@@ -39,7 +39,7 @@ class BearingEffects(Protocol):
     def by_seen(self) -> FloatArray:
         """Return slopes of the logarithms, shape (2, n).
 
-        By the temperature of the oil [1/K] and the clearance [1/m].
+        The slopes are by the temperature of the oil [1/K] and by the clearance [1/m].
         """
 
     def values_at_all_positions(self) -> FloatArray:

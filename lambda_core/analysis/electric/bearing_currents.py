@@ -143,7 +143,7 @@ def _alone(
 ) -> BearingModel:
     """Return one bearing of a case or machine.
 
-    In a machine it has the load that it carries there.
+    A bearing of a machine has the load that it carries there.
     """
     if not is_machine(source):
         refuse_bearing(bearing)

@@ -1,6 +1,6 @@
 """Define the circuit around the films.
 
-With the bearing as a meter sees it: capacitance, impedance, voltage ratio.
+It has the bearing as a meter sees it: capacitance, impedance and voltage ratio.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def bearing_capacitance(films: Films) -> FloatArray:
 def impedance(films: Films, around: Surroundings, frequency: FloatArray) -> NDArray[np.complex128]:
     """Return the impedance between the rings [Ohm].
 
-    As a meter measures it while the bearing turns; shape (n, frequencies).
+    A meter measures it while the bearing turns; the array has shape (n, frequencies).
 
     Each film is a capacitance in parallel with a conductance, the films of a ball are in series, balls and the direct
     capacitance of the rings in parallel; a cage that conducts joins the balls. Valid where the period is short against

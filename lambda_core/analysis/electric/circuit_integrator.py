@@ -21,7 +21,7 @@ from lambda_core.laws.pack import pack
 class Films:
     """Electrical contacts of bearings over time, SI.
 
-    Arrays of shape (n, Z, 2), inner then outer.
+    The arrays have shape (n, Z, 2), with the inner ring first.
 
     Attributes
     ----------

@@ -52,7 +52,7 @@ class Net(NamedTuple):
 class Held(NamedTuple):
     """Contacts over one part of an interval.
 
-    Arrays of shape (Z, 2).
+    The arrays have shape (Z, 2).
     """
 
     capacitance: Any  # [F]
@@ -81,7 +81,7 @@ class Tables(NamedTuple):
 class FullNetwork(NamedTuple):
     """Full network over one part of an interval.
 
-    Arrays of shape (n, n).
+    The arrays have shape (n, n).
     """
 
     capacitance: Any  # [F]
@@ -95,7 +95,7 @@ class FullNetwork(NamedTuple):
 class Nodes(NamedTuple):
     """Nodes and modes of the full network.
 
-    Arrays of shape (n,).
+    The arrays have shape (n,).
     """
 
     charge: Any  # [C]
@@ -113,7 +113,7 @@ class Nodes(NamedTuple):
 class Part(NamedTuple):
     """Nodes that take part in a discharge.
 
-    Arrays of shape (m, m).
+    The arrays have shape (m, m).
     """
 
     capacitance: Any  # [F]
@@ -199,7 +199,7 @@ class Accumulators(NamedTuple):
 class Channels(NamedTuple):
     """Two channels of a ball in a discharge.
 
-    Arrays of shape (2,).
+    The arrays have shape (2,).
     """
 
     burns: Any  # 1 while it conducts

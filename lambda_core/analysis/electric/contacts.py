@@ -100,8 +100,8 @@ class Contacts:
     def area(self) -> FloatArray:
         """Hertzian area of each contact [m2].
 
-        Of an ellipse pi a b. Of a line F/(pi/4 p_max): Hertz's mean pressure across a line is pi/4 of the largest
-        (Johnson 1985, Contact Mechanics, eq. 4.45).
+        The area of an ellipse is pi a b. That of a line is F/(pi/4 p_max): Hertz's mean pressure across a line is pi/4
+        of the largest (Johnson 1985, Contact Mechanics, eq. 4.45).
         """
         if not self.of_lines:
             return np.asarray(math.pi * self.semi_a * self.semi_b)
@@ -126,7 +126,7 @@ class Contacts:
     def turned(self, times: FloatArray) -> FloatArray:
         """Return the relative angle of the rings [rad].
 
-        Of the inner ring against the outer at times [s], linear between and beyond samples.
+        It is that of the inner ring against the outer at times [s], linear between and beyond samples.
         """
         return turned(self.time, self.inner_angle - self.outer_angle, times)
 
@@ -270,7 +270,7 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
 def default_duration(found: list[Equilibrium]) -> float:
     """Return the time of ten cage turns [s].
 
-    Of the cage against the outer ring.
+    The cage turns against the outer ring.
     """
     from lambda_core.model.laws.time_functions import initial
 
@@ -283,7 +283,7 @@ def default_duration(found: list[Equilibrium]) -> float:
 def films(contacts: Contacts, options: Electric, rolled: FloatArray | None = None) -> Films:
     """Return the contacts as electric parts.
 
-    Capacitance, conductance, and breakdown.
+    Each has capacitance, conductance and breakdown.
 
     Each sample is treated alone, so that a run gives the same films however its samples come.
 
@@ -336,7 +336,7 @@ def _permittivity(contacts: Contacts) -> FloatArray:
 def ball_capacitance(contacts: Contacts, permittivity: float) -> FloatArray:
     """Return the capacitance into insulating balls [F].
 
-    From each contact; two of them are in series in a ball.
+    It leads from each contact into the ball; two of them are in series in a ball.
 
     The flux spreads from the Hertzian ellipse into a half-space: C = 2 pi eps_0 eps_r a/K(m), m = 1 - (b/a)^2, a the
     larger semi-axis, K the complete elliptic integral of the first kind; a circle gives 4 eps_0 eps_r a. It is the

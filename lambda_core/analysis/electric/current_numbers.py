@@ -100,7 +100,7 @@ def numbers_of(simulation: Simulation) -> CurrentNumbers:
 def static_numbers(found: Equilibrium, kernels: Any) -> CurrentNumbers:
     """Compute a circuit on quasi-static films.
 
-    At three positions of the balls; `found` is the first of them.
+    The balls take three positions; `found` is the first of them.
 
     A case without the section electric gets its defaults, and ten turns of the cage without a duration.
 
@@ -123,7 +123,7 @@ def static_numbers(found: Equilibrium, kernels: Any) -> CurrentNumbers:
 def machine_numbers(machine: MachineModel, state: ShaftState, kernels: Sequence[Kernels]) -> dict[str, CurrentNumbers]:
     """Compute the circuit of a machine's bearings.
 
-    All of them on quasi-static films, at three positions of the balls.
+    All bearings have quasi-static films at three positions of the balls.
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ def machine_numbers(machine: MachineModel, state: ShaftState, kernels: Sequence[
 def circuit_numbers(result: Result) -> dict[str, CurrentNumbers]:
     """Compute the circuit of a machine's run.
 
-    As :func:`run_numbers` does, each bearing by its name.
+    It works as :func:`run_numbers`, with each bearing by its name.
     """
     from lambda_core.analysis.electric.case_or_run import circuit_of_run
 
@@ -157,7 +157,7 @@ def circuit_numbers(result: Result) -> dict[str, CurrentNumbers]:
 def run_numbers(result: Result) -> CurrentNumbers:
     """Compute the circuit of a run on samples.
 
-    From where averages begin.
+    The samples begin where averages begin.
 
     Raises
     ------

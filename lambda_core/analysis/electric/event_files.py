@@ -53,7 +53,7 @@ def write(simulation: Simulation | CircuitSimulation, path: Path) -> Path:
 def _write_csv(simulation: Simulation | CircuitSimulation, path: Path) -> None:
     """Write a row per film that broke down.
 
-    With several bearings the first column has the name.
+    With several bearings the first column has the name of the bearing.
     """
     header = [f"{name} [{unit}]" if unit else name for name, unit in _UNITS.items()]
     with path.open("w", newline="", encoding="utf-8") as file:

@@ -26,7 +26,7 @@ SECTORS = 36  # of a raceway
 class Events:
     """Breakdowns in the order of time, SI.
 
-    One entry per film that broke down.
+    Each film that broke down has one entry.
 
     Attributes
     ----------
@@ -91,7 +91,7 @@ class Events:
 def events_of(solution: BearingSolution, contacts: Contacts) -> Events:
     """Return the discharges of an integration.
 
-    With the state of the contacts that it went through.
+    They have the state of the contacts that the integration went through.
     """
     table = solution.events
     ball, ring = table[:, L.E_BALL].astype(np.int64), table[:, L.E_RACEWAY].astype(np.int64)

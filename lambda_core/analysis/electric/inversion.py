@@ -83,7 +83,7 @@ class FilmModel:
     def capacitance(self, scale: float) -> float:
         """Return the capacitance with scaled films [F].
 
-        Between the rings, with films of `scale` times those of the equilibria.
+        It acts between the rings, with films of `scale` times those of the equilibria.
         """
         return float(np.mean([self._one(each, scale) for each in self._found])) + self._rings
 
@@ -116,7 +116,7 @@ class FilmModel:
     def films(self, ring: str) -> FloatArray:
         """Return the central films of one ring [m].
 
-        Of the loaded contacts in the equilibria.
+        They are those of the loaded contacts in the equilibria.
         """
         table = np.stack([each.contacts[:, RINGS.index(ring)] for each in self._found]).reshape(
             -1, len(CONTACT_CHANNELS)
@@ -134,7 +134,7 @@ class FilmModel:
     def _contact(self, each: Equilibrium, ball: int, ring: str, scale: float) -> float:
         """Return the capacitance of one contact [F].
 
-        By the law of the case: C_Hertz/scale, film times scale.
+        The law of the case gives it: C_Hertz/scale, with the film times scale.
         """
         index = RINGS.index(ring)
         value = dict(zip(CONTACT_CHANNELS, each.contacts[ball, index].tolist(), strict=True))

@@ -60,7 +60,7 @@ class Live:
     def keys(self) -> dict[str, str]:
         """Return the code hashes of the circuit.
 
-        By the names of the code that it runs through.
+        The keys are the names of the code that the circuit runs through.
         """
         from lambda_core.analysis.electric.compiled import switching
 
@@ -144,7 +144,7 @@ class Live:
     def _discharges(self, solution: CircuitSolution, part: Sequence[Contacts]) -> dict[str, FloatArray]:
         """Return the rows of every breakdown.
 
-        Those of all bearings, in the order of the integration.
+        They are those of all bearings, in the order of the integration.
         """
         own = [events_of(solution.of(number), contacts) for number, contacts in enumerate(part)]
         found = {

@@ -155,7 +155,7 @@ def floor_share(events: Events, least: float) -> float:
 def voltage_range(simulation: Simulation) -> list[float]:
     """Return the smallest and largest bearing voltage [V].
 
-    Between discharges, and where they began.
+    The voltages occur between discharges. Also return where they began.
     """
     low, high = simulation.solution.extremes.T
     began = simulation.events.bearing_voltage

@@ -128,7 +128,7 @@ class RiskMap(Record):
     def picture(self) -> ViewData:
         """Return a picture of risk over speed and temperature.
 
-        Discharges, film, voltage and current density.
+        It shows discharges, film, voltage and current density.
         """
         x, y = np.meshgrid(self.speeds_rpm, self.temperatures_degC, indexing="ij")
         speed, temperature = Axis("speed", "1/min", log=_is_even_in_log(self.speeds_rpm)), Axis("temperature", "degC")
@@ -182,7 +182,7 @@ def _is_even_in_log(values: Sequence[float]) -> bool:
 def map_text(found: RiskMap) -> str:
     """Return the table of discharges per second.
 
-    Over speed and temperature, a row per speed.
+    The table covers speed and temperature; each speed has a row.
     """
     columns = found.temperatures_degC
     cells = [_rate(point) for point in found.points]

@@ -244,7 +244,7 @@ def simulate_circuit(
 def at_common_times(each: Sequence[Films]) -> list[Films]:
     """Return the films of bearings at common times.
 
-    At all of their times, linear between samples.
+    The times are all of their times; films are linear between samples.
 
     Between a sample with a film that may break down and one without there is none, as in the integration.
     """

@@ -82,7 +82,7 @@ def _rate(source: Inverter | Sine | Step | Series) -> float:
 def one_period(source: Inverter | Sine | Step | Series, origin: float, turned: Turned) -> tuple[FloatArray, FloatArray]:
     """Return the corners of a source's first period.
 
-    It began at `origin` [s]; none of one without a period.
+    The period began at `origin` [s]; a source without a period has no corners.
 
     The voltage ends where it began.
     """
@@ -137,7 +137,7 @@ def inverter(source: Inverter, start: float, stop: float, turned: Turned) -> tup
 def _ramps(instant: FloatArray, change: FloatArray, rise: float) -> tuple[FloatArray, FloatArray]:
     """Return the corners of sums of ramps.
 
-    Around their instants, each over the rise time; row by row, from 0 on.
+    Each ramp lies around its instant and takes the rise time; the corners start at 0, row by row.
     """
     t = np.concatenate([instant - 0.5 * rise, instant + 0.5 * rise], axis=1)
     slope = np.concatenate([np.broadcast_to(change, instant.shape), np.broadcast_to(-change, instant.shape)], axis=1)
@@ -154,7 +154,7 @@ def _ramps(instant: FloatArray, change: FloatArray, rise: float) -> tuple[FloatA
 def _held(rows: FloatArray, start: float, stop: float) -> tuple[FloatArray, FloatArray]:
     """Return a measured series with constant ends.
 
-    Its first voltage holds before it and its last one behind it.
+    Its first voltage holds before it and its last one after it.
     """
     first, last = min(start, rows[0, 0]) - 1.0, max(stop, rows[-1, 0]) + _LATER
     return np.array([first, *rows[:, 0], last]), np.array([rows[0, 1], *rows[:, 1], rows[-1, 1]])
@@ -163,7 +163,7 @@ def _held(rows: FloatArray, start: float, stop: float) -> tuple[FloatArray, Floa
 def _repeated(rows: FloatArray, start: float, stop: float) -> tuple[FloatArray, FloatArray]:
     """Return a measured series, repeated over start..stop.
 
-    Where it does not close, a straight line joins its ends.
+    A straight line joins its ends where the series does not close.
     """
     begin, period = rows[0, 0], period_of(rows)
     t = rows[:, 0] - begin

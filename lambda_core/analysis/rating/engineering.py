@@ -80,7 +80,7 @@ def rating_of(found: Equilibrium, methods: Mapping[str, Method], loads: tuple[fl
 def mounted_rating(model: MachineModel, state: ShaftState, number: int, found: Equilibrium) -> Rating:
     """Rate a bearing of a machine.
 
-    Under the loads that it has on the shaft.
+    The bearing has the loads that it carries on the shaft.
 
     Parameters
     ----------

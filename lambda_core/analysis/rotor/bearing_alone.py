@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def bearing_number(model: BearingModel | MachineModel, name: str | None) -> int:
     """Return the place of a bearing in a model.
 
-    No name is needed where there is one.
+    A model with one bearing needs no name.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def bearing_alone(
 ) -> BearingModel:
     """Return one bearing of a machine alone.
 
-    Under the constant load and at the misalignment that it has at t = 0.
+    It has the constant load and the misalignment of t = 0.
 
     Its inner ring is free along x, y and z and carries the load; its tilts are held where shaft and housing hold them,
     as is x of cylindrical rollers. A bearing that is alone already is returned as it is.
@@ -57,7 +57,7 @@ def bearing_alone(
 def bearing_of_run(result: Result) -> BearingModel:
     """Return the model of a result's bearing.
 
-    From the case in its file.
+    The case in the result's file gives it.
 
     Of a machine it is alone under the load that it carries at the start, see :func:`bearing_alone`.
 

@@ -431,7 +431,7 @@ def _in_machine(
 def _angles(alone: QuasiStatic) -> list[float]:
     """Return the smallest and largest contact angle.
 
-    In size, of contacts that carry 1 % of the largest load.
+    They are absolute values, of contacts that carry at least 1 % of the largest load.
     """
     angles = [abs(c.contact_angle_deg) for c in alone.contacts if c.load_N > 0.01 * alone.max_load_N]
     return [min(angles), max(angles)] if angles else []

@@ -138,7 +138,7 @@ class MachineModes(Answer):
 def modes_of(model: MachineModel, state: ShaftState) -> MachineModes:
     """Return natural frequencies and critical speeds.
 
-    At an equilibrium, with the matrices of the bearings.
+    They hold at an equilibrium, with the matrices of the bearings.
     """
     dampings = bearing_damping(model, [ring.equilibrium() for ring in state.rings])
     stiffness = supported(model, state)

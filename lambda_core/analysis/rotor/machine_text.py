@@ -79,7 +79,7 @@ _MATRICES = (
 def _equilibrium_rows(bearings: Sequence[BearingEquilibrium], units: UnitSystem) -> tuple[_Row, ...]:
     """Return a row for every number of bearings.
 
-    Those of an axis are one below the other.
+    Numbers of an axis stand one below the other.
     """
     rows = [_Row("bearing", "", lambda b: str(b.title.split(" (")[0]))]
     for one in quantities(type(bearings[0])).values():
@@ -133,7 +133,7 @@ def equilibrium_text(found: MachineEquilibrium, width: int | None = None, units:
 def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem = SI) -> str:
     """Return the text of modes and bearing matrices.
 
-    With the critical speeds.
+    The text has the critical speeds, too.
     """
     far = _FAR * abs(found.speed_rpm) or math.inf
     near = [one for one in found.critical_speeds if one.speed_rpm <= far] or found.critical_speeds[:1]
@@ -160,7 +160,7 @@ def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem 
 def _band_lines(report: MachineEquilibrium) -> list[str]:
     """Return the lines of the model band.
 
-    Of the torque of all bearings, with its causes.
+    They give the torque of all bearings with its causes.
     """
     if not report.friction_torque_Nmm_band:
         return []
@@ -172,7 +172,7 @@ def _band_lines(report: MachineEquilibrium) -> list[str]:
 def _torque(report: MachineEquilibrium) -> str:
     """Return the torque of all bearings.
 
-    Or name the bearings whose torque is unknown.
+    The text names the bearings whose torque is unknown.
     """
     if report.friction_torque_Nmm is not None:
         return f"{_digits(report.friction_torque_Nmm)} N mm of all bearings"

@@ -71,7 +71,7 @@ class RollersOnShaft:
     def contacts(self) -> list[Contact]:
         """Return every contact of a roller with a raceway.
 
-        With the film of the slice that carries most.
+        Each has the film of the slice that carries most.
         """
         state, found, angles = self.solved.state, self.solved.friction, self.bearing.angles
         loads = {"inner": state.inner, "outer": state.outer}
@@ -100,7 +100,7 @@ def _film(found: RollerFriction | None, ring: str, roller: int, loads: FloatArra
 def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
     """Return a roller bearing's answer in a machine.
 
-    At the last pose of its rings, as one that is alone.
+    It holds at the last pose of its rings, like that of a bearing that is alone.
     """
     model, alone = ring.model, taken_out(ring)
     solved = solve_rollers(alone)
@@ -127,7 +127,7 @@ def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
 def taken_out(ring: RollerReaction) -> RollerModel:
     """Return a roller bearing of a machine alone.
 
-    Under the load that it carries at the last pose of its rings.
+    It has the load that it carries at the last pose of its rings.
 
     Its tilts are those of the pose; so is its place in directions without a load that holds it.
     """

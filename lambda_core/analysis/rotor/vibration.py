@@ -32,7 +32,7 @@ _FELT = 0.01  # of the kinetic energy in the shaft: a mode with less belongs to 
 class Mode:
     """Mode of the turning shaft.
 
-    Frequency [rad/s], direction (+1 forward, -1 backward) and shape of the shaft.
+    It has a frequency [rad/s], a direction (+1 forward, -1 backward) and a shape of the shaft.
     """
 
     frequency: float
@@ -46,7 +46,7 @@ class Mode:
 def housed_stiffness(model: MachineModel, state: ShaftState) -> FloatArray:
     """Return the stiffness of bearings with their housing.
 
-    On the shaft, shape (bearings, 5, 5).
+    It acts on the shaft; the array has shape (bearings, 5, 5).
 
     What the others add through an elastic housing is left out: it stands in :func:`supported`.
     """
@@ -56,7 +56,7 @@ def housed_stiffness(model: MachineModel, state: ShaftState) -> FloatArray:
 def bearing_damping(model: MachineModel, equilibria: Sequence[Equilibrium]) -> FloatArray:
     """Return the vibration damping of each bearing.
 
-    At the shaft's speed, shape (bearings, 6, 6).
+    It holds at the shaft's speed; the array has shape (bearings, 6, 6).
 
     Zeros at rest, and where the balls of a bearing have no steady motion.
 
@@ -75,7 +75,7 @@ def bearing_damping(model: MachineModel, equilibria: Sequence[Equilibrium]) -> F
 def housed_damping(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
     """Return the damping of bearings with their housing.
 
-    On the shaft, shape (bearings, 6, 6).
+    It acts on the shaft; the array has shape (bearings, 6, 6).
     """
     found = dampings.copy()
     found[:, np.ix_(PLACES, PLACES)[0], np.ix_(PLACES, PLACES)[1]] = _of_each(
@@ -113,7 +113,7 @@ def _in_series(model: MachineModel, state: ShaftState) -> FloatArray:
 def _joined(model: MachineModel, state: ShaftState, *, springs: bool = True) -> FloatArray:
     """Return the stiffness of all connections.
 
-    Between shaft, outer rings and bodies: bearings, seats, housing, holds, springs.
+    They join shaft, outer rings and bodies: bearings, seats, housing, holds and springs.
     """
     rows = static_rows(model)
     found = structure(model if springs else _without_springs_of_the_shaft(model), rows)[0]
@@ -135,7 +135,7 @@ def _joined(model: MachineModel, state: ShaftState, *, springs: bool = True) -> 
 def _links(state: ShaftState, *, springs: bool) -> list[SolvedLink]:
     """Return the connections by laws.
 
-    With or without those of the shaft.
+    Those of the shaft are included or left out.
     """
     return [link for link in state.links if springs or not link.is_on_shaft]
 
@@ -201,7 +201,7 @@ def _seen(matrix: Any, kept: Any, others: list[int]) -> Any:
 def supported(model: MachineModel, state: ShaftState) -> FloatArray:
     """Return the stiffness of the shaft on bearings.
 
-    And of the other bodies as they can move.
+    It covers the other bodies as far as they can move.
 
     Shape (rows of the shaft + free motions of bodies) squared; outer rings follow without inertia.
     """
@@ -214,7 +214,7 @@ def supported(model: MachineModel, state: ShaftState) -> FloatArray:
 def _seen_by_masses(model: MachineModel, matrix: Any) -> Any:
     """Return the condensed stiffness at the masses.
 
-    At the shaft and the free motions of bodies; outer rings follow.
+    The masses are the shaft and the free motions of bodies; outer rings follow them.
     """
     rings, bodies = _moving(model, static_rows(model))
     return _seen(matrix, [*range(model.body.mass.shape[0]), *bodies], rings)
@@ -233,7 +233,7 @@ def _seen_by_shaft(model: MachineModel, matrix: Any) -> Any:
 def damped(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
     """Return the damping of bearings, springs and seats.
 
-    In the rows of :func:`supported`.
+    The rows are those of :func:`supported`.
     """
     speed = abs(model.speed) or 1.0
     matrix = _joined(model, state) + 1j * speed * _resisting(model, state, dampings)
@@ -276,7 +276,7 @@ def modes_at(model: MachineModel, stiffness: FloatArray, spin: float, damping: F
 def criticals(model: MachineModel, stiffness: FloatArray) -> list[Mode]:
     """Return the transverse critical speeds of the shaft.
 
-    Rising; the shaft bends, or swings together with its housing.
+    The speeds are in ascending order; the shaft bends, or swings together with its housing.
     """
     mass, gyroscopic = masses(model)
     found = critical_speeds(stiffness, mass, gyroscopic, nodes=model.body.positions.size, count=_COUNT)

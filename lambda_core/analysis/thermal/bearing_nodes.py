@@ -28,7 +28,7 @@ _COMMON = ("housing", "ambient")  # nodes that all bearings of a machine share
 def _surface(model: BearingModel) -> float:
     """Return the surface of one rolling element [m2].
 
-    Ball: pi D^2; roller with its ends: pi D L + pi D^2/2.
+    A ball has pi D^2; a roller with its ends has pi D L + pi D^2/2.
     """
     if model.rollers is None:
         return math.pi * model.geometry.ball_diameter**2
@@ -65,7 +65,7 @@ class BearingNodes:
     def heat(self, losses: dict[str, float]) -> dict[str, float]:
         """Return the heat of losses in the nodes [W].
 
-        By the losses of each mechanism [W].
+        It follows from the losses of each mechanism [W].
         """
         heat = heat_of(losses, self._shares).tolist()
         return {self.node(own): value for own, value in zip(OWN_NODES, heat, strict=True)}
@@ -107,7 +107,7 @@ class BearingNodes:
     def inside(self, point: Point) -> Pairs:
         """Return the conductances of contacts and oil [W/K].
 
-        Between oil and what it wets, all surfaces are wetted.
+        Between the oil and what it wets, all surfaces are wetted.
         """
         g, oil = self.model.geometry, self.model.oil
         nu, k = point["viscosity"], oil.thermal_conductivity

@@ -19,7 +19,7 @@ def pictures(found: SteadyTemperatures | TemperaturesOverTime) -> list[ViewData]
 def over_time(found: TemperaturesOverTime) -> ViewData:
     """Draw node temperatures over time.
 
-    With loss, clearance and film.
+    The picture also shows loss, clearance and film.
     """
     minutes = np.array(found.time_s) / 60.0
     time = Axis("time", "min")

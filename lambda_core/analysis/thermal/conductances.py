@@ -20,7 +20,7 @@ _PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(_STRIPS)
 def effusivity(material: Material) -> float:
     """Return the effusivity of a solid [W s^0.5/(m2 K)].
 
-    e = sqrt(k rho c).
+    It is e = sqrt(k rho c).
     """
     return math.sqrt(material.thermal_conductivity * material.density * material.specific_heat)
 
@@ -28,7 +28,7 @@ def effusivity(material: Material) -> float:
 def exchanged(time: FloatArray, film: float, one: float, other: float) -> FloatArray:
     """Return the heat that two half-spaces exchange [J/(m2 K)].
 
-    In a time, per area and per difference of temperature.
+    The heat is that of a time, per area and per difference of temperature.
 
     Two half-spaces with effusivities e_1, e_2 meet at t = 0 through a film of conductance h per area. The flux is
     h dT exp(b^2 t) erfc(b sqrt t), b = h (1/e_1 + 1/e_2) (Carslaw and Jaeger 1959, Conduction of Heat in Solids,
@@ -59,7 +59,7 @@ def exchanged(time: FloatArray, film: float, one: float, other: float) -> FloatA
 def rolling_contact(a: float, b: float, speed: float, film: float, one: float, other: float) -> float:
     """Return the conductance of an elliptic rolling contact [W/K].
 
-    Between two bodies that roll over each other.
+    It joins two bodies that roll over each other.
 
     Every strip of the surfaces passes the ellipse in 2 b sqrt(1 - (s/a)^2)/u and exchanges heat meanwhile
     (:func:`exchanged`); the strips together carry u int ds Q/dT. Valid where surfaces pass faster than heat spreads
@@ -86,7 +86,7 @@ def rolling_contact(a: float, b: float, speed: float, film: float, one: float, o
 def resting_contact(a: float, b: float, conductivity: float) -> float:
     """Return the conductance of a contact at rest [W/K].
 
-    Elliptic, 2 k sqrt(a b).
+    The contact is elliptic and conducts 2 k sqrt(a b).
 
     Constriction into two half-spaces of conductivity k, exact for a circle (Carslaw and Jaeger 1959, section 8.2:
     4 k a each, two in series).
@@ -97,7 +97,7 @@ def resting_contact(a: float, b: float, conductivity: float) -> float:
 def rolling_line(length: float, b: float, speed: float, film: float, one: float, other: float) -> float:
     """Return the conductance of a rolling line contact [W/K].
 
-    Between two bodies that roll over each other.
+    It joins two bodies that roll over each other.
 
     As :func:`rolling_contact`, with one time of contact 2 b/u for all strips of the line.
 
@@ -130,7 +130,7 @@ def resting_line(length: float, b: float, conductivity: float) -> float:
 def oil_film_coefficient(speed: float, length: float, viscosity: float, conductivity: float, prandtl: float) -> float:
     """Return the oil's heat transfer coefficient [W/(m2 K)].
 
-    Between oil and a surface that it flows along.
+    It acts between the oil and a surface that it flows along.
 
     Laminar flow along a plate, Nu = 0.332 Pr^(1/3) Re^(1/2) (Pohlhausen 1921), with the surface speed of the cage and
     the pitch diameter as speed and length: the reading of Harris (Rolling Bearing Analysis, chapter "Rolling Bearing
@@ -155,7 +155,7 @@ def oil_film_coefficient(speed: float, length: float, viscosity: float, conducti
 def wall(inner_diameter: float, outer_diameter: float, width: float, conductivity: float) -> float:
     """Return the conductance through a hollow cylinder [W/K].
 
-    2 pi k B/ln(D/d).
+    It is 2 pi k B/ln(D/d).
     """
     return 2.0 * math.pi * conductivity * width / math.log(outer_diameter / inner_diameter)
 
@@ -173,7 +173,7 @@ def in_series(*conductances: float) -> float:
 def rod(length: float, area: float, perimeter: float, coefficient: float, conductivity: float) -> tuple[float, float]:
     """Return the conductances of a rod [W/K].
 
-    Between both ends, and from each end to what surrounds it.
+    One joins both ends, and one joins each end to what surrounds it.
 
     The exact two-port of a fin, k A T'' = h P (T - T_a): with m = sqrt(h P/(k A)) the ends exchange k A m/sinh(m L),
     and each passes k A m tanh(m L/2) to the surroundings (Carslaw and Jaeger 1959, section 4.5; Harper and Brown 1922,

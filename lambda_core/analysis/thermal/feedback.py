@@ -38,7 +38,7 @@ _TOLERANCE = 1e-3  # [K]
 class Gain:
     """Gain of the torque-temperature loop.
 
-    The answer to one kelvin more: the first increment of temperatures and the sum of all.
+    It is the answer to one kelvin more, as the first increment of temperatures and the sum of all.
 
     Below 1 a disturbance dies out; at 1 and above it grows by itself. With the inlet temperatures and the clearances
     as the numbers that go around, the matrix of the loop is d(found)/d(assumed).
@@ -107,7 +107,7 @@ class Steady:
 def clearance_at(model: BearingModel, at: Mapping[str, float]) -> float:
     """Return the operating clearance of a bearing [m].
 
-    At temperatures of its own nodes [K].
+    It holds at temperatures of its own nodes [K].
     """
     warm = {part: at.get(part, at.get(_STAND_IN.get(part, ""), math.nan)) for part in _PARTS}
     return model.mounting.clearance(**warm) if model.mounting is not None else model.geometry.clearance
@@ -175,7 +175,7 @@ class Loop(ABC):
     ) -> tuple[FloatArray, Network]:
         """Return the steady temperatures under given losses.
 
-        Under the losses of points, from a first guess, with their network.
+        The points give the losses; the search starts from a first guess, with their network.
 
         Parameters
         ----------
@@ -204,7 +204,7 @@ class Loop(ABC):
     ) -> tuple[FloatArray, FloatArray]:
         """Return the slopes of steady temperatures and inputs.
 
-        d(steady temperatures)/d(seen), shape (n, m), and d(seen)/d(temperatures), shape (m, n).
+        They are d(steady temperatures)/d(seen), shape (n, m), and d(seen)/d(temperatures), shape (m, n).
         """
         base, _ = self.answer(points, temperatures)
         outward = np.empty((base.size, seen.size))
@@ -229,7 +229,7 @@ class Loop(ABC):
     def first_guess(self) -> FloatArray:
         """Return the first guess of all temperatures [K].
 
-        That of the oil in the case, held ones at theirs, shape (n,).
+        It is the case's oil temperature, and held nodes have theirs; the array has shape (n,).
         """
         held = self.nodes.held
         return np.where(np.isnan(held), self._oil, held)

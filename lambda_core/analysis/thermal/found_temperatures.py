@@ -47,7 +47,7 @@ class FoundTemperatures:
     def by_loss(self) -> FloatArray:
         """Return slopes by each bearing's loss, shape (n, bearings).
 
-        By the logarithm of the loss [K].
+        The slopes are by the logarithm of the loss [K].
         """
         points, columns = self.steady.points, []
         for number, point in enumerate(points):

@@ -32,7 +32,7 @@ def surface_shares(one: str, first: Material, other: str, second: Material) -> d
 def strain_shares(one: str, first: Material, other: str, second: Material) -> dict[str, float]:
     """Return the shares of strain energy in a contact.
 
-    Of both bodies, as (1 - nu^2)/E (Hertz).
+    The shares of both bodies are as (1 - nu^2)/E (Hertz).
     """
     soft = [(1.0 - m.poisson_ratio**2) / m.youngs_modulus for m in (first, second)]
     return {one: soft[0] / sum(soft), other: soft[1] / sum(soft)}
@@ -41,7 +41,7 @@ def strain_shares(one: str, first: Material, other: str, second: Material) -> di
 def destinations(model: BearingModel) -> dict[str, Shares]:
     """Return the heat's destinations for each mechanism.
 
-    Of LOSSES: which node gets what share of its power.
+    They tell for LOSSES which node gets what share of the power.
 
     Drag heats the oil; bending the elastic parts, in equal shares: the sum of their losses is known, not each one.
     """
@@ -71,7 +71,7 @@ def destinations(model: BearingModel) -> dict[str, Shares]:
 def heat_of(losses: Mapping[str, float], shares: Mapping[str, Shares]) -> FloatArray:
     """Return the heat into the bearing's nodes [W].
 
-    Shape (len(OWN_NODES),).
+    The array has shape (len(OWN_NODES),).
 
     Parameters
     ----------

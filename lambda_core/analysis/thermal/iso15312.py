@@ -19,7 +19,7 @@ COEFFICIENTS = {"60": (1.7, 1.5e-4), "62": (2.0, 2e-4), "63": (2.3, 2e-4)}
 def reference_area(bore: float, outside: float, width: float) -> float:
     """Return the heat emitting reference surface A_r [m2].
 
-    A_r = pi B (D + d) of a radial bearing (clause 4.2).
+    A radial bearing has A_r = pi B (D + d) (clause 4.2).
     """
     return math.pi * width * (outside + bore)
 
@@ -27,7 +27,7 @@ def reference_area(bore: float, outside: float, width: float) -> float:
 def heat_flow_density(area: float) -> float:
     """Return the reference heat flow density [W/m2].
 
-    q_r of radial bearings.
+    It is q_r of radial bearings.
 
     0.016 W/mm2 up to A_r = 50 000 mm2, above 0.016 (A_r/50 000)^-0.34 (clause 4.3).
     """

@@ -1,7 +1,7 @@
 """Tabulate losses over inlet temperature and clearance.
 
-Of everything that the temperatures change, the laws of the contacts see two numbers: the temperature of the oil at
-their inlets and the clearance in operation.
+The temperatures change two numbers that the laws of the contacts see: the temperature of the oil at their inlets and
+the clearance in operation.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class Point:
     def with_losses(self, losses: Mapping[str, float]) -> Point:
         """Return the point with other losses [W].
 
-        By mechanism, averages of a run.
+        The losses are averages of a run by mechanism.
         """
         values = self.values.copy()
         values[: len(LOSSES)] = [losses[name] for name in LOSSES]
@@ -73,7 +73,7 @@ class Point:
     def towards(self, other: Point, share: float) -> Point:
         """Return the point towards another one.
 
-        At a share of the way.
+        The new point lies at a share of the way.
         """
         return Point(
             self.inlet + share * (other.inlet - self.inlet),
@@ -167,7 +167,7 @@ def point_of(found: Equilibrium) -> Point:
 def contact_conductances(found: Equilibrium) -> tuple[float, float]:
     """Return the conductances of both rings' contacts [W/K].
 
-    Inner, outer: through all contacts with the rolling elements.
+    The inner ring comes first; the heat flows through all contacts with the rolling elements.
     """
     model = found.context.model
     ball, oil = model.ball_material, found.context.oil

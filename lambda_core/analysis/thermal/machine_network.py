@@ -22,7 +22,7 @@ class Surroundings(Protocol):
     def conductances(self, temperatures: Mapping[str, float]) -> Pairs:
         """Return conductances of the shaft and surroundings [W/K].
 
-        Along the shaft and to the surroundings, at temperatures of the nodes [K].
+        They act along the shaft and to the surroundings, at temperatures of the nodes [K].
         """
 
     def capacities(self) -> dict[str, float]:
@@ -73,7 +73,7 @@ class MachineNetwork:
     def heat(self, points: Sequence[Point]) -> FloatArray:
         """Return the heat of all losses per node [W].
 
-        Of all bearings, with what the case adds, shape (n,).
+        It is that of all bearings with what the case adds; the array has shape (n,).
         """
         own: dict[str, float] = {}
         for bearing, point in zip(self.bearings, points, strict=True):
@@ -125,9 +125,9 @@ class MachineNetwork:
         return np.where(free, [found.get(name, math.inf) for name in self.names], math.inf)
 
     def start(self) -> FloatArray:
-        """Return the initial temperatures of a transient [K].
+        """Return the initial node temperatures of a transient [K].
 
-        Of the nodes, shape (n,).
+        The array has shape (n,).
         """
         given, common = self._nodes.given, self._nodes.start
         first = [(given[name].start if name in given else None) or common for name in self.names]

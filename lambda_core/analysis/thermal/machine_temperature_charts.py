@@ -21,7 +21,7 @@ def pictures(found: MachineTemperatures | MachineTemperaturesOverTime) -> list[V
 def along_shaft(found: MachineTemperatures) -> ViewData:
     """Draw temperatures along the shaft.
 
-    And by bearing, with losses and heat flows.
+    The picture also shows them by bearing, with losses and heat flows.
     """
     at, names = found.temperatures_degC, list(found.bearings)
     supports = tuple(Mark(name, found.bearings[name].position_mm, "x") for name in names)
@@ -89,7 +89,7 @@ def _nodes(found: MachineTemperatures) -> tuple[Series, ...]:
 def over_time(found: MachineTemperaturesOverTime) -> ViewData:
     """Draw temperatures and losses over time.
 
-    With clearances and films of all bearings.
+    The picture also shows clearances and films of all bearings.
     """
     minutes = np.array(found.time_s) / 60.0
     time = Axis("time", "min")
@@ -135,7 +135,7 @@ def _bars(title: str, names: list[str], values: list[float]) -> Panel:
 def _is_bearing(node: str, names: list[str]) -> bool:
     """Tell whether a node belongs to a bearing.
 
-    Or takes what dampers of a bearing lose.
+    It may also take what dampers of a bearing lose.
     """
     return node == "ambient" or any(node.startswith(f"{name}.") for name in names)
 

@@ -131,7 +131,7 @@ def course_text(found: MachineTemperaturesOverTime, units: UnitSystem) -> str:
 def ways(found: MachineTemperatures) -> list[tuple[str, str, float]]:
     """Return the flows between parts [W].
 
-    Source, target and heat, the largest first.
+    Each has source, target and heat; the largest comes first.
 
     A bearing with its oil is one part, the shaft another.
     """

@@ -128,7 +128,7 @@ class MachineLoop(Loop):
     ) -> tuple[FloatArray, FloatArray]:
         """Return the slopes.
 
-        d(steady temperatures)/d(seen) is that of a near place where one is known.
+        The slopes d(steady temperatures)/d(seen) are those of a near place where one is known.
         """
         known = self._known
         if known is not None and float((np.abs(seen - known[0]) / self._cells).max()) <= 1.0:
@@ -186,7 +186,7 @@ def ready_machine_of(
 ) -> MachineModel:
     """Return the resolved machine of a case.
 
-    At its own temperatures where it wants them computed.
+    It has its own temperatures where the case wants them computed.
 
     Parameters
     ----------
@@ -232,7 +232,7 @@ def machine_at_temperatures(loop: MachineLoop, found: Steady, sentence: str = ""
 def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Steady]:
     """Return the steady temperatures of a machine's run.
 
-    Of its averaged losses, including the cages.
+    They follow from its averaged losses, including the cages.
 
     Conductances are those of the equilibrium at the temperatures that the run was made with.
     """

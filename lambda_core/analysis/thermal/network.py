@@ -18,7 +18,7 @@ from lambda_core.domain.arrays import FloatArray
 class Network:
     """Linear thermal network.
 
-    C_i dT_i/dt = q_i + sum_j G_ij (T_j - T_i).
+    It solves C_i dT_i/dt = q_i + sum_j G_ij (T_j - T_i).
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class Network:
     def laplacian(self) -> FloatArray:
         """Matrix L of the conductances.
 
-        (L T)_i = sum_j G_ij (T_i - T_j), shape (n, n).
+        It has (L T)_i = sum_j G_ij (T_i - T_j) and shape (n, n).
         """
         found: FloatArray = np.diag(self.conductance.sum(axis=1)) - self.conductance
         return found
@@ -55,7 +55,7 @@ class Network:
     def flows(self, temperatures: FloatArray) -> FloatArray:
         """Return the heat flows between all nodes [W].
 
-        From node i to node j, shape (n, n).
+        An entry is the flow from node i to node j; the array has shape (n, n).
         """
         found: FloatArray = self.conductance * (temperatures[:, None] - temperatures[None, :])
         return found
@@ -63,7 +63,7 @@ class Network:
     def storing(self, temperatures: FloatArray) -> FloatArray:
         """Return the heat that stays in each node [W].
 
-        q - L T, shape (n,); at a held node minus what leaves there.
+        It is q - L T, shape (n,), and at a held node minus what leaves there.
         """
         found: FloatArray = self.heat - self.laplacian @ temperatures
         return found

@@ -1,6 +1,6 @@
 """Solve a bearing at temperatures from its own losses.
 
-For operation.temperatures = "computed".
+It does so for operation.temperatures = "computed".
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ def _sentence(loop: BearingLoop, found: Steady) -> str:
 def of_run(result: Result, model: BearingModel, announce: Announce = None) -> tuple[BearingLoop, Steady]:
     """Return the steady temperatures of a run.
 
-    Of its averaged losses, including the cage.
+    They follow from its averaged losses, including the cage.
 
     Conductances are those of the quasi-static point at the temperatures that the run was made with; the gain of the
     loop is that of the quasi-static point too.
@@ -119,9 +119,9 @@ def of_run(result: Result, model: BearingModel, announce: Announce = None) -> tu
 
 
 def averaged_losses(result: Result, model: BearingModel) -> dict[str, float]:
-    """Return a bearing's average losses in a run [W].
+    """Return a bearing's average losses by mechanism in a run.
 
-    By mechanism.
+    They are in W.
     """
     chosen = window(model.solver, result.revolutions(), result.integrals()[-1]).interval
     time = chosen.change("time")

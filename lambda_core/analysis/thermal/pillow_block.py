@@ -32,7 +32,7 @@ class PillowBlock:
     def conductances(self, temperatures: Mapping[str, float]) -> Pairs:
         """Return the conductances to the surroundings [W/K].
 
-        From housing and shaft, at temperatures [K].
+        They lead from housing and shaft and hold at temperatures [K].
         """
         g, t = self.model.geometry, self.thermal
         area = t.housing_area or outside.housing_area(g.outside_diameter)

@@ -30,7 +30,7 @@ _ZERO_CELSIUS = 273.15
 class LoopGain(Record):
     """Gain of the torque-temperature loop.
 
-    From 1 on it feeds itself.
+    The loop feeds itself from a gain of 1 on.
     """
 
     loop: float = Field(description="largest real part of the eigenvalues of the loop")
@@ -46,7 +46,7 @@ class LoopGain(Record):
 class HeatFlow(Record):
     """Heat between two nodes.
 
-    In the direction in which it flows.
+    The heat flows from `source` to `target`.
     """
 
     source: str
@@ -176,7 +176,7 @@ def _assumptions(loop: BearingLoop) -> tuple[list[str], list[str]]:
 def _headline(loop: BearingLoop, point: Point) -> str:
     """Return the headline of a bearing.
 
-    At the temperatures found.
+    The bearing has the temperatures found.
     """
     return "\n".join(headline(loop.losses.there(point.inlet, point.clearance)))
 
@@ -210,7 +210,7 @@ def steady_of(loop: BearingLoop, found: Steady, losses_from: str = "quasi-static
 def flows_of(network: Network, temperatures: FloatArray) -> list[HeatFlow]:
     """Return the heat between all nodes.
 
-    The largest first.
+    The largest flow comes first.
     """
     names, flows = network.names, network.flows(temperatures)
     pairs = [(i, j) for i in range(len(names)) for j in range(len(names)) if flows[i, j] > 0.0]

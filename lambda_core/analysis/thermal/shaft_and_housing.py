@@ -51,7 +51,7 @@ class ShaftAndHousing:
     def conductances(self, temperatures: Mapping[str, float]) -> Pairs:
         """Return the conductances of shaft and housing [W/K].
 
-        Along the shaft, and from shaft and housing to the surroundings.
+        They act along the shaft, and from shaft and housing to the surroundings.
 
         The housing has the surface of all bearings' pillow blocks, where the case does not say, and the height of the
         largest one.
@@ -72,7 +72,7 @@ class ShaftAndHousing:
     def _along(self, temperatures: Mapping[str, float]) -> Pairs:
         """Return the conductances along and around the shaft [W/K].
 
-        From its surface; also from its end faces to the air.
+        They lead along and around its surface, and from its end faces to the air.
         """
         found: Pairs = {}
         conductivity = self.heat.material.thermal_conductivity
@@ -98,7 +98,7 @@ class ShaftAndHousing:
     def capacities(self) -> dict[str, float]:
         """Return the heat capacities of shaft and housing [J/K].
 
-        Of the shaft's nodes, with discs on them.
+        The shaft's nodes include the discs on them.
         """
         steel = self.heat.material
         found = dict.fromkeys(self.heat.shaft, 0.0)

@@ -1,6 +1,6 @@
 """Define conductances from housing and shaft to surroundings.
 
-SI throughout.
+All values are in SI.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ CAST_IRON_CONDUCTIVITY = 50.0  # [W/(m K)], grey iron (VDI Heat Atlas, D6.2: 46 
 def housing_area(outside_diameter: float) -> float:
     """Return the outer surface of a pillow block [m2].
 
-    S = pi H (W + H/2) (Palmgren; Harris, Rolling Bearing Analysis, chapter "Rolling Bearing Temperatures"), a cylinder
-    of diameter H and length W with its two ends.
+    It is S = pi H (W + H/2) (Palmgren; Harris, Rolling Bearing Analysis, chapter "Rolling Bearing Temperatures"), that
+    of a cylinder of diameter H and length W with its two ends.
     """
     height, width = HEIGHT_RATIO * outside_diameter, WIDTH_RATIO * outside_diameter
     return math.pi * height * (width + 0.5 * height)
@@ -36,7 +36,7 @@ def housing_area(outside_diameter: float) -> float:
 def housing_mass(outside_diameter: float) -> float:
     """Return the mass of the pillow block [kg].
 
-    A cast-iron cylinder without the bearing's seat.
+    It is a cast-iron cylinder without the bearing's seat.
     """
     height, width = HEIGHT_RATIO * outside_diameter, WIDTH_RATIO * outside_diameter
     return CAST_IRON_DENSITY * math.pi / 4.0 * (height**2 - outside_diameter**2) * width
@@ -45,7 +45,7 @@ def housing_mass(outside_diameter: float) -> float:
 def natural_convection(diameter: float, surface: float, air: float) -> float:
     """Return the natural convection of a cylinder [W/(m2 K)].
 
-    Coefficient of a horizontal cylinder in still air.
+    The coefficient holds for a horizontal cylinder in still air.
 
     Nu = 0.53 (Gr Pr)^(1/4), 1e4 < Gr Pr < 1e9 (McAdams 1954, Heat Transmission, 3rd ed., chapter 7).
 
@@ -76,7 +76,7 @@ def forced_convection(diameter: float, speed: float) -> float:
 def radiation(emissivity: float, surface: float, walls: float) -> float:
     """Return the coefficient of radiation [W/(m2 K)].
 
-    To large surroundings, e sigma (T^2 + T_a^2)(T + T_a).
+    It is e sigma (T^2 + T_a^2)(T + T_a) towards large surroundings.
     """
     return emissivity * STEFAN_BOLTZMANN * (surface**2 + walls**2) * (surface + walls)
 
@@ -103,7 +103,7 @@ def rotating_shaft(diameter: float, speed: float) -> float:
 def long_fin(diameter: float, coefficient: float, conductivity: float) -> float:
     """Return the conductance into a long shaft [W/K].
 
-    From a bearing seat; the shaft is long on both sides.
+    The heat leaves a bearing seat; the shaft is long on both sides.
 
     A fin of infinite length on each side, sqrt(h P k A) with P = pi d, A = pi d^2/4 (Harper and Brown 1922).
     """
@@ -113,7 +113,7 @@ def long_fin(diameter: float, coefficient: float, conductivity: float) -> float:
 def housing_coefficient(height: float, housing: float, air: float, air_speed: float, emissivity: float) -> float:
     """Return the coefficient of a housing [W/(m2 K)].
 
-    Of a height [m]: the larger convection, and radiation.
+    A housing of a height [m] has the larger convection and the radiation.
 
     Parameters
     ----------

@@ -73,7 +73,7 @@ def _band(found: SteadyTemperatures, node: str) -> str:
 def temperature_sources(band: ModelBand | None) -> list[str]:
     """Return the sources of the bands of temperatures.
 
-    Of oil, rings and housing.
+    They are those of oil, rings and housing.
     """
     if band is None:
         return []
@@ -124,7 +124,7 @@ def course_text(found: TemperaturesOverTime) -> str:
 def _assumed(found: SteadyTemperatures | TemperaturesOverTime) -> list[str]:
     """Return the network's assumptions.
 
-    In full, and where the others are.
+    They are complete; further lines say where the other assumptions are.
     """
     return [
         *(line("network" if i == 0 else "", text) for i, text in enumerate(found.network_assumptions)),

@@ -24,7 +24,7 @@ def steady_temperatures(
 ) -> tuple[SteadyTemperatures, Callable[[], BearingModel]]:
     """Find the steady temperatures of one bearing.
 
-    See :func:`~.api.thermal`; also what returns its model there.
+    See :func:`~.api.thermal`; also return its model there.
     """
     from lambda_core.analysis.thermal.feedback import BearingLoop
     from lambda_core.analysis.thermal.operating import at_temperatures, of_run
@@ -68,7 +68,7 @@ def ready_model(
 ) -> BearingModel:
     """Return the resolved model of a case.
 
-    At its own temperatures, where it wants them computed.
+    It has its own temperatures where the case wants them computed.
 
     With `is_static` it is for an equilibrium, which needs no end in time.
 
@@ -88,7 +88,7 @@ def ready_model(
 def run_of(source: object) -> Result | None:
     """Return the run of this result file.
 
-    None for anything else.
+    Any other file gives None.
     """
     from lambda_core.results.reader import Result
 

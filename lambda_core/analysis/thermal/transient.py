@@ -92,7 +92,7 @@ class _Balance:
     def rates(self, points_at: PointsAt) -> Callable[[float, FloatArray], FloatArray]:
         """Return the rates with the points.
 
-        At a time and temperatures.
+        They hold at a time and temperatures.
         """
 
         def rate(time: float, state: FloatArray) -> FloatArray:
@@ -116,7 +116,7 @@ def _integrated(
 ) -> Any:
     """Integrate over a span [s] with LSODA.
 
-    Hindmarsh 1983, Petzold 1983: backward differences where it is stiff.
+    It uses backward differences where the problem is stiff (Hindmarsh 1983, Petzold 1983).
     """
     from scipy.integrate import solve_ivp
 
@@ -171,7 +171,7 @@ def _course(
 def warm_up(loop: BearingLoop, duration: float) -> Course:
     """Integrate the temperatures of one bearing.
 
-    From the start of the case over a time.
+    The integration starts with the temperatures of the case and covers a time.
 
     Losses between solved quasi-static points are interpolated (:class:`LossMap`).
 
@@ -205,7 +205,7 @@ def warm_up(loop: BearingLoop, duration: float) -> Course:
 def warm_up_machine(loop: Loop, duration: float) -> Course:
     """Integrate the temperatures of a machine.
 
-    From the start of the case over a time.
+    The integration starts with the temperatures of the case and covers a time.
 
     What several bearings see has too many dimensions for a grid. Points are solved along the course instead: between
     two of them, a cell of :class:`LossMap` apart at most, losses are linear in time, and the later one is solved again
@@ -262,7 +262,7 @@ def _step(
 ) -> _Step:  # fmt: skip
     """Return a step over a span [s].
 
-    Or its first part where more than a cell would be passed.
+    It returns only the first part where more than a cell would be passed.
     """
     loop, (begin, end) = balance.loop, span
     for _ in range(_HALVINGS):

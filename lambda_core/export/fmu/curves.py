@@ -70,7 +70,7 @@ class Constant:
 def points(lowest: float, highest: float, order: int) -> FloatArray:
     """Return the points of Chebyshev.
 
-    From the highest to the lowest.
+    They go from the highest to the lowest.
     """
     unit = np.cos(np.pi * np.arange(order + 1) / order)
     found: FloatArray = 0.5 * (lowest + highest) + 0.5 * (highest - lowest) * unit
@@ -129,7 +129,7 @@ def constants(
 def _curves(option: Varied, base: FloatArray, sample: Callable[[Mapping[str, float]], FloatArray]) -> FloatArray:
     """Return the values of all constants.
 
-    At the points of one option.
+    They hold at the points of one option.
     """
     known: dict[float, FloatArray] = {}
 

@@ -139,7 +139,7 @@ class Frozen:
     def input_place(self, name: str) -> int:
         """Return the place of a machine's input [bytes].
 
-        Value, then rate.
+        The value comes first and its rate follows.
         """
         return self.image.place(self.host, _HOST_WORDS + 2 * self.given.index(name))
 

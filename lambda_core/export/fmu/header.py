@@ -218,7 +218,7 @@ def _start_numbers(frozen: Frozen) -> dict[str, object]:
 def _followers(frozen: Frozen) -> Iterator[tuple[int, int, list[tuple[int, float]]]]:
     """Yield the places that follow a machine's inputs.
 
-    With the time since when, and their shares.
+    They have the time since when they follow, and their shares.
     """
     given = frozen.machine.given if frozen.machine else None
     for row, shares in given.shares.items() if given else ():

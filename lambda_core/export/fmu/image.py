@@ -82,7 +82,7 @@ class Image:
     def place(self, array: Any, index: int = 0) -> int:
         """Return the start of an array [bytes].
 
-        Or of the eight-byte item of some index.
+        With an index, it is the start of that eight-byte item.
         """
         address = _address(array)
         for begin, end, place in self._places:

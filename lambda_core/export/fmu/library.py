@@ -76,7 +76,7 @@ PLATFORMS = {
 def compiler(platform: str = "linux") -> tuple[str, ...]:
     """Return the C compiler's command for a platform.
 
-    The system's for its own platform, or that of the extra ``fmu``.
+    It is the system's compiler for its own platform, or that of the extra ``fmu``.
 
     Raises
     ------

@@ -146,7 +146,7 @@ def _is_free(machine: _Machine, member: int) -> bool:
 def _motions(machine: _Machine, one: FrozenBearing) -> Iterator[Variable]:
     """Yield a bearing's motions and forces.
 
-    Of rings and cage, and what the bearing exerts on the shaft.
+    They are motions of rings and cage, and what the bearing exerts on the shaft.
     """
     name, rings = named(f"bearings.{one.name}"), {"inner_ring": INNER, "outer_ring": OUTER}
     for ring, which in rings.items():

@@ -104,7 +104,7 @@ def _functions(announce: Callable[[str], None]) -> tuple[dict[str, Any], list[An
 def _written(signature: Any) -> list[Any]:
     """Return the kinds of a function's arguments.
 
-    As :func:`lambda_core.laws.pack.kind_from` reads them.
+    They have the form that :func:`lambda_core.laws.pack.kind_from` reads.
     """
     return [_kind(each) for each in signature.args]
 

@@ -82,7 +82,7 @@ def prescribed_rings(context: SolverContext, given: Sequence[str]) -> Prescribed
 def axis_of(name: str, field: str) -> tuple[int, float]:
     """Return the shared state of a signal's field.
 
-    And its sign there; -1 for none.
+    Also return its sign there; the state is -1 for none.
 
     Parameters
     ----------

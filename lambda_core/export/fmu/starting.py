@@ -91,7 +91,7 @@ def prepare_start(found: Equilibrium) -> Start:
 def _rolling(found: Equilibrium, speed: float) -> FloatArray:
     """Return orbital velocity and spin of the balls.
 
-    At a speed of the inner ring.
+    They roll at a speed of the inner ring.
     """
     ring = found.context.model.inner_ring
     dof = dataclasses.replace(ring.dofs[SPIN], motion=TimeFunction.constant(speed))

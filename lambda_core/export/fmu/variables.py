@@ -87,7 +87,7 @@ _TITLES = {"x": "along the shaft", "y": "horizontal", "z": "vertical"}
 def variables(frozen: Frozen) -> list[Variable]:
     """Return the variables in order.
 
-    Of a bearing or a machine, in the order of their value references.
+    The model is of a bearing or a machine; the order is that of the value references.
     """
     found = [Variable("time", "time", "s", Kind.TIME, 0)]
     if frozen.machine is not None:
@@ -116,7 +116,7 @@ def named(path: str) -> str:
 def _unit(name: str) -> tuple[str, str, str]:
     """Return the units of an input.
 
-    Of its value, its rate and its acceleration.
+    They are the units of its value, its rate and its acceleration.
     """
     word = name.split(".")[1]
     if word.startswith("force"):

@@ -110,7 +110,7 @@ def _read(text: str, written: Mapping[str, Any], case: Case | MachineCase) -> Va
 def _check_known(path: str, value: str, case: Case | MachineCase) -> None:
     """Refuse an option that no case has.
 
-    Also a value that no case has; UsageError.
+    Also refuse a value that no case has. The error is a UsageError.
     """
     from lambda_core.case.case_io import apply_overrides
 

@@ -102,7 +102,7 @@ def _encoder() -> Any:
 def _mp4(frames: Iterator[Image], path: Path, fps: float) -> None:
     """Encode H.264 that browsers and slides play.
 
-    4:2:0, the index in front.
+    The film has 4:2:0 sampling and its index in front.
     """
     first = next(frames)
     height, width = first.shape[:2]

@@ -436,7 +436,7 @@ def subject_of(
 def _begun(found: Result) -> Result:
     """Return a result that has samples.
 
-    UsageError before the first sample.
+    A result without samples raises a UsageError.
     """
     if not found.status().rows.samples:
         raise UsageError(f"{found.path} holds no samples yet")

@@ -38,7 +38,7 @@ _SIZES = ("bore_diameter", "outside_diameter", "width")
 class Picture:
     """One view on a page.
 
-    Or the reason for its absence.
+    It may be the reason for the absence of the view.
     """
 
     name: str
@@ -144,7 +144,7 @@ def bearing_part(
 def case_chapter(model: Any, found: Any, units: UnitSystem = SI, pictures: Sequence[Picture] = ()) -> Chapter:
     """Return the chapter of a case.
 
-    At its operating point; of one bearing, or of a machine.
+    The case is at its operating point and describes one bearing or a machine.
 
     Parameters
     ----------
@@ -249,7 +249,7 @@ def _sentences(lines: Sequence[str], units: UnitSystem) -> tuple[str, ...]:
 def _band(case_toml: str) -> ModelBand | None:
     """Return the 90 % model band of a case.
 
-    Of one bearing; None where there is none.
+    It is one of a bearing, or None where there is none.
     """
     from lambda_core.analysis.band.model_band import model_band
     from lambda_core.case.case_io import parse_case
@@ -285,7 +285,7 @@ def run_inputs(result: Result, units: UnitSystem = SI) -> Inputs:
 def case_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
     """Return the inputs of a study or case.
 
-    From the resolved model of one bearing.
+    They come from the resolved model of one bearing.
     """
     from types import SimpleNamespace
 

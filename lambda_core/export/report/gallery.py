@@ -48,7 +48,7 @@ class ViewCard(BaseModel):
 def cards(registry: Registry, subject: Subject | None = None) -> list[ViewCard]:
     """Return every installed view.
 
-    Or those of one kind of subject.
+    It may be limited to one kind of subject.
     """
     return [
         ViewCard(
@@ -72,7 +72,7 @@ def every(
 ) -> Iterator[tuple[View, ViewData | NotApplicable]]:
     """Yield every view of a subject.
 
-    With its data, or with the reason why it shows nothing.
+    Each has its data, or the reason why it shows nothing.
 
     Those named by `without` are left out.
     """

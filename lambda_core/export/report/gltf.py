@@ -97,7 +97,7 @@ class _File:
     def binary(self) -> bytes:
         """Return the file in binary form.
 
-        Header, JSON chunk, binary chunk (glTF 2.0 specification, section 4).
+        It has a header, a JSON chunk and a binary chunk (glTF 2.0 specification, section 4).
         """
         self.tree["buffers"] = [{"byteLength": len(self.data)}]
         text = json.dumps(self.tree, separators=(",", ":")).encode()
@@ -209,7 +209,7 @@ def _loads(file: _File, scene: Scene, time: int) -> None:
 def _pose(scene: Scene, body: int) -> FloatArray:
     """Return the orientation of a body.
 
-    Spin about x, then tilt about y, then about z.
+    It spins about x, then tilts about y, then about z.
     """
     from scipy.spatial.transform import Rotation
 

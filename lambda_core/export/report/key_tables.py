@@ -48,7 +48,7 @@ class Table:
 def key_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]]:
     """Return the key figures of a run.
 
-    Loss, life, safety, lubrication; each name, number, unit.
+    They are loss, life, safety and lubrication; each has a name, a number and a unit.
 
     `found` is a run, an equilibrium, or a bearing of one.
     """
@@ -100,7 +100,7 @@ def _remaining(found: Any, units: UnitSystem) -> list[tuple[str, str, str]]:
 def _band(found: Any, field: str, unit: str, name: str, units: UnitSystem) -> list[tuple[str, str, str]]:
     """Return the row of a model band.
 
-    Only where there is one.
+    The list is empty where there is none.
     """
     ends = getattr(found, f"{field}_band", [])
     if not ends:
@@ -160,7 +160,7 @@ def margins(verdict: Verdict, units: UnitSystem = SI) -> Table:
 def given_values(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> Table:
     """Return the values of case and bearing.
 
-    Without parameters of laws.
+    Parameters of laws are left out.
     """
     rows = tuple(
         (value.path, units.sentence(_shown(value)), value.source)
@@ -173,7 +173,7 @@ def given_values(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> Tab
 def machine_figures(found: Any, units: UnitSystem = SI, run: Any = None) -> Table:
     """Return the key figures of a machine.
 
-    A column for each bearing and one for all of them.
+    Each bearing has a column, and one column is for all of them.
 
     Parameters
     ----------
@@ -406,7 +406,7 @@ def _cell(value: Any, unit: str, units: UnitSystem) -> str:
 def value_tables(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> tuple[Table, ...]:
     """Return the resolved values with their sources.
 
-    A table for each section of the case.
+    Each section of the case has a table.
 
     What parts of a section share (the material of rings and balls, the laws of both raceways) stands there once.
     """

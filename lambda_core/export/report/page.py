@@ -91,7 +91,7 @@ _NO_COVER = Cover()
 def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) -> Chapter:
     """Return the chapter of one run.
 
-    Of a bearing or of a machine.
+    The run is one of a bearing or of a machine.
     """
     summary, units = result.summary(), cover.units
     pictures = _pictures(registry, result, "result", cover)
@@ -138,7 +138,7 @@ def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) ->
 def _start_of(result: Result) -> tuple[Any, Any] | None:
     """Return model and equilibrium of a machine's run.
 
-    From its case; None where it cannot be solved any more.
+    They come from its case; the result is None where it cannot be solved any more.
     """
     from lambda_core.analysis.rotor.api import machine_equilibrium, machine_of
     from lambda_core.case.case_io import toml_tables
@@ -276,7 +276,7 @@ def _render(**context: Any) -> str:
 def _breakable(path: str) -> Any:
     """Let a long option path break.
 
-    After its dots and underscores.
+    It may break after dots and underscores.
     """
     from markupsafe import Markup
 

@@ -26,7 +26,7 @@ def bearing_sketch(
 ) -> str:
     """Draw a bearing in section.
 
-    With its main dimensions and the load on its inner ring.
+    It shows its main dimensions and the load on its inner ring.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def _ring(geometry: Mapping[str, Any], ring: str, side: float, scale: float, at:
 def _balls(geometry: Mapping[str, Any], side: float, scale: float, centre: tuple[float, float]) -> list[str]:
     """Return the balls of one side.
 
-    With the lines through their contacts.
+    The drawing has the lines through their contacts.
     """
     rows = int(geometry.get("rows", 1))
     apart = float(geometry.get("row_distance", 0.0)) if rows == 2 else 0.0
@@ -169,7 +169,7 @@ def shaft_sketch(
 ) -> str:
     """Draw a shaft in its bearings.
 
-    With gears, discs and places of loads.
+    It shows gears, discs and places of loads.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ RacewayLaws: Any = namedtuple("RacewayLaws", R.RACEWAY_ROLES)  # type: ignore[mi
 class RollerCode(NamedTuple):
     """Pointers to the code of roller rows.
 
-    See lambda_core.solver.row_code.
+    The code is in lambda_core.solver.row_code.
     """
 
     evaluate: Any
@@ -67,7 +67,7 @@ class Laws(NamedTuple):
 class Losses(NamedTuple):
     """Losses of raceway contacts by mechanism.
 
-    Each an array with one entry per raceway [W].
+    Each array has one entry per raceway [W].
     """
 
     sliding: Any
@@ -93,7 +93,7 @@ def power_count(bundle: Bundle) -> int:
 class Grid(NamedTuple):
     """Cells on the unit ellipse.
 
-    Each an array with one entry per cell.
+    Each array has one entry per cell.
     """
 
     across: Any  # place across rolling over a
@@ -107,7 +107,7 @@ class Grid(NamedTuple):
 class Cells(NamedTuple):
     """Values of the contacts' cells.
 
-    Each an array with one entry per cell, contact by contact.
+    Each array has one entry per cell, contact by contact.
 
     Pressure and what follows depends on the kinematics alone.
     """
@@ -225,7 +225,7 @@ class Bundle(NamedTuple):
 def elements_in(bundle: Bundle, states: Any) -> Any:
     """Return the rolling elements in state vectors.
 
-    Of a bearing that is alone, (..., size), a view (..., elements).
+    The bearing is alone. The result is a view of shape (..., elements) of vectors of shape (..., size).
     """
     kind = ELEMENTS[int(bundle.rows["size"][0])]
     return states[..., : int(bundle.system["tail"][0])].view(kind)
@@ -242,7 +242,7 @@ def named_balls(y: Any, row: Any) -> Any:
 def named_cells(block: Any, first: int, count: int, width: int) -> Cells:
     """Return the rows of Bundle.cells by name.
 
-    Of contacts from the first-th on, with `width` cells each.
+    They are those of contacts from the first-th on, with `width` cells each.
     """
     a, b = first * width, (first + count) * width
     return Cells(

@@ -16,7 +16,7 @@ LANES = 8  # numbers that a processor works on at once, at most
 def filled(n: int) -> int:
     """Return the padded length of a row.
 
-    n numbers are padded with zeros, so that none is left over.
+    Zeros pad the n numbers, so that none is left over.
     """
     return -(-n // LANES) * LANES
 
@@ -37,7 +37,7 @@ class Condensed(NamedTuple):
 class RollerBlocks(NamedTuple):
     """Pointers to the factors' code of roller rows.
 
-    See lambda_core.solver.row_code.
+    The code is in lambda_core.solver.row_code.
     """
 
     factor: Any

@@ -142,7 +142,7 @@ def make_memory(
 ) -> Memory:
     """Allocate the memory of the integrator.
 
-    For the initial state y0 and absolute scales, both (n,), of the bearing in `bundle`.
+    The bearing in `bundle` gives the initial state y0 and the absolute scales, both of shape (n,).
 
     `stages` are those of a one-step formula; a multistep formula has none.
     """
@@ -179,7 +179,7 @@ def make_memory(
 def inertias(bundle: Any) -> np.ndarray:
     """Return the inertia of each state.
 
-    Shape (n,): mass, moment of inertia, 0 for positions.
+    The array has shape (n,): a mass, a moment of inertia, or 0 for positions.
     """
     elements = np.zeros(int(bundle.system["tail"][0]))
     for row in bundle.rows:
@@ -199,7 +199,7 @@ def inertias(bundle: Any) -> np.ndarray:
 def places(bundle: Any) -> np.ndarray:
     """Return the position index of each speed.
 
-    Shape (n,), or -1.
+    The array has shape (n,); a state that is no speed has -1.
 
     Only where normal forces act: a ball's x and r, a body's x, y, z.
     """

@@ -45,7 +45,7 @@ BEFORE, AFTER = 0, 1  # places of X_j,j-1 and X_j,j+1 in the blocks of ball j
 class Blocks(NamedTuple):
     """Jacobian blocks and workspaces.
 
-    Those of a ball have the columns of its own bodies, in their places.
+    The blocks of a ball have the columns of its own bodies, in their places.
     """
 
     reach: Reach  # the own bodies of each row
@@ -83,7 +83,7 @@ class Blocks(NamedTuple):
 def may_touch(bundle: Any) -> bool:
     """Tell whether balls may touch each other.
 
-    Those of a row without a cage, where such contacts are computed.
+    They are balls of a row without a cage, where such contacts are computed.
     """
     return bool(bundle.system["guides_on"][0]) and not bundle.rows["caged"].all()
 

@@ -17,7 +17,7 @@ from lambda_core.solver.arrays.bundle import INTEGERS, INTEGERS2, NS, SVX
 class Reach(NamedTuple):
     """Own bodies of each row of balls.
 
-    With the places of their states.
+    It also has the places of their states.
     """
 
     first: Any  # int64 (rows + 1,): first ball of each row, in the end the number of balls
@@ -38,7 +38,7 @@ class Reach(NamedTuple):
 def _own_bodies(bundle: Any, row: Any) -> list[int]:
     """Return the bodies that a row touches.
 
-    By its balls, in order.
+    Its balls touch them; the bodies are in order.
     """
     begin = int(row["first_raceway"])
     raceways = bundle.raceways[begin : begin + int(row["raceways"])]

@@ -1,4 +1,4 @@
 """Compute contacts of the cage and between balls.
 
-Compiled.
+All of it is compiled.
 """

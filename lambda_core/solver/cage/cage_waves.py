@@ -24,7 +24,7 @@ _NEWTON, _FOUND = 20, 1e-14  # iterations from there on, and the last step that 
 def _displacement(first, last, cosine, sine, bundle):
     """Return displacements and rates at an azimuth.
 
-    Outwards and along the circumference, in the material.
+    They point outwards and along the circumference, in the material.
     """
     c, s, order = cosine, sine, 1.0
     w, v, w_rate, v_rate = 0.0, 0.0, 0.0, 0.0
@@ -43,7 +43,7 @@ def _displacement(first, last, cosine, sine, bundle):
 def carry_pocket(azimuth, row, bundle, g):
     """Move a pocket with the cage's waves.
 
-    At an azimuth in the cage's material.
+    The pocket is at an azimuth in the cage's material.
     """
     g.wave_cosine, g.wave_sine = math.cos(azimuth), math.sin(azimuth)
     g.facing_radial, g.facing_tangential = 1.0, 0.0
@@ -60,7 +60,7 @@ def carry_pocket(azimuth, row, bundle, g):
 def _outline(first, last, azimuth, bundle):
     """Return the outward displacement at an azimuth.
 
-    In the material, with its first two derivatives [m].
+    It holds in the material; also return its first two derivatives [m].
     """
     w, slope, bend, order = 0.0, 0.0, 0.0, 1.0
     for i in range(first, last):
@@ -77,7 +77,7 @@ def _outline(first, last, azimuth, bundle):
 def _narrowest(land, y, z, turned, bundle):
     """Return the azimuth of the narrowest gap.
 
-    In the ring's frame, of a cage that is off the ring's axis by y, z, against the land.
+    It holds in the ring's frame. The cage is off the ring's axis by y, z, against the land.
 
     The way towards the land, side (y cos + z sin + w), is largest there: looked for from place to place and then by
     Newton's method. Of a cage more oval than its clearance only the nearest of its contacts with the land is found.
@@ -109,7 +109,7 @@ def _narrowest(land, y, z, turned, bundle):
 def carry_land(land, cage, bundle, g):
     """Turn a wavy cage into a round one.
 
-    Place and velocity at a station of its land; the round cage touches alike.
+    It has place and velocity at a station of the land; the round cage touches alike.
 
     It comes as near, at the azimuth where the bent one comes nearest, and its surface there has the same velocity.
     """

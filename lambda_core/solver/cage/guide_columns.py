@@ -112,7 +112,7 @@ def _pocket_waves(ball, cage, j, row, law, par, bundle, bl):
 def neighbour_columns(ball, other, row, bundle, bl):
     """Add the ball-ball contact to the slopes.
 
-    The first ball's own; those with the other's states go into bl.beyond.
+    Slopes with the first ball's own states go here; those with the other's states go into bl.beyond.
     """
     scratch, viscosity, fm = bundle.scratch[0], row.oil.viscosity, bl.wrenches
     g, out, fault = scratch.guide, scratch.out[:], scratch.fault
@@ -225,7 +225,7 @@ def _land_waves(land, cage, ring, law, par, bundle, bl):
 def land_columns(bundle, row, bl):
     """Add every land of a row.
 
-    Of all rows of balls where `row` is -1.
+    A `row` of -1 takes all rows of balls.
     """
     for i in range(bundle.lands.size):
         if row >= 0 and bundle.lands[i].row != row:

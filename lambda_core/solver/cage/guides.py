@@ -1,6 +1,6 @@
 """Compute contacts of the cage.
 
-With balls (pockets) and rings (lands); ball with ball without a cage.
+Balls touch pockets, lands touch rings, and balls touch each other without a cage.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def _project(v, g):
 def pocket_state(ball, cage, j, row, bundle, g):
     """Write ball j's state in its pocket.
 
-    Position and velocity relative to the pocket, in its frame, of the row's ball.
+    Position and velocity are relative to the pocket, in its frame; the ball belongs to the row.
     """
     axis, omega = turning_body(cage)
     write_frame(axis, cage.angle + row.pocket_phase + 2.0 * math.pi * (j - row.first_ball) / row.balls, g)
@@ -142,7 +142,7 @@ def neighbour_state(ball, other, g):
 def guide_force(law, par, g, viscosity, out, fault, place):
     """Call a cage law on a guide record.
 
-    out = force[3], point[3] in the frame; 1 when well.
+    The law writes out = force[3], point[3] in the frame; return 1 when well.
     """
     out[:6] = np.nan
     status = law(g.place[:], g.velocity[:], g.rotation[:], viscosity, par, out)
@@ -158,7 +158,7 @@ def guide_force(law, par, g, viscosity, out, fault, place):
 def _law_at_rest(law, par, share, g, viscosity, out, still):
     """Write the law's force at rest.
 
-    At `share` of the way to the record's place.
+    It holds at `share` of the way to the record's place.
     """
     store(still.place, scale(share, g.place))
     store(still.velocity, (0.0, 0.0, 0.0))
@@ -170,7 +170,7 @@ def _law_at_rest(law, par, share, g, viscosity, out, still):
 def guide_loss(law, par, g, viscosity, out, still):
     """Return the loss of a cage contact [W].
 
-    All work less that of the elastic force.
+    It is all work less that of the elastic force.
 
     The elastic force is the law's force at rest. Call after guide_force, whose result `out` keeps.
     """
@@ -188,7 +188,7 @@ def guide_loss(law, par, g, viscosity, out, still):
 def _force_along(law, par, share, g, viscosity, out, still):
     """Return the force at rest along r.
 
-    Write it at `share` of the way to the record's place; return its component along r.
+    Write the force at `share` of the way to the record's place; return its component along r.
     """
     _law_at_rest(law, par, share, g, viscosity, out, still)
     return dot(out, g.place)
@@ -198,7 +198,7 @@ def _force_along(law, par, share, g, viscosity, out, still):
 def guide_energy(law, par, g, viscosity, out, still, start):
     """Return a cage contact's elastic energy [J].
 
-    Work against the force at rest on the way to its place r.
+    It is the work against the force at rest on the way to its place r.
 
     The way begins at `start` r, where there is no force: 0 in a pocket, beyond first touch for two balls. First
     touch is found by bisection, since the play is often a hundred times the penetration.
@@ -226,7 +226,7 @@ def guide_energy(law, par, g, viscosity, out, still, start):
 def force_and_point(g, out):
     """Return the force and point of a law.
 
-    Its point of action from the guiding body's centre, inertial.
+    The point of action is measured from the guiding body's centre, in inertial axes.
     """
     f = combine((out[0], out[1], out[2]), g.axial, g.radial, g.tangential)
     return f, combine_onto(g.origin, (out[3], out[4], out[5]), g.axial, g.radial, g.tangential)
@@ -276,6 +276,6 @@ def neighbour_apply(azimuth, arm, out, sign, on_ball):
 def first_arm(g, out):
     """Return the point of a ball-ball force.
 
-    From the first ball's centre.
+    It is measured from the first ball's centre.
     """
     return out[3] - g.place[0], out[4] - g.place[1], out[5] - g.place[2]

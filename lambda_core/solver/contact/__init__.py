@@ -1,4 +1,4 @@
 """Compute the contact of a ball with a raceway.
 
-Compiled.
+All of it is compiled.
 """

@@ -16,7 +16,7 @@ probe_sig = i8(table_t(R.BALL), table_t(R.BODY_STATE), i8, bundle_t, array1)
 def probe(balls, rings, k, bundle, losses):
     """Run the pipeline of one contact.
 
-    At given states; this is an entry point.
+    The states are given; this is an entry point.
 
     Parameters
     ----------

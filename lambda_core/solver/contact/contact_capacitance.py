@@ -18,7 +18,7 @@ _gap_capacitance = helper(gap_capacitance)
 def bulk_permittivity(raceway, laws, bundle):
     """Return the oil's relative permittivity without pressure.
 
-    At the oil's temperature.
+    It holds at the oil's temperature.
     """
     par, where, cells = bundle.par, raceway.parameters, cells_of(bundle.cells, 0, 1, bundle.grid.shape[1])
     p, temp, rho, eps = cells.pressure[:1], cells.temperature[:1], cells.density[:1], cells.friction[:1]
@@ -32,7 +32,7 @@ def bulk_permittivity(raceway, laws, bundle):
 def contact_capacitance(raceway, kin, laws, bundle, grid, cells, shorted, touching, sample):
     """Write the capacitances of a contact [F].
 
-    Of the Hertzian area and of the contact, which is at least that of two that touch.
+    One is that of the Hertzian area. The other is that of the contact, which is at least that of two that touch.
 
     `grid` and `cells` are those of the contact in scratch: an ellipse's, or the slices of a line.
     """
@@ -73,7 +73,7 @@ def contact_capacitance(raceway, kin, laws, bundle, grid, cells, shorted, touchi
 def touching_film(raceway, kin, bundle):
     """Return the film [m] at first touch.
 
-    Central film of entrained oil where ball and raceway just touch, or -1.
+    It is the central film of entrained oil where ball and raceway just touch, or -1.
 
     Hertz's contact and with it the law of the film end where the approach is that of the surfaces' roughness: the film
     there stands for all lighter contacts. Writes over the contact in scratch.
@@ -90,7 +90,7 @@ def touching_film(raceway, kin, bundle):
 def open_capacitance(raceway, gap, bulk):
     """Return the capacitance [F] of an open contact.
 
-    Ball and raceway at a distance [m]; no closer than their roughness.
+    Ball and raceway are at a distance [m], which is at least their roughness.
     """
     distance = max(gap, raceway.roughness)
     return bulk * _gap_capacitance(distance, raceway.radius_x, raceway.radius_y, raceway.ball_radius)

@@ -39,7 +39,7 @@ from lambda_core.solver.vec import (
 def axis_x(ay, az):
     """Return a unit axis's x component.
 
-    From its other two.
+    The other two components give it.
     """
     return math.sqrt(max(1.0 - ay * ay - az * az, 1e-12))
 
@@ -64,7 +64,7 @@ def _from_axis(ball, ring, c, s):
 def surface_lift(ball, ring, raceway, bundle, kin):
     """Look up the raceway's surface under a ball.
 
-    For `contact_kinematics` to take: call it first where one is in use.
+    `contact_kinematics` takes it: call this first where a surface is in use.
 
     Writes kin.lift, the height, and kin.rise_t, kin.rise_s, its slopes with the ball centre's place along t and s; NaN
     when the law refused. In the quasi-static equilibrium raceways are nominal but for the waves of elastic rings.
@@ -165,7 +165,7 @@ def contact_kinematics(ball, ring, raceway, kin):
 def _velocities(ball, ring, axis, centre, azimuth, frame, lengths, reach, arm, kin):
     """Write the velocities at a contact.
 
-    Normal, slip, relative rotation, entrainment.
+    They are normal, slip, relative rotation and entrainment.
     """
     c, s = azimuth
     t, s_, n = frame
@@ -221,7 +221,7 @@ def _wrenches(raceway, first, count, bundle):
 def contact_wrench(raceway, place, bundle):
     """Run the laws of one contact.
 
-    At a place of scratch, into contact and wrench there; returns 1, or 0 on a fault.
+    It writes contact and wrench at a place of scratch; return 1, or 0 on a fault.
     """
     return _wrenches(raceway, place, 1, bundle)
 
@@ -230,7 +230,7 @@ def contact_wrench(raceway, place, bundle):
 def contact_wrenches(raceway, first, count, bundle):
     """Run the laws of several contacts together.
 
-    Into contacts and wrenches at their places of scratch.
+    It writes contacts and wrenches at their places of scratch.
 
     Returns 1, or 0 on a fault: scratch.fault names the first contact that has one when it is alone.
     """
@@ -256,7 +256,7 @@ def contact_angle(kin, raceway):
 def apply_wrench(kin, wrench, on_ball, on_ring):
     """Turn a contact wrench into force and moment.
 
-    On ball and ring, equal and opposite.
+    They act on ball and ring, equal and opposite.
 
     Parameters
     ----------

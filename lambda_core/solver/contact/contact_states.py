@@ -20,7 +20,7 @@ from lambda_core.solver.layout import helper, part, raceway_laws
 def first_state(raceway, j):
     """Return the first state of a contact.
 
-    Its place among those of all contacts, for ball j.
+    Its place is counted among those of all contacts, for ball j.
     """
     return raceway.first_state + j * raceway.states
 
@@ -29,7 +29,7 @@ def first_state(raceway, j):
 def hand_states(raceway, j, bundle):
     """Write a contact's states for its laws.
 
-    The contact of ball j; the laws of its raceway read them.
+    The contact is one of ball j; the laws of its raceway read the states.
     """
     first = first_state(raceway, j)
     for i in range(raceway.slots[0], raceway.slots[1]):
@@ -39,9 +39,9 @@ def hand_states(raceway, j, bundle):
 
 @helper
 def lost_in(losses, k):
-    """Return the power lost in raceway k.
+    """Return the power lost in raceway k so far [W].
 
-    Of all balls so far [W].
+    It sums all balls.
     """
     return (
         losses.sliding[k] + losses.spin[k] + losses.boundary[k]
@@ -94,7 +94,7 @@ def _stop_at_bounds(raceway, par_end, n, bundle, out):
 def state_rates(t, raceway, j, power, bundle):
     """Write the rates of a contact's states.
 
-    And their slopes with them; returns 1 when well.
+    The slopes of the states are written with them; return 1 when well.
 
     Parameters
     ----------

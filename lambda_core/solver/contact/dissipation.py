@@ -13,7 +13,7 @@ from lambda_core.solver.layout import helper, vector_helper
 def _cell_powers(a, b, wn, grid, cells):
     """Return the powers over a b.
 
-    Of film shear by sliding and by spin and of the asperities.
+    They are those of film shear by sliding and by spin, and of the asperities.
     """
     inverse, vt, vs, fluid, solid = cells.inverse_slip, cells.slip_t, cells.slip_s, cells.shear_inlet, cells.friction
     across, along, area = grid.across, grid.along, grid.area
@@ -35,7 +35,7 @@ def _cell_powers(a, b, wn, grid, cells):
 def raceway_losses(raceway, kin, system, grid, contact, cells, losses):
     """Add the power that this contact dissipates.
 
-    To layout.Losses [W]; call after raceway_wrench.
+    It goes to layout.Losses [W]; call this after raceway_wrench.
 
     Power of the film's shear in a cell is split between sliding and spin in proportion
     to the squares of the two velocity fields, so that both are non-negative.

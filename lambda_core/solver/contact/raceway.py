@@ -1,7 +1,7 @@
 """Compute wrenches of raceway contacts from kinematics.
 
-Stages, each a kernel of the model: normal force, damping, film with thermal correction, asperity
-share, shear in every cell (rheology, traction, temperature), rolling resistance, hysteresis.
+Each stage is a kernel of the model: normal force, damping, film with thermal correction, asperity share, shear in every
+cell (rheology, traction, temperature), rolling resistance, hysteresis.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ from lambda_core.solver.vec import clear
 def _wrenches_near(scratch, bl):
     """Write the wrenches at neighbouring kinematics.
 
-    On ball and ring.
+    The wrenches act on ball and ring.
     """
     kin, wrench = scratch.kinematics[1], scratch.wrench[1]
     wrench_at(kin, scratch.kinematics[0], scratch.wrench[0], bl.slope[0], wrench)

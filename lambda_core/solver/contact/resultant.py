@@ -12,7 +12,7 @@ from lambda_core.solver.vec import scale, store
 def _sum_cells(half_curvature, a, b, grid, cells):
     """Return the shear's resultant on the ball.
 
-    Over a b: forces along t and s, couples about t, s, n.
+    It is over a b: forces along t and s, and couples about t, s, n.
     """
     tau, inverse, vt, vs = cells.shear, cells.inverse_slip, cells.slip_t, cells.slip_s
     across, along, area = grid.across, grid.along, grid.area
@@ -47,7 +47,7 @@ def sum_wrench(raceway, kin, system, grid, contact, cells, wrench):
 def rolling_speeds(raceway, kin):
     """Return the dissipating speeds of rolling losses [m/s].
 
-    Of rolling resistance and hysteresis.
+    They are those of rolling resistance and hysteresis.
 
     In pure rolling both are the mean surface velocity; defined by the work of their forces so that
     each loss is non-negative whatever the slip.

@@ -22,7 +22,7 @@ from lambda_core.solver.vec import cosine_sine
 def widen(raceway, azimuth, bundle, kin):
     """Write an elastic raceway's displacement at an azimuth.
 
-    Radial displacement, its slope and rate; azimuth in its material [rad].
+    It is a radial displacement with its slope and rate; the azimuth is in its material [rad].
     """
     first_c, first_s = cosine_sine(azimuth)
     kin.wave_cosine, kin.wave_sine = first_c, first_s
@@ -56,7 +56,7 @@ def wave_pushes(raceway, kin, wrench, pushes):
 def push_waves(raceway, place, bundle):
     """Add a raceway contact to wave forces.
 
-    At a place of scratch, on the waves of its ring.
+    The contact is at a place of scratch, on the waves of its ring.
     """
     scratch = bundle.scratch[0]
     pushes = scratch.out[:]
@@ -89,7 +89,7 @@ def add_push_slope(slopes, i, column, step, pushes):
 def turn_waves(bundle):
     """Add the Coriolis forces on the waves.
 
-    Of turning rings (Bryan 1890); they have no power.
+    They arise in turning rings (Bryan 1890) and have no power.
 
     The inward pull of rotation is left out: of order (spin/frequency)^2.
     """

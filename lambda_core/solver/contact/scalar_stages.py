@@ -52,7 +52,7 @@ def _well(out, n, results):
 def _blank(out, n, results):
     """Fill first results of contacts with NaN.
 
-    Of n contacts, so that those that a law leaves out are seen.
+    Laws that leave one of the n contacts out are then seen.
     """
     for k in range(n):
         for i in range(results):
@@ -96,7 +96,7 @@ def _motion(first, count, n, scratch):
 def _loads(raceway, first, count, n, laws, par, scratch):
     """Call the law of the load.
 
-    For contacts of which the first is closed, as the others are; 0 on a fault.
+    It is called for contacts that are closed as the first one is; return 0 on a fault.
     """
     lanes, out, ring = scratch.lanes, scratch.out[:], raceway.number
     rx, ry, e = raceway.radius_x, raceway.radius_y, raceway.modulus
@@ -125,7 +125,7 @@ def _loads(raceway, first, count, n, laws, par, scratch):
 def _damping(raceway, first, count, n, laws, par, scratch):
     """Write damping forces of contacts.
 
-    Their lanes are full; 0 on a fault.
+    The contacts fill their lanes; return 0 on a fault.
     """
     lanes, out, oil = scratch.lanes, scratch.out[:], raceway.oil
     rx, ry, e = raceway.radius_x, raceway.radius_y, raceway.modulus
@@ -164,7 +164,7 @@ def normal_stage(raceway, first, count, laws, par, system, scratch):
 def line_damping(raceway, place, laws, par, scratch):
     """Write the damping force of a line.
 
-    Its loads are those of its slices; 0 on a fault.
+    Its loads are those of its slices; return 0 on a fault.
     """
     lanes, contact = scratch.lanes, scratch.contact[place]
     _motion(place, 1, 1, scratch)
@@ -257,7 +257,7 @@ def _films(raceway, first, count, n, laws, par, scratch):
 def _asperities(raceway, first, count, n, laws, par, scratch):
     """Write the shares of asperities and film.
 
-    In the load, and in the shear stress; 0 on a fault.
+    They are shares in the load and in the shear stress; return 0 on a fault.
     """
     ring, where = raceway.number, raceway.parameters
     lanes, out, fault = scratch.lanes, scratch.out[:], scratch.fault

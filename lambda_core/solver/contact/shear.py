@@ -39,7 +39,7 @@ def _slip_rows(
 def slip_field(raceway, kin, system, grid, contact, cells):
     """Write slip and pressure of every cell.
 
-    With the spread of slip inside the cell.
+    The spread of slip inside the cell is added.
     """
     _slip_rows(
         contact.semi_axis_a, contact.semi_axis_b, contact.max_pressure, kin.slip_t, kin.slip_s,
@@ -86,7 +86,7 @@ def _finite_rows(a, b, c, d, e, f):
 def _shear_fault(raceway, first, cells, scratch):
     """Report the first non-finite kernel of shear_stage.
 
-    In the order of their calls.
+    The kernels have the order of their calls.
     """
     slip, p, hot, ring, fault = cells.slip, cells.pressure, cells.temperature, raceway.number, scratch.fault
     contact = scratch.contact[first]
@@ -110,7 +110,7 @@ def _shear_fault(raceway, first, cells, scratch):
 def _begin(block, end):
     """Fill the laws' rows with NaN.
 
-    And what stands behind them; the density is written over and over.
+    The places behind them are filled, too; the density is written over and over.
     """
     for row in range(RESULTS):
         for i in range(end + 1):
@@ -147,7 +147,7 @@ def _outside(raceway, first, block, end, scratch):
 def _sweeps(raceway, first, count, laws, par, cells, scratch):
     """Call the shear laws for all cells.
 
-    Of the film's shear and of the asperities' friction, for contacts; 0 on a fault.
+    They concern the film's shear and the asperities' friction of contacts; return 0 on a fault.
     """
     slip, p, temp, rho, film = cells.slip, cells.pressure, cells.inlet, cells.density, cells.film
     cold, ln_eta = cells.ln_eta_inlet, cells.ln_eta
@@ -185,7 +185,7 @@ def _sweeps(raceway, first, count, laws, par, cells, scratch):
 def shear_stage(raceway, first, count, laws, par, grid, block, scratch):
     """Write the shear stress of every cell.
 
-    Of film and asperities, for contacts of which contact `first` has the first cells.
+    It is that of film and asperities, for contacts of which contact `first` has the first cells.
 
     Temperature and traction form a loop (T -> eta -> tau -> T). Two sweeps: at the inlet temperature,
     and at the temperature that this shear would cause; between them the shear stress is

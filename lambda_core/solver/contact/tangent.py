@@ -57,7 +57,7 @@ def _slip_column(a, b, curvature, along, across, spread, grid, cells, tau2, step
 def _slip_columns(raceway, kin, grid, contact, cells, tau2, step, slope):
     """Write d(wrench)/d(slip, relative rotation).
 
-    From the shear at slightly larger slip.
+    They come from the shear at slightly larger slip.
     """
     a, b = contact.semi_axis_a, contact.semi_axis_b
     c = 1.0 / raceway.radius_deformed
@@ -75,7 +75,7 @@ def _slip_columns(raceway, kin, grid, contact, cells, tau2, step, slope):
 def _rolling_columns(raceway, kin, system, contact, slope):
     """Add the derivative of rolling directions.
 
-    Of rolling resistance and hysteresis.
+    It concerns rolling resistance and hysteresis.
     """
     rx = raceway.radius_x
     roll, bend = rolling_speeds(raceway, kin)
@@ -153,7 +153,7 @@ def _clear_all(slope):
 def contact_tangent(raceway, laws, par, system, grid_table, block, scratch, slope):
     """Write d(wrench)/d(kinematics) and the wrench.
 
-    A TANGENT; a separate entry point, called by pointer.
+    It writes a TANGENT. It is a separate entry point, called by pointer.
 
     Runs the pipeline of the contact at place 0 of scratch and of the same contact at neighbouring kinematics together:
     with a larger penetration, a larger entrainment, and a larger normal velocity and slip.
@@ -198,7 +198,7 @@ def _add_slope(wrench, column, amount):
 def wrench_at(kin, kin0, wrench0, slope, wrench):
     """Write the wrench to first order.
 
-    At kinematics `kin` near `kin0`.
+    It holds at kinematics `kin` near `kin0`.
     """
     store(wrench.force, wrench0.force)
     store(wrench.moment, wrench0.moment)

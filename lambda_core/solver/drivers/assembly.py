@@ -29,7 +29,7 @@ GROUND = -1  # number of the ground among the bodies that a link connects
 class Member:
     """Rigid body with degrees of freedom.
 
-    And loads and supports.
+    It has loads and supports.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Member:
 class AssembledBearing:
     """Bearing in an assembly.
 
-    Its model, the laws as they are compiled and frozen, and the members that carry its parts.
+    It has its model, the laws as they are compiled and frozen, and the members that carry its parts.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class AssembledBearing:
 class AssembledLink:
     """Force element between points of two members.
 
-    Or of a member and the ground.
+    It may also join a member and the ground.
 
     Attributes
     ----------
@@ -198,7 +198,7 @@ class BearingSpan:
 def assembly_of(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> Assembly:
     """Return the assembly of a bearing alone.
 
-    Its rings and cage on supports of their own, and its force elements.
+    Its rings and cage are on supports of their own; its force elements are added.
     """
     bodies = (model.inner_ring, model.outer_ring, model.cage_body)
     numbers = list(BODIES)

@@ -33,7 +33,7 @@ Solve = Callable[[FloatArray], StaticReport]
 def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport, solve: Solve) -> StaticReport:
     """Move balls along their paths.
 
-    Axially and radially; find the friction's equilibrium again, in place.
+    They move axially and radially; the friction's equilibrium is then found again, in place.
 
     A ball that is carried across the grooves while it goes round drags the rings sideways where it slips; at rest it
     would drag them twice as much. Under a radial or an axial load alone there is no axial path and nothing to do. The
@@ -85,7 +85,7 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
 def _mixed(points: list[FloatArray], differences: list[FloatArray]) -> FloatArray:
     """Return the fixed-point iteration's next step.
 
-    From its points and what they miss the fixed point's map by.
+    It follows from its points and from their distances to the fixed point's map.
 
     The combination of the last differences that is least foretells where they vanish.
     """
@@ -105,7 +105,7 @@ def _step_along(
 ) -> tuple[StaticReport, FloatArray] | None:
     """Change the balls' axial and radial velocities.
 
-    By a step or a part of it; find the equilibrium, in place.
+    They change by a step or a part of it; find the equilibrium, in place.
 
     Returns the report and the part; None, and the state as it was, where no equilibrium follows.
     """
@@ -124,7 +124,7 @@ def _step_along(
 def path_velocities(balls: NDArray[Any]) -> FloatArray:
     """Return each ball's axial and radial velocity.
 
-    Of a row, from where its neighbours are.
+    The ball belongs to a row; the places of its neighbours give the velocity.
 
     In steady running every ball comes by where its neighbour is now, so that place is a function of azimuth, x(psi),
     and dx/dt = omega dx/dpsi. The balls of a row are evenly spaced: the derivative is that of the trigonometric

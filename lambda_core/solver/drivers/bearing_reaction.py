@@ -32,7 +32,7 @@ _SAME_ANGLE = 1e-4  # [rad] change of the frozen contact angle that asks for ano
 def held(model: BearingModel, pose: Sequence[float]) -> BearingModel:
     """Return the model with held rings.
 
-    The inner ring at a pose, the outer ring at rest.
+    The inner ring is at a pose and the outer ring at rest.
     """
     inner = {
         **model.inner_ring.dofs,
@@ -50,7 +50,7 @@ def held(model: BearingModel, pose: Sequence[float]) -> BearingModel:
 class Reaction(ABC):
     """Bearing that answers its inner ring's pose.
 
-    With its surroundings where it is alone.
+    Its surroundings are included where it is alone.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class Reaction(ABC):
     def equilibrium(self) -> Equilibrium:
         """Return the equilibrium with friction.
 
-        At the last pose or of the bearing alone.
+        It is that at the last pose or of the bearing alone.
         """
         if self.alone is None:
             return self.at_pose()
@@ -112,7 +112,7 @@ class BearingReaction(Reaction):
     def reaction(self, pose: Sequence[float]) -> FloatArray:
         """Return force and moment at a pose.
 
-        Of the bearing on its inner ring, shape (5,) [N, N m].
+        The bearing exerts them on its inner ring; the array has shape (5,) [N, N m].
 
         Raises
         ------
@@ -133,7 +133,7 @@ class BearingReaction(Reaction):
     def stiffness(self) -> FloatArray:
         """Return -d(reaction)/d(pose) at the last pose.
 
-        Shape (5, 5).
+        The matrix has shape (5, 5).
         """
         if self._freed is None:
             self._freed = freed(self._context)
@@ -150,7 +150,7 @@ class BearingReaction(Reaction):
     def refresh(self) -> bool:
         """Freeze radii and films at the last pose.
 
-        At its contact angles; False where they stood there already.
+        They are those at its contact angles; the result is False where they stood there already.
         """
         contacts, _ = contact_channels(core(), self._context, self._state)
         new = mean_frame(self.model.geometry, contacts, self._frame)

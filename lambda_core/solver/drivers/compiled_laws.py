@@ -58,7 +58,7 @@ class Kernels:
     def of_laws(self, model: BearingModel) -> dict[tuple[str, str], Any]:
         """Return the kernels of laws that another model shares.
 
-        By role and label.
+        The keys are role and label.
         """
         own = {
             (role, law.model.label): (law.model, self.compiled[element, role])
@@ -75,7 +75,7 @@ class Kernels:
     def pointers(self) -> L.Laws:
         """Return the laws' addresses in order.
 
-        The solver's order: one set per raceway; pocket, inner and outer land.
+        The order is the solver's: one set per raceway, then pocket, inner and outer land.
         """
 
         def law(element: str, role: str) -> Any:
@@ -98,7 +98,7 @@ def check_laws(
 ) -> None:
     """Test every law with this run's parameters.
 
-    Before any compiled code calls it.
+    It does so before any compiled code calls the laws.
 
     A law is tried once by a process for each choice of parameters: many runs of it take no longer for that.
 
@@ -135,7 +135,7 @@ def _try_out(fresh: dict[tuple[str, str, str], Choice]) -> None:
 def derive_oils(model: BearingModel, kernels: Kernels, frame: ContactFrame) -> Oils:
     """Return the oil of each raceway contact.
 
-    With the constants that its rheology gives.
+    The rheology of the oil gives its constants.
     """
     inner, outer = (_derive_oil(model, kernels, frame, element) for element in RACEWAYS)
     return inner, outer
@@ -144,7 +144,7 @@ def derive_oils(model: BearingModel, kernels: Kernels, frame: ContactFrame) -> O
 def _derive_oil(model: BearingModel, kernels: Kernels, frame: ContactFrame, element: str) -> Oil:
     """Return the oil with its rheology's constants.
 
-    Viscosity, density, alpha_p and beta from the rheology kernel of one contact.
+    The rheology kernel of one contact gives viscosity, density, alpha_p and beta.
 
     alpha_p is the tangent d ln(eta)/dp at p = 0, beta is -d ln(eta)/dT at the bulk temperature.
     """

@@ -29,7 +29,7 @@ from lambda_core.solver.drivers.solver_context import SolverContext
 class ContactField:
     """One ball-raceway contact in cells, SI.
 
-    On a structured mesh of shape (strips, rows).
+    The cells form a structured mesh of shape (strips, rows).
 
     Attributes
     ----------
@@ -74,7 +74,7 @@ class ContactField:
 def contact_state(sample: Mapping[str, FloatArray], ball: int, ring: str) -> tuple[FloatArray, FloatArray]:
     """Return the states of ball and ring.
 
-    One ball (9,) and one ring (12,) from the channels of one sample.
+    The channels of one sample give one ball (9,) and one ring (12,).
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def contact_field(
 ) -> ContactField:
     """Run the contact pipeline on a fine grid.
 
-    Of one ball and one raceway.
+    The contact is that of one ball and one raceway.
 
     Parameters
     ----------

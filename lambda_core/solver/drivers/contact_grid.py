@@ -24,7 +24,7 @@ def contacts_at_once(cells: int) -> int:
 def cell_block(cells: int, contacts: int) -> FloatArray:
     """Return memory for contacts with cells.
 
-    So many contacts of so many cells each, layout.Bundle.cells.
+    The memory is layout.Bundle.cells.
 
     Rows begin with a line of the cache: a vector that lies across two lines is read and written twice.
     """
@@ -73,6 +73,6 @@ def unit_grid(strips: int, rows: int) -> FloatArray:
 def _disc_area(x: FloatArray) -> FloatArray:
     """Return the unit disc's area left of x.
 
-    Up to a constant.
+    It is exact up to a constant.
     """
     return x * np.sqrt(np.maximum(1.0 - x * x, 0.0)) + np.arcsin(x)

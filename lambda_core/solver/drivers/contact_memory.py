@@ -24,7 +24,7 @@ _STEP = 1e-6  # of a state's scale, for the slopes of its rates
 def state_arrays(assembly: Assembly, tables: Tables) -> dict[str, Any]:
     """Return the arrays of contact states.
 
-    Those of layout.Bundle, every state at its start.
+    They are those of layout.Bundle, with every state at its start.
     """
     models = [bearing.model for bearing in assembly.bearings]
     counts = [model.geometry.ball_count for model in models for _ in raceways(model.geometry)]
@@ -46,7 +46,7 @@ def state_arrays(assembly: Assembly, tables: Tables) -> dict[str, Any]:
 def state_tail(model: BearingModel) -> FloatArray:
     """Return the scales of all contact states.
 
-    Of a bearing.
+    They are those of a bearing.
     """
     rows = [
         np.tile([state.scale for state in states_of(model, raceway.element)], model.geometry.ball_count)
@@ -58,7 +58,7 @@ def state_tail(model: BearingModel) -> FloatArray:
 def channels_of_states(model: BearingModel, tails: FloatArray) -> dict[str, FloatArray]:
     """Return the channels of contact states.
 
-    From the ends of n state vectors, shape (n, balls, 2).
+    The ends of n state vectors hold them; the array has shape (n, balls, 2).
 
     Of four-point contact (n, balls, 4), by arc. NaN for a raceway whose law does not keep the state.
     """

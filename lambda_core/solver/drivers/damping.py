@@ -1,6 +1,6 @@
 """Compute the damping matrix of a bearing.
 
-Six by six about the quasi-static equilibrium; balls follow.
+The matrix has shape (6, 6) about the quasi-static equilibrium; balls follow.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ def damping_matrix(equilibrium: Equilibrium, frequency: float) -> FloatArray:
 def _freed(found: SolverContext) -> SolverContext:
     """Return the context with a free inner ring.
 
-    The same bearing; the ring is free to turn, too; no other force elements.
+    The bearing is the same. The ring is free to turn, too, and no other force elements act.
     """
     free = found.model.inner_ring.freed(_FREED)
     return assemble(dataclasses.replace(found.model, inner_ring=free, links={}), found.kernels, found.frame, found.oils)

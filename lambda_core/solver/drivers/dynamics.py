@@ -162,14 +162,14 @@ class MotionEngine(Generic[Sampled, Summed_co]):
     def parts(self) -> tuple[Core, SolverContext, Memory, Scratch]:
         """Return what takes steps and reads states.
 
-        For code that is to do so elsewhere.
+        Code that takes the steps elsewhere needs them.
         """
         return self._core, self.context, self._memory, Scratch.of(1, self.context)
 
     def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
         """Integrate until `time` >= `until` [s].
 
-        Or until `pause` is true; samples gather in the buffer meanwhile.
+        It stops earlier where `pause` is true; samples gather in the buffer meanwhile.
 
         `pause` is called some ten times a second, between two steps on the way there; when it returns True, `advance`
         returns early.
@@ -234,7 +234,7 @@ class MotionEngine(Generic[Sampled, Summed_co]):
     def kept_states(self, number: int = 0) -> FloatArray:
         """Return the contacts' states at `time`.
 
-        Of a bearing, kept by laws of the role contact_state.
+        They are a bearing's states that laws of the role contact_state keep.
         """
         span, y = self.bearings[number].span, self._memory.y
         first = y.size - self.context.bundle.states.size + span.first_state
@@ -298,9 +298,10 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         return b"".join(table.tobytes() for table in (*tables, *start))
 
     def state(self, *, samples: bool = True) -> dict[str, NDArray[np.float64]]:
-        """Return everything that a continuation needs: memory, Jacobian blocks, factors.
+        """Return everything that a continuation needs.
 
-        Without `samples` the buffer of those that nobody has taken yet is left out.
+        It is memory, Jacobian blocks and factors. Without `samples` the buffer of those that nobody has taken yet is
+        left out.
         """
         parts: dict[str, NDArray[np.float64]] = {}
         for prefix, group in self._groups().items():
@@ -341,7 +342,7 @@ class MotionEngine(Generic[Sampled, Summed_co]):
     def _groups(self) -> dict[str, Any]:
         """Return the memory of a motion.
 
-        By the names that a checkpoint has for it.
+        The keys are the names that a checkpoint has for it.
         """
         context = self.context
         return {
@@ -403,7 +404,7 @@ class BearingEngine(MotionEngine[Channels, Sums]):
     def reactions(self) -> FloatArray:
         """Return the bearing's reactions on its bodies.
 
-        Where :meth:`now` looked last, shape (bodies, 6).
+        They are those of the last :meth:`now`; the array has shape (bodies, 6).
 
         Force x, y, z [N] and moment x, y, z about the body's centre [N m] of all contacts and force elements on it:
         without its loads, weight and support.
@@ -452,7 +453,7 @@ def bearing_start(
 def initial_state(equilibrium: Equilibrium) -> FloatArray:
     """Return the initial state of the dynamics.
 
-    Equilibrium with every ball at the cage's speed.
+    It is the equilibrium with every ball at the cage's speed.
 
     The cage stands centred on the balls and turns with them; its pockets are where the balls are. That of a
     self-aligning bearing leans with the inner ring, as the rows do.

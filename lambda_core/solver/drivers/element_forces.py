@@ -17,7 +17,7 @@ ROLE = "force_element"
 def element_forces(context: SolverContext, times: FloatArray, flat: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return every force element's wrench.
 
-    On the second of its bodies, in the order of the assembly.
+    It acts on the second of its bodies; the order is that of the assembly.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def named_forces(dim: str, wrenches: FloatArray, powers: FloatArray) -> dict[str
 def _apart(first: np.ndarray, second: np.ndarray, row: Any) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Return the second point's relative state.
 
-    Place, tilt, velocity and angular velocity seen from the first body, shape (n, 3).
+    Place, tilt, velocity and angular velocity are seen from the first body; each has shape (n, 3).
 
     As the compiled :func:`lambda_core.solver.motion.links.link_state`, for all samples at once.
     """

@@ -258,7 +258,7 @@ def _attempt(
 ) -> tuple[int, StaticReport]:
     """Run the continuation from `state`, in place.
 
-    Until it ends or has done its iterations.
+    It runs until it ends or has done its iterations.
 
     `step` is the first one in pseudo-time [s].
     """
@@ -308,7 +308,7 @@ def without_friction(compiled: Core, context: SolverContext, state: FloatArray) 
 def _with_friction(compiled: Core, context: SolverContext, state: FloatArray, *, strict: bool) -> StaticReport:
     """Find the friction's equilibrium, in place.
 
-    From that without friction; by way of warmer oil where it has to be found.
+    It starts from the equilibrium without friction and goes by way of warmer oil where needed.
 
     Where there is none, the message lists what lies beyond the limits of bearing, oil and laws.
     """
@@ -358,7 +358,7 @@ def _limitless(context: SolverContext) -> str:
 def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return contact channels and losses at a state.
 
-    By raceway (balls, contacts of a ball, 16), losses (16,) [W].
+    They are by raceway (balls, contacts of a ball, 16), and the losses (16,) [W].
     """
     g, bundle, powers = context.model.geometry, context.bundle, L.power_count(context.bundle)
     z = g.balls
@@ -397,7 +397,7 @@ _WHOLE = ("force_element", "time_function")  # roles that belong to no ball
 def _state_of(context: SolverContext, element: str) -> str:
     """Return the first kept state's name.
 
-    Of a contact of this element.
+    The state is one of a contact of this element.
     """
     states = context.model.laws[element]["contact_state"].model.states
     return states[0].name if states else "state"
@@ -406,7 +406,7 @@ def _state_of(context: SolverContext, element: str) -> str:
 def fault_sentence(context: SolverContext, time: float | None = None) -> str:
     """Report the kernel that refused.
 
-    With the bearing (of several), the place and the inputs.
+    The sentence names the bearing where there are several, the place and the inputs.
     """
     fault = context.bundle.scratch[0].fault
     if fault.role < 0:
@@ -438,7 +438,7 @@ def fault_sentence(context: SolverContext, time: float | None = None) -> str:
 def _states_read(context: SolverContext, role: str, law: Law, place: int) -> list[tuple[str, float]]:
     """Return the states that a law read.
 
-    Those of the contact when it refused, by name.
+    They are those of the contact when the law refused, by name.
     """
     if not law.reads:
         return []

@@ -62,7 +62,7 @@ def given_names(model: BearingModel, couple: Coupling) -> tuple[str, ...]:
 def make_room(context: SolverContext, names: Sequence[str]) -> Any:
     """Add external signals to loads and motions.
 
-    Those of a context.
+    The loads and motions are those of a context.
 
     A given load adds to those of the case and is 0 at first; a given motion takes the place of the case's and
     begins at its value at t = 0.
@@ -122,7 +122,7 @@ def start(model: BearingModel, couple: Coupling, announce: Any = None) -> tuple[
 def _poses(found: Equilibrium) -> FloatArray:
     """Return both rings' poses in an equilibrium.
 
-    x, y, z, tilt_y, tilt_z, shape (2, 5) [m, rad].
+    They have x, y, z, tilt_y, tilt_z and shape (2, 5) [m, rad].
     """
     rings = found.context.bundle.bodies_now[:2]
     return np.column_stack([rings["position"], -rings["tilt"][:, 1], rings["tilt"][:, 0]])

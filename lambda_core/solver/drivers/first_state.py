@@ -30,7 +30,7 @@ _LOAD, _ANGLE = CONTACT_CHANNELS.index("load"), CONTACT_CHANNELS.index("contact_
 def first_frame(model: BearingModel) -> ContactFrame:
     """Guess contact angle and load at t = 0.
 
-    From the external loads; rollers touch at the angles of their cones.
+    They follow from the external loads; rollers touch at the angles of their cones.
     """
     force = [initial(f) for f in model.inner_ring.force]
     force = [f + model.inner_ring.mass * a for f, a in zip(force, model.gravity, strict=True)]
@@ -58,7 +58,7 @@ def free_contact_angle(model: BearingModel) -> float:
 def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
     """Return evenly spaced balls in contact.
 
-    One of them is lowest (moved on by `phase` pitches); the inner ring is in contact.
+    One is lowest, moved on by `phase` pitches; the inner ring is in contact.
     """
     model = context.model
     g = model.geometry

@@ -13,7 +13,7 @@ Oils = tuple[Oil, Oil]  # the oil as the rheology of each of these contacts has 
 def oil_of(oils: Oils, element: str) -> Oil:
     """Return the oil of a force element.
 
-    That of its ring, the inner one's where there is none.
+    It is that of its ring, or that of the inner one where it has no ring.
     """
     for names in (RACEWAYS, tuple(RIBS)):
         if element in names:
@@ -24,7 +24,7 @@ def oil_of(oils: Oils, element: str) -> Oil:
 def contacts_of(model: BearingModel) -> tuple[str, ...]:
     """Return the ring contacts' elements in order.
 
-    The solver's order: raceways, then ribs of rollers.
+    The order is the solver's: raceways come before ribs of rollers.
     """
     return (*RACEWAYS, *(element for element in RIBS if element in model.laws))
 

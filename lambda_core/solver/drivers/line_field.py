@@ -46,7 +46,7 @@ class LineField:
 def lean_of(sample: Mapping[str, FloatArray], roller: int, ring: str) -> float:
     """Return a roller's tilt against a ring [rad].
 
-    In the plane of the bearing's axis, outwards at +x.
+    It is in the plane of the bearing's axis; it counts outwards at +x.
 
     Parameters
     ----------

@@ -48,7 +48,7 @@ class SolvedLink:
 class LinkForce:
     """Connection with a law between two bodies.
 
-    On the unknowns of an equilibrium.
+    It acts on the unknowns of an equilibrium.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class LinkForce:
     def force(self, motions: FloatArray) -> FloatArray:
         """Return the force on the unknowns [N, N m].
 
-        At motions of shaft, rings and bodies.
+        It depends on the motions of shaft, rings and bodies.
         """
         return np.asarray(self._acts.T @ self._wrench(self._apart @ motions))
 
@@ -100,7 +100,7 @@ class LinkForce:
     def _wrench(self, apart: FloatArray, swing: FloatArray | None = None) -> FloatArray:
         """Return force and moment on the second point.
 
-        By its displacement and velocity.
+        They follow from its displacement and velocity.
         """
         velocity = np.zeros(NODE) if swing is None else swing
         out = np.full(NODE, np.nan)
@@ -126,7 +126,7 @@ def _moves(
 ) -> FloatArray:
     """Return a point's motion with a body.
 
-    By the shaft's node at `carrier`, shape (6, size).
+    The shaft's node at `carrier` moves the body; the array has shape (6, size).
     """
     found: FloatArray = np.zeros((NODE, rows.size))
     if body == SHAFT:

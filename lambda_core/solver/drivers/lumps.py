@@ -80,7 +80,7 @@ def lump(model: MachineModel) -> LumpedShaft:
 def _places(model: MachineModel) -> FloatArray:
     """Return the places of lumps [m].
 
-    Of an imported shaft at the nodes that it names, by default at all.
+    An imported shaft has them at the nodes that it names, by default at all nodes.
     """
     body = model.body
     held = [*(b.position for b in model.bearings), *model.held_places]
@@ -131,7 +131,7 @@ def _with_ends(model: MachineModel, mains: FloatArray, long: float) -> FloatArra
 def _between(model: MachineModel, mains: FloatArray) -> FloatArray:
     """Add lumps between the required ones.
 
-    At nodes of the beam.
+    They lie at nodes of the beam.
     """
     nodes, found = model.body.positions, [float(mains[0])]
     for begin, end in itertools.pairwise(mains):
@@ -146,7 +146,7 @@ def _between(model: MachineModel, mains: FloatArray) -> FloatArray:
 def _pieces(places: FloatArray) -> list[tuple[int, int]]:
     """Return first and last lump of every piece.
 
-    Where the middle one of three stands too near to one of the others, the piece ends there.
+    A piece ends where the middle one of three lumps stands too near to one of the others.
     """
     edges = [0]
     while edges[-1] < places.size - 1:
@@ -159,7 +159,7 @@ def _pieces(places: FloatArray) -> list[tuple[int, int]]:
 def _parabolas(places: FloatArray, marks: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return every lump's weight along the shaft.
 
-    At marks, with the slopes of that, shape (marks, lumps).
+    The weights are at marks, with their slopes; the array has shape (marks, lumps).
 
     Beyond the first and the last lump the line through these and their neighbours goes on; where two pieces meet the
     slope is the mean of theirs.
@@ -182,7 +182,7 @@ def _parabolas(places: FloatArray, marks: FloatArray) -> tuple[FloatArray, Float
 def _field(body: ElasticBody, values: FloatArray, slopes: FloatArray) -> FloatArray:
     """Return motions that bend all sections along.
 
-    In the plane of y and the tilt about z, shape (rows, n).
+    They bend in the plane of y with the tilt about z; the array has shape (rows, n).
     """
     found: FloatArray = np.zeros((body.mass.shape[0], values.shape[1]))
     found[1 : NODE * body.positions.size : NODE] = values

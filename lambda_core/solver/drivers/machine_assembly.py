@@ -103,7 +103,7 @@ def with_free_bodies(model: BearingModel) -> BearingModel:
 def machine_assembly(machine: MachineModel, shaft: LumpedShaft, frozen: list[Frozen]) -> Assembly:
     """Return the assembly of a machine.
 
-    With the laws of each bearing as they are frozen.
+    Each bearing has its laws as they are frozen.
     """
     numbers = member_numbers(machine, shaft)
     members, ties = machine_members(machine, shaft)
@@ -179,7 +179,7 @@ def _links(machine: MachineModel, shaft: LumpedShaft, numbers: MemberNumbers) ->
 def _unturned(arm: FloatArray, angle: float) -> tuple[float, float, float]:
     """Return an arm in a turned member's frame.
 
-    About x by an angle at t = 0 [rad]: its unbalance's.
+    The member has turned about x by its unbalance's angle at t = 0 [rad].
     """
     x, y, z = arm.tolist()
     c, s = math.cos(angle), math.sin(angle)

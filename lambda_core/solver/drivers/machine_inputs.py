@@ -37,7 +37,7 @@ _NOTHING = 1e-15  # share of a load from which on it is rounding
 class MachineInputs:
     """External inputs of a machine.
 
-    With the terms of loads and motions that follow them.
+    It has the terms of loads and motions that follow them.
 
     Attributes
     ----------
@@ -83,7 +83,7 @@ class MachineInputs:
     def _at(self, number: int, time: float) -> tuple[float, float, float]:
         """Return value, rate and acceleration of a name.
 
-        At a time.
+        They hold at a time.
         """
         value, rate, acceleration = self.values[number].tolist()
         if rate == acceleration == 0.0:
@@ -116,7 +116,7 @@ def check_coupling(machine: MachineModel, couple: Coupling) -> None:
 def machine_inputs(machine: MachineModel, shaft: LumpedShaft, context: SolverContext) -> MachineInputs:
     """Add external inputs to a machine.
 
-    To its loads and motions.
+    They act on its loads and motions.
 
     A load adds to those of the case and is 0 at first; the speed takes the place of the case's, where that is constant.
     """
@@ -148,7 +148,7 @@ def machine_inputs(machine: MachineModel, shaft: LumpedShaft, context: SolverCon
 def load_places(machine: MachineModel) -> dict[str, Place]:
     """Return the places of external loads.
 
-    By the names of the case.
+    The keys are the names of the case.
     """
     wheels = {name for name, *_ in machine.wheels}
     found = {
@@ -177,7 +177,7 @@ def _signals(
 ) -> dict[int, float]:
     """Return the signals of a load.
 
-    Along one axis, with the weights there.
+    They are along one axis, with the weights there.
     """
     if place.body == SHAFT:
         lumps = numbers.lumps

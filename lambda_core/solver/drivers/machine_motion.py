@@ -104,7 +104,7 @@ def machine_start(
 def changed_start(start: MachineStart, machine: MachineModel) -> MachineStart:
     """Return the start of a changed model.
 
-    Of a machine, in the state and with the contact frames of the first.
+    It is a machine's, in the state and with the contact frames of the first model.
     """
     alone = [
         assemble(with_free_bodies(one.model), old.kernels, old.frame, derive_oils(one.model, old.kernels, old.frame))
@@ -120,7 +120,7 @@ def _begun(
 ) -> MachineStart:  # fmt: skip
     """Return a machine at t = 0.
 
-    In an equilibrium, each bearing with a context of its own.
+    It is in an equilibrium, and each bearing has a context of its own.
     """
     assembly = machine_assembly(machine, shaft, [(one.kernels, one.frame, one.oils) for one in alone])
     context = context_of(_with_guided_cages(assembly, equilibria, state.outer) if leads_cages else assembly)
@@ -171,7 +171,7 @@ class MachineEngine(MotionEngine[MachineSamples, list[Sums]]):
     def now(self) -> MachineSamples:
         """Return every channel at `time`.
 
-        Of the machine and of its bearings.
+        They are those of the machine and of its bearings.
         """
         found = self.start.readings.seen(np.array([self.time]), self._memory.y.reshape(1, -1))
         machine, *bearings = (
@@ -215,7 +215,7 @@ def _with_guided_cages(assembly: Assembly, equilibria: tuple[Equilibrium, ...], 
 def _free(found: SolverContext) -> SolverContext:
     """Return the context with free bodies.
 
-    The same bearing; its bodies are free in every direction.
+    The bearing is the same; its bodies are free in every direction.
     """
     return assemble(with_free_bodies(found.model), found.kernels, found.frame, found.oils)
 
@@ -226,7 +226,7 @@ def _start_state(
 ) -> FloatArray:  # fmt: skip
     """Return the initial state of the motion.
 
-    Equilibrium, every ball at its cage's speed.
+    It is the equilibrium with every ball at its cage's speed.
     """
     bodies, numbers = np.zeros(context.bundle.bodies.size, R.BODY_STATE), member_numbers(machine, shaft)
     flat = bodies.view(np.float64)
@@ -253,7 +253,7 @@ def _start_state(
 def _place_cage(bodies: np.ndarray, own: np.ndarray, span: BearingSpan, found: Equilibrium, outer: FloatArray) -> None:
     """Write the states of cage and waves.
 
-    Of elastic parts, from those of the bearing alone.
+    The parts are elastic; the states come from the bearing alone.
     """
     cage = own[CAGE]
     cage["position"] += outer[:3]
@@ -269,7 +269,7 @@ def _place_cage(bodies: np.ndarray, own: np.ndarray, span: BearingSpan, found: E
 def _carried(balls: np.ndarray, pose: FloatArray) -> np.ndarray:
     """Move balls with an outer ring.
 
-    By a small pose.
+    The ring moves by a small pose.
     """
     x, y, z = balls["x"], balls["radius"] * np.cos(balls["azimuth"]), balls["radius"] * np.sin(balls["azimuth"])
     about_y, about_z = pose[3], pose[4]
@@ -306,7 +306,7 @@ def _standing(machine: MachineModel, shaft: LumpedShaft, context: SolverContext)
 def _pose(body: Body) -> FloatArray:
     """Return a body's held pose at t = 0.
 
-    In the order of POSE; 0 where it is free or locked.
+    It has the order of POSE and is 0 where the body is free or locked.
     """
     return np.array([initial(body.dofs[dof].motion) if body.dofs[dof].mode == "prescribed" else 0.0 for dof in POSE])
 
@@ -314,7 +314,7 @@ def _pose(body: Body) -> FloatArray:
 class MemberChannels:
     """Motions of shaft, bodies and markers.
 
-    From the states of members.
+    They come from the states of members.
     """
 
     def __init__(self, machine: MachineModel, shaft: LumpedShaft) -> None:
@@ -398,7 +398,7 @@ class MemberChannels:
 def _motions(bodies: np.ndarray, twist: FloatArray | None = None) -> FloatArray:
     """Return the bodies' motions in samples.
 
-    x, y, z and turns about x, y, z, shape (n, bodies, 6), `twist` in place of angles.
+    They are x, y, z and turns about x, y, z, shape (n, bodies, 6), with `twist` in place of angles.
     """
     about = bodies["angle"] if twist is None else twist
     turns = [about[..., None], -bodies["tilt"][..., 1:], bodies["tilt"][..., :1]]

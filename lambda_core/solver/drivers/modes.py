@@ -46,7 +46,7 @@ def ring_modes(
 ) -> list[tuple[float, float]]:
     """Return the modes of the rings.
 
-    Frequency [Hz] and damping ratio [-], by frequency.
+    Each has a frequency [Hz] and a damping ratio [-], in order of frequency.
 
     A mode belongs to the rings where half of its kinetic energy or more is theirs. Those of the Jacobian blocks are
     those of the last steps: loaded balls go round, and the modes with them.

@@ -24,7 +24,7 @@ def solve_near(
 ) -> Equilibrium:
     """Find a changed model's equilibrium.
 
-    From that of a solved one.
+    The search starts from that of a solved model.
 
     Contact frame, first state, and the balls that the cage drives are those of the solution, which saves most of the
     work of :func:`solve`, and keeps balls that no ring loads in the same of several steady motions. A model whose state

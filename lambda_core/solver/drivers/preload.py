@@ -34,7 +34,7 @@ class Preload:
 def first_contact(bearing: MountedBearing) -> float:
     """Return the place of first contact [m].
 
-    Of the inner ring against the middle of the outer one, in operation.
+    The inner ring moves against the middle of the outer one, in operation.
     """
     return bearing.takes * axial_play(bearing.model, bearing.model.geometry.clearance) if bearing.takes else 0.0
 

@@ -1,7 +1,7 @@
 """Read channels and running integrals of every bearing.
 
-Of one bearing all integrals are exact. Of several the integrator adds up what pockets, lands and drag dissipate for all
-together: samples say how much of it is whose.
+The integrals of one bearing are exact. With several, the integrator adds up what pockets, lands and drag dissipate for
+all together, and samples tell the shares.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class Readings(Protocol[Sampled, Summed_co]):
     def channels(self, number: int, time: float, y: FloatArray) -> Channels:
         """Return every channel of a bearing.
 
-        At a state, the first axis for time.
+        They hold at a state; the first axis is time.
         """
 
     def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> Summed_co:
@@ -180,7 +180,7 @@ class BearingReadings:
 class MachineSamples:
     """Samples of a machine.
 
-    Of the machine, and of every bearing as a run of it alone has it.
+    It has those of the machine, and those of every bearing as a run of it alone has them.
     """
 
     machine: Channels
@@ -299,7 +299,7 @@ class MachineReadings:
     def _evaluated(self, t: float, state: FloatArray) -> FloatArray:
         """Return the complete shared state at a sample.
 
-        With what is prescribed.
+        It includes what is prescribed.
         """
         bundle, slope, rates = self._context.bundle, np.zeros(state.size), np.zeros(L.power_count(self._context.bundle))
         if core().evaluate(t, np.ascontiguousarray(state), bundle, slope, rates, 0) != 1:
@@ -331,7 +331,7 @@ class MachineReadings:
     def _add_up(self, i: int, channels: Channels) -> None:
         """Add to the integrals of samples.
 
-        Only samples have their values; trapezium rule.
+        Samples alone have their values; the rule is the trapezium's.
         """
         columns = [channels["loss"][:, LOSSES.index(name)] for name in _SHARED]
         speed = channels["body_spin"][:, INNER] - channels["body_spin"][:, OUTER]
@@ -347,7 +347,7 @@ class MachineReadings:
     def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> list[Sums]:
         """Return every bearing's running integrals.
 
-        Since the start, as a run of it alone has them.
+        They count from the start, as a run of the bearing alone has them.
 
         What its raceways dissipate is exact; pocket, land, drag and bending are known exactly for all bearings together
         and are parted by their samples. Energy is balanced for the machine: input is that of the machine less what the

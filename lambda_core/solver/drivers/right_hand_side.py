@@ -139,7 +139,7 @@ class Handle:
     def slope(self, t: float, y: FloatArray, out: FloatArray) -> int:
         """Write dy/dt.
 
-        Shapes (n,); returns 1, or 0 where a kernel refused. `y` may be anything that can be read.
+        All shapes are (n,). Return 1, or 0 where a kernel refused. `y` may be anything that can be read.
         """
         return int(_compiled(_slope)(t, _frozen(y), out, self._handle))
 
@@ -155,7 +155,7 @@ class Handle:
     def jacobian(self, t: float, y: FloatArray, out: FloatArray) -> int:
         """Write d(dy/dt)/dy into a matrix.
 
-        Into its first n rows and columns, 0 elsewhere.
+        It fills its first n rows and columns and writes 0 elsewhere.
         """
         return int(_compiled(_dense)(t, _frozen(y), out, self._handle))
 

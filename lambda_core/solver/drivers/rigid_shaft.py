@@ -41,7 +41,7 @@ def bearing_on_rigid_shaft(machine: MachineModel) -> BearingModel | None:
 def _body(place: Place) -> BodyName | None:
     """Return the body that carries a place.
 
-    Of a bearing alone; None for the ground.
+    The bearing is alone; the result is None for the ground.
     """
     if isinstance(place.body, BearingPart):
         return place.body.part

@@ -23,7 +23,7 @@ _SUMMED = tuple(CONTACT_CHANNELS.index(name) for name in ("capacitance_hertz", "
 def rings_of_contacts(geometry: Geometry) -> NDArray[np.int64]:
     """Return the ring of each contact.
 
-    Of a ball, 0 inner, 1 outer.
+    A contact of a ball has 0 for the inner and 1 for the outer ring.
     """
     return np.array([raceway.ring for raceway in raceways_of_a_ball(geometry)])
 
@@ -31,7 +31,7 @@ def rings_of_contacts(geometry: Geometry) -> NDArray[np.int64]:
 def are_ribs(geometry: Geometry) -> NDArray[np.bool_]:
     """Mark the contacts with ribs.
 
-    Of a roller; of balls none.
+    They are those of rollers; balls have none.
     """
     return np.array([raceway.end != 0 for raceway in raceways_of_a_ball(geometry)])
 
@@ -39,7 +39,7 @@ def are_ribs(geometry: Geometry) -> NDArray[np.bool_]:
 def contacts_by_ring(geometry: Geometry, contacts: FloatArray) -> FloatArray:
     """Return contacts by ring from raceways.
 
-    Of each ball, shape (..., Z, 2, channels).
+    They are those of each ball, shape (..., Z, 2, channels).
 
     Of two arcs the one that carries more is shown, with the capacitance and the loss of both; of rollers the raceway,
     with the losses of the ring's ribs.
@@ -59,7 +59,7 @@ def contacts_by_ring(geometry: Geometry, contacts: FloatArray) -> FloatArray:
 def loads_of_ribs(geometry: Geometry, contacts: FloatArray) -> FloatArray:
     """Return the rib loads on rollers [N].
 
-    On each roller, shape (..., Z, 4) as channels.RIBS has them.
+    They act on each roller; the array has shape (..., Z, 4), as channels.RIBS has them.
     """
     found = np.zeros((*contacts.shape[:-2], len(RIBS)))
     for place, raceway in enumerate(raceways_of_a_ball(geometry)):
@@ -72,7 +72,7 @@ def loads_of_ribs(geometry: Geometry, contacts: FloatArray) -> FloatArray:
 def losses_by_ring(geometry: Geometry, powers: FloatArray) -> FloatArray:
     """Return losses by ring.
 
-    As channels.LOSSES has them, shape (..., 16), from those of every raceway and the rest.
+    They have the form of channels.LOSSES, shape (..., 16), and come from every raceway and the rest.
     """
     rings = np.array([raceway.ring for raceway in raceways(geometry)])
     if rings.size == len(RINGS):

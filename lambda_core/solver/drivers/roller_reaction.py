@@ -64,9 +64,9 @@ class RollerReaction(Reaction):
 
     @property
     def holds_along(self) -> bool:
-        """True if ribs or cones hold the shaft.
+        """True if ribs or cones hold the shaft along x.
 
-        Along x on one side at least.
+        One side is enough.
         """
         return not all(thrust_problem(self.rollers, side) for side in (1.0, -1.0))
 
@@ -74,7 +74,7 @@ class RollerReaction(Reaction):
     def state(self) -> RollerEquilibrium:
         """State at the last pose.
 
-        In the axes of the rollers: a along the thrust that they take.
+        It is in the axes of the rollers, with a along the thrust that they take.
         """
         return self._balanced(self._pose) if self._state is None else self._state
 
@@ -96,7 +96,7 @@ class RollerReaction(Reaction):
     def reaction(self, pose: Sequence[float]) -> FloatArray:
         """Return force and moment at a pose.
 
-        Of the bearing on its inner ring, shape (5,) [N, N m].
+        The bearing exerts them on its inner ring; the array has shape (5,) [N, N m].
 
         Raises
         ------
@@ -111,7 +111,7 @@ class RollerReaction(Reaction):
     def stiffness(self) -> FloatArray:
         """Return -d(reaction)/d(pose) at the last pose.
 
-        Shape (5, 5).
+        The matrix has shape (5, 5).
         """
         found: FloatArray = self.state.stiffness * np.outer(self._turned, self._turned)
         return found

@@ -51,7 +51,7 @@ def spin_in_space(rollers: RollerBearing | None, spin: FloatArray) -> FloatArray
 def write_line(record: Any, rollers: RollerBearing, ring: int, line: int) -> None:
     """Write the fields of a rollers' raceway.
 
-    Those that differ from a raceway of balls.
+    They are those that differ from a raceway of balls.
 
     The clearance is shared by both rings, as are those of balls. To laws R_y is the effective length.
     """
@@ -70,7 +70,7 @@ def write_line(record: Any, rollers: RollerBearing, ring: int, line: int) -> Non
 def rib_of(rollers: RollerBearing, ring: int, end: int) -> Rib:
     """Return a rib of a ring.
 
-    At the end of the rollers towards +x or -x.
+    It is at the end of the rollers towards +x or -x.
     """
     name = ("inner", "outer")[ring]
     return next(rib for rib in rollers.ribs if (rib.ring, rollers.faces * rib.end) == (name, end))
@@ -79,7 +79,7 @@ def rib_of(rollers: RollerBearing, ring: int, end: int) -> Rib:
 def write_rib(record: Any, rollers: RollerBearing, ring: int, end: int) -> None:
     """Write the fields of a rib.
 
-    Those that differ from a raceway of balls; R_x is along sliding.
+    They are those that differ from a raceway of balls; R_x is along sliding.
     """
     rib = rib_of(rollers, ring, end)
     record["kind"], record["side"] = RIB.number, end
@@ -93,7 +93,7 @@ def write_rib(record: Any, rollers: RollerBearing, ring: int, end: int) -> None:
 def write_row(record: Any, rollers: RollerBearing, cage: Cage) -> None:
     """Write the fields of a rollers' row.
 
-    Those that differ from a row of balls; large ends of cones that face x point to -x.
+    They are those that differ from a row of balls; large ends of cones that face x point to -x.
     """
     polar, transverse = rollers.inertias
     record["kind"], record["ball_radius"] = R.ROLLERS, 0.5 * rollers.diameter
@@ -109,7 +109,7 @@ def write_row(record: Any, rollers: RollerBearing, cage: Cage) -> None:
 def lines_of(models: Sequence[BearingModel]) -> FloatArray:
     """Return Bundle.lines of all roller bearings.
 
-    Inner raceway, then outer.
+    Inner raceways come first.
     """
     found = [_lines(model.rollers) for model in models if model.rollers is not None]
     return np.concatenate(found) if found else np.zeros((0, L.LINE_ROWS, 0))
@@ -136,7 +136,7 @@ _kept: dict[str, Any] = {}  # code of rollers: tables of addresses do not keep i
 def roller_code(compiled: Core, has_rollers: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the addresses of rollers' code.
 
-    Of RollerCode and RollerBlocks, compiled when a machine first has rollers.
+    They are those of RollerCode and RollerBlocks, which are compiled when a machine first has rollers.
     """
     names = [*L.RollerCode._fields], [*RollerBlocks._fields]
     if not has_rollers:

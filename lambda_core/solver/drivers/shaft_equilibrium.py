@@ -166,7 +166,7 @@ class _System:
     def poses(self, q: FloatArray) -> FloatArray:
         """Return every inner ring's relative pose.
 
-        Against its outer one, shape (bearings, 5).
+        It is relative to the outer ring; the array has shape (bearings, 5).
         """
         return np.asarray(self.reach @ q)
 
@@ -190,7 +190,7 @@ class _System:
     def tangent(self, each: FloatArray, q: FloatArray) -> FloatArray:
         """Return the machine's stiffness.
 
-        With one of (5, 5) at every bearing.
+        Every bearing adds a matrix of shape (5, 5).
         """
         found = np.asarray(self.linear + sum(reach.T @ k @ reach for reach, k in zip(self.reach, each, strict=True)))
         for link in self.links:
@@ -220,7 +220,7 @@ class _System:
 def seat_load(model: MachineModel, bearing: MountedBearing) -> FloatArray:
     """Return an outer ring's load at t = 0.
 
-    Force and moment in the order of POSE [N, N m].
+    It has force and moment in the order of POSE [N, N m].
     """
     load = model.load_on(BearingPart(bearing.name, "outer_ring"))
     found = np.array([initial(load[row]) for row in PLACES])
@@ -232,7 +232,7 @@ def seat_load(model: MachineModel, bearing: MountedBearing) -> FloatArray:
 def weight_of(model: MachineModel, ring: Body) -> FloatArray:
     """Return a ring's weight x, y, z [N].
 
-    That of the rolling elements counts in motion only.
+    The weight of the rolling elements counts in motion only.
     """
     return ring.mass * np.array(model.gravity)
 
@@ -240,7 +240,7 @@ def weight_of(model: MachineModel, ring: Body) -> FloatArray:
 def _carried(model: MachineModel, frame: NDArray[np.int64]) -> FloatArray:
     """Return the rows' motion by the unknowns.
 
-    A node's pose, or the way relative to a rigid shaft.
+    The unknowns are a node's pose, or the way relative to a rigid shaft.
     """
     found: FloatArray = np.eye(model.body.stiffness.shape[0])
     at = model.body.positions[frame[0] // NODE]
@@ -330,7 +330,7 @@ def _ring(bearing: MountedBearing, kernels: Kernels, announce: Announce) -> Ring
 def _springs(rings: list[Ring]) -> FloatArray:
     """Return a stiffness before contacts are known.
 
-    Of every bearing, shape (bearings, 5, 5).
+    It is that of every bearing; the array has shape (bearings, 5, 5).
     """
     free = [isinstance(ring, RollerReaction) and not ring.holds_along for ring in rings]
     return np.array([np.diag(_GUESS * _LOOSE if is_free else _GUESS) for is_free in free])
@@ -387,7 +387,7 @@ def _newton(system: _System, q: FloatArray) -> tuple[FloatArray, int]:
 def _along(system: _System, q: FloatArray, move: FloatArray, unbalanced: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the state of least potential.
 
-    Along a step, to a share of its first slope.
+    It lies along a step, to a share of the step's first slope.
 
     Forces of frictionless contacts have a potential; its slope along the step is the work of what is unbalanced. Where
     a gap closes along the way it turns over, and a secant finds where.

@@ -58,7 +58,7 @@ def state_scales(assembly: Assembly, active: NDArray[np.int64]) -> FloatArray:
 class SolverContext:
     """Everything that compiled code needs.
 
-    For one assembly at the contact frames of its bearings.
+    It belongs to one assembly at the contact frames of its bearings.
 
     Equilibrium, motion, stiffness and other integrators all take it, and work in its memory one after another.
     """
@@ -105,7 +105,7 @@ class SolverContext:
     def oils(self) -> Oils:
         """Oils of the only bearing.
 
-        As the rheology of each raceway has them.
+        They are those that the rheology of each raceway has.
         """
         return self.bearing.oils
 
@@ -124,7 +124,7 @@ class SolverContext:
     def raceway(self, element: str) -> Any:
         """Return the record of a ring's raceway.
 
-        Of the first where it has several alike.
+        It is the first one where the ring has several alike.
         """
         found = (raceway.element for raceway in raceways(self.model.geometry))
         return self.bundle.raceways[next(i for i, name in enumerate(found) if name == element)]
@@ -163,7 +163,7 @@ class SolverContext:
 def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> SolverContext:
     """Return the context of a bearing alone.
 
-    For given frozen contact angles and mean loads.
+    The frozen contact angles and mean loads are given.
     """
     return context_of(assembly_of(model, kernels, frame, oils))
 
@@ -171,7 +171,7 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
 def context_of(assembly: Assembly) -> SolverContext:
     """Return the context of an assembly.
 
-    Its tables, and room to work in.
+    It has the tables of the assembly and room to work in.
     """
     tables, compiled, depth = build(assembly), core(), assembly.bearings[0].model.depth
     grid = unit_grid(depth.strips, depth.rows)

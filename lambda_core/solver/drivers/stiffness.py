@@ -1,6 +1,6 @@
 """Compute the stiffness matrix of a bearing.
 
-Five by five about the quasi-static equilibrium; balls stay in equilibrium.
+The matrix has shape (5, 5) about the quasi-static equilibrium; balls stay in equilibrium.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _RATES = (L.SVX, L.SVY, L.SVZ, L.SWY, L.SWZ)
 def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
     """Return d(load)/d(displacement) at the equilibrium.
 
-    Of the inner ring against the outer.
+    The inner ring moves against the outer one.
 
     The balls follow: K = -(F_qq - F_qb F_bb^-1 F_bq), the Schur complement of the Jacobian of the contact forces
     F over the axial and radial positions b of the balls, q the ring's displacement and tilt. Centrifugal force and
@@ -66,7 +66,7 @@ def stiffness_at(
 ) -> FloatArray:
     """Return the stiffness at a state.
 
-    Of `found`, by the context of the freed ring, shape (5, 5).
+    It is that of `found`, by the context of the freed ring; the array has shape (5, 5).
 
     Raises
     ------

@@ -42,7 +42,7 @@ class Rows:
 def static_rows(model: MachineModel) -> Rows:
     """Return the rows of an equilibrium's unknowns.
 
-    The shaft's, five of each ring, six of each body.
+    The shaft has its rows, each ring has five, and each body has six.
     """
     rings = model.body.stiffness.shape[0]
     bodies = rings + len(POSE) * len(model.bearings)
@@ -73,7 +73,7 @@ def _point_on_part(
 ) -> tuple[NDArray[np.int64], FloatArray]:
     """Return the rows that move a ring's point.
 
-    Of an outer ring; the rotation of a ring and a cage is in no such vector.
+    The ring is an outer ring; no such vector has the rotation of a ring or a cage.
     """
     if part.part == "cage":
         return np.zeros(0, dtype=np.int64), np.zeros((NODE, 0))
@@ -85,7 +85,7 @@ def _point_on_part(
 def ring_in(model: MachineModel, rows: Rows, index: int) -> FloatArray:
     """Return a ring's motion against its carrier.
 
-    An outer ring, shape (5, size).
+    The ring is an outer ring; the array has shape (5, size).
     """
     bearing = model.bearings[index]
     found: FloatArray = np.zeros((len(POSE), rows.size))
@@ -110,7 +110,7 @@ def stretch(model: MachineModel, rows: Rows, spring: MachineSpring) -> FloatArra
 def structure(model: MachineModel, rows: Rows) -> tuple[FloatArray, FloatArray]:
     """Return the structure's stiffness and damping.
 
-    Of springs, elastic seats, and what holds bodies, shape (size, size).
+    They come from springs, elastic seats and what holds bodies; the array has shape (size, size).
     """
     stiffness, damping = np.zeros((rows.size, rows.size)), np.zeros((rows.size, rows.size))
     for spring in model.springs:

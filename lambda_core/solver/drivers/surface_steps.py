@@ -40,7 +40,7 @@ def longest_step(context: SolverContext) -> float:
 def _shortest(context: SolverContext, element: str, angle: float) -> float:
     """Return the shortest angle of a surface [rad].
 
-    Over it the surface, or one of its harmonics, changes; inf where it is flat.
+    The surface, or one of its harmonics, changes over it; it is inf where the surface is flat.
     """
     law = context.kernels.compiled[element, "surface"].dispatcher
     par = context.parameters(element, "surface")

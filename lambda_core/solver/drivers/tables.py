@@ -134,7 +134,7 @@ class _Offsets(NamedTuple):
 def running(powers: FloatArray) -> Any:
     """Return the powers behind the raceways' losses.
 
-    By name, powers or integrals (..., n) -> records.RUNNING.
+    The keys are names; the powers or integrals (..., n) give records.RUNNING.
     """
     return powers[..., -L.RUNNING_SIZE :].view(R.RUNNING)[..., 0]
 
@@ -142,7 +142,7 @@ def running(powers: FloatArray) -> Any:
 def ball_mass(model: BearingModel) -> float:
     """Return the mass of one element [kg].
 
-    A ball or a roller.
+    The element is a ball or a roller.
     """
     if model.rollers is not None:
         return model.rollers.mass
@@ -246,7 +246,7 @@ def _bodies(assembly: Assembly) -> Any:
 def _active(bodies: Any) -> NDArray[np.int64]:
     """Return the free entries of shared state.
 
-    With the angles of spins that are prescribed.
+    The angles of prescribed spins are among them.
     """
     found: list[int] = []
     for b, body in enumerate(bodies):
@@ -263,7 +263,7 @@ def _active(bodies: Any) -> NDArray[np.int64]:
 def _ties(assembly: Assembly) -> tuple[NDArray[np.int64], FloatArray, FloatArray, FloatArray]:
     """Return the ties of the shared state.
 
-    Its tied entries, stiffness and damping between them, and their rest.
+    They have the tied entries, stiffness and damping between them, and their rest.
     """
     ties = assembly.ties
     used = np.flatnonzero(np.abs(ties.stiffness).sum(axis=1) + np.abs(ties.damping).sum(axis=1))

@@ -53,7 +53,7 @@ def add_terms(
 def build_times(assembly: Assembly) -> tuple[NDArray[np.void], FloatArray]:
     """Return loads and motions as terms.
 
-    Of all members, records.TERM, and their table.
+    They belong to all members, as records.TERM with their table.
     """
     rows: list[NDArray[np.void]] = []
     table: list[float] = []
@@ -77,7 +77,7 @@ def build_times(assembly: Assembly) -> tuple[NDArray[np.void], FloatArray]:
 def _weightless(model: BearingModel, bodies: Sequence[int], gravity: Sequence[float]) -> NDArray[np.void]:
     """Return loads that hold up wave bodies.
 
-    records.TERM: gravity bends no ring.
+    They are records.TERM, because gravity bends no ring.
     """
     masses = [waves.ring.mass(order) for _, order, waves in waves_of(model)]
     rows = np.zeros((len(masses), len(AMPLITUDES)), R.TERM)

@@ -30,7 +30,7 @@ def by_viscosity_continuation(
 ) -> tuple[FloatArray, StaticReport] | None:
     """Return the equilibrium by way of warmer oil.
 
-    With its report, of a context; None where no way leads there.
+    Also return its report. The result is None where no way leads there.
 
     Parameters
     ----------

@@ -78,7 +78,7 @@ def give_waves(table: Any, body: str, waves: Any, before: int) -> None:
 def waves_at(bundle: L.Bundle, model: BearingModel, free: FloatArray) -> dict[BodyName, FloatArray]:
     """Return the amplitudes of elastic bodies [m].
 
-    Of each, shape (orders, 2), from free entries of the shared state.
+    Each has shape (orders, 2), from free entries of the shared state.
     """
     bodies = np.zeros((1, bundle.bodies.size), R.BODY_STATE)
     bodies[0].view(np.float64)[bundle.active] = free
@@ -88,7 +88,7 @@ def waves_at(bundle: L.Bundle, model: BearingModel, free: FloatArray) -> dict[Bo
 def _amplitudes(bodies: Any, model: BearingModel) -> dict[BodyName, FloatArray]:
     """Return the amplitudes from states [m].
 
-    Of every elastic body, shape (n, orders, 2), from states of shape (n, bodies).
+    Every elastic body has shape (n, orders, 2), from states of shape (n, bodies).
     """
     first, found = len(BODIES), {}
     for body, waves in model.elastic.items():
@@ -100,7 +100,7 @@ def _amplitudes(bodies: Any, model: BearingModel) -> dict[BodyName, FloatArray]:
 def wave_values(bodies: Any, model: BearingModel) -> dict[str, FloatArray]:
     """Return the channels of elastic bodies.
 
-    From states of bodies, records.BODY_STATE of shape (n, bodies).
+    They come from states of bodies, records.BODY_STATE of shape (n, bodies).
     """
     found: dict[str, FloatArray] = {}
     for body, amplitudes in _amplitudes(bodies, model).items():

@@ -1,6 +1,6 @@
 """Factor and solve the block-arrow matrix in O(Z).
 
-M = s I - g J.
+The matrix is M = s I - g J.
 
 The blocks of a ball hold the columns of its own bodies alone (:mod:`.reach`). Where there are several bearings, what
 the balls of a row take from the Schur complement is summed in a matrix of that size, and kept: a row is factored anew
@@ -46,7 +46,7 @@ def _has_balls(reach, r):
 def _factor_row(bl, r, shift, gamma, fa, own):
     """Take the elements' shares from `own`.
 
-    Of a row; return 0 when a block is singular.
+    The elements are those of a row; return 0 when a block is singular.
     """
     if _has_balls(bl.reach, r):
         return _factor_balls(bl, r, shift, gamma, fa, own)
@@ -68,7 +68,7 @@ def _renew_row(bl, r, shift, fa, own):
 def _few_are_newer(r, bl):
     """Tell whether a partial renewal is cheaper.
 
-    Giving back and taking again, against factoring the whole row.
+    Compare giving back and taking again with factoring the whole row.
     """
     newer = 0
     for j in range(bl.reach.first[r], bl.reach.first[r + 1]):

@@ -49,7 +49,7 @@ def _quotient(mem, shared, k):
 def _power_of_speed(mem, shared, k):
     """Return a prescribed speed's power per mass.
 
-    Kinetic power: D(v^2/2) of a BDF, v D(v) of a stage.
+    The kinetic power is D(v^2/2) of a BDF and v D(v) of a stage.
 
     Such a speed is known, and its kinetic energy with it: v D(v) of the step across a jump would be twice as much.
     """
@@ -64,7 +64,7 @@ def _power_of_speed(mem, shared, k):
 def _work_of_motion(body, now, wrench, inputs, first, shared, mem, running):
     """Add one body's share.
 
-    See _work_of_motions. Its state begins at `first`.
+    See _work_of_motions. The state of the body begins at `first`.
     """
     for i in range(3):
         if body.mode[i] == PRESCRIBED:
@@ -92,7 +92,7 @@ def _work_of_motion(body, now, wrench, inputs, first, shared, mem, running):
 def _work_of_motions(bundle, mem):
     """Add the work of prescribed motions.
 
-    To the input: their differences differ from their derivatives.
+    It belongs to the input, because their differences differ from their derivatives.
 
     A ring with prescribed motion has the kinetic power m D(v^2/2), a force F on it does the work F D(x): not m v dv/dt
     and F v, where a motion has a corner or changes fast. Translation, tilt, spin.
@@ -139,7 +139,7 @@ def _work_of_loads(bundle, mem):
 def _prescribed_speeds(bundle):
     """Return raceway speeds of prescribed rings [m/s].
 
-    Speed and circumferential speed.
+    They are the speed and the circumferential speed.
     """
     speed, spin = 0.0, 0.0
     for k in range(bundle.raceways.size):
@@ -157,7 +157,7 @@ def _prescribed_speeds(bundle):
 def _power_of_residual(inertia, new, base, slope, per_gamma):
     """Return the residual's power [W].
 
-    D(y) - f at the last iterate: of positions there is none.
+    It uses D(y) - f at the last iterate; positions have none.
     """
     power = 0.0
     for i in range(new.size):
@@ -169,7 +169,7 @@ def _power_of_residual(inertia, new, base, slope, per_gamma):
 def _forces_of_residual(inertia, new, base, slope, per_gamma, first, count, size, per_radius):
     """Return the residual's forces on elements [N].
 
-    And moments over their radius, all counted positive.
+    The moments over their radius are added; all count as positive.
 
     The states of `count` elements stand from `first` on, `size` each.
     """
@@ -253,7 +253,7 @@ def allowed(mem, h, share, floor):
 def _work_of_moves(inertia, slope, since):
     """Return the work of forces on corrections [J].
 
-    All counted positive.
+    All count as positive.
     """
     total = 0.0
     for i in range(since.size):
@@ -279,7 +279,7 @@ def leak_of_iterate(bundle, mem, h):
 def finalise_step(bundle, mem):
     """Finish positions and powers of a step.
 
-    From the last iterate to the step's result.
+    They go from the last iterate to the step's result.
 
     A matrix factored for another gamma leaves D(x) - v, next to nothing; times the forces in the contacts it is energy.
     Loads, and what leads or drives rings: see _work_of_loads, _work_of_motions, _residual_work.
@@ -301,7 +301,7 @@ def finalise_step(bundle, mem):
 def _energy_of_bends(inertia, new, now, before, per_w):
     """Return twice a bend's kinetic energy [J].
 
-    Of e = d_1/w - (u_1 - u_2).
+    The energy is that of e = d_1/w - (u_1 - u_2).
     """
     total = 0.0
     for i in range(new.size):
@@ -329,7 +329,7 @@ def _dissipated(mem, h):
 def _quadrature(mem, h, losses):
     """Return the dissipated energy's error [J].
 
-    In this step: the BDF's increment against the trapezium's.
+    It is that of this step, the BDF's increment against the trapezium's.
 
     Of the third derivative times h^3 the one misses (1 + w)^2/(6 w (1 + 2 w)), 2/9 in equal steps, the other -1/12.
     """

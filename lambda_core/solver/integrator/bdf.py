@@ -1,6 +1,6 @@
 """Integrate by variable-step BDF of order 2.
 
-With a block-arrow Newton iteration.
+The iteration is a block-arrow Newton one.
 
 Order 2 because lightly damped contact modes sit in the unstable wedge of the higher orders. Error is controlled on
 absolute scales per state, and by the energy that a step gives or takes.
@@ -26,7 +26,7 @@ _QUIET = 0.1  # error over what is allowed: nothing to mend
 def _begin(evaluate, bundle, mem):
     """Write dy/dt at the start into y1.
 
-    And the shared state.
+    It also writes the shared state.
     """
     if evaluate(mem.control[0].time, mem.y, bundle, mem.y1, mem.rates, 1) != Status.OK:
         return Status.REFUSED
@@ -85,7 +85,7 @@ def _predict(mem, h):
 def _interpolate(mem, t, h, at, row):
     """Write the state at `at` by a parabola.
 
-    In (t - h, t], through the last three points.
+    The time lies in (t - h, t], and the parabola goes through the last three points.
     """
     h1 = mem.control[0].last_step
     out = mem.sample_y[row]
@@ -102,7 +102,7 @@ def _interpolate(mem, t, h, at, row):
 def _error(mem, share):
     """Return the step's relative error.
 
-    Over what is allowed: a share of its distance from the extrapolation.
+    It is over what is allowed, which is a share of its distance from the extrapolation.
     """
     for i in range(mem.change.size):
         mem.change[i] = share * (mem.new[i] - mem.predicted[i])
@@ -149,7 +149,7 @@ def _attempt(evaluate, jacobian, h, bundle, bl, fa, mem):
 def _shift(bundle, mem, h):
     """Make the new point current.
 
-    And the integrals with it.
+    The integrals change with it.
     """
     add_to_integrals(mem)
     if mem.count[0].history >= 2:

@@ -23,7 +23,7 @@ from lambda_core.solver.motion.bearing_sums import AGAIN
 def reset_moves(want, bundle, mem):
     """Begin to add up the moves.
 
-    Since this evaluation, of bearings bypassed since an earlier one.
+    They count from this evaluation; those of bypassed bearings count from an earlier one.
     """
     since = mem.since
     if want != AGAIN:
@@ -44,7 +44,7 @@ def reset_moves(want, bundle, mem):
 def _moved(b, bundle, mem):
     """Return a bearing's rms of moves.
 
-    Of bearing b since its evaluation, over the error allowed per step.
+    They count from the evaluation of bearing b and are over the error allowed per step.
     """
     total, count, tail = 0.0, 0, bundle.system[0].tail
     for r in range(bundle.rows.size):
@@ -66,7 +66,7 @@ def _moved(b, bundle, mem):
 def choose_bypassed(tolerance, bundle, bl, mem):
     """Choose the bearings to bypass next.
 
-    In the next iteration; return the `want` to evaluate it with.
+    They stay out of the next iteration; return the `want` to evaluate it with.
 
     None whose Jacobian is to be renewed: that is done where forces are computed. Never one alone, one whose balls touch
     each other, nor contacts that keep states, which are iterated with slopes of their own.
@@ -91,7 +91,7 @@ def choose_bypassed(tolerance, bundle, bl, mem):
 def follow(gamma, bundle, bl, fa, mem):
     """Add bypassed bearings' changes of rates.
 
-    To the residual in mem.change, by their moves and their Jacobian.
+    They go to the residual in mem.change, by their moves and their Jacobian.
     """
     since, change, own, tail = mem.since, mem.change, fa.tail, bundle.system[0].tail
     for r in range(bundle.rows.size):
@@ -114,7 +114,7 @@ def follow(gamma, bundle, bl, fa, mem):
 def _follow_element(gamma, first, size, j, bl, n, columns, own, since, change, tail):
     """Add the share of element j.
 
-    With `size` states from `first` on.
+    The element has `size` states from `first` on.
     """
     its = since[first : first + size]
     for i in range(size):

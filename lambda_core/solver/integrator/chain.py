@@ -53,7 +53,7 @@ def chains_of(size: int) -> tuple[Any, ...]:
     def find_chains(bl, first, last, fa):
         """Mark balls joined to the next.
 
-        Balls first..last-1; return the ball at which a chain begins.
+        They are balls first..last-1; return the ball at which a chain begins.
         """
         begin = -1
         for j in range(first, last):
@@ -70,7 +70,7 @@ def chains_of(size: int) -> tuple[Any, ...]:
     def take_from_block(bl, j, before, gamma, fa, m):
         """Take the previous ball's share from a block.
 
-        From the diagonal block of ball j, transposed in m.
+        It is taken from the diagonal block of ball j, transposed in m.
         """
         for i in range(size):
             for q in range(size):
@@ -84,7 +84,7 @@ def chains_of(size: int) -> tuple[Any, ...]:
     def take_from_columns(j, before, fa, m, x, n):
         """Take the previous ball's share from columns.
 
-        From x = A^-1 B of ball j, n columns; m is its inverse, transposed.
+        They are n columns of x = A^-1 B of ball j; m is its inverse, transposed.
         """
         for q in range(size):
             for i in range(size):
@@ -99,7 +99,7 @@ def chains_of(size: int) -> tuple[Any, ...]:
     def take_from_rows(before, fa, c, n):
         """Take the previous ball's share from rows.
 
-        From C of a ball, transposed in c.
+        The rows are C of a ball, transposed in c.
         """
         for k in range(size):
             for q in range(size):

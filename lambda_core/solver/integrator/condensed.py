@@ -21,7 +21,7 @@ from lambda_core.solver.lu import factor_turned, solve_turned, take_multiple
 def _among_positions(m, reach):
     """Factor the positions of every body.
 
-    In place; divide the rows of positions by them: return 0 when singular.
+    They are factored in place; divide the rows of positions by them and return 0 when singular.
 
     Their entries at speeds become how the positions follow the speeds.
     """

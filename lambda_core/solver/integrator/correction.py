@@ -26,7 +26,7 @@ def norm(v, weight):
 def shared_norm(bundle, mem):
     """Return the shared correction's rms.
 
-    Of the shared bodies, over the error allowed per step.
+    It is that of the shared bodies, over the error allowed per step.
     """
     first = bundle.system[0].tail
     total = 0.0
@@ -40,7 +40,7 @@ def shared_norm(bundle, mem):
 def renew(jacobian, t, gamma, bundle, bl, fa, mem):
     """Renew Jacobian and factors when due.
 
-    At the point evaluated last; return a Status.
+    They are those at the point evaluated last; return a Status.
     """
     control, count = mem.control[0], mem.count[0]
     if count.stale == 1:
@@ -61,7 +61,7 @@ def renew(jacobian, t, gamma, bundle, bl, fa, mem):
 def solve_correction(gamma, want, bundle, bl, fa, mem):
     """Write the last point's correction.
 
-    With `want`, into mem.change; return 0 where singular.
+    It uses `want` and fills mem.change; return 0 where singular.
     """
     change, n = mem.change, mem.new.size
     for i in range(n):

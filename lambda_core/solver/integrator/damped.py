@@ -61,7 +61,7 @@ def _evaluate(evaluate, t, gamma, bundle, mem):
 def _search(evaluate, t, gamma, residual, bundle, mem):
     """Search along the correction.
 
-    As far as the residual falls: return its value there, -1 where it does not fall.
+    It goes as far as the residual falls. Return its value there, or -1 where it does not fall.
     """
     new, change, begin, share = mem.new, mem.change, mem.last_change, 1.0
     for i in range(new.size):
@@ -80,7 +80,7 @@ def _search(evaluate, t, gamma, residual, bundle, mem):
 def _mark_restless(gamma, residual, bundle, bl, mem):
     """Mark the balls with the largest residual.
 
-    Their Jacobian is renewed; they make most of the squared residual.
+    They make most of the squared residual, so their Jacobian is renewed.
     """
     mem.count[0].stale = 1
     mem.count[0].ball_jacobians += 1
@@ -98,7 +98,7 @@ def _mark_restless(gamma, residual, bundle, bl, mem):
 def solve_damped(evaluate, jacobian, t, h, tolerance, closer, bundle, bl, fa, mem):
     """Solve new = base + gamma f(new), damped.
 
-    As newton.solve_step does: return a Status: OK, NOT_CONVERGED, REFUSED.
+    It works as newton.solve_step does; return a Status: OK, NOT_CONVERGED, REFUSED.
     """
     count, gamma = mem.count[0], mem.control[0].gamma
     if closer == 0:

@@ -1,6 +1,6 @@
 """Factor the blocks of one row of elements.
 
-For :mod:`.arrow`.
+The blocks serve :mod:`.arrow`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from lambda_core.solver.lu import filled_up
 def _in_turn(begin, i, first, last):
     """Return the i-th ball after `begin`.
 
-    In the ring first..last-1.
+    The ring is first..last-1.
     """
     j = begin + i
     return j if j < last else j - (last - first)
@@ -29,7 +29,7 @@ def _in_turn(begin, i, first, last):
 def _joined_before(reach, r, j, fa):
     """Return the joined ball before j.
 
-    Of row r, where the two are joined, else -1.
+    The ball is in row r; return -1 where the two are not joined.
     """
     if fa.joined.size == 0:
         return -1
@@ -51,7 +51,7 @@ def blocks_of(size: int) -> tuple[Any, ...]:
     def _part_of(r, row, reach, j):
         """Return an element's states in a vector.
 
-        Element j of a row, a view.
+        The element is j of a row; the result is a view.
         """
         return r[reach.states[row] + size * (j - reach.first[row]) :][:size]
 
@@ -59,7 +59,7 @@ def blocks_of(size: int) -> tuple[Any, ...]:
     def _invert(m, pivots):
         """Invert a ball block in place.
 
-        Gauss and Jordan's elimination with row pivoting; return 0 when singular.
+        It uses Gauss and Jordan's elimination with row pivoting; return 0 when singular.
         """
         for k in range(size):
             best, row = abs(m[k, k]), k
@@ -92,7 +92,7 @@ def blocks_of(size: int) -> tuple[Any, ...]:
     def _share(sign, c, x, part, own, n):
         """Take C A^-1 B of a ball.
 
-        From `own`, times a sign: forces move speeds, so that half of its rows are empty.
+        It is taken from `own`, times a sign. Forces move speeds, so that half of its rows are empty.
         """
         for i in range(n):
             empty = True
@@ -106,7 +106,7 @@ def blocks_of(size: int) -> tuple[Any, ...]:
     def _factor_ball(bl, j, before, shift, gamma, fa, own, n):
         """Invert ball j's block, take its share.
 
-        Of n columns, from `own`; return 0 when singular.
+        The share has n columns and is taken from `own`; return 0 when singular.
 
         `before` is the ball that it is joined to, -1 for none.
         """
@@ -143,7 +143,7 @@ def blocks_of(size: int) -> tuple[Any, ...]:
     def factor_row(bl, r, shift, gamma, fa, own):
         """Take the balls' shares from `own`.
 
-        Of a row; return 0 when a block is singular.
+        They are those of a row; return 0 when a block is singular.
         """
         fa.gamma[r], bl.changed[r] = gamma, 0
         first, last = bl.reach.first[r], bl.reach.first[r + 1]
@@ -173,7 +173,7 @@ def blocks_of(size: int) -> tuple[Any, ...]:
     def renew_row(bl, r, shift, fa, own):
         """Factor changed balls of a row anew.
 
-        Their blocks have changed, for the g of the others; return 0 if singular.
+        Their blocks have changed, and the others keep their g; return 0 if singular.
         """
         n, bl.changed[r] = bl.reach.width[r], 0
         for j in range(bl.reach.first[r], bl.reach.first[r + 1]):
@@ -208,7 +208,7 @@ def blocks_of(size: int) -> tuple[Any, ...]:
     def solve_back(row, reach, fa, r, own, n):
         """Solve the balls' parts back.
 
-        Take from each the share of the shared part, in `own`, and of the ball after it.
+        Take from each the share of the shared part, in `own`, and that of the ball after it.
         """
         first, last = reach.first[row], reach.first[row + 1]
         for place in range(last - first - 1, -1, -1):

@@ -1,6 +1,6 @@
 """Integrate vibrations by ESDIRK4(3)6L[2]SA.
 
-Order 4, on the arrow structure and iteration of the BDF.
+It has order 4 and uses the arrow structure and iteration of the BDF.
 
 What a BDF of order 2 takes of a swing in a step is (w h)^4/4 of its amplitude and (w h)^2/3 of its frequency, so that
 it needs 51 steps per period for 0.5 % of the frequency; this formula needs four, and leaves the amplitude alone.
@@ -57,7 +57,7 @@ def _begin(evaluate, bundle, mem):
 def _node(row, ratio):
     """Return the time of a slopes' row.
 
-    In steps from the start of the step in hand; `ratio` to the last one.
+    It is in steps from the start of the current step; `ratio` relates it to the last step.
     """
     if row < STAGES:
         return NODES[row]
@@ -68,7 +68,7 @@ def _node(row, ratio):
 def _guess(mem, stage, ratio):
     """Return rows and weights of extrapolation.
 
-    For a stage's slope (Lagrange).
+    They are for a stage's slope (Lagrange).
     """
     if mem.count[0].history == 0:
         return 0, 0, 0, 1.0, 0.0, 0.0
@@ -138,7 +138,7 @@ def _attempt(evaluate, jacobian, h, bundle, bl, fa, mem):
 def _interpolate(mem, t, h, at, row):
     """Write the state at `at`.
 
-    In (t - h, t], from places and slopes at the ends of this step and the last one.
+    The time lies in (t - h, t]; places and slopes at the ends of this step and the last one are used.
 
     Newton's form with double nodes (Hermite), of order 5 where there is a last step, 3 in the first.
     """
@@ -167,7 +167,7 @@ def _interpolate(mem, t, h, at, row):
 def _shift(bundle, mem, h):
     """Make the new point current.
 
-    And the integrals with it.
+    The integrals change with it.
     """
     stages, last = mem.stages, STAGES - 1
     add_turn_over(mem, h)

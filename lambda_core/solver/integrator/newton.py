@@ -73,7 +73,7 @@ def _relax(gamma, factored):
 def _move_all(bundle, fa, mem, want, again):
     """Move every state by its correction.
 
-    Ball by ball: return whether a ball's corrections swung to and fro.
+    It goes ball by ball; return whether a ball's corrections swung to and fro.
     """
     tail, moving, control = bundle.system[0].tail, mem.new.size - bundle.states.size, mem.control[0]
     swung = False
@@ -95,7 +95,7 @@ def _move_all(bundle, fa, mem, want, again):
 def _renew_slow(bundle, bl, mem, size):
     """Mark the balls that converge slowly.
 
-    Their Jacobian is renewed; they make most of the last change, of the given norm.
+    They make most of the last change, of the given norm, so their Jacobian is renewed.
 
     Where no ball stands out the bodies that all share are slow, and it is renewed for all.
     """

@@ -71,7 +71,7 @@ def _settled(mem, end, inertia, k, h):
 def settle_prescribed(bundle, mem, h):
     """Add prescribed rings' kinetic energy.
 
-    To the input of a step, also across jumps.
+    It goes to the input of a step, also across jumps.
     """
     running = running_of(mem.integrals)[0]
     for b in range(bundle.bodies.size):

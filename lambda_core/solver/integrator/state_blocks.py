@@ -16,7 +16,7 @@ from lambda_core.solver.lu import lu_factor, lu_solve
 def solve_states(bundle, gamma, change):
     """Solve the contacts' part of a correction.
 
-    (I - gamma dr/dx) in place, for Newton; return 0 when singular.
+    It solves (I - gamma dr/dx) in place, for Newton; return 0 when singular.
     """
     behind = change.size - bundle.states.size
     for r in range(bundle.rows.size):
@@ -41,7 +41,7 @@ def solve_states(bundle, gamma, change):
 def dense_slopes(bundle, behind, out):
     """Write the contact states' slopes densely.
 
-    Of all rates with the states of their own contacts, from row `behind` on.
+    They are slopes of all rates with the states of their own contacts, from row `behind` on.
     """
     for r in range(bundle.rows.size):
         row = bundle.rows[r]

@@ -39,7 +39,7 @@ def _take_samples(interpolate, mem, h):
 def _length(control, history):
     """Return the length of the step.
 
-    As planned, or what ends at the stop, or halfway to it.
+    It is as planned, or ends at the stop, or halfway to it.
 
     Halfway, so that no step is cut to a small part of those before it. One that was cut does not change the plan.
     """
@@ -75,7 +75,7 @@ def _accept(interpolate, shift, bundle, mem, h):
 def take_steps(begin, attempt, interpolate, shift, evaluate, jacobian, until, max_work, bundle, bl, fa, mem):
     """Take steps past `until`.
 
-    Or until the sample buffer is full, or the work is done.
+    They end earlier when the sample buffer is full or the work is done.
 
     Parameters
     ----------

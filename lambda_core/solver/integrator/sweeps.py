@@ -13,7 +13,7 @@ from lambda_core.solver.layout import ordered_rows_helper, rows_helper
 def sums_of(size: int) -> tuple[Any, ...]:
     """Return the row and column functions.
 
-    add_row, take_rows, add_columns and take_columns of blocks with `size` states.
+    They are add_row, take_rows, add_columns and take_columns of blocks with `size` states.
 
     A size that the compiler knows keeps sums in registers: one that is read while the code runs takes 1.8 times as
     long.
@@ -41,7 +41,7 @@ def sums_of(size: int) -> tuple[Any, ...]:
     def add_columns(part, factors, columns, n):
         """Add multiples of columns.
 
-        n columns, which are kept as rows, to one ball's part of a solution.
+        There are n columns, which are kept as rows; one ball's part of a solution takes them.
         """
         for k in range(n):
             for i in range(size):
@@ -51,7 +51,7 @@ def sums_of(size: int) -> tuple[Any, ...]:
     def take_columns(part, factors, columns, n):
         """Take multiples of columns.
 
-        n columns, which are kept as rows, from one ball's part of a solution.
+        There are n columns, which are kept as rows; one ball's part of a solution loses them.
         """
         for k in range(n):
             for i in range(size):
@@ -64,7 +64,7 @@ def sums_of(size: int) -> tuple[Any, ...]:
 def write_multiple(row, factor, other, n):
     """Write a multiple of a row.
 
-    Its first n entries.
+    Its first n entries are written.
     """
     for i in range(n):
         row[i] = factor * other[i]

@@ -31,7 +31,7 @@ def _copy(wrench, other):
 def keep_contacts(bundle):
     """Keep the contacts' forces on bodies.
 
-    Where there are several bearings.
+    They are kept only where there are several bearings.
     """
     if bundle.bypassed.size > 1:
         for b in range(bundle.bodies.size):
@@ -42,7 +42,7 @@ def keep_contacts(bundle):
 def clear_again(bundle, rates):
     """Clear the sums of forces and powers.
 
-    Those of raceways' powers; bearings that rest keep theirs.
+    They are the sums of raceway powers; bearings that rest keep theirs.
     """
     raceways = bundle.raceways.size
     for b in range(bundle.bodies.size):
@@ -83,7 +83,7 @@ def clear_bearing_powers(bundle):
 def powers_of_bearing(bundle, bearing, running):
     """Return the place of a bearing's powers.
 
-    One alone sums to the powers of all.
+    A bearing that is alone sums to the powers of all.
     """
     return running if bundle.bypassed.size == 1 else bundle.bearing_powers[bearing]
 

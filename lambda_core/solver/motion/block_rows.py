@@ -76,7 +76,7 @@ def force_map(body, now, m):
 def body_rows(p, index, bl, c_block):
     """Write d(body)/d(ball) into a block C.
 
-    Of the body at place p.
+    The body is at place p.
     """
     for row in range(NS):
         k = index[NS * p + row]
@@ -93,7 +93,7 @@ def body_rows(p, index, bl, c_block):
 def _own_slopes(b, bundle, bl):
     """Add a body's own slopes to D.
 
-    Those of body b's own equations of motion.
+    They belong to body b's own equations of motion.
     """
     body, now, inputs, fm = bundle.bodies[b], bundle.bodies_now[b], bundle.inputs[b], bundle.body_wrenches[b]
     gravity, near, d = bundle.system[0].gravity, bl.body.view(BODY_STATE), bl.d
@@ -117,7 +117,7 @@ def _own_slopes(b, bundle, bl):
 def shared_rows(b, bundle, bl):
     """Write the rows of body b in D.
 
-    Its own equations of motion and all forces on it.
+    They hold its own equations of motion and all forces on it.
     """
     d, active = bl.d, bundle.active
     for row in range(NS):

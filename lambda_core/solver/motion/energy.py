@@ -26,7 +26,7 @@ from lambda_core.solver.vec import length
 def contact_energy(raceway, delta, bundle):
     """Return a raceway contact's elastic energy [J].
 
-    At penetration delta.
+    It holds at penetration delta.
 
     With delta u^2 for the penetration, eight points are exact for a power law of exponent 3/2.
     """
@@ -55,7 +55,7 @@ def _ball_energy(ball, row):
 def _raceway_energy(ball, raceway, bundle):
     """Return a ball's elastic energy [J].
 
-    In its contact with a raceway.
+    It is that of its contact with a raceway.
     """
     ring, kin = bundle.bodies_now[raceway.body], bundle.scratch[0].kinematics[0]
     if touch(ball, ring, raceway, bundle, kin) > 0.0:
@@ -67,7 +67,7 @@ def _raceway_energy(ball, raceway, bundle):
 def _guide_energy(balls, j, row, bundle):
     """Return a ball's elastic energy of guidance [J].
 
-    In its pocket, or with the next ball where there is no cage.
+    It is in its pocket, or with the next ball where there is no cage.
     """
     i = j - row.first_ball
     scratch, ball, start = bundle.scratch[0], balls[i], 0.0
@@ -85,7 +85,7 @@ def _guide_energy(balls, j, row, bundle):
 def _body_energy(body, now):
     """Return a body's energy [J].
 
-    Its kinetic energy and the elastic energy of its supports.
+    It is its kinetic energy and the elastic energy of its supports.
     """
     ay, az = now.tilt[0], now.tilt[1]
     wy, wz, sigma = now.tilt_velocity[0], now.tilt_velocity[1], now.spin
@@ -112,7 +112,7 @@ def _land_energy(land, bundle):
 def stored_energy(t, y, bundle):
     """Return kinetic plus elastic energy [J].
 
-    Of all bodies, contacts and supports.
+    It covers all bodies, contacts and supports.
     """
     system = bundle.system[0]
     if fill_shared(t, y, bundle) != 1:

@@ -77,7 +77,7 @@ def _turn_across(moment, w, inertia, mode, motion):
 def _rotate(body, now, wrench, inputs, rate):
     """Write a body's angular accelerations.
 
-    Return external, drive's and support power [W].
+    Return the power of external loads, drive and supports [W].
 
     What the unbalance force U sigma^2 gives the motion of the axis it takes from the spin: the moment -U sigma (n . v),
     n from the axis to the centre of mass. Of the rotor's own -U (t . a) that leaves out U d(t . v)/dt, a swing without

@@ -46,7 +46,7 @@ def clear_forces(bundle):
 def add_contact(raceway, place, j, bundle):
     """Add a raceway contact's wrench.
 
-    At a place of scratch, to the forces on ball j and on the raceway's body.
+    It is at a place of scratch; the forces on ball j and on the raceway's body take it.
     """
     scratch, on_body = bundle.scratch[0], bundle.body_wrenches[raceway.body]
     apply_wrench(scratch.kinematics[place], scratch.wrench[place], bundle.ball_wrenches[j], scratch.on_ring)
@@ -60,7 +60,7 @@ def add_contact(raceway, place, j, bundle):
 def _room(raceway, bundle):
     """Return the contacts per call of laws.
 
-    Of a raceway: one where the laws read the contact's states.
+    A raceway has one where its laws read the contact's states.
     """
     if raceway.states > 0 or raceway.slots[1] > raceway.slots[0]:
         return 1
@@ -71,7 +71,7 @@ def _room(raceway, bundle):
 def _gather(t, balls, i, row, raceway, keeps, bundle):
     """Gather contacts of a raceway.
 
-    From ball i of a row on, until no more are taken at once.
+    They start at ball i of a row, until no more are taken at once.
 
     Returns the next ball, or -1 on a fault, and how many contacts carry load and do not yet (records.BATCH).
     """
@@ -104,7 +104,7 @@ def _gather(t, balls, i, row, raceway, keeps, bundle):
 def _add(t, place, raceway, bundle, losses, keeps, counts):
     """Add a contact to forces and losses.
 
-    To the losses where it counts what it dissipates; return 0 on a fault.
+    The losses take what it dissipates where that counts; return 0 on a fault.
     """
     scratch, k = bundle.scratch[0], raceway.number
     j, kin, contact = scratch.ball[place], scratch.kinematics[place], scratch.contact[place]
@@ -149,7 +149,7 @@ def raceway_forces(t, balls, row, bundle, losses, want):
 def drag_force(ball, row, bundle, on_ball):
     """Add fluid drag and churning.
 
-    Of one ball; return the power lost [W], or -1 on a fault.
+    They act on one ball; return the power lost [W], or -1 on a fault.
 
     In motion the drag is that at the ball's azimuth, in the quasi-static equilibrium its mean over one revolution,
     from azimuths that are the same for all balls, so that equal balls have equal drag.
@@ -183,7 +183,7 @@ def drag_force(ball, row, bundle, on_ball):
 def cage_forces(balls, row, bundle, running, want):
     """Add the cage forces of a row.
 
-    Of pockets, or ball-ball contacts when it has no cage; with `want` their losses.
+    They are those of pockets, or ball-ball contacts when it has no cage; with `want` add their losses.
     """
     scratch, viscosity = bundle.scratch[0], row.oil.viscosity
     g, out, fault, at_rest = scratch.guide, scratch.out[:], scratch.fault, scratch.at_rest

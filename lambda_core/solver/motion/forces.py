@@ -120,7 +120,7 @@ def _guides(t, y, bundle, dydt, rates, want):
 def evaluate(t, y, bundle, dydt, rates, want):
     """Write dy/dt.
 
-    With `want` = 1 also the powers and rates of the running integrals; an entry point.
+    With `want` = 1 it also writes the powers and rates of the running integrals. It is an entry point.
 
     Parameters
     ----------

@@ -64,7 +64,7 @@ def _drag_columns(ball, row, bundle, bl):
 def _add_part(bl, r, j):
     """Add ball j's part to the bodies.
 
-    To the slopes of the forces on them, of row r.
+    They belong to the slopes of the forces on the bodies, of row r.
     """
     bodies, count, part = bl.reach.bodies[r], bl.reach.count[r], bl.parts[j]
     for p in range(count):
@@ -79,7 +79,7 @@ def _add_part(bl, r, j):
 def _guide_columns(balls, j, row, bundle, bl):
     """Add ball j's pocket or neighbours.
 
-    Its contacts with the neighbouring balls.
+    They are its contacts with the neighbouring balls.
     """
     if row.caged == 1:
         return pocket_columns(balls[j - row.first_ball], j, row, bundle, bl)
@@ -96,7 +96,7 @@ def _guide_columns(balls, j, row, bundle, bl):
 def _force_columns(balls, j, row, bundle, bl):
     """Add the slopes of ball j's forces.
 
-    Of every force on it, and of what it does to the bodies; return 1 when well.
+    They are those of every force on it and of what it does to the bodies; return 1 when well.
     """
     system, ball = bundle.system[0], balls[j - row.first_ball]
     if raceway_columns(ball, j, row, bundle, bl) != 1:
@@ -117,7 +117,7 @@ def _force_columns(balls, j, row, bundle, bl):
 def _ball_blocks(balls, j, row, bundle, bl):
     """Write the blocks A, B, C of ball j.
 
-    And its part of D; return 1 when well.
+    It also writes the ball's part of D; return 1 when well.
     """
     reach, r = bl.reach, row.number
     bl.parts[j, :, :, :] = 0.0
@@ -138,7 +138,7 @@ def _ball_blocks(balls, j, row, bundle, bl):
 def _own_part(r, bundle, bl):
     """Write the contacts' part of D.
 
-    Of a row, where rows are on several bearings; return 1 when well.
+    It is that of a row, where rows are on several bearings; return 1 when well.
     """
     reach, d_own = bl.reach, bl.d_own[r]
     for p in range(reach.count[r]):
@@ -160,7 +160,7 @@ def _own_part(r, bundle, bl):
 def _add_own_part(r, sign, bl):
     """Add the contacts' part to D.
 
-    Of a row, times a sign.
+    It is that of a row, times a sign.
     """
     columns = bl.reach.columns[r]
     for i in range(bl.reach.width[r]):
@@ -172,7 +172,7 @@ def _add_own_part(r, sign, bl):
 def _renew_own_parts(bundle, bl):
     """Renew the contacts' parts of D.
 
-    For the rows whose blocks changed; return 1 when well.
+    They are those of the rows whose blocks changed; return 1 when well.
 
     Where a few balls are due, contacts of one bearing are to blame: the rest of D stands.
     """
@@ -188,7 +188,7 @@ def _renew_own_parts(bundle, bl):
 def jacobian(t, y, bundle, bl):
     """Write the due balls' blocks.
 
-    Those marked in bl.due at (t, y); call right after `evaluate` at the same point.
+    The balls are marked in bl.due at (t, y); call this right after `evaluate` at the same point.
 
     All are marked unless the caller has taken marks away; afterwards all are again. Uses bundle.body_wrenches of that
     evaluation for the bodies' own equations. Returns 1 when well.

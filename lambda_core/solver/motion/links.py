@@ -29,7 +29,7 @@ def _point(body, place, g):
 def link_state(link, first, second, g):
     """Write the second point's relative state.
 
-    Place, velocity and angular velocity seen from the first body, inertial.
+    Place, velocity and angular velocity are seen from the first body, in inertial axes.
 
     The velocity is that against the material of the first body at the same place. g.axial becomes the tilt of one axis
     against the other, g.origin the second point from the second body's centre.
@@ -49,7 +49,7 @@ def link_state(link, first, second, g):
 def link_wrench(t, link, bundle, g):
     """Call an element's law on a guide record.
 
-    scratch.out = force[3], couple[3] on the second body; 1: well.
+    The law writes scratch.out = force[3], couple[3] on the second body; return 1 when well.
     """
     scratch = bundle.scratch[0]
     out = scratch.out[:]
@@ -68,7 +68,7 @@ def link_wrench(t, link, bundle, g):
 def link_apply(link, first, second, g, out, on_first, on_second):
     """Add an element's wrench to its bodies.
 
-    Equal and opposite, at the second point.
+    It acts equally and oppositely, at the second point.
     """
     force, couple = (out[0], out[1], out[2]), (out[3], out[4], out[5])
     increase(on_second.force, force)
@@ -111,7 +111,7 @@ def link_forces(t, bundle, running):
 def _link_columns(t, link, bundle, bl):
     """Add the slopes of one element.
 
-    By differences of its law.
+    They are differences of its law.
     """
     scratch, fm = bundle.scratch[0], bl.wrenches
     first, second = _carrier(link.first, bundle), bundle.bodies_now[link.second]

@@ -37,7 +37,7 @@ def _by_law(t, term, bundle, signal):
 def evaluate_signals(t, bundle):
     """Write every signal at time t [s].
 
-    Value, first and second derivative; return 1 when well.
+    It has a value, a first and a second derivative; return 1 when well.
     """
     terms, table, signals = bundle.terms, bundle.table, bundle.signals
     for i in range(signals.size):
@@ -81,7 +81,7 @@ def evaluate_signals(t, bundle):
 def _spline(t, table, start, count, signal):
     """Add a cubic spline.
 
-    Per interval t_0, then coefficients of 1, u, u^2, u^3, u = t - t_0.
+    Each interval has t_0, then coefficients of 1, u, u^2, u^3, with u = t - t_0.
 
     The last row holds the end time and value; outside, the end values are held.
     """

@@ -16,7 +16,7 @@ _TURN = 1e-3  # [rad/s] likewise
 def ball_step(c, direct):
     """Return the difference step of state c.
 
-    Of a ball; `direct` for laws called with velocities.
+    State c is one of a ball; `direct` is for laws called with velocities.
     """
     if c <= 2:
         return (_POSITION if c < 2 else _ANGLE) * (_CLOSE if direct else 1.0)
@@ -39,7 +39,7 @@ def body_step(c, direct):
 def add_slope(slopes, column, changed, base, step):
     """Add a wrench's difference to a column.
 
-    Over a step, of the slopes of a force and moment, (6, n).
+    The difference is over a step. The column belongs to the slopes of a force and moment, (6, n).
     """
     for i in range(3):
         slopes[i, column] += (changed.force[i] - base.force[i]) / step

@@ -1,6 +1,6 @@
 """Compute forces of elastic structures between bodies.
 
-One matrix of stiffness and one of damping.
+They have one matrix of stiffness and one of damping.
 
 Forces are -K (u - u_0) - C du/dt of positions, components of axes and angles about them, with the potential
 (u - u_0).K (u - u_0)/2: small deflections of linear bodies. A force along a component of a body's axis is a moment on
@@ -19,7 +19,7 @@ from lambda_core.solver.lu import inner_product
 def _measure(bundle):
     """Write the structures' displacements.
 
-    From where they are without force.
+    They are measured from where they are without force.
     """
     for k in range(bundle.tied.size):
         bundle.tie_moves[k] = bundle.shared[bundle.tied[k]] - bundle.tie_rest[k]
@@ -29,7 +29,7 @@ def _measure(bundle):
 def _rate(entry, bundle):
     """Return the rate of a tied entry.
 
-    Of an axis by w x a, of an angle by the spin.
+    An axis changes by w x a, an angle by the spin.
     """
     now, c = bundle.bodies_now[entry // NS], entry % NS
     if c < SAY:
@@ -51,7 +51,7 @@ def _measure_rates(bundle):
 def structure_forces(bundle, running):
     """Add all structures' forces.
 
-    To those on the bodies, and the power of their dampers to the losses.
+    They act on the bodies; their dampers add power to the losses.
 
     The power of a force f along the axis a of a body is f.da/dt = (a x f).omega.
     """
@@ -86,7 +86,7 @@ def structure_forces(bundle, running):
 def structure_columns(bundle, bl):
     """Add the slopes of structures' forces.
 
-    To the first order of small tilts.
+    They are of first order in small tilts.
     """
     for i in range(bundle.tied.size):
         b, c = bundle.tied[i] // NS, bundle.tied[i] % NS

@@ -36,7 +36,7 @@ def _touching_film(raceway, kin, delta, bundle):
 def open_line(raceway, kin, delta, bundle):
     """Return the capacitance [F] of an open line.
 
-    Or the least one of a light line, 0 of others; -1 on a fault.
+    A light line has the least one and other lines have 0; return -1 on a fault.
 
     Open lines come no closer than the film that the oil would leave where they touched, so that the capacitance is
     continuous where they do. Call it before the wrench of the contact in scratch.
@@ -66,7 +66,7 @@ def open_line(raceway, kin, delta, bundle):
 def loaded_capacitance(raceway, kin, bundle, shorted, touching, sample):
     """Write the loaded contact's capacitance.
 
-    In scratch; return 1, or 0 on a fault.
+    The contact is in scratch; return 1, or 0 on a fault.
     """
     laws = raceway_laws(bundle.laws.raceways, raceway.laws)
     if raceway.kind == LINE:

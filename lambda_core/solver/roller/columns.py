@@ -43,7 +43,7 @@ def _step(c, direct):
 def _drivers(kin):
     """Return the drivers of a contact's wrench.
 
-    In the order of records.LINE_DRIVERS.
+    They have the order of records.LINE_DRIVERS.
     """
     return (
         kin.penetration, kin.normal_velocity, kin.slip_t, kin.slip_s, kin.rotation_t, kin.rotation_s, kin.rotation_n,
@@ -84,7 +84,7 @@ def _shift(kin, i, step):
 def _tangent(raceway, bundle, bl):
     """Write the wrench and its slopes.
 
-    Of the contact in scratch, with the drivers; return 0 on a fault.
+    The contact is in scratch, with the drivers; return 0 on a fault.
     """
     scratch = bundle.scratch[0]
     kin, near_kin, base, changed = scratch.kinematics[0], scratch.kinematics[1], scratch.wrench[0], scratch.wrench[1]
@@ -110,7 +110,7 @@ def _tangent(raceway, bundle, bl):
 def _wrench_near(values, kin, base, drivers, wrench):
     """Write the wrench to first order.
 
-    At the kinematics `kin`: `values` are the drivers of `base`.
+    It holds at the kinematics `kin`; `values` are the drivers of `base`.
     """
     store(wrench.force, base.force)
     store(wrench.moment, base.moment)
@@ -126,7 +126,7 @@ def _wrench_near(values, kin, base, drivers, wrench):
 def _contact_columns(roller, j, ring, raceway, row, bundle, bl):
     """Add one contact to the force slopes.
 
-    Of roller j: scratch holds it, bl.drivers the slopes of its wrench.
+    The roller is j; scratch holds the contact and bl.drivers the slopes of its wrench.
     """
     scratch, p = bundle.scratch[0], bl.reach.place[row.number, raceway.body]
     index, on_ring, values = bl.reach.index[row.number], bl.parts[j, p], _drivers(scratch.kinematics[0])
@@ -161,7 +161,7 @@ def _contact_columns(roller, j, ring, raceway, row, bundle, bl):
 def _raceway_columns(roller, j, row, bundle, bl):
     """Add roller j's raceway contacts.
 
-    To the force slopes; return 0 on a fault.
+    They go to the force slopes; return 0 on a fault.
     """
     scratch = bundle.scratch[0]
     for k in range(row.first_raceway, row.first_raceway + row.raceways):
@@ -186,7 +186,7 @@ def _no_force(wrench):
 def _pocket_columns(roller, j, row, bundle, bl):
     """Add the pocket of roller j.
 
-    One without force is skipped. Return 0 on a fault.
+    A pocket without force is skipped. Return 0 on a fault.
     """
     fm, p, cage = bl.wrenches, bl.reach.place[row.number, row.cage], bundle.bodies_now[row.cage]
     near_roller, near_cage = bl.roller.view(ROLLER), bl.body.view(BODY_STATE)
@@ -219,7 +219,7 @@ def _pocket_columns(roller, j, row, bundle, bl):
 def _neighbour_columns(roller, other, j, row, bundle, bl):
     """Add the contact with a neighbour to roller j's slopes.
 
-    Those with the other's states go into bl.beyond; return 0 on a fault.
+    Slopes with the other's states go into bl.beyond; return 0 on a fault.
     """
     fm, near = bl.wrenches, bl.roller.view(ROLLER)
     bl.beyond[:, :] = 0.0
@@ -297,7 +297,7 @@ def _drag_columns(roller, row, bundle, bl):
 def _write_map(roller, j, row, bundle, bl):
     """Write the rates of roller j and their slopes.
 
-    With forces and moments, in which they are linear.
+    They come with forces and moments, in which they are linear.
     """
     wrench, here, there = bundle.ball_wrenches[j], bl.moved[0].view(ROLLER), bl.moved[1].view(ROLLER)
     roller_rates(roller, wrench, row, here[0])
@@ -313,7 +313,7 @@ def _write_map(roller, j, row, bundle, bl):
 def _equation_rows(roller, j, row, bundle, bl, a, b):
     """Turn force slopes into roller j's rows.
 
-    With the slopes of its own equations of motion; call after _write_map.
+    The slopes of its own equations of motion are added; call this after _write_map.
     """
     wrench, near_roller, index = bundle.ball_wrenches[j], bl.roller.view(ROLLER), bl.reach.index[row.number]
     there = bl.moved[1].view(ROLLER)
@@ -349,7 +349,7 @@ def _push(wrench, i, amount):
 def _body_rows(p, index, bl, c_block):
     """Write d(body)/d(roller) into a block C.
 
-    Of the body at place p.
+    The body is at place p.
     """
     for row in range(NS):
         k = index[NS * p + row]
@@ -366,7 +366,7 @@ def _body_rows(p, index, bl, c_block):
 def _blocks(rollers, j, row, bundle, bl):
     """Write the blocks A, B, C of roller j.
 
-    And its part of D; return 0 on a fault.
+    It also writes the roller's part of D; return 0 on a fault.
     """
     reach, r, system, roller = bl.reach, row.number, bundle.system[0], rollers[j - row.first_ball]
     bl.parts[j, :, :, :] = 0.0
@@ -396,7 +396,7 @@ def _blocks(rollers, j, row, bundle, bl):
 def jacobian(y, r, bundle, bl):
     """Write the due rollers' blocks.
 
-    Of a row; return how many, or -1 on a fault.
+    The rollers are those of a row; return how many, or -1 on a fault.
     """
     row, rollers, due = bundle.rows[r], rollers_of(y, bundle.rows[r]), 0
     for i in range(row.balls):

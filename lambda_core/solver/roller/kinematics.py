@@ -57,7 +57,7 @@ def _outwards(place, axis):
 def _write(roller, ring, row, azimuth, axis, centre, lever, frame, slope, kin):
     """Write frame, arms and velocities.
 
-    Of a contact at `lever` from the roller's centre.
+    The contact is at `lever` from the roller's centre.
 
     `slope` is the direction along the contact in which entrainment changes, a unit vector. The contact follows the
     roller's centre round the ring's axis.
@@ -101,7 +101,7 @@ def _write(roller, ring, row, azimuth, axis, centre, lever, frame, slope, kin):
 def line_kinematics(roller, ring, row, raceway, kin):
     """Return the approach of a line contact [m].
 
-    Identifies the contact of a roller with a raceway; at its middle, without profile.
+    It is that of a roller's contact with a raceway, at its middle, without profile.
 
     The roller's generatrix that is nearest to the raceway and the raceway's lie in one plane but for a skew, whose
     effect on the gap is of the second order (x^2 skew^2/(2 R), a nanometre for 1 mrad).
@@ -153,7 +153,7 @@ def rib_kinematics(roller, ring, row, raceway, kin):
 def apply_roller_wrench(kin, roller, ring, wrench, on_roller, on_ring):
     """Turn a contact wrench into force and moment.
 
-    On roller and ring, equal and opposite.
+    They act on roller and ring, equal and opposite.
 
     As contact_kinematics.apply_wrench, for contacts that are not on the normal through the centre. `on_roller` is added
     to, `on_ring` set.

@@ -35,7 +35,7 @@ _MEAN = 0.25 * math.pi  # mean over the maximum of Hertz's pressure across a lin
 def closest(raceway, kin, bundle):
     """Return the nearest slice's approach [m].
 
-    To the raceway.
+    The approach is to the raceway.
     """
     line, found = bundle.lines[raceway.line], -np.inf
     for k in range(line.shape[1]):
@@ -47,7 +47,7 @@ def closest(raceway, kin, bundle):
 def _slice_loads(raceway, kin, law, bundle, contact, fault):
     """Write load, width and pressure of slices.
 
-    Of every slice; return the loads' moment about t [N m], NaN on a fault.
+    Every slice has them; return the loads' moment about t [N m], NaN on a fault.
 
     `contact` takes the load of all, the largest half width and pressure.
     """
@@ -114,7 +114,7 @@ def _carrying_length(contact, slices):
 def _films(raceway, place, length, laws, par, scratch):
     """Run the scalar laws of a line.
 
-    With the carrying length for R_y; 0 on a fault.
+    The carrying length serves R_y; return 0 on a fault.
     """
     full = raceway.radius_y
     raceway.radius_y = length
@@ -127,7 +127,7 @@ def _films(raceway, place, length, laws, par, scratch):
 def _shear_around(raceway, length, contact):
     """Return the oil's force per slip [N s/m].
 
-    Before and behind the flat, see rolling.flow_shear.
+    It holds before and behind the flat; see rolling.flow_shear.
     """
     return FLOW_SHEAR * raceway.oil.viscosity * length * math.sqrt(raceway.radius_x / contact.film_central)
 
@@ -136,7 +136,7 @@ def _shear_around(raceway, length, contact):
 def _resist(kin, per_slip, wrench):
     """Add the oil's shear around the flat.
 
-    Against the slip at the middle of the line.
+    It acts against the slip at the middle of the line.
     """
     wrench.force[0] -= per_slip * kin.slip_t
     wrench.force[1] -= per_slip * kin.slip_s
@@ -166,7 +166,7 @@ def _lean_on(kin, moment, wrench):
 def line_wrench(raceway, place, bundle):
     """Write the line contact's wrench.
 
-    At a place of scratch on the roller, about its middle, axes t, s, n.
+    It is at a place of scratch. It acts on the roller, about its middle, in axes t, s, n.
 
     Returns 1 when every kernel was well; otherwise 0 and scratch.fault says which was not.
     """

@@ -15,7 +15,7 @@ from lambda_core.solver.vec import cross, dot, scale, store, subtract
 def to_own(v, row):
     """Return components along the roller's axes.
 
-    Of a vector given in the turning frame.
+    The vector is given in the turning frame.
     """
     c, s = math.cos(row.axis_angle), math.sin(row.axis_angle)
     return c * v[0] + s * v[1], -s * v[0] + c * v[1], v[2]
@@ -25,7 +25,7 @@ def to_own(v, row):
 def from_own(v, row):
     """Return components in the turning frame.
 
-    Of a vector given along a roller's own axes.
+    The vector is given along a roller's own axes.
     """
     c, s = math.cos(row.axis_angle), math.sin(row.axis_angle)
     return c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]
@@ -35,7 +35,7 @@ def from_own(v, row):
 def _own_axis(roller):
     """Return the axis along the roller's axes.
 
-    The unit vector.
+    It is the unit vector.
     """
     u, v = roller.tilt[0], roller.tilt[1]
     return math.sqrt(max(1.0 - u * u - v * v, 1e-12)), u, v
@@ -45,7 +45,7 @@ def _own_axis(roller):
 def axis_of(roller, row):
     """Return the axis in the turning frame.
 
-    The unit vector.
+    It is the unit vector.
     """
     return from_own(_own_axis(roller), row)
 

@@ -73,7 +73,7 @@ def _station_state(roller, other, row, share, g):
 def _apply(roller, other, g, out, share, on_roller, on_other):
     """Add a share of a station's force to both rollers.
 
-    Equal and opposite, in their turning frames.
+    The forces are equal and opposite, in their turning frames.
     """
     force, lever = force_and_point(g, out)
     arm = subtract(lever, subtract(_centre(roller), _centre(other)))
@@ -85,7 +85,7 @@ def _apply(roller, other, g, out, share, on_roller, on_other):
 def neighbour_forces(roller, other, j, row, bundle, on_roller, on_other):
     """Add the forces of roller j and the next.
 
-    On both, in their turning frames. Return the power lost [W], or -1.
+    They act on both, in their turning frames. Return the power lost [W], or -1.
     """
     scratch, viscosity, lost = bundle.scratch[0], row.oil.viscosity, 0.0
     g, out = scratch.guide, scratch.out[:]

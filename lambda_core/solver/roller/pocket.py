@@ -59,7 +59,7 @@ def _station_state(roller, cage, j, row, share, g):
 def pocket_forces(roller, cage, j, row, bundle, on_roller, on_cage):
     """Add a pocket's forces.
 
-    On roller (turning frame) and cage (inertial); return the power lost [W], or -1.
+    They act on roller (turning frame) and cage (inertial frame); return the power lost [W], or -1.
     """
     scratch, viscosity, lost = bundle.scratch[0], row.oil.viscosity, 0.0
     g, out = scratch.guide, scratch.out[:]
@@ -80,7 +80,7 @@ def pocket_forces(roller, cage, j, row, bundle, on_roller, on_cage):
 def pocket_energy(roller, cage, j, row, bundle):
     """Return a roller's elastic energy [J].
 
-    In its pocket.
+    It is that of its contact with its pocket.
     """
     scratch, total = bundle.scratch[0], 0.0
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)

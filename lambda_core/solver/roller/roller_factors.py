@@ -15,7 +15,7 @@ _factor, _renew, _forward, _back = blocks_of(NR)
 def factor(stage, bl, r, shift, gamma, fa, own):
     """Take the rollers' shares from `own`.
 
-    Of a row, or renew them; return 0 when a block is singular.
+    The rollers are those of a row; the stage NEWER renews their shares. Return 0 when a block is singular.
     """
     if stage == NEWER:
         return _renew(bl, r, shift, fa, own)
@@ -25,7 +25,7 @@ def factor(stage, bl, r, shift, gamma, fa, own):
 def solve(stage, row, bl, fa, right, own):
     """Do half of a solution for rollers.
 
-    For a row of them.
+    The rollers are those of a row.
     """
     if stage == FORWARD:
         _forward(row, bl.reach, fa, right, own, bl.reach.width[row])

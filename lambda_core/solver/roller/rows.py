@@ -32,7 +32,7 @@ from lambda_core.solver.vec import clear, dot, increase, store, turning
 def rollers_of(y, row):
     """Return the rollers of a row.
 
-    In a state vector, a view: a table of records.ROLLER.
+    They are a view of a state vector, as a table of records.ROLLER.
     """
     return y[row.first_state : row.first_state + NR * row.balls].view(ROLLER)
 
@@ -41,7 +41,7 @@ def rollers_of(y, row):
 def touch_roller(roller, ring, row, raceway, bundle, kin):
     """Return the approach of a roller.
 
-    Identifies a contact; of what is nearest, negative a gap [m].
+    It is that of the nearest point of a contact; a negative one is a gap [m].
     """
     if raceway.kind == LINE:
         line_kinematics(roller, ring, row, raceway, kin)
@@ -53,7 +53,7 @@ def touch_roller(roller, ring, row, raceway, bundle, kin):
 def roller_wrench(raceway, place, bundle):
     """Run the laws of a contact.
 
-    At a place of scratch; return 1, or 0 on a fault.
+    They write to a place of scratch; return 1, or 0 on a fault.
     """
     if raceway.kind == LINE:
         return line_wrench(raceway, place, bundle)
@@ -73,7 +73,7 @@ def _wrench_here(raceway, j, bundle):
 def _add_contact(raceway, roller, ring, j, bundle):
     """Add the contact's wrench to forces.
 
-    In scratch, to the forces on roller j and on the raceway's body.
+    It is in scratch; the forces on roller j and on the raceway's body take it.
     """
     scratch, on_body = bundle.scratch[0], bundle.body_wrenches[raceway.body]
     apply_roller_wrench(
@@ -191,7 +191,7 @@ def _move(rollers, moved, row, bundle, own, want):
 def evaluate(stage, t, y, r, bundle, dydt, rates, want):
     """Do one stage of forces.evaluate.
 
-    For a row of rollers; return 1 when well.
+    It does so for a row of rollers; return 1 when well.
     """
     row, rollers = bundle.rows[r], rollers_of(y, bundle.rows[r])
     if stage == CONTACTS:
@@ -234,7 +234,7 @@ def energy(y, r, bundle):
 def shares(y, r, bundle, share):
     """Write each roller's largest penetration.
 
-    On the ring of its row's first raceway, 0 for none.
+    It is on the ring of its row's first raceway, and 0 for none.
     """
     row, rollers, kin = bundle.rows[r], rollers_of(y, bundle.rows[r]), bundle.scratch[0].kinematics[0]
     body = bundle.raceways[row.first_raceway].body
@@ -301,7 +301,7 @@ def _channels(roller, j, row, raceway, bundle, shorted, values, losses, rates):
 def _show_guide(rollers, j, row, bundle, force):
     """Write the force of the cage on a roller.
 
-    Without a cage that of the roller after it; return 0 on a fault.
+    Without a cage it is that of the roller after it; return 0 on a fault.
     """
     i, on_roller = j - row.first_ball, bundle.ball_wrenches[j]
     clear(on_roller)
@@ -319,7 +319,7 @@ def _show_guide(rollers, j, row, bundle, force):
 def observe(stage, y, r, bundle, shorted, contacts, pockets, losses, rates):
     """Write a sample of rollers.
 
-    Of a row; return the capacitance of its rollers [F], or -1 on a fault.
+    They are those of a row; return the capacitance of its rollers [F], or -1 on a fault.
 
     Contacts of a roller with one ring are parallel, its rings in series.
     """

@@ -1,6 +1,6 @@
 """Solve the equilibrium by pseudo-transient continuation.
 
-On the forces of the dynamic model.
+The forces are those of the dynamic model.
 
 Every ball stays at its azimuth. Unknowns: axial and radial position, orbital speed and spin
 vector of each ball, position and tilt of the free rings. Positions follow their accelerations like an overdamped
@@ -44,7 +44,7 @@ _GRIP = 0.02  # share of the largest ball load below which the cage sets a ball'
 def _load_shares(y, bundle, share):
     """Write each ball's share of the load.
 
-    On the ring of its row's first raceway over the largest one.
+    It is that on the ring of its row's first raceway, over the largest one.
     """
     kin = bundle.scratch[0].kinematics[0]
     largest = 1e-300
@@ -149,7 +149,7 @@ def _learn(step, last, weight, trust, bundle):
 def _spin_in(y, first):
     """Return the largest component of a spin.
 
-    Of the element whose states begin at `first`.
+    The states of the element begin at `first`.
     """
     return max(abs(y[first + BWX]), abs(y[first + BWR]), abs(y[first + BWT]))
 
@@ -158,7 +158,7 @@ def _spin_in(y, first):
 def _clip_speeds(step, speed, spin, trust, bundle):
     """Shorten the change of balls' speeds.
 
-    To a share of rolling; tell whether any was too long.
+    They are shortened to a share of rolling; tell whether any was too long.
 
     On a plateau of friction the slope is next to nothing and Newton's method would leave for speeds from which no way
     leads back. Ball by ball, so that one of them does not keep the others waiting.
@@ -181,7 +181,7 @@ def _clip_speeds(step, speed, spin, trust, bundle):
 def _largest_move(step, weight, bundle):
     """Return the largest move.
 
-    Change of a position or tilt over its scale.
+    It is the change of a position or tilt over its scale.
     """
     largest = 0.0
     for r in range(bundle.rows.size):
@@ -201,7 +201,7 @@ def _largest_move(step, weight, bundle):
 def _speeds(y, bundle, report):
     """Write the balls' largest speed and spin.
 
-    Of one that rests such that it can start to move.
+    Their least values let a ball that rests start to move.
     """
     report.speed, report.spin = 1e-3, 1e-1
     for r in range(bundle.rows.size):

@@ -15,7 +15,7 @@ _HOLD = 1e4  # [1/s] rate at which an unloaded ball takes the speed of the other
 def _source(state, size, held, friction_on):
     """Return the rate that drives a state.
 
-    Of an element of `size` states, and its factor: -1 where the state is fixed.
+    The element has `size` states. Also return the factor, which is -1 where the state is fixed.
 
     A roller's tilt and skew follow their angular accelerations, as positions do; the two spins across its axis follow
     the rates of tilt and skew, which are to vanish. One that carries nothing is held in its pocket: next to nothing
@@ -42,7 +42,7 @@ def _source(state, size, held, friction_on):
 def _shared_row(state, bodies):
     """Return the acceleration of a shared position.
 
-    With its sign, or (-1, 0) when fixed.
+    Return its place and its sign, or (-1, 0) when fixed.
     """
     body, c = state // NS, state % NS
     if bodies[body].is_cage == 1:
@@ -111,7 +111,7 @@ def _moves(state, size, held, friction_on):
 def _mask_ball(j, r, size, bundle, bl, held, a2, b2, c2, on):
     """Mask the blocks of ball j.
 
-    Of row r, into those of the pseudo-transient system; `on` marks the columns of all.
+    The ball is in row r; they go into those of the pseudo-transient system, and `on` marks the columns of all.
     """
     friction_on, reach = bundle.system[0].friction_on, bl.reach
     a, b, c = bl.a[j], bl.b[j], bl.c[j]

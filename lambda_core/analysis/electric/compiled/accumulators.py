@@ -55,7 +55,7 @@ def is_recorded(sums, now):
 def record(sums, now, volt, v, current):
     """Write one row of the record.
 
-    Only while it is inside its window and there is room.
+    It writes only while the record is inside its window and has room.
     """
     row = int(sums.total[L.T_TRACE])
     if row < sums.trace.shape[0] and is_recorded(sums, now):

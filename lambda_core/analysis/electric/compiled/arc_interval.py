@@ -73,7 +73,7 @@ def _nearer(ring, past, m, part, own, arcs):
 def _moment(m, part, own, arcs, low, high, past, ring):
     """Return the moment of a contact's next change.
 
-    Between two times, on the far side, and which contact of the ball.
+    The moment lies between two times, on the far side of the change. Also return which contact of the ball changes.
 
     Newton's rule inside a bracket; `past` and `ring` are those of `own.after`, the amplitudes at the later time.
     """
@@ -123,7 +123,7 @@ def _decay_to(m, own, dt):
 def _others(low, at, m, n, net, ball, alone, elapsed, full, nodes, part, own, held, films, arcs):
     """Return the moment of another ball's breakdown [s].
 
-    Between two times; -1 if none breaks down.
+    The moment lies between two times; it is -1 if none breaks down.
 
     Where no bearing has more voltage than the discharge began at, nothing can have happened. While an arc leads through
     an insulated bearing, only the others without insulation keep a voltage that the arc does not bound.
@@ -229,7 +229,7 @@ def _accumulate(m, dt, part, own, arcs, total):
 def _channels(m, shared, part, arcs):
     """Write both contact voltages of the ball.
 
-    Per amplitude of each mode.
+    The voltages are per amplitude of each mode.
     """
     for ring in range(2):
         for a in range(m):

@@ -1,6 +1,6 @@
 """Integrate one discharge of a ball.
 
-From the breakdown until the last arc quenches.
+The integration takes the discharge from the breakdown until the last arc quenches.
 
 The first film that breaks down lets the ball's voltage collapse within a nanosecond; the other film of the ball then
 carries the full bearing voltage. Where it breaks down too, the rotor's charge flows through both: both contacts of a

@@ -33,7 +33,7 @@ def assemble(net, machine, bearings, cap, cond, c, g):
 def _rings(b, net, bearings, c, g):
     """Add the capacitances and conductances of a bearing's rings.
 
-    Between its rings past its balls, and between its outer ring and the frame.
+    They act between the rings past the balls, and between the outer ring and the frame.
     """
     rings, node = bearings.rings[b], net.ring[b]
     c[ROTOR, ROTOR] += rings
@@ -77,7 +77,7 @@ def _to_cage(node, b, net, bearings):
 def _cage(b, n, net, bearings, c):
     """Add a conducting cage that touches nothing.
 
-    Its node, without charge, is eliminated (star to mesh).
+    The cage's node has no charge and is eliminated (star to mesh).
     """
     balls = 0
     for j in range(n - net.shared):
@@ -122,7 +122,7 @@ def leaks(n, g, s, workspace, out):
 def potential(node, v):
     """Return the potential of a node [V].
 
-    That of the frame is 0.
+    The frame has 0 V.
     """
     return v[node] if node >= 0 else 0.0
 
@@ -140,6 +140,6 @@ def across(net, v, ball, side):
 def across_bearing(ring, v):
     """Return the potential of the inner ring [V].
 
-    Relative to an outer ring; with GROUND relative to the frame.
+    It is relative to an outer ring, or to the frame with GROUND.
     """
     return v[ROTOR] - v[ring] if ring >= 0 else v[ROTOR]

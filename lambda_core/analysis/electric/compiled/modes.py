@@ -42,7 +42,7 @@ def factorise(n, c, low):
 def modes(n, low, g, b, s, decay):
     """Find the modes of a network of n nodes.
 
-    From the Cholesky factor of its capacitances; `b` is workspace.
+    They follow from the Cholesky factor of its capacitances; `b` is workspace.
 
     Jacobi's rotations of L^-1 G L^-T keep small decay rates accurate next to large ones (Demmel and Veselic 1992, SIAM
     J. Matrix Anal. 13, 1204): oil leaks in seconds where touching metal does in picoseconds.
@@ -115,7 +115,7 @@ def _rotate(n, b, s):
 def decay_functions(x):
     """Return three decay functions of x.
 
-    exp(-x), (1 - exp(-x))/x and (1 - (1 - exp(-x))/x)/x.
+    They are exp(-x), (1 - exp(-x))/x and (1 - (1 - exp(-x))/x)/x.
     """
     if x < SLOW:
         second = 0.5 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120 - x * (1 / 720 - x / 5040))))

@@ -17,7 +17,7 @@ _SPACING = 2.0**-53
 def _mix(word):
     """Return the scrambled word.
 
-    By the finaliser of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, figure 16).
+    The finaliser of SplitMix64 scrambles it (Steele, Lea and Flood 2014, OOPSLA, figure 16).
     """
     word = (word ^ (word >> _30)) * _MIX_1
     word = (word ^ (word >> _27)) * _MIX_2

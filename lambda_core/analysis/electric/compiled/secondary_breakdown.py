@@ -18,7 +18,7 @@ _ROOT, _PLACE = 60, 1e-9  # steps of the search at most; how well the moment is 
 def watch(ball, elapsed, held, films, limit):
     """Write the other balls' breakdown voltages.
 
-    Of their films, on the patches that they are on `elapsed` after `held` began.
+    Their films lie on the patches that they reach `elapsed` after `held` began.
     """
     for j in range(held.film.shape[0]):
         for ring in range(2):
@@ -62,7 +62,7 @@ def past_breakdown(n, net, full, nodes, limit, v, arcs):
 def breakdown_ahead(m, n, net, dt, full, nodes, part, own, arcs):
     """Return another film's excess over its breakdown.
 
-    After dt, for the film of another ball.
+    The film belongs to another ball, and the excess is that after dt.
     """
     propagate(m, own.decay, own.amplitude, own.drive, dt, own.after, own.area)
     voltages(m, part.shape, own.after, own.ahead)
@@ -73,7 +73,7 @@ def breakdown_ahead(m, n, net, dt, full, nodes, part, own, arcs):
 def first_moment(m, n, net, low, high, high_past, full, nodes, part, own, arcs):
     """Return the moment of another film's breakdown [s].
 
-    Between two times, on the far side, for the film of another ball.
+    The film belongs to another ball. The moment lies between two times, on the far side of the change.
 
     False position after the Illinois rule; `high_past` is how far it is past its breakdown at the later time.
     """

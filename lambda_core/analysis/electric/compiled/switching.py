@@ -72,7 +72,7 @@ def _prepare(n, net, machine, bearings, full, nodes, held):
 def _enter(n, machine, rest_t, rest_v, full, nodes, source, total):
     """Bring the network into an interval.
 
-    With the charges of a long operation at first, then with those that it has.
+    The first interval has the charges of a long operation; later ones have those before them.
 
     Where capacitances change, charges stay and surfaces do work.
     """
@@ -96,7 +96,7 @@ def _enter(n, machine, rest_t, rest_v, full, nodes, source, total):
 def _accept(n, volt, slope, dt, full, nodes, source, sums, i):
     """Accept a step and record it.
 
-    Its end is known.
+    The end of the step is known.
     """
     total, winding = sums.total, source.winding
     total[L.T_OHMIC] += heat(n, nodes.decay, nodes.amplitude, nodes.drive, dt, nodes.after)
