@@ -28,7 +28,7 @@ def take_plugins(files: list[str] | None) -> None:
 def taken_options() -> str:
     """Return the options of the named plugin files.
 
-    For a command that goes on with its work.
+    They serve a command that goes on with its work.
     """
     return "".join(f" {command_line(['--plugin', file])}" for file in dict.fromkeys(_taken))
 

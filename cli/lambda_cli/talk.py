@@ -71,7 +71,7 @@ def talk(style: Style, quiet: bool) -> Talk:
 def columns() -> int | None:
     """Return the width of the answer's terminal.
 
-    None for a file or a pipe.
+    It is None for a file or a pipe.
     """
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
@@ -97,7 +97,7 @@ class Silence:
 class JsonLines(Silence):
     """One JSON object per line.
 
-    For programs that started this one.
+    Programs that started this one read them.
     """
 
     def say(self, text: str) -> None:

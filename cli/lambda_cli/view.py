@@ -82,7 +82,7 @@ def view(
 def _is_vibration(measured: Path) -> bool:
     """Tell whether a file holds a vibration signal.
 
-    By its first line with columns.
+    Its first line with columns tells.
     """
     if not measured.is_file():
         return False

@@ -64,7 +64,7 @@ def insert_row(connection: Connection, table: str, row: Row) -> str | None:
 def _replace_lower_layer(connection: Connection, table: str, rows: list[Row]) -> None:
     """Remove the rows that a plugin's rows replace.
 
-    The same key, and a parent's children with it.
+    They have the same key; the children of a parent go with it.
     """
     keys = CHILDREN[table][2] if table in CHILDREN else tuple(key_columns(table))
     target = table_of(table)
@@ -142,7 +142,7 @@ def fill(connection: Connection, plugin_folders: list[Path]) -> None:
 def derive_candidates(connection: Connection) -> None:
     """Rank designs for bearings with unpublished geometry.
 
-    The inner geometry.
+    The inner geometry is what they estimate.
     """
     from lambda_db.estimate import candidate_rows
 
@@ -155,7 +155,7 @@ def derive_candidates(connection: Connection) -> None:
 def build_file(folder: Path, name: str, plugin_folders: list[Path]) -> Path:
     """Build the database and move it into its place.
 
-    Under its name and digest: a reader never sees half of it.
+    Its name has its digest, so a reader never sees half of it.
     """
     folder.mkdir(parents=True, exist_ok=True)
     handle, path = tempfile.mkstemp(prefix=name, suffix=".tmp", dir=folder)
@@ -192,7 +192,7 @@ def _prune(folder: Path) -> None:
 def in_memory(plugin_folders: list[Path]) -> sqlite3.Connection:
     """Build the database in memory.
 
-    For a machine whose cache folder is not writable.
+    A machine whose cache folder is not writable needs it.
     """
     made = connect("file::memory:")
     with engine_over(lambda: made).begin() as connection:

@@ -58,7 +58,7 @@ def digest_of(path: Path) -> str:
 def is_sound(path: Path) -> bool:
     """Tell whether a built file is unchanged.
 
-    Byte for byte: its name holds its digest.
+    It compares every byte with the digest in the file's name.
     """
     try:
         return path.stem.endswith(f"-{digest_of(path)}")

@@ -129,7 +129,7 @@ class SqlCatalogue:
     def connection(self) -> Connection:
         """Same connection for SQLAlchemy.
 
-        For the parts of this package that need whole tables.
+        Parts of this package that need whole tables use it.
         """
         from lambda_db.engine import engine_over
 

@@ -48,7 +48,7 @@ def positive(*columns: str) -> list[CheckConstraint]:
 def together(group: str, columns: tuple[str, ...]) -> CheckConstraint:
     """Require values with source and grade, or none.
 
-    For one group of columns.
+    It holds for one group of columns.
     """
     some = " OR ".join(f"{c} IS NOT NULL" for c in columns)
     return check(

@@ -61,7 +61,7 @@ Array = NDArray[np.float64]
 class Printed:
     """Printed data of one bearing.
 
-    Mm and N; None where the maker prints nothing.
+    They are in mm and N, and None where the maker prints nothing.
     """
 
     bore_diameter: float
@@ -126,7 +126,7 @@ class RankedDesign:
 def relative_rounding(number: float) -> float:
     """Return the relative rounding of a printed number.
 
-    Half a unit of its last digit: 17.9 is known within 0.28 %.
+    It is half a unit of its last digit: 17.9 is known within 0.28 %.
     """
     decimals = len(repr(number).partition(".")[2]) if not float(number).is_integer() else 0
     return float(0.5 * 10.0**-decimals / number)
@@ -145,7 +145,7 @@ def filling_angle(ball_count: int | Array, ball_diameter: float | Array, pitch_d
 def _factors_on_a_sphere() -> tuple[Array, Array]:
     """Return the table of f_0 for self-aligning bearings.
 
-    D_w cos(alpha)/D_pw and f_0, close enough for 1e-5 between two of them.
+    It has D_w cos(alpha)/D_pw and f_0, close enough for 1e-5 between two of them.
 
     Solved for each design in question, contacts took half of the time in which the catalogue is built.
     """
@@ -164,7 +164,7 @@ def static_rating_of(
 ) -> Array:
     """Return the static load rating C_0 [N].
 
-    f_0 i Z D_w^2 cos(alpha), f_0 interpolated for conformities 0.52/0.52, or of the sphere.
+    It is f_0 i Z D_w^2 cos(alpha), with f_0 interpolated for conformities 0.52/0.52, or of the sphere.
     """
     cosine = np.cos(contact_angle)
     gamma = ball_diameter * cosine / pitch_diameter
@@ -184,7 +184,7 @@ def dynamic_rating_of(
 ) -> Array:
     """Return the dynamic load rating C [N].
 
-    b_m f_c (i cos alpha)^0.7 Z^(2/3) D_w^1.8 (3.647 D_w^1.4 above 25.4 mm), b_m = 1.3 (ISO 281).
+    It is b_m f_c (i cos alpha)^0.7 Z^(2/3) D_w^1.8 (3.647 D_w^1.4 above 25.4 mm), with b_m = 1.3 (ISO 281).
     """
     balls, index = np.unique(ball_diameter, return_inverse=True)
     cosine = float(np.cos(contact_angle))

@@ -28,7 +28,7 @@ Profile = Callable[[float], float]
 class Section:
     """Half-section of a bearing in mm.
 
-    x from the middle of the width, r from the axis.
+    It counts x from the middle of the width and r from the axis.
     """
 
     geometry: Geometry
@@ -84,7 +84,7 @@ class Section:
     def is_contact_line(self, x: float, r: float, half: float) -> bool:
         """Tell whether a point is on the contact line.
 
-        Within `half` of the line through the contacts of a ball [mm].
+        The line joins the contacts of a ball; the point lies within `half` of it [mm].
         """
         angle = self.geometry.contact_angle or self.geometry.resting_angle
         if not angle:

@@ -89,7 +89,7 @@ def candidate_rows(row: Row) -> list[Row]:
 def with_design(row: Row, design: RankedDesign, grade: str) -> Row:
     """Return the row with an estimated design.
 
-    With zero-clearance raceways and assumed grooves.
+    It has zero-clearance raceways and assumed grooves.
 
     The sphere of a self-aligning bearing follows from pitch, contact angle and clearance: such a row has no raceways.
     """

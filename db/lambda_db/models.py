@@ -206,7 +206,7 @@ class Candidate(Base):
 class Clearance(Base):
     """Limits of radial internal clearance.
 
-    Of one class over a range of bores.
+    They are those of one class over a range of bores.
     """
 
     __tablename__ = "clearance"
@@ -301,7 +301,7 @@ class Cage(Base):
 class Suffix(Base):
     """Suffix of a designation or family of suffixes.
 
-    With what a case takes from it.
+    It also has what a case takes from it.
     """
 
     __tablename__ = "suffix"
@@ -335,7 +335,7 @@ class Lubricant(Base):
 class LubricantProperty(Base):
     """General property of a lubricant.
 
-    In the unit of its source.
+    It is in the unit of its source.
     """
 
     __tablename__ = "lubricant_property"

@@ -1,6 +1,6 @@
 """Put the user's rows in front of the built-in ones.
 
-By ATTACH and temporary views with the names of the tables.
+It uses ATTACH and temporary views with the names of the tables.
 
 SQLite looks for a name among the temporary objects first, so every query written for the tables reads the
 overlaid rows without knowing it.

@@ -88,7 +88,7 @@ def _entry(name: str, value: Value) -> dict[str, Any]:
 def values_of(row: BaseModel) -> list[dict[str, Any]]:
     """Return every value of a row with its source.
 
-    With unit, status and grade.
+    Each value also has a unit, a status and a grade.
     """
     if isinstance(row, LubricantRow):
         return [_entry(name, value) for name, value in row.properties.items()]
@@ -104,7 +104,7 @@ def texts_of(row: BaseModel) -> dict[str, str]:
 def parameters_of(row: LubricantRow) -> list[dict[str, Any]]:
     """Return every parameter of every law.
 
-    In the unit it was published in.
+    Each is in the unit it was published in.
     """
     return [
         {"role": role, "model": model, "name": name, **parameter.model_dump()}
@@ -132,7 +132,7 @@ def candidate_lines(row: BearingRow) -> list[dict[str, Any]]:
 def clearance_lines(catalogue: SqlCatalogue, row: BearingRow) -> list[dict[str, Any]]:
     """Return the clearance classes of the bearing's bore.
 
-    In um; only bearings of radial contact have any.
+    They are in um; only bearings of radial contact have any.
     """
     lines: list[dict[str, Any]] = []
     if row.contact_angle is not None:
@@ -205,7 +205,7 @@ def bearing_summary(row: AnyBearing) -> dict[str, Any]:
 def kind_of(row: LubricantRow) -> str:
     """Return the kind of a lubricant for a list.
 
-    Its base stock, or grease.
+    It is its base stock, or grease.
     """
     return "grease" if "nlgi" in row.properties else row.base_type
 
@@ -232,7 +232,7 @@ def lubricant_summary(row: LubricantRow) -> dict[str, Any]:
 def suffix_lines(catalogue: SqlCatalogue, name: str) -> list[dict[str, str]]:
     """Explain the suffixes of a bearing's designation.
 
-    With what a case takes from each.
+    Each line says what a case takes from the suffix.
     """
     read = read_designation(name, catalogue.names("bearing"), catalogue.suffixes())
     return [
@@ -244,7 +244,7 @@ def suffix_lines(catalogue: SqlCatalogue, name: str) -> list[dict[str, str]]:
 def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> BearingRow | LubricantRow | MaterialRow | CageRow:
     """Find the row of a name.
 
-    A bearing, else a lubricant, material or cage.
+    It is that of a bearing, otherwise of a lubricant, material or cage.
 
     Raises
     ------

@@ -24,7 +24,7 @@ def _is_temporary(path: Path) -> bool:
 def recent_cases() -> list[Path]:
     """Return recent files that still exist.
 
-    The newest first; an unreadable list is empty.
+    The newest one comes first; an unreadable list is empty.
 
     Files in the folder for temporary files are left out.
     """

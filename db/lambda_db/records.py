@@ -29,7 +29,7 @@ def table_of(name: str) -> Table:
 def columns_of(name: str) -> list[str]:
     """Return the columns of a file in order.
 
-    All but the layer, which the catalogue decides.
+    The layer is left out, because the catalogue decides it.
     """
     return [column.name for column in table_of(name).columns if column.name != "layer"]
 
@@ -58,7 +58,7 @@ def describe(name: str, row: Mapping[str, Any]) -> str:
 def _number(column: Column[Any], cell: object) -> float:
     """Read a cell as the column's number.
 
-    Bare, or a unit string of the column's quantity.
+    The cell is a bare number, or a unit string of the column's quantity.
     """
     unit = column_unit(column.name)
     if isinstance(cell, bool) or not isinstance(cell, int | float | str):
@@ -176,7 +176,7 @@ def _unit(column: str) -> str:
 def _unit_problems(name: str, row: Row) -> list[str]:
     """Check the unit of a property or parameter.
 
-    Against the meaning of its name, for lubricants.
+    For lubricants it compares the unit with the meaning of the name.
     """
     if name not in ("lubricant_property", "lubricant_parameter"):
         return []

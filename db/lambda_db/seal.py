@@ -48,7 +48,7 @@ def create_seal(connection: Connection) -> None:
 def renew_seal(connection: Connection) -> None:
     """Write the digests of the present rows.
 
-    Within the transaction that has changed them.
+    The transaction that has changed them also writes these.
     """
     connection.exec_driver_sql("DELETE FROM seal")
     for pair in _digests(connection, "main").elements():
@@ -58,7 +58,7 @@ def renew_seal(connection: Connection) -> None:
 def differences(connection: Connection, schema: str) -> list[str]:
     """Return the rows changed by others, and how.
 
-    Compared with what the program wrote.
+    They are compared with what the program wrote.
 
     Parameters
     ----------

@@ -65,7 +65,7 @@ def read_toml(path: Path) -> Iterator[Record]:
 def read_path(path: Path, table: str | None = None) -> Iterator[Record]:
     """Yield the rows of a file or folder.
 
-    Of every seed file in a folder.
+    A folder yields the rows of all its seed files.
     """
     if path.is_dir():
         for file in seed_files(path):

@@ -41,7 +41,7 @@ class PublishedDesign:
 def standard_balls() -> tuple[float, ...]:
     """Return standard ball diameters [mm].
 
-    Inch and metric (ISO 3290).
+    They are inch and metric sizes (ISO 3290).
     """
     return tuple(float(row["ball_diameter_mm"]) for row in _rows("balls.csv"))
 
@@ -50,7 +50,7 @@ def standard_balls() -> tuple[float, ...]:
 def iso76_f0(*, both_052: bool = False) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Return f_0 of ISO 76 for radial ball bearings.
 
-    (D_w cos(alpha)/D_pw, f_0), N and mm.
+    The pairs are (D_w cos(alpha)/D_pw, f_0), in N and mm.
 
     The standard's table holds for conformities 0.52/0.53, where the outer raceway limits below 0.09. `both_052`
     gives the factor for 0.52/0.52, recomputed with Hertz theory (:func:`lambda_core.formulas.ratings.static_factor`):

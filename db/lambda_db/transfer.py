@@ -33,7 +33,7 @@ from lambda_db.user import changing
 class ImportReport:
     """Report of an import.
 
-    Rows added and replaced per table, and those refused with place and reason.
+    It counts rows added and replaced per table, and lists those refused with place and reason.
     """
 
     path: Path
@@ -111,7 +111,7 @@ def _write(
 def _put(connection: Connection, table: str, row: Row, report: ImportReport, replace: bool) -> str | None:
     """Insert one row, or return the reason against it.
 
-    In front of the user's own row of the same key if asked.
+    If asked, it precedes the user's own row of the same key.
     """
     target = table_of(table)
     if "layer" in target.c:
@@ -196,7 +196,7 @@ def _with_provenance(table: str, cells: Mapping[str, object]) -> dict[str, objec
 def rows_of(catalogue: SqlCatalogue, table: str, *, mine: bool = False) -> list[Row]:
     """Return all rows of a table by key.
 
-    Every visible row, or the user's own.
+    They are all visible rows, or the user's own.
     """
     if mine and not catalogue.has_user_rows:
         return []

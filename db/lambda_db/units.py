@@ -54,7 +54,7 @@ PROPERTIES: dict[str, str] = {
 def column_unit(column: str) -> tuple[str, str] | None:
     """Return (quantity, unit) of a column.
 
-    None for a plain number or text.
+    It is None for a plain number or text.
     """
     for ending in sorted(ENDINGS, key=len, reverse=True):
         if column.endswith(ending):
@@ -75,7 +75,7 @@ def bare_name(column: str) -> str:
 def column_si(column: str, value: float) -> float:
     """Convert a column's printed number to SI.
 
-    Exactly as a case file's unit string.
+    It works exactly as a case file's unit string.
     """
     unit = column_unit(column)
     return float(value) if unit is None else parse(f"{value!r} {unit[1]}", unit[0])

@@ -142,7 +142,7 @@ def open_user_database(path: Path, *, changed: bool = False) -> Engine:
 def _create(path: Path) -> None:
     """Put a complete empty catalogue in place.
 
-    So a file of no length is never one that is being made.
+    A file of no length is then never one that is being made.
     """
     with TemporaryDirectory(prefix=".catalogue-", dir=path.parent) as folder:
         made = Path(folder) / path.name
@@ -192,7 +192,7 @@ def _bring_up_to_date(connection: Connection, path: Path, *, changed: bool) -> N
 def migrate(path: Path) -> None:
     """Bring an older database up to date.
 
-    Before it is read; the reader reports anything else.
+    It does so before the database is read; the reader reports anything else.
     """
     try:
         engine = sqlite_engine(file_uri(path, "ro"))

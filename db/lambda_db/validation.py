@@ -42,7 +42,7 @@ def _is(design: RankedDesign, published: PublishedDesign) -> bool:
 def trials(catalogue: SqlCatalogue) -> list[Trial]:
     """Derive every published design anew.
 
-    From dimensions and printed ratings alone: no pitch, no geometry given.
+    They use dimensions and printed ratings alone, without pitch or geometry.
     """
     found = []
     for published in published_designs():

@@ -271,7 +271,7 @@ class BarPlot(Widget):
 def rows_of(data: ViewData, width: int, height: int) -> list[Widget]:
     """Return a view's panels in rows.
 
-    With its notes, for a place of so many columns and lines.
+    Its notes are added, and the place has so many columns and lines.
     """
     side, high = shape_of(data.panels, data.columns, width, height)
     rows: list[Widget] = []

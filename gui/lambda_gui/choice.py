@@ -26,7 +26,7 @@ from lambda_gui.lifecycle import is_here
 class Entry:
     """One entry of a choice.
 
-    Its value, its text in the list, its meaning, its text when chosen.
+    It has a value, a text in the list, a meaning, and a text when chosen.
     """
 
     value: str

@@ -102,7 +102,7 @@ class Derived(Static):
     def _warned(self, warnings: Sequence[str], told: Text) -> list[Text]:
         """Write the warnings.
 
-        As whole sentences as far as they leave room for the numbers, else cut to one line.
+        They are whole sentences as far as they leave room for the numbers; otherwise each is cut to one line.
         """
         width, colour = max(20, self.size.width), self.app.theme_variables["warning"]
         room = max(1, self.size.height - len(told.wrap(self.app.console, width)))
@@ -269,7 +269,7 @@ def _numbers(estimate: Estimate) -> Iterable[Fact]:
 def _table(report: MachineEquilibrium, units: UnitSystem, width: int, style: str) -> list[Text]:
     """Return one line per bearing.
 
-    Under two lines of heads, with as many columns as there is room for.
+    Two lines of heads stand above; it has as many columns as there is room for.
     """
     names = [bearing.name for bearing in report.bearings]
     first = min(max(map(len, names)), 12)

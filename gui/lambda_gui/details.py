@@ -79,7 +79,7 @@ def lubricant_text(row: LubricantRow) -> Text:
 def _values(text: Text, values: list[dict[str, Any]], sources: Sources, name_width: int = 21) -> None:
     """Append values one per line.
 
-    With ≈ where estimated, grade, number of the source.
+    They have ≈ where estimated, the grade, and the number of the source.
     """
     for value in values:
         mark = "≈" if value["status"] != "published" else " "

@@ -36,7 +36,7 @@ def free_name(node: Node, draft: Draft) -> str:
 def add(node: Node, draft: Draft, name: str = "") -> Keys:
     """Write a new table and return its place.
 
-    Into a section, or after the table of a node; a known name leads there.
+    It goes into a section, or after the table of a node; a known name shows its table.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ _REFER: dict[str, tuple[tuple[str, str], ...]] = {
 def rename(node: Node, draft: Draft, name: str) -> Keys:
     """Rename the table of a node.
 
-    In its place and where others name it; a taken name changes nothing.
+    It changes its place and where others name it; a taken name changes nothing.
     """
     section = _section(node)
     tables: dict[str, Any] = draft.get(*section)

@@ -54,7 +54,7 @@ def _plain(text: str) -> str:
 def value_of(text: str, card: FieldCard) -> Any:
     """Return the case's value of a typed text.
 
-    None for nothing.
+    The result is None for an empty text.
     """
     stripped = text.strip()
     if not stripped:

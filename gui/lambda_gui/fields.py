@@ -163,7 +163,7 @@ class _Lines(TextArea):
     def action_cursor_down(self, select: bool = False) -> None:
         """Go down a line or an entry.
 
-        From the last line to the next entry.
+        The last line passes to the next entry.
         """
         if not select and self.navigator.is_last_wrapped_line(self.cursor_location):
             self.post_message(Stepped(1))
@@ -173,7 +173,7 @@ class _Lines(TextArea):
     def action_cursor_up(self, select: bool = False) -> None:
         """Go up a line or an entry.
 
-        From the first line to the entry before.
+        The first line passes to the entry before.
         """
         if not select and self.navigator.is_first_wrapped_line(self.cursor_location):
             self.post_message(Stepped(-1))
@@ -200,7 +200,7 @@ class LinesRow(Row):
     def compose(self) -> ComposeResult:
         """Lay out the lines under their label.
 
-        Over the whole width.
+        They take the full width.
         """
         with Horizontal(classes="line"):
             yield Static(self.words, classes="label", markup=False)
@@ -263,7 +263,7 @@ class ParagraphRow(LinesRow):
 class PointsRow(LinesRow):
     """Pairs of values, one per line.
 
-    Such as the points of a table over time, "time, value".
+    An example is the points of a table over time, "time, value".
     """
 
     def lines(self, value: Any) -> str:

@@ -371,7 +371,7 @@ class _Link(Button):
 def _link(node: Node) -> Iterator[Widget]:
     """Yield a link to a node below.
 
-    With its subject.
+    It names its subject.
     """
     yield _Link(node)
     yield Static(node.help, classes="about", markup=False)

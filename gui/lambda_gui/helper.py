@@ -117,7 +117,7 @@ class Helper:
     def interrupt(self) -> None:
         """Stop the present work early.
 
-        As Ctrl+C in a shell does.
+        It works as Ctrl+C in a shell.
         """
         if self._process is not None and self._process.returncode is None:
             self._process.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM)

@@ -35,7 +35,7 @@ def estimate(say: Say, tables: dict[str, Any], folder: str | None) -> Any:
 def answer(say: Say, question: str, tables: dict[str, Any], folder: str | None, units: str) -> Any:
     """Return the answer about a case.
 
-    As text and views.
+    It consists of text and views.
     """
     from lambda_core import api
     from lambda_core.domain.unit_systems import unit_system
@@ -93,7 +93,7 @@ _ANSWERS: dict[str, Callable[[Say, Any, Any], Any]] = {
 def summary(say: Say, path: str, bearing: str | None = None) -> Any:
     """Return the summary of a result.
 
-    Or of one bearing of it.
+    It may be that of one bearing.
     """
     from lambda_core import api
 
@@ -182,7 +182,7 @@ def duty(say: Say, cycle: dict[str, Any], case_toml: str) -> Any:
 def fit(say: Say, case: dict[str, Any], data: str, vary: list[str], bearing: str | None, units: str) -> Any:
     """Return a fit in words and pictures.
 
-    Of a case to a file of measurements.
+    The fit is of a case to a file of measurements.
     """
     from lambda_core import api
     from lambda_core.domain.unit_systems import unit_system

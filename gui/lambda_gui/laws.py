@@ -71,7 +71,7 @@ def law_row(draft: Draft, node: Node, around: Surroundings) -> LawRow:
 class LawRow(Branch):
     """Model of a role with its parameters.
 
-    And its description.
+    It shows its description, too.
     """
 
     DEFAULT_CSS = """
@@ -97,7 +97,7 @@ class LawRow(Branch):
     def _model(self) -> str:
         """Return the name of the present model.
 
-        As far as it is known.
+        The name is given as far as it is known.
         """
         written = self.place.get()
         if isinstance(written, str) and written != "auto":
@@ -127,7 +127,7 @@ class LawRow(Branch):
     def twigs(self) -> Iterator[Widget]:
         """Yield the model's description and parameters.
 
-        A row for each parameter.
+        Each parameter has a row.
         """
         card = self._card()
         if isinstance(card, str):

@@ -1,6 +1,6 @@
 """Draw a shaft in its bearings and its deflection.
 
-To scale, two pixels per character.
+It is to scale, with two pixels per character.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ class Canvas:
     def is_free(self, line: int, column: int, length: int) -> bool:
         """Tell whether a place has no letter.
 
-        Nor the place next to it.
+        The place next to it must have none, either.
         """
         return all((line, at) not in self._letters for at in range(column - 1, column + length + 1))
 
@@ -194,7 +194,7 @@ def _bodies(
 ) -> None:
     """Draw the other bodies that have a shape.
 
-    From the outer rings in them outwards.
+    It goes from the outer rings in them outwards.
     """
     for number, body in enumerate(model.bodies, start=1):
         length, *across = body.extent
@@ -252,7 +252,7 @@ def _bearing(
 def _names_above(canvas: Canvas, model: MachineModel, scale: _Scale, colours: Mapping[str, str]) -> None:
     """Name gears, discs, loads and bodies.
 
-    Over the drawing, a load with its direction.
+    They stand over the drawing; a load has its direction.
     """
     bodies = [(f"[{body.name}]", body.centre[0]) for body in model.bodies]
     for name, place in (*model.load_places, *model.discs, *bodies):
@@ -287,7 +287,7 @@ def _names_below(
 ) -> None:
     """Name bearings and springs below.
 
-    With their axial constraint and the direction of their force on the shaft.
+    They have their axial constraint and the direction of their force on the shaft.
     """
     forces = {bearing.name: bearing.force_N for bearing in report.bearings} if report is not None else {}
     for bearing in model.bearings:
@@ -317,7 +317,7 @@ def _held(bearing: MountedBearing) -> str:
 def _way(x: float, y: float, z: float) -> str:
     """Draw the larger parts of a force.
 
-    Along the shaft, up or down, into the picture (y) or out of it.
+    They point along the shaft, up or down, into the picture (y) or out of it.
     """
     largest = max(abs(x), abs(y), abs(z))
     signs = (("→", "←", x), ("⊗", "⊙", y), ("↑", "↓", z))
@@ -329,7 +329,7 @@ def _bend(
 ) -> None:
     """Draw the deflection under the shaft.
 
-    Vertical and horizontal, with its largest value.
+    It is vertical and horizontal, with its largest value.
     """
     places = [1e-3 * place for place in report.positions_mm]
     curves = (("primary", [d[2] for d in report.deflection_um]), ("warning", [d[1] for d in report.deflection_um]))

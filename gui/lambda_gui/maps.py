@@ -117,7 +117,7 @@ def _nearest(field: Field, x: FloatArray, y: FloatArray) -> FloatArray:
 class _Ramp:
     """Colours of values.
 
-    From the background over the theme's colours to white; about zero for signed ones.
+    They go from the background over the theme's colours to white, and about zero for signed values.
     """
 
     def __init__(self, field: Field, grid: FloatArray, colours: dict[str, str]) -> None:
@@ -147,7 +147,7 @@ class _Ramp:
     def scale(self, width: int) -> Text:
         """Return the bar of the colours.
 
-        Between its smallest and largest value.
+        It stands between its smallest and largest value.
         """
         ends = [10.0**end if self._field.log else end for end in (self._low, self._high)]
         low, high = (f"{end:.3g}" for end in ends)

@@ -130,7 +130,7 @@ def table_model(root: type[BaseModel], table: Keys) -> type[BaseModel]:
 def told(root: type[BaseModel], path: str) -> str:
     """Return the declared description of an option.
 
-    At the dotted path, "" where there is none.
+    The path is dotted; the text is "" where there is none.
     """
     *table, name = path.split(".")
     model = model_at(root, [int(key) if key.isdecimal() else key for key in table])

@@ -224,7 +224,7 @@ class _Outline:
     def _bodies(self) -> Node | None:
         """Return the bodies.
 
-        Those that the case names, or rings, cage and balls of its bearing.
+        They are those that the case names, or rings, cage and balls of its bearing.
         """
         if self.is_named("bodies"):
             return self._named("bodies")
@@ -356,7 +356,7 @@ class _Outline:
     def _elements(self, bearing: Keys = ()) -> list[Node]:
         """Return a node per force element.
 
-        With its roles below.
+        Its roles are below it.
 
         `bearing` is where the bearing is written, () where the case has one.
         """

@@ -199,6 +199,6 @@ def _value(keys: Keys, value: dict[str, Any]) -> tuple[Keys, FieldCard, Any]:
 def _number(value: Any) -> float | None:
     """Return the number of a text.
 
-    Such as "12 mm2/s"; values of oils keep the unit they have.
+    An example is "12 mm2/s"; values of oils keep the unit they have.
     """
     return None if value is None else float(str(value).split(" ")[0])

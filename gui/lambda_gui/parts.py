@@ -35,7 +35,7 @@ _SENSE = {
 class FreedomRow(Branch):
     """One degree of freedom of a body.
 
-    Its motion and its support.
+    It shows its motion and its support.
     """
 
     _MODES = (

@@ -64,7 +64,7 @@ class Plot(PlotextPlot):
 def series_colour(colours: Mapping[str, str], number: int) -> str:
     """Return the colour of a series.
 
-    The n-th as #rrggbb: after the first six they are paler.
+    It is the n-th as #rrggbb; colours after the first six are paler.
     """
     colour = Color.parse(colours[CYCLE[number % len(CYCLE)]])
     back = Color.parse(colours["background"])
@@ -113,7 +113,7 @@ def _plain(label: str) -> str:
 def padded(low: float, high: float, least: float = 0.0) -> tuple[float, float]:
     """Return a range wider than the data's.
 
-    A little wider, at least `least` wide.
+    It is a little wider, at least `least` wide.
     """
     if not (math.isfinite(low) and math.isfinite(high)):
         return 0.0, 1.0

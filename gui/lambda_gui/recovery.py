@@ -94,7 +94,7 @@ class Keeper:
 def rescues(path: Path | None) -> list[Rescue]:
     """Return unsaved work on a case.
 
-    On cases without a file for None, the newest first.
+    None means cases without a file; the newest comes first.
     """
     folder = state_folder() / "unsaved"
     wanted = str(path.resolve()) if path else None
@@ -114,7 +114,7 @@ def rescues(path: Path | None) -> list[Rescue]:
 def take(rescue: Rescue, draft: Draft) -> None:
     """Put rescued work into its draft.
 
-    As unsaved changes of its case.
+    It appears as unsaved changes of its case.
     """
     draft.replace(tomllib.loads(rescue.text))
     forget(rescue)

@@ -25,7 +25,7 @@ def named(path: Path) -> str:
 def results_in(folder: Path) -> list[Path]:
     """Return a folder's results and studies.
 
-    The newest first.
+    The newest one comes first.
     """
     try:
         found = [*folder.glob("*.h5"), *(file.parent for file in folder.glob(f"*/{MANIFEST}"))]
@@ -37,7 +37,7 @@ def results_in(folder: Path) -> list[Path]:
 def _file(path: Path) -> Path:
     """Return the file that grows.
 
-    With a result or a study.
+    It is that of a result or a study.
     """
     return path / MANIFEST if path.is_dir() else path
 

@@ -227,7 +227,7 @@ class ResultsScreen(ExportScreen):
     async def _fill_views(self) -> None:
         """List the views of the results.
 
-        Of one result, of several, or of a study.
+        They are those of one result, of several, or of a study.
         """
         subject = self._subject = self._of()
         try:
@@ -308,7 +308,7 @@ class ResultsScreen(ExportScreen):
     async def _show_picture(self, paths: list[Path], folder: str) -> None:
         """Show the view as a picture.
 
-        As it is drawn for files, as large as there is room.
+        It is drawn as for files, as large as there is room.
         """
         (drawn,) = await self._helper.ask(
             "draw", sources=[str(path) for path in paths], name=self._view, folder=folder, units=self._units.name,
@@ -351,7 +351,7 @@ class ResultsScreen(ExportScreen):
     async def action_bearing(self) -> None:
         """Go to the next bearing.
 
-        From a machine to its first bearing, to the next one, and back to the machine.
+        It goes from a machine to its first bearing, to the next one, and back to the machine.
         """
         path = self.current()
         if path is None or is_study(path):

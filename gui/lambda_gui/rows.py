@@ -44,7 +44,7 @@ class Left(Message):
 class Stepped(Message):
     """Message to go to another entry.
 
-    The next one, or the one before.
+    It is the next entry or the one before.
     """
 
     by: int

@@ -79,7 +79,7 @@ class SignalRow(Branch):
     def shape(self) -> object:
         """Return the kind and terms.
 
-        Of a sum how many terms of which kinds.
+        A sum gives how many terms of which kinds it has.
         """
         value = self.place.get()
         terms = value.get("terms") if isinstance(value, dict) else None

@@ -79,7 +79,7 @@ class Sketch(Static):
     def draw(self) -> None:
         """Draw section, shaft or axes.
 
-        In the colours of the theme.
+        The drawing has the colours of the theme.
         """
         colours, width, height = self.app.theme_variables, self.size.width - 2, self.size.height
         if height < 5 or width < 16:  # a narrow screen has no room for it

@@ -33,7 +33,7 @@ Values = dict[Keys, Any]
 def asked(bearings: Iterable[str]) -> tuple[str, ...]:
     """Return a study's default responses.
 
-    Of one bearing or of a machine with these bearings.
+    The study is of one bearing or of a machine with these bearings.
     """
     names = list(bearings)
     if not names:

@@ -88,7 +88,7 @@ def _absent(node: Node, draft: Draft) -> str:
 def _item(node: Node, draft: Draft) -> str:
     """Return a short text about a table.
 
-    A named table, or a piece of the shaft.
+    It is a named table, or a piece of the shaft.
     """
     written = draft.get(*node.table)
     table: Mapping[str, Any] = written if isinstance(written, Mapping) else {}
@@ -102,7 +102,7 @@ def _item(node: Node, draft: Draft) -> str:
 def _text(value: Any) -> str:
     """Return a value as in the file.
 
-    Of a time function its kind; "" for any other table.
+    A time function gives its kind; any other table gives "".
     """
     if isinstance(value, Mapping):
         return str(value.get("kind", ""))

@@ -84,7 +84,7 @@ def _torque(summary: Summary, units: UnitSystem) -> tuple[str, str]:
 def _declared(summary: Summary, groups: Sequence[str], units: UnitSystem) -> list[tuple[str, str, str]]:
     """Return the declared numbers of groups.
 
-    Name, number, unit.
+    Each has a name, a number and a unit.
     """
     return [
         (one.column, api.shown(summary, one.name, units), "")
@@ -107,7 +107,7 @@ def _rated(summary: Summary, units: UnitSystem) -> list[tuple[str, str, str]]:
 def _breakdown(text: Text, summary: Summary, units: UnitSystem) -> None:
     """Append the parts of the friction torque.
 
-    Per ring side by side, then the rest.
+    The rings stand side by side; the rest follows.
     """
     parts = summary.friction_breakdown_Nmm
     text.append(f"\n{units.unit('N mm'):<{_LABEL}}{'inner':>9}{'outer':>9}{'both':>9}\n", style="dim")

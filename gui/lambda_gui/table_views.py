@@ -25,7 +25,7 @@ _LARGE = 1e4  # numbers above are rounded to three digits
 def differences_view(found: SideBySide, width: int, units: UnitSystem = SI) -> list[RenderableType]:
     """Return the differences of several results.
 
-    Of their cases, and their key numbers, a column for each.
+    They cover their cases and their key numbers, with a column for each.
 
     Parameters
     ----------

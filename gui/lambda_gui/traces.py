@@ -90,7 +90,7 @@ class TorqueTrace(Trace):
 class CageTrace(Trace):
     """Cage speed over inner ring speed.
 
-    With its value without slip.
+    It shows its value without slip, too.
     """
 
     def draw(self, history: Sequence[Progress]) -> None:

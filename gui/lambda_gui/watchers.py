@@ -27,7 +27,7 @@ _ACTION = FieldCard(
 def watcher_rows(draft: Draft, node: Node, around: Surroundings) -> Iterator[Widget]:
     """Yield an observer's or event's rows.
 
-    Its description, and a row for each parameter; nothing for other tables.
+    They are its description and a row for each parameter; other tables have none.
     """
     section, name = node.table[0], node.table[-1]
     kind = node.section.installed if node.section is not None else ""

@@ -44,7 +44,7 @@ def builtin_text(name: str) -> str:
 def _files(off: tuple[str, ...]) -> dict[str, Traversable]:
     """Return the files of the built-in cases.
 
-    By name, sorted; of two with one name the first package's file counts.
+    They are sorted by name; of two with one name the first package's file counts.
     """
     found: dict[str, Traversable] = {}
     for source in installed(CASES):

@@ -88,7 +88,7 @@ class Tables:
     def changed(self, overrides: Iterable[str]) -> Tables:
         """Return the tables with ``path=value`` texts applied.
 
-        In order, as ``--set`` does; UsageError without ``=``.
+        They are applied in order, as ``--set`` does; a text without ``=`` raises a UsageError.
         """
         changes = listed(overrides, "overrides")
         if not changes:
@@ -236,7 +236,7 @@ def toml_tables(text: str, source: str) -> dict[str, Any]:
 def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> Case:
     """Check plain tables as a case of one bearing.
 
-    CaseError with every problem at once.
+    A CaseError has every problem at once.
     """
     if is_machine_case(data):
         raise CaseError(source, [Problem("", "is a machine of several bearings; this command needs one bearing")])
@@ -273,7 +273,7 @@ def is_machine(source: Any) -> bool:
 def refuse_bearing(name: str | None) -> None:
     """Refuse a bearing's name for a one-bearing case.
 
-    UsageError.
+    The error is a UsageError.
     """
     if name is not None:
         raise UsageError(f'this case has one bearing: leave out --bearing "{name}"')
@@ -311,7 +311,7 @@ def syntax_problem(message: str, text: str) -> Problem:
 def apply_overrides(case: C, overrides: Iterable[str]) -> C:
     """Return the case with ``path=value`` texts applied.
 
-    In order, as ``--set`` does.
+    They are applied in order, as ``--set`` does.
 
     Raises
     ------
@@ -329,7 +329,7 @@ def apply_overrides(case: C, overrides: Iterable[str]) -> C:
 def overridden(data: Mapping[str, Any], overrides: Iterable[str], root: type[BaseModel]) -> dict[str, Any]:
     """Return plain tables with ``path=value`` texts applied.
 
-    In order; `root` says which options want text.
+    They are applied in order; `root` says which options want text.
 
     Raises
     ------

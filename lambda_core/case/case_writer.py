@@ -130,7 +130,7 @@ def tables_toml(tables: Mapping[str, Any], original: str = "") -> str:
 def _renamed(original: str, tables: Mapping[str, Any]) -> str:
     """Return a text with new names of tables.
 
-    So the comments stay with their tables.
+    The comments thus stay with their tables.
 
     A table is renamed where one of a section goes and one comes that says the same; of the others, where as many come
     as go, each in its turn: a new name stands where the old one stood.

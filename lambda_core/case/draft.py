@@ -193,14 +193,14 @@ class Draft:
     def case(self) -> Case:
         """Return the case of one bearing.
 
-        CaseError with every mistake of the file itself.
+        A CaseError has every mistake of the file itself.
         """
         return validate_case(self.tables, str(self.tables.get("name", "case")), self.folder)
 
     def is_changed(self, *keys: str) -> bool:
         """Tell whether a place differs from the file.
 
-        Without a place: whether anything differs.
+        Without a place, tell whether anything differs.
         """
         saved: Any = self._saved
         for key in keys:
@@ -253,7 +253,7 @@ def _stands_dof(root: type[BaseModel], keys: Keys) -> bool:
 def _inner(value: Any, key: str) -> Any:
     """Return the value of a table or list.
 
-    By a key of a table, or a number of a list; None where there is nothing.
+    The key is that of a table, or a number of a list; the result is None where there is nothing.
     """
     if isinstance(value, list):
         return value[int(key)] if key.isdecimal() and int(key) < len(value) else None
@@ -263,7 +263,7 @@ def _inner(value: Any, key: str) -> Any:
 def _in_full(value: Any) -> Any:
     """Return the full table of a degree of freedom.
 
-    {mode = "free"} for the short form "free".
+    The short form "free" gives {mode = "free"}.
     """
     if not isinstance(value, str):
         return value
@@ -286,7 +286,7 @@ def new_draft(name: str = "untitled", *, shaft: bool = False) -> Draft:
 def open_draft(source: str | Path) -> Draft:
     """Open a case for editing.
 
-    A case file, or a copy of a built-in case; it may hold mistakes.
+    It is a case file, or a copy of a built-in case; it may hold mistakes.
 
     Raises
     ------

@@ -52,7 +52,7 @@ class Dof(Section):
     def _stiffness(cls, text: str) -> dict[str, str]:
         """Return the table of a stiffness.
 
-        Or name the texts that are allowed.
+        A mistake names the texts that are allowed.
         """
         quantity = quantity_of(cls, "stiffness")
         names = ('"locked"', '"free"') if "locked" in get_args(cls.model_fields["mode"].annotation) else ('"free"',)

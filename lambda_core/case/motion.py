@@ -101,7 +101,7 @@ class Bodies(Section):
 class Load(Section):
     """External force and moment over time.
 
-    In the inertial frame; the equilibrium is that of t = 0.
+    They act in the inertial frame; the equilibrium is that of t = 0.
     """
 
     force_x: ForceSignal = option("0 N", "force along the shaft")

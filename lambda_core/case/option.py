@@ -48,7 +48,7 @@ def option(default: Any = ..., description: str = "", *, reference: str = "", qu
 def quantity_of(model: type[BaseModel], name: str) -> str:
     """Return the quantity of a plain dimensional field.
 
-    "" for any other field.
+    It is "" for any other field.
     """
     info = model.model_fields.get(name)
     if info is None:

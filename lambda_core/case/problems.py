@@ -98,7 +98,7 @@ def _written(data: Any, path: Sequence[int | str]) -> Any:
 def _limit(value: float, quantity: str, written: Any) -> str:
     """Write a limit in the unit of the value.
 
-    Else in the first one of its quantity.
+    It is in the first unit of its quantity where the value has none.
     """
     known = list(units_of(quantity))
     ends = [unit for unit in known if isinstance(written, str) and written.rstrip().endswith(unit)]

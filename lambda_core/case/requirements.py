@@ -47,7 +47,7 @@ class Life(Section):
 class Requirements(Section):
     """Requirements for every bearing.
 
-    Of the case of one bearing or of a machine; absent values are not required.
+    They hold for the case of one bearing or of a machine; absent values are not required.
     """
 
     life: Time | None = option(None, 'rating life that 90 % have to reach, such as "20000 h"', gt=0.0)

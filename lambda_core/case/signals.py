@@ -119,7 +119,7 @@ class Table(TimeTable, Generic[V]):
 class ByLaw(TimeTable, Generic[V]):
     """Time function by a law.
 
-    amplitude * f(t), where f is a law of the role time_function: `chirp`, or that of a plugin.
+    The function is amplitude * f(t), where f is a law of the role time_function: `chirp`, or that of a plugin.
     """
 
     kind: Literal["law"]
@@ -132,7 +132,7 @@ class ByLaw(TimeTable, Generic[V]):
     def course(self) -> Any:
         """Course that the resolution of the case found.
 
-        lambda_core.model.laws.time_laws sets it; None before.
+        lambda_core.model.laws.time_laws sets it; it is None before.
         """
         return self._course
 

@@ -71,7 +71,7 @@ class Written(Section):
     def own_problems(cls, data: Mapping[str, Any]) -> list[Problem]:
         """Return problems of the names of parts.
 
-        Of plain tables, each at its own path.
+        They are those of plain tables, each at its own path.
         """
         return []
 

@@ -159,7 +159,7 @@ def _instead(part: str, known: Sequence[Suffix]) -> str:
 def _split(part: str, known: Sequence[Suffix]) -> list[tuple[str, Suffix]] | None:
     """Return suffixes that are written together.
 
-    Such as "2RS1C3", long ones first; None if something is left over.
+    An example is "2RS1C3". Long ones come first; the result is None if something is left over.
     """
     for end in range(min(len(part), _LONGEST), 0, -1):
         suffix = next((s for s in known if s.matches(part[:end])), None)

@@ -38,7 +38,7 @@ class Value(Frozen):
 class Parameter(Frozen):
     """Parameter of a lubricant for one model.
 
-    In the unit it was published in.
+    It is in the unit it was published in.
     """
 
     value: float
@@ -127,7 +127,7 @@ class RollerRow(Frozen):
 class ClearanceRow(Frozen):
     """Limits of radial internal clearance, SI.
 
-    Of one class for one bore (ISO 5753-1).
+    They are those of one class for one bore (ISO 5753-1).
     """
 
     clearance_class: str

@@ -17,7 +17,7 @@ _CLEARANCE = re.compile(r"C[N2-5]")
 class RollerDesignation:
     """Roller bearing of the catalogue with its suffixes.
 
-    Also what the suffixes decide.
+    It also has what the suffixes decide.
     """
 
     row: RollerRow
@@ -70,7 +70,7 @@ def _clearance(behind: str, row: RollerRow) -> str | None:
 def _taken(part: str) -> list[str] | None:
     """Return suffixes that are written together.
 
-    Longest first; None if something is left over.
+    The longest comes first; the result is None if something is left over.
     """
     if not part:
         return []

@@ -30,7 +30,7 @@ def check_apart(
 ) -> Iterator[CheckCard]:
     """Test models in separate processes.
 
-    As :func:`survey.check_installed` does, each within a limit of time.
+    It works as :func:`survey.check_installed`, each process within a limit of time.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ class _Trials:
     def next(self, limit: float) -> CheckCard | str | None:
         """Return the result of the next model.
 
-        Or a sentence about its failure; None after `limit` [s].
+        A failure returns a sentence; the result is None after `limit` [s].
         """
         try:
             line = self._lines.get(timeout=limit)

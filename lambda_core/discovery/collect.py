@@ -65,7 +65,7 @@ class Collection:
     def take(self, entries: Sequence[Entry]) -> str:
         """Add one plugin's entries.
 
-        Or return the sentence that explains why none was added.
+        Return a sentence that explains why none was added, if any.
         """
         claimed: set[tuple[str, str]] = set()
         for entry in entries:
@@ -105,7 +105,7 @@ class Collection:
     def _named(self, entry: Entry) -> tuple[str, str]:
         """Add a method or a view under its name.
 
-        Or under the qualified one where its name is taken.
+        It takes the qualified name where its name is taken.
         """
         kind, full = _key(entry)
         name, item = entry.item.name, with_distribution(entry.item, entry.distribution)
@@ -147,7 +147,7 @@ def is_own(distribution: str) -> bool:
 def with_distribution(item: Any, distribution: str) -> Any:
     """Return a copy with its distribution.
 
-    Of a dataclass that has the field; other objects are unchanged.
+    The copy is one of a dataclass that has the field; other objects are unchanged.
     """
     if is_dataclass(item) and not isinstance(item, type) and hasattr(item, "distribution"):
         return replace(item, distribution=distribution)

@@ -80,7 +80,7 @@ def lambda_figure(data: ViewData) -> Figure | None:
 def lambda_frames(scene: Scene) -> Iterator[NDArray[np.uint8]] | None:
     """Draw the frames of an animation in order.
 
-    RGB, shape (height, width, 3), all of one even size.
+    They are RGB, shape (height, width, 3), all of one even size.
     """
 
 

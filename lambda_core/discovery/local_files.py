@@ -51,7 +51,7 @@ def file_sources() -> list[Source]:
 def add_file(path: Path) -> Source:
     """Name one more plugin file.
 
-    For this process and those that it starts; it is read now.
+    It counts for this process and those that it starts; it is read now.
 
     Returns
     -------

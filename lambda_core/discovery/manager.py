@@ -51,7 +51,7 @@ log = logging.getLogger("lambda_core")
 def switch_off(names: Iterable[str]) -> None:
     """Switch plugins off (``--no-plugin NAME``).
 
-    For this process and those it starts.
+    They are off for this process and those that it starts.
 
     Parameters
     ----------
@@ -216,7 +216,7 @@ def _did_you_mean(name: str, known: Iterable[str]) -> str:
 def _add(manager: pluggy.PluginManager, source: Source, collection: Collection) -> str:
     """Load one plugin and take what it registers.
 
-    Return why not, or nothing.
+    Return the reason for a failure, if any.
     """
     begun = time.perf_counter()
     try:
@@ -279,7 +279,7 @@ def _own_laws(plugin: object) -> list[Any]:
 def _collect(manager: pluggy.PluginManager, plugin: object, source: Source, collection: Collection) -> str:
     """Call the registering hooks of one plugin.
 
-    All of it is taken, or nothing.
+    It takes all of them, or none.
     """
     others = [other for other in manager.get_plugins() if other is not plugin]
     entries: list[Entry] = []

@@ -1,6 +1,6 @@
 """Write roles and quantities into pages.
 
-`python -m lambda_core.discovery.reference FILE.md ...`.
+The command is `python -m lambda_core.discovery.reference FILE.md ...`.
 """
 
 from __future__ import annotations

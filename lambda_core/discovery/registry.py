@@ -113,7 +113,7 @@ class Registry:
     def origin(self, kind: str, name: str) -> str:
         """Return the distribution of a plugin's entry.
 
-        Such as "my-traction 0.1", of a model (by its role), method or view.
+        An example is "my-traction 0.1". The entry is a model (by its role), a method or a view.
         """
         return self._origins[kind, self._full(kind, name) if kind in ROLES else name]
 
@@ -185,7 +185,7 @@ class Registry:
     def figure(self, view: View | None, data: ViewData) -> Figure:
         """Draw the data of a view.
 
-        By its own drawing, or the program's; the program draws data of no view (None).
+        Its own drawing comes first, otherwise the program's; the program draws data of no view (None).
 
         Raises
         ------
@@ -297,7 +297,7 @@ class Registry:
     def _unknown(self, role: str, name: str) -> str:
         """Report that `role` has no model `name`.
 
-        With the nearest names, all names, and what is missing.
+        The report lists the nearest names, all names, and what is missing.
         """
         names = self.names(role)
         package, _, short = name.rpartition(":")
@@ -313,7 +313,7 @@ class Registry:
     def _absent(self, package: str) -> str:
         """Explain why a package is not in use.
 
-        "" without a package.
+        The text is "" without a package.
         """
         for fault in self.faults:
             if package and project_of(fault.distribution) == package:

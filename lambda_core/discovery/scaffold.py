@@ -63,7 +63,7 @@ def new_plugin(name: str, parent: Path) -> list[Path]:
 def _law_called(name: str) -> str:
     """Return "role/name" of an installed law.
 
-    By its name, or nothing.
+    It is found by its name; the text is empty where there is none.
     """
     from lambda_core.discovery.manager import registry
     from lambda_core.domain.roles import ROLES

@@ -88,7 +88,7 @@ class FaultCard(BaseModel):
 class NoteCard(BaseModel):
     """Note about a plugin that is in use.
 
-    Such as another name, or a slow import.
+    It is about another name or a slow import, for example.
     """
 
     distribution: str
@@ -270,7 +270,7 @@ def check_installed(registry: Registry, wanted: Sequence[str] = ()) -> Iterator[
 def broken(registry: Registry, wanted: Sequence[str] = ()) -> list[FaultCard]:
     """Return what could not be taken into use.
 
-    Of the distributions `wanted` (all when empty), rows included.
+    It covers the distributions `wanted` (all when empty), rows included.
     """
     rows = []
     if any(not wanted or project_of(distribution) in wanted for distribution, _ in registry.data_folders):
@@ -289,7 +289,7 @@ def broken(registry: Registry, wanted: Sequence[str] = ()) -> list[FaultCard]:
 def chosen(registry: Registry, wanted: Sequence[str]) -> Iterator[tuple[str, str]]:
     """Return role and name of the chosen models.
 
-    By distributions, roles or "role/name"; UsageError for anything else.
+    Distributions, roles or "role/name" choose them; anything else raises a UsageError.
     """
     return (pair for pair in _chosen(registry, wanted) if pair[0] in ROLES)
 
@@ -305,7 +305,7 @@ def chosen_others(registry: Registry, wanted: Sequence[str]) -> list[tuple[str, 
 def _chosen(registry: Registry, wanted: Sequence[str]) -> Iterator[tuple[str, str]]:
     """Return role or kind and name of everything chosen.
 
-    By distributions, roles, kinds or "role/name".
+    Distributions, roles, kinds or "role/name" choose it.
     """
     every = [(role, name) for role in ROLES for name in registry.names(role)]
     every += [(kind, name) for kind, named in registry.by_kind().items() for name in named]
@@ -337,7 +337,7 @@ def _absent(role: str, name: str, registry: Registry) -> Law:
 def _lubricant_parameters(registry: Registry) -> dict[tuple[str, str], dict[str, Any]]:
     """Return the first lubricant's parameters by (role, model).
 
-    As a case would write them.
+    They have the form that a case would have.
     """
     found: dict[tuple[str, str], dict[str, Any]] = {}
     catalogue = registry.catalogue()

@@ -44,7 +44,7 @@ def system_refusal(error: OSError) -> str:
 def kind_of(path: Path) -> str:
     """Return the kind of an irregular file.
 
-    Such as "a folder" or "a pipe"; "" for a regular file or none.
+    It is a word such as "a folder" or "a pipe", or "" for a regular file or none.
     """
     try:
         mode = path.stat().st_mode

@@ -55,7 +55,7 @@ def _source(point: EntryPoint) -> Source:
 def installed(group: str) -> list[Source]:
     """Return the installed plugins of `group`.
 
-    The program's own first, none imported.
+    The program's own come first; none is imported.
     """
     sources = {(s.project, s.name): s for s in map(_source, entry_points(group=group))}
     return sorted(sources.values(), key=lambda s: (s.project != OWN, s.project, s.name))
@@ -69,7 +69,7 @@ def switched_off() -> tuple[str, ...]:
 def in_use(group: str) -> list[Source]:
     """Return the active plugins of `group`.
 
-    By name, without what is switched off; of one name the program's own comes first.
+    The keys are names, without what is switched off; of one name the program's own comes first.
     """
     off = set(switched_off())
     found = [source for source in installed(group) if not off & {source.project, source.name}]

@@ -25,7 +25,7 @@ STOP_SIGNALS: tuple[int, ...] = tuple(
 def started(pid: int) -> str:
     """Return the start of a process.
 
-    In the system's own count; "" where there is none.
+    It is in the system's own count, or "" where there is none.
     """
     import psutil
 

@@ -54,7 +54,8 @@ class Role:
 def arguments_of(spec: str) -> tuple[Argument, ...]:
     """Read ``name kind meaning; ...``.
 
-    Kinds: ``f`` a number, ``e`` a number of each contact, ``a`` an array, ``A`` an output array; with ``?`` optional.
+    The kinds are ``f`` a number, ``e`` a number of each contact, ``a`` an array, ``A`` an output array; with ``?`` it
+    is optional.
     """
     result = []
     for part in spec.split(";"):

@@ -75,7 +75,7 @@ class UnitSystem:
     def number(self, value: float | None, unit: str, digits: int = 1) -> str:
         """Write a number in `unit` without it.
 
-        About as fine as `digits` decimals of it; a dash for none.
+        It is about as fine as `digits` decimals of it; a dash stands for none.
         """
         return number(None if value is None else self.value(value, unit), self._digits(unit, digits))
 

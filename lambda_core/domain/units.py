@@ -152,7 +152,7 @@ _EVERYDAY = (1e-3, 1e5)  # sizes of numbers that people write in the first unit 
 def _unit_meant(value: float, units: Mapping[str, float]) -> str:
     """Return the unit to propose for a bare number.
 
-    For a very large or small number it is the SI unit.
+    It is the SI unit for a very large or small number.
     """
     first = next(iter(units))
     if value == 0.0 or _EVERYDAY[0] <= abs(value) < _EVERYDAY[1]:
@@ -215,7 +215,7 @@ def parse(text: object, quantity: str) -> float:
 def units_of(quantity: str) -> dict[str, float]:
     """Return every unit of a value.
 
-    Those of :data:`UNITS` first, each with its factor to SI.
+    Those of :data:`UNITS` come first, each with its factor to SI.
     """
     return UNITS[quantity] | CUSTOMARY.get(quantity, {})
 
@@ -319,8 +319,8 @@ def _rounded(value: float, quantity: str, digits: int) -> str:
 class Quantity:
     """Annotation of a dimensional field: ``Annotated[float, Quantity("force")]``.
 
-    In files the field is a unit string, in Python an SI float. A Python float passes
-    as SI only when the model is built with ``context={"si": True}`` (``model_validate``).
+    It is a unit string in files and an SI float in Python. A Python float passes as SI only when the model is built
+    with ``context={"si": True}`` (``model_validate``).
     """
 
     name: str

@@ -29,7 +29,7 @@ SMOOTHING = {"none": 0.0, "ground": 2.0, "turned": 3.0}
 class Solid:
     """Elastic and thermal properties of a solid.
 
-    A ring, shaft, housing or ball.
+    The solid is a ring, shaft, housing or ball.
     """
 
     youngs_modulus: float = 210e9  # [Pa]
@@ -62,7 +62,7 @@ class Rings:
 class Seat:
     """Seat of a ring.
 
-    The shaft under the inner ring or the housing around the outer ring.
+    It is the shaft under the inner ring or the housing around the outer ring.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class Seat:
 class Temperatures:
     """Temperatures of the parts [K].
 
-    Their means, and the one at which the dimensions hold.
+    They are means, with the one at which the dimensions hold.
     """
 
     inner_ring: float = REFERENCE_TEMPERATURE
@@ -108,7 +108,7 @@ class Temperatures:
 class Step:
     """One step of the clearance [m].
 
-    Its addition (or value), by its limits and its middle.
+    It is an addition (or a value), given by its limits and its middle.
     """
 
     name: str
@@ -138,7 +138,7 @@ class OperatingClearance:
 def shaft_interference(bore_diameter: float, tolerance_class: str) -> Limits:
     """Return the interference of a shaft class [m].
 
-    With a bearing bore of ISO 492 normal class; positive is tight.
+    The bearing bore is of ISO 492 normal class; positive is tight.
     """
     shaft, bore = shaft_deviations(bore_diameter, tolerance_class), bore_deviations(bore_diameter)
     return Limits(shaft.minimum - bore.maximum, shaft.maximum - bore.minimum)
@@ -147,7 +147,7 @@ def shaft_interference(bore_diameter: float, tolerance_class: str) -> Limits:
 def housing_interference(outside_diameter: float, tolerance_class: str) -> Limits:
     """Return the interference of a housing class [m].
 
-    With a bearing's outside of ISO 492 normal class; positive is tight.
+    The bearing's outside is of ISO 492 normal class; positive is tight.
     """
     hole, ring = housing_deviations(outside_diameter, tolerance_class), outside_deviations(outside_diameter)
     return Limits(ring.minimum - hole.maximum, ring.maximum - hole.minimum)
@@ -158,7 +158,7 @@ def inner_ring_expansion(
 ) -> float:
     """Return the growth of the inner raceway [m].
 
-    Of its diameter under an effective interference [m]; zero for a loose fit.
+    Its diameter grows under an effective interference [m]; the growth is zero for a loose fit.
 
     Pressure of two thick rings (Lame; Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 2, ch. 3):
     p = (I/d) / {[(k^2 + 1)/(k^2 - 1) + nu]/E_ring + [(1 + q^2)/(1 - q^2) - nu_s]/E_shaft}, k = d_race/d,
@@ -180,7 +180,7 @@ def outer_ring_contraction(
 ) -> float:
     """Return the shrinkage of the outer raceway [m].
 
-    Of its diameter under an effective interference [m]; zero for a loose fit.
+    Its diameter shrinks under an effective interference [m]; the shrinkage is zero for a loose fit.
 
     Thick rings as in :func:`inner_ring_expansion`, h = d_race/D, q = D/D_housing:
     p = (I/D) / {[(1 + h^2)/(1 - h^2) - nu]/E_ring + [(1 + q^2)/(1 - q^2) + nu_h]/E_housing}; shrinkage at the
@@ -202,7 +202,7 @@ def outer_ring_contraction(
 def _effective(seat: Seat, diameter: float) -> Limits:
     """Return the interference after flattening of asperities.
 
-    d/(d + s) of it remains on the seat, d and s in mm.
+    The seat keeps d/(d + s) of it, with d and s in mm.
     """
     if seat.finish not in SMOOTHING:
         raise ValueError(f'"{seat.finish}" is not a finish of a seat; known: {", ".join(SMOOTHING)}')
@@ -287,7 +287,7 @@ class Mounting:
     def clearance(self, inner_ring: float, outer_ring: float, balls: float, shaft: float, housing: float) -> float:
         """Return the radial internal clearance [m].
 
-        At temperatures of the parts [K].
+        It holds at temperatures of the parts [K].
         """
         warm = Temperatures(inner_ring, outer_ring, balls, shaft, housing, self.reference)
         limits = operating_clearance(self.rings, self.bought, self.shaft, self.housing, warm).limits

@@ -1,6 +1,6 @@
 """Compute forces of a spur or helical gear.
 
-SI in and out.
+All values are in SI.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Literal
 class GearForces:
     """Forces of a mesh on the shaft.
 
-    In the frame of the case, about the shaft's axis at the gear's middle.
+    They are in the frame of the case, about the shaft's axis at the gear's middle.
     """
 
     force: tuple[float, float, float]  # [N]

@@ -53,7 +53,7 @@ class HertzContact:
 def reduced_modulus(youngs_1: float, poisson_1: float, youngs_2: float, poisson_2: float) -> float:
     """Return the modulus E' [Pa] of two solids.
 
-    2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2.
+    It follows from 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2.
     """
     return 2.0 / ((1.0 - poisson_1**2) / youngs_1 + (1.0 - poisson_2**2) / youngs_2)
 
@@ -78,8 +78,8 @@ def ball_raceway_radii(
 def hertz_shape(radius_x: float, radius_y: float) -> HertzShape:
     """Solve for the axis ratio of the contact ellipse.
 
-    (R_major/R_minor) = (kappa^2 E - K)/(K - E) with kappa = major/minor >= 1 (Johnson, Contact Mechanics,
-    1985, eq. 4.28), solved to machine precision.
+    It solves (R_major/R_minor) = (kappa^2 E - K)/(K - E) with kappa = major/minor >= 1 (Johnson, Contact Mechanics,
+    1985, eq. 4.28) to machine precision.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def hertz_shape(radius_x: float, radius_y: float) -> HertzShape:
 def _log_axis_ratio(log_target: float) -> float:
     """Return ln(kappa) of ln(R_major/R_minor).
 
-    By the secant method; both grow together, almost in proportion.
+    The secant method finds it; both grow together, almost in proportion.
     """
 
     def residual(log_kappa: float) -> float:
@@ -128,7 +128,7 @@ def _log_axis_ratio(log_target: float) -> float:
 def _integrals(log_kappa: float) -> tuple[float, float]:
     """Return both elliptic integrals of an axis ratio.
 
-    K(m) and (K - E)/(m K) at m = 1 - exp(-2 log_kappa).
+    They are K(m) and (K - E)/(m K) at m = 1 - exp(-2 log_kappa).
 
     By the arithmetic-geometric mean, K = pi/(2 agm(1, k')) and (K - E)/K = sum of 2^(n-1) c_n^2 with c_0^2 = m,
     c_(n+1) = c_n^2/(4 a_(n+1)) (Abramowitz and Stegun 1964, 17.6): every term is positive.
@@ -148,7 +148,7 @@ def _integrals(log_kappa: float) -> tuple[float, float]:
 def hertz_contact(load: float, radius_x: float, radius_y: float, e_eff: float) -> HertzContact:
     """Return ellipse, pressure and approach of a contact.
 
-    Elliptic, under `load` [N] (Johnson 1985, eq. 4.26).
+    The contact is elliptic, under `load` [N] (Johnson 1985, eq. 4.26).
 
     semi_minor^3 = 6 Q R' E(m)/(pi kappa E'), p_max = 3 Q/(2 pi a b), approach = 3 Q K(m)/(pi semi_major E'),
     1/R' = 1/R_x + 1/R_y.
@@ -180,6 +180,6 @@ def load_at_pressure(p_max: float, radius_x: float, radius_y: float, e_eff: floa
 def stiffness_constant(radius_x: float, radius_y: float, e_eff: float) -> float:
     """Return the stiffness constant K of one contact.
 
-    K [N/m^1.5] of Q = K delta^1.5.
+    It is K [N/m^1.5] of Q = K delta^1.5.
     """
     return float(hertz_contact(1.0, radius_x, radius_y, e_eff).approach ** -1.5)

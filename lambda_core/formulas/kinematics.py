@@ -46,7 +46,7 @@ def rolling_ratio(
 ) -> float:
     """Return the cage speed over inner ring speed.
 
-    For balls that roll at both raceways, both speeds against the outer ring.
+    The balls roll at both raceways; both speeds are relative to the outer ring.
 
     A ball whose own axis leans by b against the shaft rolls where R omega_b cos(a - b) is the speed of the raceway
     past it: omega_c/omega = r_i cos(a_o - b)/[r_i cos(a_o - b) + r_o cos(a_i - b)], r_i = r - R cos(a_i),
@@ -86,7 +86,7 @@ def ball_speed(
 ) -> float:
     """Return the spin of a ball [rad/s].
 
-    About its own axis relative to the cage, positive like a forward-turning inner ring's.
+    It is about its own axis relative to the cage, positive like a forward-turning inner ring's.
 
     -(d_m/(2 D_w)) (1 - gamma^2) (omega_i - omega_o) (Harris ch. 10, with the sign: an inner ring that turns
     forward turns the balls backward).

@@ -1,6 +1,6 @@
 """Compute rating lives and static safety of ball bearings.
 
-ISO 281, ISO/TS 16281, ISO 76; deep groove and angular contact.
+They follow ISO 281, ISO/TS 16281 and ISO 76 for deep groove and angular contact.
 
 SI in and out. Lives are in million revolutions unless a name says otherwise.
 """
@@ -99,7 +99,7 @@ def dynamic_equivalent_load(
 ) -> EquivalentLoad:
     """Return the dynamic equivalent radial load P.
 
-    ISO 281:2007, 5.3 and table 3.
+    It follows ISO 281:2007, 5.3 and table 3.
 
     P = F_r for F_a/F_r <= e, else X F_r + Y F_a, with e and Y of radial contact (X = 0.56) and of 15 degrees
     interpolated in f_0 F_a/C_0r (outside the table its first or last column, as the standard allows no extrapolation).
@@ -153,7 +153,7 @@ def _factors(relative: float, angle: float) -> tuple[float, float, float]:
 def _two_rows(limit: float, radial_factor: float, axial_factor: float, angle: float) -> tuple[float, float, float]:
     """Return the factors Y, X, Y of two rows.
 
-    Y up to e, and X and Y above, from e, X and Y of one row of that angle [deg].
+    Y holds up to e, and X and Y above. They follow from e, X and Y of one row of that angle [deg].
     """
     if angle < _TWO_ROWS[0][0]:
         return 0.625 / limit, 1.625 * radial_factor, 1.625 * axial_factor
@@ -167,7 +167,7 @@ def static_equivalent_load(
 ) -> float:
     """Return the static equivalent radial load P_0 [N].
 
-    max(X_0 F_r + Y_0 F_a, F_r) (ISO 76:2006, table 2).
+    It is max(X_0 F_r + Y_0 F_a, F_r) (ISO 76:2006, table 2).
 
     0.6 and 0.5 for radial contact; X_0 = 0.5 and Y_0 by the angle from 15 degrees on, where smaller angles count as 15;
     of two rows X_0 = 1 and twice that Y_0; of self-aligning bearings F_r + 0.44 cot(alpha) F_a.
@@ -195,7 +195,7 @@ def system_life(lives: Sequence[float], exponent: float = 10.0 / 9.0) -> float:
 def basic_rating_life(dynamic_rating: float, equivalent_load: float) -> float:
     """Return the rating life L_10 [1e6 revolutions].
 
-    (C/P)^3 (ISO 281:2007, eq. for ball bearings).
+    It is (C/P)^3 (ISO 281:2007, eq. for ball bearings).
     """
     if equivalent_load <= 0.0:
         return math.inf
@@ -205,7 +205,7 @@ def basic_rating_life(dynamic_rating: float, equivalent_load: float) -> float:
 def life_hours(million_revolutions: float, speed: float) -> float:
     """Return a life in hours.
 
-    At the relative speed of the rings [rad/s]; infinite at rest.
+    It holds at the relative speed of the rings [rad/s] and is infinite at rest.
     """
     if speed == 0.0:
         return math.inf
@@ -215,7 +215,7 @@ def life_hours(million_revolutions: float, speed: float) -> float:
 def contamination_range(level: str, pitch_diameter: float) -> tuple[float, float]:
     """Return lowest and highest e_C of a contamination.
 
-    Of its level (ISO 281:2007, table 13).
+    They belong to its level (ISO 281:2007, table 13).
 
     Raises
     ------
@@ -232,7 +232,7 @@ def contamination_range(level: str, pitch_diameter: float) -> tuple[float, float
 def reference_viscosity(speed: float, pitch_diameter: float) -> float:
     """Return the reference kinematic viscosity nu_1 [m2/s].
 
-    ISO 281:2007, 9.3.3.2.
+    It follows ISO 281:2007, 9.3.3.2.
 
     45000 n^-0.83 D_pw^-0.5 below 1000 1/min, 4500 n^-0.5 D_pw^-0.5 above (mm2/s, 1/min, mm).
 
@@ -253,7 +253,7 @@ def reference_viscosity(speed: float, pitch_diameter: float) -> float:
 class LifeFactorNumbers(NamedTuple):
     """Numbers of the factor a_ISO.
 
-    For one kind of bearing, in the formula of :func:`life_modification_factor`.
+    They hold for one kind of bearing, in the formula of :func:`life_modification_factor`.
     """
 
     level: float
@@ -340,7 +340,7 @@ def ball_capacities(
 ) -> tuple[float, float]:
     """Return the rolling element loads (Q_ci, Q_ce).
 
-    For the basic dynamic load rating [N] (ISO/TS 16281:2008, eq. 19-20).
+    They belong to the basic dynamic load rating [N] (ISO/TS 16281:2008, eq. 19-20).
 
     Q_ci = C/(0.407 Z cos(alpha) i^0.7) (1 + t^(10/3))^0.3 and Q_ce = C/(0.389 Z cos(alpha) i^0.7)
     (1 + t^(-10/3))^0.3, t = 1.044 [(1-g)/(1+g)]^1.72 [(r_i/r_e)(2 r_e - D_w)/(2 r_i - D_w)]^0.41. The numbers
@@ -367,7 +367,7 @@ def reference_rating_life(
 ) -> ReferenceLife:
     """Return the basic reference rating life L_10r.
 
-    From the load of every ball (ISO/TS 16281:2008, eq. 21-29).
+    It follows from the load of every ball (ISO/TS 16281:2008, eq. 21-29).
 
     L_10r = [(Q_ci/Q_ei)^(-10/3) + (Q_ce/Q_ee)^(-10/3)]^(-9/10). On the ring that rotates relative to the load the
     mean has the exponent 3, on the other 10/3.

@@ -15,7 +15,7 @@ CARRYING = 0.01
 def carries(inner: ArrayLike) -> NDArray[np.bool_]:
     """Mark the balls that carry load.
 
-    Between the rings; see :func:`loaded_balls`.
+    The load acts between the rings; see :func:`loaded_balls`.
     """
     load = np.asarray(inner, float)
     return np.asarray(load > CARRYING * load.max(initial=0.0))

@@ -1,6 +1,6 @@
 """Compute oil properties from two viscosities and a density.
 
-With Gold's coefficient, and the meaning of alpha_p.
+The module has Gold's coefficient and the meaning of alpha_p, too.
 
 SI in and out; the standards' own units inside.
 """
@@ -19,7 +19,7 @@ _WALTHER_SHIFT = 0.7  # [mm2/s], ASTM D341 above 2 mm2/s
 class Walther:
     """Kinematic viscosity over temperature after Walther.
 
-    log10 log10(nu + 0.7) = a - b log10(T), nu in mm2/s, T in K.
+    It is log10 log10(nu + 0.7) = a - b log10(T), with nu in mm2/s and T in K.
     """
 
     a: float
@@ -28,7 +28,7 @@ class Walther:
     def kinematic_viscosity(self, temperature: float) -> float:
         """Return the kinematic viscosity [m2/s].
 
-        At a temperature [K].
+        It holds at a temperature [K].
 
         Raises
         ------
@@ -46,7 +46,7 @@ class Walther:
     def log_slope(self, temperature: float) -> float:
         """Return -d ln(nu)/dT [1/K].
 
-        At a temperature [K].
+        It holds at a temperature [K].
         """
         shifted = self.kinematic_viscosity(temperature) * 1e6 + _WALTHER_SHIFT
         nu = shifted - _WALTHER_SHIFT
@@ -83,7 +83,7 @@ def walther(temperature_1: float, viscosity_1: float, temperature_2: float, visc
 def density(temperature: float, density_15: float, slope: float) -> float:
     """Return the density at ambient pressure [kg/m3].
 
-    rho_15 + slope (T - 15 degC), slope in kg/(m3 K), negative.
+    It is rho_15 + slope (T - 15 degC); the slope in kg/(m3 K) is negative.
     """
     return density_15 + slope * (temperature - (_ZERO_CELSIUS + 15.0))
 
@@ -91,7 +91,7 @@ def density(temperature: float, density_15: float, slope: float) -> float:
 def viscosity_grade_midpoint(grade: int) -> float:
     """Return the viscosity of an ISO grade [m2/s].
 
-    Kinematic, at 40 degC: its number in mm2/s (ISO 3448).
+    It is kinematic, at 40 degC: its number in mm2/s (ISO 3448).
     """
     return grade * 1e-6
 
@@ -108,7 +108,7 @@ GOLD: dict[str, tuple[float, float]] = {
 def gold_alpha(kinematic_viscosity: float, s: float, t: float) -> float:
     """Return the pressure-viscosity coefficient after Gold [1/Pa].
 
-    Gold et al. 2001: s nu^t (1/GPa, nu in mm2/s).
+    It is s nu^t (1/GPa, nu in mm2/s; Gold et al. 2001).
 
     A secant coefficient, ln(eta(p)/eta_0)/p over 0 to 0.2 GPa, at the temperature of `kinematic_viscosity` [m2/s].
     """
@@ -121,7 +121,7 @@ LogViscosity = Callable[[float], float]
 def alpha_tangent(log_viscosity: LogViscosity, step: float = 1e5) -> float:
     """Return the tangent coefficient alpha_0 [1/Pa].
 
-    d ln(eta)/dp at p = 0, by a forward difference of second order over `step` [Pa].
+    It is d ln(eta)/dp at p = 0, by a forward difference of second order over `step` [Pa].
     """
     f0, f1, f2 = (log_viscosity(p) for p in (0.0, step, 2.0 * step))
     return (-3.0 * f0 + 4.0 * f1 - f2) / (2.0 * step)
@@ -130,7 +130,7 @@ def alpha_tangent(log_viscosity: LogViscosity, step: float = 1e5) -> float:
 def alpha_secant(log_viscosity: LogViscosity, pressure: float = 0.2e9) -> float:
     """Return the secant coefficient [1/Pa].
 
-    ln(eta(p)/eta_0)/p, by custom at 0.2 GPa (Gold's definition).
+    It is ln(eta(p)/eta_0)/p, by custom at 0.2 GPa (Gold's definition).
     """
     return (log_viscosity(pressure) - log_viscosity(0.0)) / pressure
 

@@ -27,7 +27,7 @@ SELF_ALIGNING_REDUCTION, SELF_ALIGNING_CONFORMITY = 1.0, 0.53
 def sphere_conformity(gamma: float) -> float:
     """Return the relative radius of a spherical raceway.
 
-    Outer raceway over the ball diameter, (1 + 1/gamma)/2, gamma = D_w cos(alpha)/D_pw.
+    It is that of the outer raceway over the ball diameter, (1 + 1/gamma)/2, with gamma = D_w cos(alpha)/D_pw.
     """
     return 0.5 * (1.0 + 1.0 / gamma)
 
@@ -37,7 +37,7 @@ def conformity_term(
 ) -> float:
     """Return the ratio of the raceways' capacities.
 
-    Q_ci/Q_ce (ISO/TR 1281-1; ISO/TS 16281 writes the coefficient 1.044).
+    It is Q_ci/Q_ce (ISO/TR 1281-1; ISO/TS 16281 writes the coefficient 1.044).
 
     1.04 [(1-g)/(1+g)]^1.72 [(r_i/r_e) (2 r_e - D_w)/(2 r_i - D_w)]^0.41 with conformities f = r/D_w.
     """
@@ -53,7 +53,7 @@ def dynamic_factor(
 ) -> float:
     """Return the factor f_c of ISO 281.
 
-    N, mm, without b_m, in closed form (Lundberg and Palmgren 1947; ISO/TR 1281-1).
+    It is in N and mm, without b_m, in closed form (Lundberg and Palmgren 1947; ISO/TR 1281-1).
 
     f_c = 0.41 * 98.0665 lambda {1 + [Q_ci/Q_ce]^(10/3)}^-0.3 g^0.3 (1-g)^1.39/(1+g)^(1/3)
     [2 r_i/(2 r_i - D_w)]^0.41
@@ -85,7 +85,7 @@ def dynamic_factor(
 def sphere_factor(gamma: float) -> float:
     """Return f_c of self-aligning ball bearings.
 
-    ISO 281 (N, mm; without b_m); see :func:`dynamic_factor`.
+    It follows ISO 281 (N, mm; without b_m); see :func:`dynamic_factor`.
     """
     return dynamic_factor(gamma, SELF_ALIGNING_CONFORMITY, sphere_conformity(gamma), SELF_ALIGNING_REDUCTION)
 
@@ -104,7 +104,7 @@ def dynamic_rating(
 ) -> float:
     """Return the dynamic load rating C_r [N].
 
-    Basic radial rating (ISO 281, eq. for radial ball bearings).
+    It is the basic radial rating (ISO 281, eq. for radial ball bearings).
 
     C_r = b_m f_c (i cos alpha)^0.7 Z^(2/3) D_w^1.8, with 3.647 D_w^1.4 in place of D_w^1.8 above 25.4 mm (mm, N);
     Z balls in each of i rows. Makers rate four-point contact as two rows. Of self-aligning bearings conformities follow
@@ -124,7 +124,7 @@ def static_factor(
 ) -> float:
     """Return the factor f_0 of ISO 76.
 
-    N, mm, from Hertz theory (ISO/TR 10657).
+    It is in N and mm, from Hertz theory (ISO/TR 10657).
 
     The ball load Q at which the more heavily loaded raceway reaches 4200 MPa (E = 207 GPa, nu = 0.3), and
     Stribeck's Q_max = 5 F_r/(Z cos alpha): f_0 = Q/(5 D_w^2). Reproduces the standard's table within 0.053. Of
@@ -168,7 +168,7 @@ def static_rating(
 def fatigue_load_limit(static_load_rating: float, pitch_diameter: float) -> float:
     """Return the fatigue load limit C_u [N].
 
-    Of a ball bearing, simplified method of ISO 281:2007, B.3.2.
+    It is that of a ball bearing by the simplified method of ISO 281:2007, B.3.2.
 
     C_0/22 up to D_pw = 100 mm, C_0/22 (100 mm/D_pw)^0.5 above.
     """

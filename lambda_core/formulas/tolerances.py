@@ -137,7 +137,7 @@ def _split(tolerance_class: str, known: tuple[str, ...], what: str) -> tuple[str
 def shaft_deviations(diameter: float, tolerance_class: str) -> Limits:
     """Return the limit deviations of a shaft [m].
 
-    (ei, es) of a shaft of `diameter` [m], for example ``"k5"`` (ISO 286-1).
+    They are (ei, es) of a shaft of `diameter` [m], for example ``"k5"`` (ISO 286-1).
 
     Raises
     ------
@@ -157,7 +157,7 @@ def shaft_deviations(diameter: float, tolerance_class: str) -> Limits:
 def housing_deviations(diameter: float, tolerance_class: str) -> Limits:
     """Return the limit deviations of a housing [m].
 
-    (EI, ES) of a bore of `diameter` [m], for example ``"H7"`` (ISO 286-1).
+    They are (EI, ES) of a bore of `diameter` [m], for example ``"H7"`` (ISO 286-1).
 
     Raises
     ------
@@ -179,7 +179,7 @@ def housing_deviations(diameter: float, tolerance_class: str) -> Limits:
 def _upper_of_tight_hole(letter: str, grade: int, step: int) -> int:
     """Return ES of holes K to P [um].
 
-    -ei + IT_n - IT_(n-1); up to 3 mm -ei; M6 of 250 to 315 mm is -9 by exception.
+    It is -ei + IT_n - IT_(n-1), and -ei up to 3 mm; M6 of 250 to 315 mm is -9 by exception.
     """
     if letter == "M" and grade == 6 and _STEPS[step] == 315:
         return -9

@@ -59,7 +59,7 @@ def _ending(most: int) -> Iterator[None]:
 class Outcome:
     """Status and outputs of one call.
 
-    Or the end of a sentence about its fault.
+    A fault is the end of a sentence about it.
     """
 
     status: int = 0
@@ -117,7 +117,7 @@ def handed_over(role: Role, arguments: list[Any]) -> list[Any]:
 def compiled_call(dispatcher: Callable[..., int], role: Role, arguments: list[Any]) -> Outcome:
     """Call the compiled kernel twice.
 
-    Its arrays are between guard cells.
+    Guard cells surround its arrays.
 
     The outputs are filled with NaN the first time and with a number the second: a kernel
     that reads its outputs, or keeps a state, answers differently.

@@ -135,7 +135,7 @@ def check_model(
 def parameters_of(model: Law, parameters: BaseModel | Mapping[str, Any] | None) -> BaseModel:
     """Return validated parameters of a law.
 
-    From an instance, values of a case file, or the defaults.
+    They come from an instance, from values of a case file, or from the defaults.
 
     Raises
     ------
@@ -205,7 +205,7 @@ def _faults(model: Law, par: FloatArray, compiled: CompiledKernel | None, sample
 def _fault_of(model: Law, role: Role, arguments: list[Any], expected: Outcome, found: Outcome) -> str:
     """Report the fault of one machine code result.
 
-    Or nothing.
+    The text is empty without a fault.
     """
     if found.error:
         return found.error
@@ -287,7 +287,7 @@ def _cell_faults(model: Law, role: Role, kernel: Callable[..., int], trials: lis
 def _rest_faults(model: Law, role: Role, machine: CompiledKernel, arguments: list[Any]) -> Iterator[str]:
     """Check that an elementwise output vanishes at rest.
 
-    Only where it must.
+    It looks only at outputs that must vanish.
     """
     name = role.vanishes_with
     if name:
@@ -351,7 +351,7 @@ def _where(model: Law, role: Role, arguments: list[Any]) -> str:
 def time_per_call(model: Law, par: FloatArray) -> float:
     """Return the time of one call [s].
 
-    Or per cell of an elementwise role, best of several.
+    It is the best of several; for an elementwise role it is per cell.
     """
     role = ROLES[model.role]
     cells = 512 if role.elementwise else 1

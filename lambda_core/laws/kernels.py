@@ -96,7 +96,7 @@ class CompiledKernel:
 def signature(role: str) -> Any:
     """Return the Numba signature of `role`.
 
-    Of its kernels: ``int64(float64 or float64[::1], ...)``.
+    Its kernels have the form ``int64(float64 or float64[::1], ...)``.
     """
     if role not in ROLES:
         raise PluginError(unknown_name("role", role, ROLES))
@@ -295,7 +295,7 @@ def sources_key(*places: Path) -> str:
 def _host_content(function: Callable[..., Any], sources: tuple[Path, ...]) -> tuple[str, str]:
     """Return the hashes of the entry point's content.
 
-    Of the sources and of what it reaches, computed once per process.
+    They cover the sources and what it reaches, and are computed once per process.
     """
     return sources_key(*sources), reach(function, lenient=True).key
 

@@ -32,7 +32,7 @@ class RecordError(ValueError):
 class Member:
     """One member of a record.
 
-    A number ("float", "int", "bool"), an "array", or a record.
+    It is a number ("float", "int", "bool"), an "array", or a record.
     """
 
     name: str

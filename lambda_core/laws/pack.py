@@ -82,7 +82,7 @@ class Function:
 def kind_from(written: Any) -> Any:
     """Return the kind of an argument.
 
-    From its form in a manifest.
+    Its form in a manifest gives the kind.
 
     "float", "int", "function"; the attribute that has the address of a tuple; [itemsize or name of a type, dimensions]
     of an array; {"tuple": kinds}.
@@ -226,7 +226,8 @@ def code() -> str:
 def other_code(before: str) -> str:
     """Explain why other code cannot go on.
 
-    One code began, and that of this process differs; the text has a remedy; "" where it can.
+    The text says that another code began than that of this process, and has a remedy. It is "" where this code can go
+    on.
 
     Parameters
     ----------

@@ -116,7 +116,7 @@ def make_par(law: Law, parameters: BaseModel, context: Context) -> FloatArray:
 def flat_kernel(law: Law, *, strict: bool = False) -> Callable[..., int]:
     """Return a law's kernel for one contact.
 
-    In plain Python, with the flat array of :func:`make_par`.
+    It is in plain Python and takes the flat array of :func:`make_par`.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def flat_kernel(law: Law, *, strict: bool = False) -> Callable[..., int]:
 def batched_kernel(law: Law) -> Callable[..., int]:
     """Return a law's kernel for all contacts.
 
-    As the solver calls it for a raceway, in plain Python.
+    The solver calls it so for a raceway; it is in plain Python.
     """
     return bound(law.kernel, ROLES[law.role], par_layout(law))
 

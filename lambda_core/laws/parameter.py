@@ -15,7 +15,7 @@ Bound = float | str
 class Parameters(BaseModel):
     """Base of a law's parameters.
 
-    No unknown fields, frozen, defaults checked like input.
+    They have no unknown fields and are frozen; defaults are checked like input.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)

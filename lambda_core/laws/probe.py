@@ -162,7 +162,7 @@ _OIL = Oil("trial oil", "mineral", 313.15, 0.135, 2000.0, 0.0976, 870.0, 20.4e-9
 def trial_context(element: str, oil: Oil = _OIL) -> Context:
     """Return the context of a test bearing.
 
-    A 6208 deep-groove ball bearing at 40 degC.
+    It is a 6208 deep-groove ball bearing at 40 degC.
 
     Nine balls of 11.906 mm on a pitch circle of 60 mm, steel, conformity 0.52, 2750 1/min.
     """

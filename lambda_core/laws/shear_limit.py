@@ -20,7 +20,7 @@ _PRESSURE, _TEMPERATURE, _FILM, _LN_VISCOSITY = 1.5e9, 333.15, 0.5e-6, 15.0  # P
 def stress_ratio(law: Law, par: FloatArray) -> float:
     """Return the largest shear stress over pressure.
 
-    In a loaded contact, slip of 1 mm/s to 10 m/s; 0 where refused.
+    The contact is loaded and slips at 1 mm/s to 10 m/s; the result is 0 where the law refuses.
 
     Pressure 1.5 GPa, ln(eta) 15 (3 kPa s), film 0.5 um: usual contacts of loaded ball bearings.
     """

@@ -65,7 +65,7 @@ class State:
 def names_behind(law: Law) -> tuple[str, ...]:
     """Return the states behind a law's parameters.
 
-    Those that it reads, then those that it keeps.
+    The states that it reads come before those that it keeps.
     """
     return (*law.reads, *(state.name for state in law.states))
 

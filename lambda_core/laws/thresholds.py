@@ -1,6 +1,6 @@
 """Find arguments at which a kernel changes its path.
 
-From the numbers in its own code.
+The numbers in the kernel's own code show them.
 
 Draws from the range of a ball bearing rarely meet a branch like ``if 1.2e9 < p[i] < 1.2005e9``. The numbers that
 decide it stand in the code, so a kernel is tried at them, near them and between each two.
@@ -32,7 +32,7 @@ _REPEATED = 2  # calls for each value, with other draws of the rest
 def numbers_of(codes: Iterable[CodeType], par: FloatArray) -> list[float]:
     """Return the numbers in a kernel's code.
 
-    Also those of its helpers, and its parameters.
+    The numbers of its helpers and its parameters count, too.
     """
     found: dict[float, None] = {}
     for code in codes:
@@ -82,7 +82,7 @@ def _flat(constants: Iterable[Any]) -> Iterator[float]:
 def _values(numbers: list[float], low: float, high: float, most: int) -> list[float]:
     """Return the numbers within a range.
 
-    With their neighbours on either side, and the middle between each two.
+    Their neighbours on either side and the middle between each two are added.
     """
     few = numbers[:_SCALED]
     scaled = [a * b for a in few for b in few] + [a / b for a in few for b in few]

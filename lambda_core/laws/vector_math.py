@@ -63,7 +63,7 @@ def _mantissa(x: float, k: int) -> float:
 def _log(z: float, k: int) -> float:
     """Return k ln 2 + 2 artanh(z).
 
-    By its series, |z| <= 0.172, remainder 1e-17.
+    The logarithm's series has |z| <= 0.172 and a remainder of 1e-17.
     """
     q = z * z
     q2 = q * q
@@ -97,7 +97,7 @@ def log(x: float) -> float:
 def power(x: float, y: float) -> float:
     """Return x^y.
 
-    For 1e-300 < x < 1e300 and |y ln x| < 700; relative error about |y ln x| times that of exp.
+    It holds for 1e-300 < x < 1e300 and |y ln x| < 700; the relative error is about |y ln x| times that of exp.
 
     Parameters
     ----------
@@ -178,7 +178,7 @@ def asinh_of(quotient: float, k: int, y: float) -> float:
 def asinh(y: float) -> float:
     """Return asinh(y) for 0 <= y < 1e150.
 
-    ln(1 + d), d = y + y^2/(1 + sqrt(1 + y^2)), with one division for both.
+    It is ln(1 + d) with d = y + y^2/(1 + sqrt(1 + y^2)), with one division for both.
 
     Parameters
     ----------

@@ -151,7 +151,7 @@ def evaluate(
 def _along(model: AnyLaw, argument: str, values: ArrayLike, output: int, given: dict[str, Any]) -> FloatArray:
     """Return one output over `argument`.
 
-    At each value (scalar or the same in every cell).
+    It has one number at each value, which is scalar or the same in every cell.
     """
     results = []
     for value in np.atleast_1d(np.asarray(values, np.float64)):

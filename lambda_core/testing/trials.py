@@ -19,7 +19,7 @@ from lambda_core.views.view import RunData
 def method_inputs(**changes: Any) -> MethodInputs:
     """Return what a comparison method sees of a 6208.
 
-    At 40 degC, 2750 1/min and 2 kN radial load.
+    It runs at 40 degC, 2750 1/min and 2 kN radial load.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ class TrialRun:
     def blocks(self, names: Sequence[str], start: float = 0.0) -> Iterator[dict[str, FloatArray]]:
         """Yield the channels in one block.
 
-        From time `start` [s] on.
+        They begin at time `start` [s].
         """
         keep = self._channels["time"] >= start
         yield {name: self._channels[name][keep] for name in names}

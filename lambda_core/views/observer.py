@@ -1,6 +1,6 @@
 """Define observers and events of plugins.
 
-Hooks ``lambda_observers`` and ``lambda_events``.
+The hooks are ``lambda_observers`` and ``lambda_events``.
 
 An observer turns the samples of a run into channels of its own, written next to those of the program; an event says at
 which samples something happens, and may end the run. Both look at samples alone and change nothing of the motion.
@@ -38,7 +38,7 @@ _OWN_DIMENSIONS = ("ball", "marker")  # as long as the case has balls and marker
 class Integral:
     """Channel that integrates another channel over time.
 
-    Both belong to one observer; 0 at the start (trapezium rule).
+    Both belong to one observer; it is 0 at the start (trapezium rule).
 
     Attributes
     ----------
@@ -163,7 +163,7 @@ class Event:
 def source_key(function: Callable[..., Any]) -> str:
     """Return the hash of a function's source file.
 
-    Of its name where there is none.
+    It is that of its name where there is no file.
     """
     path = inspect.getsourcefile(inspect.unwrap(function)) if inspect.isfunction(function) else None
     text = Path(path).read_bytes() if path and Path(path).is_file() else repr(function).encode()

@@ -1,6 +1,6 @@
 """Define sections of a report.
 
-Hook ``lambda_sections``.
+The hook is ``lambda_sections``.
 """
 
 from __future__ import annotations

@@ -47,7 +47,7 @@ class RunData(Protocol):
     def blocks(self, names: Sequence[str], start: float = 0.0) -> Iterator[dict[str, NDArray[np.float64]]]:
         """Yield several channels in blocks of rows.
 
-        From time `start` [s].
+        They begin at time `start` [s].
         """
 
     def sample(self, row: int, names: Sequence[str]) -> dict[str, NDArray[np.float64]]:

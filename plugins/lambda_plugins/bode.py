@@ -1,6 +1,6 @@
 """Define Bode's density, viscosity and permittivity of an oil.
 
-T in K, p in bar, as published (Bode 1989; constants of a mineral oil in Syla et al. 2026, Table 5).
+T is in K and p in bar, as published (Bode 1989; constants of a mineral oil in Syla et al. 2026, Table 5).
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def within_range(temperature: float) -> float:
 def pressure_scale(T: float, oil: BodeDensity) -> float:
     """Return the pressure scale N(T) [bar].
 
-    N(T) = a2 + a3 T + a4 T^2 + a5 T^3; a1/N is the compressibility at ambient pressure.
+    It is N(T) = a2 + a3 T + a4 T^2 + a5 T^3; a1/N is the compressibility at ambient pressure.
     """
     return oil.a2 + T * (oil.a3 + T * (oil.a4 + T * oil.a5))
 
@@ -72,7 +72,7 @@ def pressure_scale(T: float, oil: BodeDensity) -> float:
 def bode_density(p: float, T: float, oil: BodeDensity) -> float:
     """Return Bode's density [kg/m3].
 
-    rho_s (1 - alpha_s T)/(1 - a1 ln(1 + p/N)), p in Pa, T in K within range.
+    It is rho_s (1 - alpha_s T)/(1 - a1 ln(1 + p/N)), with p in Pa and T in K within range.
     """
     bar = 1e-5 * at_least(p, 0.0)
     compression = 1.0 - oil.a1 * log1p(bar / pressure_scale(T, oil))

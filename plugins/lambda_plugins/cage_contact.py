@@ -1,6 +1,6 @@
 """Define contacts of the cage with balls and rings.
 
-Also of two balls without a cage.
+They include contacts of two balls without a cage.
 
 One penalty contact for all: a spring whose stiffness sets in over the first fraction of a micrometre, damping that
 grows from zero at first touch and never pulls, and cubic friction at the point of contact against the slip there. In

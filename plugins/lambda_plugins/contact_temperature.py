@@ -41,7 +41,7 @@ def prepare_shear_heating(parameters: NoParameters, context: Context) -> Heated:
 def band_rise(semi_b: float, speed: float, body: Solid) -> float:
     """Return the mean temperature rise under a moving band.
 
-    Half-space, band of length 2b, per heat flux [K m2/W].
+    The band of length 2b moves over a half-space; the rise is per heat flux [K m2/W].
 
     0.752 (b/k)/sqrt(Pe), Pe = u b/(2 kappa), which is 0.752 sqrt(2b/(u k rho c)): the mean over 0..2b of
     2 q sqrt(x/(pi u k rho c)) (Jaeger 1942; Carslaw and Jaeger 1959, section 10.7). Pe^2 + 0.02 under the root ends the

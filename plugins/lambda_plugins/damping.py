@@ -42,7 +42,7 @@ class Onset(NamedTuple):
 def prepare_cubic(parameters: CubicDamping, context: Context) -> Onset:
     """Return the damping's onset.
 
-    d_max from the contact stiffness at the mean load unless given.
+    It is d_max from the contact stiffness at the mean load unless given.
     """
     full = parameters.coefficient
     if full is None:

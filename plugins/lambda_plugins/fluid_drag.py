@@ -97,7 +97,7 @@ def volume_factor(parameters: Skf, context: Context) -> float:
 def skf_torque(parameters: Skf, context: Context) -> tuple[float, float]:
     """Return both parts of SKF's drag torque.
 
-    (M / n^2, M / (n^0.621 nu^1.379)) in N mm, n in 1/min, nu in mm2/s.
+    They are (M / n^2, M / (n^0.621 nu^1.379)) in N mm, with n in 1/min and nu in mm2/s.
 
     2008: M = V_M K_ball d_m^5 n^2, K_ball = K_Z (d + D)/(D - d) 1e-12 for one row (mm). 2018: 0.4 of that, plus
     1.093e-7 n^2 d_m^3 (n d_m^2 f_t/nu)^-1.379 R_s, R_s = 0.36 d_m^2 (t - sin t) f_A, f_A = 0.05 K_Z (D + d)/(D - d),
@@ -134,7 +134,7 @@ class SkfShare(NamedTuple):
 def prepare_skf(parameters: Skf, context: Context) -> SkfShare:
     """Return a ball's share.
 
-    Of an oil jet SKF takes twice the torque of a bath to the middle of the lowest ball; it is spread over all balls.
+    SKF takes twice the torque of a bath to the middle of the lowest ball for an oil jet; it is spread over all balls.
     """
     jets, standing = 1.0, context
     if context.lubrication == "oil jet":
@@ -150,7 +150,7 @@ def prepare_skf(parameters: Skf, context: Context) -> SkfShare:
 def power_factors(parameters: SharedLoss, context: Context) -> tuple[float, float]:
     """Return force and moment on a wholly immersed ball.
 
-    [N] and [N m] per N mm of the bearing's drag torque.
+    They are in [N] and [N m] per N mm of the bearing's drag torque.
 
     From Z mean(immersion) (F v_orbit + M omega_spin) = torque times speed of rotation, at kinematic speeds. A bearing
     whose balls never touch the oil has no loss.

@@ -1,6 +1,6 @@
 """Define oils by two kinematic viscosities.
 
-Walther over temperature, Roelands or Barus over pressure.
+The oils follow Walther over temperature, and Roelands or Barus over pressure.
 
 Per cell the laws need ln(eta_0) at the cell's temperature. Walther's double exponential is therefore fitted once, by a
 polynomial in 1/T (error below 1e-5 in ln eta), and so are the powers of pressure and viscosity that go with it.
@@ -95,7 +95,7 @@ class BarusOil(TwoPointOil):
 def kinematic_viscosity(oil: TwoPointOil, T: FloatArray) -> FloatArray:
     """Return nu(T) [m2/s] after Walther.
 
-    Log log (nu + 0.7 mm2/s) = A - B log T: ASTM D341 in its simple form.
+    It follows log log (nu + 0.7 mm2/s) = A - B log T, which is ASTM D341 in its simple form.
     """
 
     def double_log(nu: float) -> float:
@@ -123,7 +123,7 @@ def _log_viscosity_series(oil: TwoPointOil) -> FloatArray:
 def scaled_inverse(T: float) -> float:
     """Return 1/T mapped to -1..1.
 
-    From 300 to -40 degC, constant outside.
+    It covers 300 to -40 degC and is constant outside.
     """
     held = at_most(at_least(T, _T_LOW), _T_HIGH)
     return (2.0 / held - 1.0 / _T_HIGH - 1.0 / _T_LOW) / (1.0 / _T_LOW - 1.0 / _T_HIGH)
@@ -132,7 +132,7 @@ def scaled_inverse(T: float) -> float:
 def oil_density(p: float, T: float, density_15: float, slope: float) -> float:
     """Return the density of an oil [kg/m3].
 
-    Linear in temperature (limited to -40..300 degC), after Dowson and Higginson under pressure.
+    It is linear in temperature (limited to -40..300 degC) and follows Dowson and Higginson under pressure.
     """
     held = at_most(at_least(T, _T_LOW), _T_HIGH)
     return (density_15 + slope * (held - 288.15)) * dowson_higginson(p)

@@ -54,7 +54,7 @@ def mean_immersion(bath: OilBath) -> float:
     def angle(height: float) -> float:
         """Return the angle of a ball at a height.
 
-        From the lowest point, for a centre at `height` above it.
+        It is measured from the lowest point, for a centre at `height` above it.
         """
         return math.acos(min(max(1.0 - height / pitch_radius, -1.0), 1.0))
 
@@ -67,7 +67,7 @@ def mean_immersion(bath: OilBath) -> float:
 def kinematic_speeds(context: Context, speed: float) -> tuple[float, float]:
     """Return the kinematic speeds of a ball.
 
-    (orbital speed of its centre [m/s], spin [rad/s]) at `speed` [rad/s].
+    They are (orbital speed of its centre [m/s], spin [rad/s]) at `speed` [rad/s].
 
     Pure rolling with the outer ring at rest and no contact angle: cage at (1 - gamma)/2 of the inner ring's speed,
     gamma = D_w/d_m (Harris and Kotzalas 2006, eq. 10.12). The spin is that against the oil at rest, (1 - gamma)/(2

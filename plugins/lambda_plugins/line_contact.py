@@ -37,7 +37,7 @@ _NEWTON = 6  # steps of the logarithm's solution: the error falls below rounding
 def hertz_line(line_load: float, R_x: float, E_eff: float) -> tuple[float, float]:
     """Return half width [m] and pressure [Pa] of a line.
 
-    Maximum pressure; for a load per length (Johnson 1985, eq. 4.43 and 4.45).
+    The pressure is the maximum; the load is per length (Johnson 1985, eq. 4.43 and 4.45).
     """
     return math.sqrt(8.0 * line_load * R_x / (math.pi * E_eff)), math.sqrt(line_load * E_eff / (2.0 * math.pi * R_x))
 

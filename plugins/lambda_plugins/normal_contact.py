@@ -41,7 +41,7 @@ class Shape(NamedTuple):
 def proportions(R_x: float, R_y: float, k: float, first: float, second: float) -> tuple[float, float, float, float]:
     """Return (k, first, scale, root) of :class:`Shape`.
 
-    From ellipse ratio and elliptic integrals.
+    They follow from ellipse ratio and elliptic integrals.
     """
     R = R_x * R_y / (R_x + R_y)
     scale = math.sqrt(second * R / 4.5)
@@ -53,7 +53,7 @@ def ellipse_from_penetration(
 ) -> None:
     """Write load, semi-axes and pressure for a penetration.
 
-    For an ellipse of the given :func:`proportions`.
+    The ellipse has the given :func:`proportions`.
 
     Syla et al. 2026, eq. 1-3: delta = F [4.5/(eps R') (Q/(pi k E'))^2]^(1/3), major semi-axis
     (6 k^2 eps Q R'/(pi E'))^(1/3), solved for Q and written in s = sqrt(delta/F), so that nothing divides by a
@@ -91,7 +91,7 @@ def known(radii: tuple[float, float], find: Callable[[float, float], tuple[float
 def prepare_fitted(parameters: NoParameters, context: Context) -> Shape:
     """Return the shape for the radii of the contact.
 
-    So powers and logarithms are computed once.
+    Powers and logarithms are thus computed once.
     """
     return known((context.radius_x, context.radius_y), fitted)
 
@@ -138,7 +138,7 @@ def _exact_series() -> ExactSeries:
 def exact(R_x: float, R_y: float, series: ExactSeries) -> tuple[float, float, float, float]:
     """Return the exact :func:`proportions` of radii.
 
-    By elliptic integrals; the ratio of the radii is at most 20 000.
+    They use elliptic integrals; the ratio of the radii is at most 20 000.
     """
     ratio = R_y / R_x if R_y >= R_x else R_x / R_y
     x = 2.0 * math.log(ratio) / math.log(_MAX_RATIO) - 1.0
@@ -198,7 +198,7 @@ def hertz_exact(delta: float, R_x: float, R_y: float, E_eff: float, par: Exact, 
 def stiffness(load: float, radius_x: float, radius_y: float, e_eff: float) -> float:
     """Return dQ/d(delta) [N/m] of the Hamrock-Brewe contact.
 
-    At `load` [N]; Q is proportional to delta^1.5.
+    It holds at `load` [N]; Q is proportional to delta^1.5.
     """
     unit = np.empty(4)
     hamrock_brewe(1e-6, radius_x, radius_y, e_eff, known((radius_x, radius_y), fitted), unit)

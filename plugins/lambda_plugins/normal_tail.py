@@ -8,7 +8,7 @@ import math
 def upper_quantile(p: float) -> float:
     """Return z with 1 - Phi(z) = p.
 
-    0 < p < 1.
+    It holds for 0 < p < 1.
 
     Algorithm AS 241, PPND16: Wichura 1988, Applied Statistics 37, 477; relative error 1e-16.
     """

@@ -17,7 +17,7 @@ DOWSON_RISE, DOWSON_STIFFNESS = 0.6e-9, 1.7e-9  # of :func:`dowson_higginson` [1
 def capped(ln_eta: float) -> float:
     """Return ln(eta / Pa s) within limits.
 
-    Below 1e12 Pa s (corner rounded over a factor e each way) and above 1.5e-8 Pa s.
+    They are below 1e12 Pa s (corner rounded over a factor e each way) and above 1.5e-8 Pa s.
     """
     return at_least(smooth_min(ln_eta, LN_ETA_CAP, _CAP_WIDTH), LN_ETA_FLOOR)
 
@@ -25,6 +25,6 @@ def capped(ln_eta: float) -> float:
 def dowson_higginson(p: float) -> float:
     """Return rho(p)/rho(0) of a mineral oil, p in Pa.
 
-    1 + 0.6e-9 p/(1 + 1.7e-9 p): Dowson and Higginson 1966, Elasto-hydrodynamic Lubrication; 1.35 at most.
+    It is 1 + 0.6e-9 p/(1 + 1.7e-9 p), 1.35 at most (Dowson and Higginson 1966, Elasto-hydrodynamic Lubrication).
     """
     return 1.0 + DOWSON_RISE * p / (1.0 + DOWSON_STIFFNESS * p)

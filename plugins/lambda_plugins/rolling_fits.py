@@ -158,7 +158,7 @@ def aihara(
 def ellipse_perimeter(ratio: float) -> float:
     """Return the complete elliptic integral E.
 
-    Of the second kind, modulus squared 1 - r^2, r = b/a from 0 to 1.
+    It is of the second kind, with modulus squared 1 - r^2 and r = b/a from 0 to 1.
 
     Abramowitz and Stegun, 17.3.36: within 2e-8.
     """

@@ -60,7 +60,7 @@ def _gauss() -> tuple[FloatArray, FloatArray]:
 def strip_sum(q: FloatArray) -> FloatArray:
     """Return the strips' sum of the thermal factor.
 
-    Integral of sqrt(1 - s^2) [1 + q^5 (1 - s^2)^5]^-0.1 ds over -1..1.
+    It is the integral of sqrt(1 - s^2) [1 + q^5 (1 - s^2)^5]^-0.1 ds over -1..1.
 
     By 400 Gauss points in t, s = sin t, where the integrand is smooth up to the ellipse's tips.
     """
@@ -74,7 +74,7 @@ def strip_sum(q: FloatArray) -> FloatArray:
 def _halves() -> FloatArray:
     """Return the polynomials of :func:`strip_sum`.
 
-    For q from 2^_OCTAVE_LOW to 2^_OCTAVE_HIGH (once per process).
+    They hold for q from 2^_OCTAVE_LOW to 2^_OCTAVE_HIGH (once per process).
     """
     edges = [2.0**k * m for k in range(_OCTAVE_LOW, _OCTAVE_HIGH) for m in (1.0, 1.5)] + [2.0**_OCTAVE_HIGH]
     return np.concatenate([series(strip_sum, low, high) for low, high in itertools.pairwise(edges)])
@@ -88,7 +88,7 @@ def prepare(parameters: InletShear, context: Context) -> Strips:
 def summed(q: float, halves: FloatArray) -> float:
     """Return :func:`strip_sum` of one q > 0.
 
-    Constant far below 1, falling with the root far above; NaN of NaN.
+    It is constant far below 1 and falls with the root far above; NaN gives NaN.
     """
     held = at_most(q, 2.0**_OCTAVE_HIGH * (1.0 - 1e-15)) if q > 2.0**_OCTAVE_LOW else 2.0**_OCTAVE_LOW
     bits = np.float64(held).view(np.int64)
@@ -109,7 +109,7 @@ def regular_speed(u_mean: float, floor: float) -> float:
 def thermal_factor(coefficient: float, speed: float, eta0: float, beta: float, k_oil: float) -> float:
     """Return 1/(1 + c L^0.78), L = eta0 beta u^2/lambda.
 
-    Aihara 1987, J. Tribol. 109, 471 (c = 0.29).
+    It follows Aihara 1987, J. Tribol. 109, 471 (c = 0.29).
     """
     L = eta0 * beta * speed * speed / k_oil
     return 1.0 / (1.0 + coefficient * power(at_least(L, _LEAST), 0.78))

@@ -29,7 +29,7 @@ def at_most(value: float, high: float) -> float:
 def smooth_min(value: float, limit: float, width: float) -> float:
     """Return min(value, limit) with a rounded corner.
 
-    By a parabola within `limit` -+ `width`.
+    The corner is a parabola within `limit` -+ `width`.
 
     Continuous with its first derivative; exact outside the rounded corner, low by `width`/4 at its middle.
     """
@@ -45,7 +45,7 @@ def corner(width: float) -> float:
 def smooth_min_by(per_corner: float, value: float, limit: float, width: float) -> float:
     """Return :func:`smooth_min` by the inverse of :func:`corner`.
 
-    For callers that divide by more at once.
+    Callers that divide by more at once use it.
     """
     held = at_most(value, limit + width)
     inside = at_least(held - (limit - width), 0.0)
@@ -55,7 +55,7 @@ def smooth_min_by(per_corner: float, value: float, limit: float, width: float) -
 def cubic_friction_slope(speed: float, mu_s: float, mu_d: float, v_s: float, v_d: float) -> float:
     """Return mu(v)/v [s/m] of Teutsch's cubic law.
 
-    At `speed` >= 0 [m/s]; finite at rest.
+    It holds at `speed` >= 0 [m/s] and is finite at rest.
 
     Teutsch 2005 in the form of Wingertszahn et al. 2023, Lubricants 11, 369, eq. 21 (with the factor that is
     missing in print): a cubic from 0 at rest to `mu_s` at `v_s`, a second one down to `mu_d` at `v_d`, constant
@@ -85,7 +85,7 @@ POLYNOMIAL_TERMS = 13
 def series(function: Callable[[FloatArray], FloatArray], low: float, high: float) -> FloatArray:
     """Return the coefficients of a polynomial for `function`.
 
-    Over low..high mapped to -1..1 (Chebyshev points).
+    It covers low..high mapped to -1..1 (Chebyshev points).
     """
     nodes = np.cos((np.arange(64) + 0.5) * math.pi / 64)
     values = function(0.5 * (low + high) + 0.5 * (high - low) * nodes)

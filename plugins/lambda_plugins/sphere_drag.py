@@ -40,7 +40,7 @@ def prepare(parameters: SphereDrag, context: Context) -> Stream:
 def drag_of_sphere(share: float, v: float, R: float, nu: float, rho: float) -> float:
     """Return the drag [N] of a sphere.
 
-    Of radius R at the speed v, `share` of it in the fluid; finite at rest.
+    The sphere has the radius R and the speed v, with `share` of it in the fluid; the drag is finite at rest.
 
     Clift, Grace and Weber 1978, eq. 5-8: the formula is that of :func:`sphere_drag`.
     """
@@ -54,7 +54,7 @@ def drag_of_sphere(share: float, v: float, R: float, nu: float, rho: float) -> f
 def churning_of_sphere(share: float, omega: float, R: float, nu: float, rho: float) -> float:
     """Return the churning moment [N m] of a sphere.
 
-    Against its spin, `share` of it in the fluid.
+    It acts against its spin, with `share` of it in the fluid.
 
     Kirchhoff 1876 and Sawatzki 1970: the formula is that of :func:`sphere_drag`.
     """

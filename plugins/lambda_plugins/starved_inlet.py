@@ -16,7 +16,7 @@ INLET = "Wolveridge, Baglin and Archard 1971, Proc. IMechE 185, 1159"
 def starved_rolling(inlet: float) -> float:
     """Return the starved over the flooded rolling resistance.
 
-    F/F* = (S^2 + 162.8 S)/(S^2 + 193.1 S + 1257).
+    It is F/F* = (S^2 + 162.8 S)/(S^2 + 193.1 S + 1257).
 
     S is the thickness of the oil at the meniscus over the flooded minimum film. Biboulet and Houpert 2010, Proc. IMechE
     J 224 (Part 1, line contacts, doi 10.1243/13506501JET790), eq. 44: 0 without oil, 1 for endless oil.
@@ -29,7 +29,7 @@ def starved_rolling(inlet: float) -> float:
 def starved_film(layer: float, gamma: float) -> float:
     """Return the starved over the flooded film.
 
-    r/(1 + r^gamma)^(1/gamma), of a layer r times as thick as the flooded film.
+    It is r/(1 + r^gamma)^(1/gamma), for a layer r times as thick as the flooded film.
 
     Chevalier et al. 1998: all of a thin layer goes through the contact, of a thick one as much as a flooded film takes.
     """
@@ -41,7 +41,7 @@ def starved_film(layer: float, gamma: float) -> float:
 def meniscus(film: float) -> float:
     """Return the meniscus gap over the flooded film.
 
-    From the film over the flooded one, 0..1.
+    It follows from the film over the flooded one, 0..1.
 
     Grubin's inlet: outside Hertz's ellipse the gap grows with the power 3/2 of the distance, and whatever the film is,
     Reynolds' equation has to raise the reduced pressure from nothing at the meniscus to the same 1/alpha. Hence

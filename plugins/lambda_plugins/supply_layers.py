@@ -116,7 +116,7 @@ def prepare_side_flow(parameters: SideFlow, context: Context) -> Track:
 def side_flow(passes: float, p_max: float, along: float, across: float, alpha_p: float) -> float:
     """Return the side flow F [1/(m2 s)] of a layer.
 
-    dh/dt = -(1/12) F h^3: how fast contacts press a layer off the track.
+    It is the rate at which contacts press a layer off the track, dh/dt = -(1/12) F h^3.
 
     F = (2 Z/l_t) (p_h/a^2) (b/eta_0) pi [(pi alpha p_h/2)^1.5 + 1]^(-2/3), a across and b along rolling; the bracket is
     an approximation of pi [I_0(alpha p_h) - L_0(alpha p_h)], the integral of exp(-alpha p)/sqrt(1 - x^2/b^2) over the
@@ -129,7 +129,7 @@ def side_flow(passes: float, p_max: float, along: float, across: float, alpha_p:
 def density_ratio(p: float) -> float:
     """Return the density over that at ambient pressure.
 
-    Dowson and Higginson 1966.
+    It follows Dowson and Higginson 1966.
     """
     return float((5.9e8 + 1.34 * p) / (5.9e8 + p))
 

@@ -71,7 +71,7 @@ class Given:
 class Shoulders:
     """Default heights of shoulders over the raceway.
 
-    In ball diameters by ring, where nothing is known of them.
+    They are in ball diameters by ring, and hold where nothing is known of the shoulders.
     """
 
     heights: Mapping[str, float]

@@ -57,7 +57,7 @@ def row_places(geometry: Geometry) -> tuple[float, ...]:
 def raceways(geometry: Geometry) -> tuple[Raceway, ...]:
     """Return the raceways row by row.
 
-    Of each row the inner ring's before the outer ring's; behind them ribs of rollers.
+    The inner ring's of each row come before the outer ring's; ribs of rollers follow.
     """
     found = tuple(
         _raceway(geometry, row, place, ring, thrust)
@@ -74,7 +74,7 @@ def raceways(geometry: Geometry) -> tuple[Raceway, ...]:
 def raceways_of_a_ball(geometry: Geometry) -> tuple[Raceway, ...]:
     """Return the raceways of one ball.
 
-    In the order of its contacts, those of the first row.
+    They have the order of its contacts; the row is the first one.
     """
     return tuple(raceway for raceway in raceways(geometry) if raceway.row == 0)
 

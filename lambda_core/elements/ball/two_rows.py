@@ -10,7 +10,7 @@ from lambda_core.elements.ball.ball_kind import Given
 def contact_angle(given: Given) -> float:
     """Return the free contact angle of two rows [rad].
 
-    NaN after a problem.
+    It is NaN after a problem.
     """
     if given.bearing.contact_angle is not None:
         given.ledger.given("bearing.contact_angle", given.bearing.contact_angle, "angle")

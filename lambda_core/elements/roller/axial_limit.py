@@ -1,6 +1,6 @@
 """Compute the permissible axial load of cylindrical roller bearings.
 
-With ribs on both rings (NJ, NUP).
+The rollers have ribs on both rings (NJ, NUP).
 
 SKF, Rolling bearings, PUB BU/P1 17000/1 EN, 2018, p. 513 and table 6. SI in and out; the formulas are in mm, kN and
 1/min, converted inside. They hold for 60 K between bearing and surroundings, 0.5 mW/mm2 of heat loss, kappa of 2 and

@@ -26,7 +26,7 @@ EVEN_WIDTH = 0.5 * math.exp(0.5)
 def raceway_radius(roller_diameter: float, pitch_diameter: float, contact_angle: float = 0.0, *, inner: bool) -> float:
     """Return the reduced radius of a raceway contact [m].
 
-    R of a roller on its raceway.
+    It is R of a roller on its raceway.
 
     R = (D_we/2) (1 -+ gamma), gamma = D_we cos(alpha)/D_pw, upper sign for the inner ring (Harris and Kotzalas,
     Rolling Bearing Analysis, 5th ed., vol. 1, ch. 2).
@@ -38,7 +38,7 @@ def raceway_radius(roller_diameter: float, pitch_diameter: float, contact_angle:
 def half_width(line_load: FloatArray | float, radius: FloatArray | float, e_eff: float) -> FloatArray:
     """Return Hertz's half width of a line [m].
 
-    b = sqrt(8 w R/(pi E')).
+    It is b = sqrt(8 w R/(pi E')).
 
     Johnson, Contact Mechanics, 1985, eq. 4.43. Valid for half spaces: b much smaller than R and than the length.
 
@@ -58,7 +58,7 @@ def half_width(line_load: FloatArray | float, radius: FloatArray | float, e_eff:
 def peak_pressure(line_load: FloatArray | float, radius: FloatArray | float, e_eff: float) -> FloatArray:
     """Return Hertz's maximum pressure of a line [Pa].
 
-    2 w/(pi b) = sqrt(w E'/(2 pi R)) (Johnson 1985, eq. 4.45).
+    It is 2 w/(pi b) = sqrt(w E'/(2 pi R)) (Johnson 1985, eq. 4.45).
     """
     found: FloatArray = np.sqrt(np.asarray(line_load) * e_eff / (2.0 * math.pi * np.asarray(radius)))
     return found
@@ -67,7 +67,7 @@ def peak_pressure(line_load: FloatArray | float, radius: FloatArray | float, e_e
 def iso_load(approach: FloatArray | float, length: float) -> FloatArray:
     """Return the load of a roller [N].
 
-    At an approach of both raceways [m].
+    The approach of both raceways is in m.
 
     Q = c_L delta^(10/9), c_L = 35948 L_we^(8/9) (N, mm; ISO 16281:2025). Valid for steel; both contacts together,
     without profile; zero where the approach is negative. The constant contains no diameter: Lundberg's logarithm,
@@ -81,7 +81,7 @@ def iso_load(approach: FloatArray | float, length: float) -> FloatArray:
 def iso_approach(load: FloatArray | float, length: float) -> FloatArray:
     """Return the approach of both raceways [m].
 
-    At a load [N], the inverse of :func:`iso_load`.
+    The load is in N; the function is the inverse of :func:`iso_load`.
     """
     found: FloatArray = (np.asarray(load) / (ISO_CONSTANT * (length * _MM) ** (8.0 / 9.0))) ** (
         1.0 / ISO_EXPONENT
@@ -92,7 +92,7 @@ def iso_approach(load: FloatArray | float, length: float) -> FloatArray:
 def palmgren_approach(load: FloatArray | float, length: float) -> FloatArray:
     """Return Palmgren's approach of one raceway [m].
 
-    3.84e-5 Q^0.9/l^0.8 (mm, N).
+    It is 3.84e-5 Q^0.9/l^0.8 (mm, N).
 
     Palmgren, Ball and Roller Bearing Engineering, 3rd ed., 1959; Harris and Kotzalas, vol. 1, ch. 6. Valid for steel
     and rollers of usual proportions. A check of ISO 16281, whose approach is 2.07 times this one: twice and 3.4 %.

@@ -57,7 +57,7 @@ def dowson_toyoda_film(
 ) -> float:
     """Return the elastic-piezoviscous film of a line [m].
 
-    Central film, 3.06 R U^0.69 G^0.56 W^-0.10.
+    The central film is 3.06 R U^0.69 G^0.56 W^-0.10.
 
     Dowson and Toyoda 1979, 5th Leeds-Lyon Symposium, 60, with the mean speed in U. It checks
     :func:`moes_line_film` in its commonest regime.
@@ -149,7 +149,7 @@ def inlet_heat_rolling(
 def asperity_share(film_parameter: FloatArray | float, scale: float, exponent: float) -> FloatArray:
     """Return the share of the load on asperities.
 
-    exp(-B Lambda^C) (Zhou and Hoeprich 1991, J. Tribol. 113, 590).
+    It is exp(-B Lambda^C) (Zhou and Hoeprich 1991, J. Tribol. 113, 590).
     """
     found: FloatArray = np.exp(-scale * np.maximum(film_parameter, 0.0) ** exponent)
     return found

@@ -1,6 +1,6 @@
 """Define profiles of rollers and raceways.
 
-The drop below cylinder or cone over the coordinate along the contact.
+A profile is the drop below cylinder or cone over the coordinate along the contact.
 
 ``x`` is the distance from the middle along the contact line [m], an array or a float; every drop is in m, zero or more
 and even in x. A profile is any function of x; :func:`total` adds them.
@@ -72,7 +72,7 @@ def logarithmic(
 def iso_cylindrical(x: FloatArray | float, length: float, diameter: float) -> FloatArray:
     """Return the drop of a cylindrical roller [m].
 
-    After ISO 16281:2025, B.5.
+    The profile is that of ISO 16281:2025, B.5.
 
     0.00035 D_we ln(1/(1 - (2x/L_we)^2)) up to L_we = 2.5 D_we; longer rollers have 0.0005 D_we and a flat of
     L_we - 2.5 D_we. The two forms do not join at 2.5 D_we: the standard's own step, 0.35 to 0.50.
@@ -85,7 +85,7 @@ def iso_cylindrical(x: FloatArray | float, length: float, diameter: float) -> Fl
 def iso_tapered(x: FloatArray | float, length: float, diameter: float, half_angle: float) -> FloatArray:
     """Return the drop of a tapered roller [m].
 
-    After ISO 16281:2025, B.6.
+    The profile is that of ISO 16281:2025, B.6.
 
     0.00045 (D_we/cos(beta)) ln(1/(1 - (2x/L_we)^2)), x along the contact line. The factor was read in a secondary
     source only.
@@ -105,7 +105,7 @@ def iso_tapered(x: FloatArray | float, length: float, diameter: float, half_angl
 def crowned(x: FloatArray | float, radius: float) -> FloatArray:
     """Return the drop of a circular crown [m].
 
-    R - sqrt(R^2 - x^2), without cancellation.
+    It is R - sqrt(R^2 - x^2), without cancellation.
     """
     x = np.asarray(x)
     found: FloatArray = x**2 / (radius + np.sqrt(radius**2 - x**2))
@@ -158,7 +158,7 @@ def tabulated(x: FloatArray | float, positions: Sequence[float], drops: Sequence
 def total(x: FloatArray, *profiles: Profile) -> FloatArray:
     """Return the sum of all drops [m].
 
-    Of roller and raceways; a roller's own profile counts once per contact.
+    They are those of roller and raceways; a roller's own profile counts once per contact.
     """
     found: FloatArray = np.zeros_like(x)
     for profile in profiles:

@@ -134,7 +134,7 @@ def rib_load(outer_load: float, angles: TaperedAngles, normal: float) -> tuple[f
 def relative_speed(angles: TaperedAngles, ring_speed: float) -> float:
     """Return the relative roller speed [rad/s].
 
-    Against the inner ring, about their common generatrix.
+    It is relative to the inner ring, about their common generatrix.
 
     |omega_i - omega_o| sin(alpha_o)/sin(2 beta): rolling without sliding on both raceways, whose lines share the apex.
     """
@@ -163,7 +163,7 @@ def sliding_speed(angles: TaperedAngles, ring_speed: float, height: float) -> fl
 def rib_entrainment(angles: TaperedAngles, ring_speed: float, contact: RibContact) -> float:
     """Return the rib's mean surface speed [m/s].
 
-    Of rib and roller end in the frame that turns with the cage.
+    It is the mean of rib and roller end in the frame that turns with the cage.
 
     The outer ring is at rest. The rib moves with (omega_i - omega_c) r; the roller's end is slower by the sliding
     speed.

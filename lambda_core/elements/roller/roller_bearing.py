@@ -189,7 +189,7 @@ class RollerBearing:
     def radius(self, ring: Ring) -> float:
         """Return the reduced radius of a raceway contact [m].
 
-        At the roller's middle, across the generatrix.
+        It holds at the roller's middle, across the generatrix.
 
         1/R = 1/R_1 -+ 1/R_2 with the radii of curvature normal to the generatrix: cones of radius r at the contact have
         r/cos(angle) (Harris and Kotzalas, vol. 1, ch. 2).
@@ -204,7 +204,7 @@ class RollerBearing:
     def drops(self, slices: int) -> FloatArray:
         """Return the profile drop over the slices [m].
 
-        Of the roller, shape (slices,).
+        It is that of the roller; the array has shape (slices,).
         """
         x = slice_positions(self.effective_length, slices)
         if self.profile == "none":

@@ -20,7 +20,7 @@ CLASSES = ("C2", "CN", "C3", "C4", "C5")
 def roller_clearance(bore: float, clearance_class: str) -> tuple[float, float]:
     """Return the limits of radial clearance [m].
 
-    For a bore [m] (ISO 5753-1:2009, as remembered).
+    They are those of a bore [m] (ISO 5753-1:2009, as remembered).
 
     Raises
     ------

@@ -65,7 +65,7 @@ class RollerEquilibrium:
     def carried(self) -> tuple[float, float]:
         """Load that the rollers carry [N].
 
-        Radial and axial; zero where it is below what the balance leaves.
+        It is radial and axial, and zero where it is below what the balance leaves.
         """
         largest = max(float(part.max(initial=0.0)) for part in (self.inner, self.outer, self.ribs))
         found = float(np.hypot(self.loads[1], self.loads[2])), abs(float(self.loads[0]))
@@ -77,7 +77,7 @@ class RollerEquilibrium:
 class Springs:
     """All contacts of one roller.
 
-    penetration = rollers @ u + ring @ v - gap, energy c/(p + 1) penetration^(p + 1).
+    Each has the penetration rollers @ u + ring @ v - gap and the energy c/(p + 1) penetration^(p + 1).
     """
 
     roller: FloatArray  # (m, 3)
@@ -102,7 +102,7 @@ class Springs:
 def single_contact_constant(length: float) -> float:
     """Return c of one raceway's load [N/m^(10/9)].
 
-    Q = c delta^(10/9) of ONE raceway.
+    It holds in Q = c delta^(10/9) of ONE raceway.
 
     ISO 16281's c_L holds for both raceways in series; alike, each takes half of the approach: c = c_L 2^(10/9).
     """
@@ -208,7 +208,7 @@ def balance(
 def _refuse(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> None:
     """Refuse thrust that nothing takes.
 
-    ValueError; ArithmeticError for too little of it on a tapered bearing.
+    The error is a ValueError; too little thrust on a tapered bearing is an ArithmeticError.
     """
     problem = "" if held[0] else thrust_problem(bearing, float(loads[0]))
     if problem:
@@ -227,7 +227,7 @@ def _refuse(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -
 def thrust_problem(bearing: RollerBearing, thrust: float) -> str:
     """Explain a thrust that the bearing cannot take.
 
-    On the inner ring along x [N]; "" where ribs or cones take it.
+    It acts on the inner ring along x [N]; the text is "" where ribs or cones take it.
     """
     if bearing.kind == "tapered":
         wrong = thrust <= 0.0
@@ -293,7 +293,7 @@ def single_springs(bearing: RollerBearing, slices: int) -> Springs:
 def _carry(azimuths: FloatArray) -> FloatArray:
     """Return the inner ring's motion at every roller.
 
-    In the plane of the roller, (Z, 3, 5).
+    It is in the plane of the roller, shape (Z, 3, 5).
     """
     cosine, sine = np.cos(azimuths), np.sin(azimuths)
     carry: FloatArray = np.zeros((len(azimuths), 3, 5))
@@ -352,7 +352,7 @@ class _Condensed:
 def _condensed(springs: Springs, slope: FloatArray, carry: FloatArray, roller_left: FloatArray) -> _Condensed:
     """Eliminate the rollers from the Hessian.
 
-    At these stiffnesses of all contacts.
+    The stiffnesses of all contacts are given.
     """
     own = np.einsum("zm,mi,mj->zij", slope, springs.roller, springs.roller)
     mixed = np.einsum("zm,mi,mp->zip", slope, springs.roller, springs.ring) @ carry

@@ -171,7 +171,7 @@ def skf_kind(bearing: RollerBearing) -> str:
 def replenishment(bearing: RollerBearing, speed: float, viscosity: float, constant: float) -> float:
     """Return the replenishment factor phi_rs.
 
-    exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))), mm, mm2/s, 1/min (SKF 2018, "Friction").
+    It is exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))), with mm, mm2/s and 1/min (SKF 2018, "Friction").
     """
     _, k_z = SKF_CONSTANTS[skf_kind(bearing)]
     d, D = 1e3 * bearing.bore, 1e3 * bearing.outside
@@ -183,7 +183,7 @@ def replenishment(bearing: RollerBearing, speed: float, viscosity: float, consta
 class _Raceway:
     """Powers [W] of one raceway.
 
-    Without factors of heat and supply, and what belongs to them.
+    They lack the factors of heat and supply; what belongs to them is added.
     """
 
     rolling: float
@@ -207,7 +207,7 @@ def _raceway(
 ) -> _Raceway:
     """Return powers and films of one raceway.
 
-    Slice by slice.
+    They are computed slice by slice.
 
     Losses in the solids: the couple (2/(3 pi)) alpha w b per length of a cylinder (Johnson, Contact Mechanics, 1985,
     eq. 9.2 for line contact) against the roller's speed relative to the raceway. The film carries the traction that

@@ -63,7 +63,7 @@ def lamina_life(
 ) -> RollerLife:
     """Return the basic reference rating life.
 
-    From the loads of all laminae (ISO 16281:2025).
+    It follows from the loads of all laminae (ISO 16281:2025).
 
     L_10r = {sum_k [(q_ci/q_ei)^(-9/2) + (q_ce/q_ee)^(-9/2)]}^(-8/9), q_e the mean of f_k q_jk over the rollers, of the
     exponent 4 on the ring that turns relative to the load and 9/2 on the other.
@@ -108,7 +108,7 @@ def modified_lamina_life(
 ) -> float:
     """Return L_10mr [1e6 revolutions].
 
-    The modified reference rating life (ISO 16281:2025).
+    It is the modified reference rating life (ISO 16281:2025).
 
     {sum_k a_ISO,k^(-9/8) X_k}^(-8/9): each lamina has the factor a_ISO of its own equivalent load
     (:func:`lamina_equivalent_loads`). Parameters as for

@@ -42,7 +42,7 @@ class RollerMotion:
     def roller_speed(self, ring: Ring) -> float:
         """Return the roller's speed against a ring [rad/s].
 
-        Above zero.
+        It is positive.
         """
         return self.turning[0 if ring == "inner" else 1]
 
@@ -61,7 +61,7 @@ class RollerMotion:
     def inertial(self, bearing: RollerBearing) -> FloatArray:
         """Return inertial force and moment on a roller.
 
-        Centrifugal force and gyroscopic moment in its plane, (a, r, moment) [N, N, N m].
+        They are the centrifugal force and the gyroscopic moment in its plane, (a, r, moment) [N, N, N m].
 
         The moment is -omega_c x H of the angular momentum H = I_p omega_p e0 + I_t omega_t e1 of a body with two equal
         transverse inertias, its axis carried round by the cage (Euler's equations).

@@ -30,7 +30,7 @@ def over_a_pitch(
 ) -> tuple[RollerEquilibrium, ...]:
     """Return the equilibria over one pitch.
 
-    At even places of the rollers; the first is enough where all are alike.
+    The rollers are at even places; the first one is enough where all are alike.
 
     In the first a roller stands where the radial load presses, or the displacement of a held ring.
 
@@ -67,7 +67,7 @@ def over_a_pitch(
 def mean_friction(found: Sequence[RollerFriction]) -> RollerFriction:
     """Return mean torques and extreme pressures and films.
 
-    Over places of the rollers.
+    They are taken over places of the rollers.
 
     Films of slices, friction of a rib and factors are those of the first.
     """

@@ -1,6 +1,6 @@
 """Compute load ratings of radial roller bearings.
 
-ISO 281, ISO 76; ratings of laminae by ISO 16281.
+They follow ISO 281 and ISO 76; ratings of laminae follow ISO 16281.
 
 SI in and out; the standards' formulas are in mm and N, converted inside.
 """
@@ -45,7 +45,7 @@ def diameter_ratio(roller_diameter: float, pitch_diameter: float, contact_angle:
 def raceway_ratio(gamma: float, coefficient: float = _RATIO) -> float:
     """Return the ratio of the raceways' capacities.
 
-    1.04 [(1 - g)/(1 + g)]^(143/108) (ISO/TR 1281-1).
+    It is 1.04 [(1 - g)/(1 + g)]^(143/108) (ISO/TR 1281-1).
     """
     return float(coefficient * ((1.0 - gamma) / (1.0 + gamma)) ** (143.0 / 108.0))
 
@@ -82,7 +82,7 @@ def roller_dynamic_rating(
 ) -> float:
     """Return the rating C_r of rollers [N].
 
-    Basic dynamic radial load rating (ISO 281:2007, 7.1).
+    It is the basic dynamic radial load rating (ISO 281:2007, 7.1).
 
     C_r = b_m f_c (i L_we cos alpha)^(7/9) Z^(3/4) D_we^(29/27) (mm, N).
 
@@ -117,7 +117,7 @@ def roller_static_rating(
 ) -> float:
     """Return the rating C_0r of rollers [N].
 
-    Basic static radial load rating (ISO 76:2006, 7.1).
+    It is the basic static radial load rating (ISO 76:2006, 7.1).
 
     C_0r = 44 (1 - D_we cos(alpha)/D_pw) i Z L_we D_we cos(alpha) (mm, N): 4000 MPa in the most loaded inner contact.
     Parameters as for :func:`roller_dynamic_rating`.
@@ -130,7 +130,7 @@ def roller_static_rating(
 def roller_fatigue_load_limit(static_rating: float, pitch_diameter: float) -> float:
     """Return C_u of a roller bearing [N].
 
-    Fatigue load limit (ISO 281:2007, annex B, simplified).
+    It is the fatigue load limit (ISO 281:2007, annex B, simplified).
 
     C_0/8.2 up to D_pw = 100 mm, C_0/8.2 (100 mm/D_pw)^0.3 above.
     """
@@ -143,7 +143,7 @@ def lamina_ratings(
 ) -> LaminaRatings:
     """Return the ratings of roller and lamina.
 
-    Of one roller and one of its laminae (ISO 16281:2025, roller bearings).
+    They are those of one roller and one of its laminae (ISO 16281:2025, roller bearings).
 
     Q_ci = C_r/(lambda 0.378 Z cos(alpha) i^(7/9)) {1 + t^(9/2)}^(2/9), Q_ce with 0.364 and the exponent -9/2,
     t = 1.038 [(1-g)/(1+g)]^(143/108), lambda = 0.83; q_c = Q_c n_s^(-7/9). The rating C_r holds lambda already:
@@ -175,7 +175,7 @@ def roller_equivalent_load(
 ) -> EquivalentLoad:
     """Return the equivalent dynamic load of rollers.
 
-    Radial load of a roller bearing (ISO 281:2007, table 8).
+    It is the radial load of a roller bearing (ISO 281:2007, table 8).
 
     e = 1.5 tan(alpha); one row P = F_r up to F_a/F_r = e, above 0.4 F_r + 0.4 cot(alpha) F_a; two rows
     F_r + 0.45 cot(alpha) F_a, above 0.67 F_r + 0.67 cot(alpha) F_a.
@@ -213,7 +213,7 @@ def roller_equivalent_load(
 def roller_static_load(radial_load: float, axial_load: float, contact_angle: float = 0.0, rows: int = 1) -> float:
     """Return the equivalent static load of rollers [N].
 
-    Radial load of a roller bearing (ISO 76:2006, table 3).
+    It is the radial load of a roller bearing (ISO 76:2006, table 3).
 
     max(X_0 F_r + Y_0 F_a, F_r) with X_0 = 0.5 and Y_0 = 0.22 cot(alpha) of one row, 1 and 0.44 cot(alpha) of two; F_r
     for cylindrical bearings.

@@ -19,7 +19,7 @@ FLOW_SHEAR = math.sqrt(2.0) * (
 def flow_shear(radius: FloatArray | float, viscosity: float, film: FloatArray | float) -> FloatArray:
     """Return the flow's shear coefficient [Pa s].
 
-    Shear force per length and slip of the oil around a line contact.
+    It is the shear force per length and slip of the oil around a line contact.
 
     3.49 eta sqrt(R/h): Couette flow between a cylinder and a plane of the gap h + x^2/(2 R), full up to where the oil
     tears and in streamers of its flow behind (Dowson and Higginson, Elasto-hydrodynamic Lubrication, 1966, ch. 3, whose

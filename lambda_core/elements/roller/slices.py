@@ -62,7 +62,7 @@ class Elastic:
 def slice_positions(length: float, count: int) -> FloatArray:
     """Return the middles of `count` equal slices [m].
 
-    Along the roller, x_k = L ((k - 1/2)/n - 1/2), (n,).
+    They are along the roller, x_k = L ((k - 1/2)/n - 1/2), shape (n,).
     """
     return length * ((np.arange(count) + 0.5) / count - 0.5)
 
@@ -70,7 +70,7 @@ def slice_positions(length: float, count: int) -> FloatArray:
 def lamina_loads(approach: FloatArray | float, tilt: FloatArray | float, drop: FloatArray, length: float) -> SliceLoads:
     """Load independent laminae (ISO 16281:2025).
 
-    q_k = (c_L/n_s) max(delta - x_k tan(psi) - P_k, 0)^(10/9); inner and outer contact together.
+    Each carries q_k = (c_L/n_s) max(delta - x_k tan(psi) - P_k, 0)^(10/9), with inner and outer contact together.
 
     Parameters
     ----------
@@ -226,7 +226,7 @@ def _solve(matrix: FloatArray, wanted: FloatArray, active: NDArray[np.bool_]) ->
 def _strip(distance: FloatArray, across: FloatArray) -> FloatArray:
     """Return the strip's function G(y).
 
-    A asinh(y/a) + y asinh(a/y), odd in y.
+    It is a asinh(y/a) + y asinh(a/y), odd in y.
     """
     nonzero = np.where(distance == 0.0, 1.0, distance)
     found: FloatArray = across * np.arcsinh(distance / across) + distance * np.arcsinh(across / np.abs(nonzero))

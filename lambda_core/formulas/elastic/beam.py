@@ -41,7 +41,7 @@ class ElementMatrices:
 def shapes(spot: float) -> tuple[FloatArray, FloatArray]:
     """Return the shape functions of an element.
 
-    Weight of each node's value at a spot of the element (0 to 1), and its slope per element length.
+    They are the weight of each node's value at a spot of the element (0 to 1), and its slope per element length.
     """
     values, slopes = np.ones(NODES), np.zeros(NODES)
     for i, own in enumerate(SPOTS):

@@ -58,7 +58,7 @@ class ElasticBody:
     def node(self, position: float) -> int:
         """Return the node at a place [m].
 
-        Its number; ValueError where there is none.
+        It is the node's number; a place without a node raises a ValueError.
         """
         if not self.has_node(position):
             raise ValueError(f"there is no node at {position:g} m")
@@ -76,7 +76,7 @@ class ElasticBody:
     def weight(self, gravity: Sequence[float]) -> FloatArray:
         """Return the nodal forces of gravity.
 
-        Of an acceleration [m/s2] by the consistent mass, shape (6 n + m,).
+        They follow from an acceleration [m/s2] by the consistent mass; the array has shape (6 n + m,).
         """
         pull = np.zeros(self.mass.shape[0])
         for axis in range(3):
@@ -104,7 +104,7 @@ class ElasticBody:
 def mesh(ends: Sequence[float], places: Sequence[float], longest: Sequence[float]) -> FloatArray:
     """Return the ends of elements [m].
 
-    At the ends of every section and at every place, none longer than wanted.
+    They lie at the ends of every section and at every place; no element is longer than wanted.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ def shaft_body(
 ) -> ElasticBody:
     """Return a shaft of round sections.
 
-    One behind the other from x = 0.
+    The sections lie one behind the other from x = 0.
 
     Parameters
     ----------
@@ -206,7 +206,7 @@ def with_discs(body: ElasticBody, discs: Sequence[Disc]) -> ElasticBody:
 def disc_mass(disc: Disc) -> FloatArray:
     """Return a disc's part of the mass matrix.
 
-    At its node, shape (6, 6).
+    It is at its node and has shape (6, 6).
     """
     transverse = disc.transverse_inertia
     found: FloatArray = np.diag([disc.mass] * 3 + [disc.polar_inertia, transverse, transverse])
@@ -255,7 +255,7 @@ def internal_forces(
 def _forces_between_nodes(body: ElasticBody, displacement: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the internal forces by the nodes' balance.
 
-    Of the nodes on the left, each with its share of the weight.
+    They balance the nodes on the left, each with its share of the weight.
     """
     count = NODE * body.positions.size
     at = (body.stiffness @ displacement)[:count].reshape(-1, NODE)

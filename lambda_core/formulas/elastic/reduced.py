@@ -29,7 +29,7 @@ _BEYOND = 1e100  # no number of a model: squares of it are infinite
 def write_reduced(body: ElasticBody, path: str | Path) -> None:
     """Write a body in the format of `read_reduced`.
 
-    As .json or .npz by the name of the file; UsageError otherwise.
+    The name of the file gives .json or .npz; anything else raises a UsageError.
     """
     target = Path(path)
     data: dict[str, Any] = {"format": FORMAT, "nodes": body.positions, "stiffness": body.stiffness, "mass": body.mass}
@@ -93,7 +93,7 @@ def read_reduced(path: str | Path) -> ElasticBody:
 def _numbers(data: dict[str, Any], name: str, dimensions: tuple[int, ...], found: list[Problem]) -> FloatArray:
     """Return an array of numbers.
 
-    Where there is none, an empty one and a problem.
+    Without one, return an empty array and note a problem.
     """
     message = "is required"
     if name in data:
@@ -133,7 +133,7 @@ def _nodes(data: dict[str, Any], found: list[Problem]) -> FloatArray:
 def _lumps(data: dict[str, Any], names: tuple[str, ...], count: int, found: list[Problem]) -> tuple[int, ...]:
     """Return the nodes that carry the moving mass.
 
-    Their numbers, given by number from 0 on, or by name.
+    They are numbers, given by number from 0 on, or by name.
     """
     given = np.ravel(np.asarray(data.get("lumps", []), dtype=object)).tolist()
     numbers = [names.index(str(one)) if str(one) in names else one for one in given]

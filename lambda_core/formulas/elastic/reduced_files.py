@@ -144,7 +144,7 @@ def _of_toml(text: str, folder: Path) -> dict[str, Any]:
 def _of_csv(path: Path) -> list[list[float]]:
     """Return the numbers of a CSV file.
 
-    OSError or ValueError explain a failure.
+    A failure raises an OSError or a ValueError that explains it.
     """
     try:
         reader = csv.reader(io.StringIO(read_text(path, _LARGEST), newline=""))

@@ -65,7 +65,7 @@ class ElasticRing:
     def stiffness(self, order: int) -> float:
         """Return the stiffness of a wave [N/m].
 
-        k_n = pi E I (n^2 - 1)^2/R^3 + pi R k of the amplitude of cos(n th) or sin(n th).
+        It is k_n = pi E I (n^2 - 1)^2/R^3 + pi R k of the amplitude of cos(n th) or sin(n th).
         """
         bending = math.pi * self.youngs_modulus * self.second_moment * (order**2 - 1) ** 2 / self.radius**3
         return bending + math.pi * self.radius * self.bedding
@@ -73,14 +73,14 @@ class ElasticRing:
     def mass(self, order: int) -> float:
         """Return the mass of a wave [kg].
 
-        m_n = pi rho A R (1 + 1/n^2), radial and tangential motion together.
+        It is m_n = pi rho A R (1 + 1/n^2), radial and tangential motion together.
         """
         return math.pi * self.density * self.area * self.radius * (1.0 + 1.0 / order**2)
 
     def frequency(self, order: int) -> float:
         """Return the natural angular frequency of waves [rad/s].
 
-        Of a pattern with `order` waves.
+        The pattern has `order` waves.
 
         Free: n (n^2 - 1)/sqrt(n^2 + 1) sqrt(E I/(rho A R^4)) (Hoppe 1871; Love 1927, art. 293).
         """
@@ -107,7 +107,7 @@ class ElasticRing:
     def whirl_frequencies(self, order: int, spin: float) -> tuple[float, float]:
         """Return both whirl frequencies of a wave [rad/s].
 
-        Against and with the spin, in the turning ring's frame.
+        They are against and with the spin, in the turning ring's frame.
 
         Coriolis forces couple both amplitudes: m_n (c'' + ...) with the gyroscopic term 4 spin n/(n^2 + 1), so that
         w = -+ 2 n spin/(n^2 + 1) + sqrt(w_n^2 + (2 n spin/(n^2 + 1))^2); the inward pull of rotation left out. The
@@ -180,6 +180,6 @@ class RingWaves:
     def coupling(self, order: int) -> float:
         """Return the Coriolis coefficient of a wave [kg].
 
-        4 n/(n^2 + 1) m_n: force on one amplitude, over the other's rate and the ring's spin.
+        It is 4 n/(n^2 + 1) m_n, a force on one amplitude over the other's rate and the ring's spin.
         """
         return 4.0 * order / (order**2 + 1) * self.ring.mass(order)

@@ -56,7 +56,7 @@ class RoundSection:
     def shear_coefficient(self) -> float:
         """Share of the area that carries shear.
 
-        Cowper 1966, J. Appl. Mech. 33, 335, table 1.
+        It follows Cowper 1966, J. Appl. Mech. 33, 335, table 1.
 
         6 (1 + nu)(1 + m^2)^2/[(7 + 6 nu)(1 + m^2)^2 + (20 + 12 nu) m^2], m = bore over outside diameter; for m = 0 it
         is that of the circle, 6 (1 + nu)/(7 + 6 nu).

@@ -20,7 +20,7 @@ def natural_frequencies(
 ) -> tuple[FloatArray, FloatArray]:
     """Return natural angular frequencies [rad/s] and modes.
 
-    Rising; the modes have unit modal mass.
+    The frequencies ascend; the modes have unit modal mass.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def whirls(
 ) -> list[Whirl]:
     """Return the modes of a turning shaft.
 
-    Of M q'' + (C + spin G) q' + K q = 0.
+    They solve M q'' + (C + spin G) q' + K q = 0.
 
     Nelson 1980, J. Mech. Des. 102, 793.
 
@@ -158,7 +158,7 @@ def _direction(shape: np.ndarray, nodes: int, spin: float) -> float:
 def craig_bampton(body: ElasticBody, kept: Sequence[float], modes: int) -> ElasticBody:
     """Return the body reduced by Craig and Bampton.
 
-    With the nodes at `kept` [m] and the lowest modes of it clamped there (Craig and Bampton 1968).
+    It has the nodes at `kept` [m] and the lowest modes of it clamped there (Craig and Bampton 1968).
 
     AIAA J. 6, 1313. Static deflections under loads at the kept nodes are exact.
 

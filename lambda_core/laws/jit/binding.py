@@ -217,7 +217,7 @@ def _record(layout: Layout, start: str, counts: list[str], places: Iterator[int]
 def _after(place: str, step: int) -> str:
     """Return a place some words on.
 
-    "n0 + 3" after "n0 + 2".
+    An example is "n0 + 3" after "n0 + 2".
     """
     head, _, last = place.rpartition(" + ")
     return f"{head} + {int(last) + step}" if head else str(int(last) + step)

@@ -1,6 +1,6 @@
 """Keep compiled code on disk through Numba's cache.
 
-In a folder that the program names; a hit does not load the compiler.
+The program names the folder; a hit does not load the compiler.
 """
 
 # Numba's caching classes carry only part of their types.
@@ -211,7 +211,7 @@ def processor() -> tuple[Any, ...]:
 def callback(dispatcher: Any, signature: Any) -> tuple[int, object]:
     """Return a compiled function's address for C.
 
-    And the object that keeps it alive.
+    Also return the object that keeps it alive.
     """
     compiled = dispatcher.get_compile_result(signature)
     return int(compiled.library.get_pointer_to_function(compiled.fndesc.llvm_cfunc_wrapper_name)), dispatcher

@@ -22,7 +22,7 @@ from numba.core.compiler import Compiler
 class _Part(JITCodeLibrary):
     """Intermediate code of one function.
 
-    And of those that it calls, for its callers.
+    It includes those of functions that it calls, for its callers.
     """
 
     def finalize(self) -> None:

@@ -35,7 +35,7 @@ from lambda_core.laws.jit.plain import is_plain
 def _take_wide_vectors() -> None:
     """Let loops over cells use 512 bits.
 
-    Only where the processor has them and keeps its clock with them.
+    It does so only where the processor has them and keeps its clock with them.
 
     LLVM takes half of them on Intel's processors, the first of which slowed down; AVX512-VBMI2
     marks the later ones, from Ice Lake on. What the user sets (NUMBA_CPU_NAME, NUMBA_CPU_FEATURES) stays.
@@ -60,7 +60,7 @@ OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}} | (
 def _way() -> ModuleType:
     """Return the method of keeping code.
 
-    Through Numba's internals, or the plain way.
+    It goes through Numba's internals, or is the plain way.
     """
     if is_plain():
         return plain
@@ -145,7 +145,7 @@ def compile_into(
 ) -> Any:
     """Compile `function`, or load it from `folder`.
 
-    For one explicit `signature`.
+    The `signature` is explicit, and there is only one.
 
     `signature` may be a tuple of argument types: the return type is then inferred.
     Returns the Numba dispatcher, closed for other signatures.
@@ -166,7 +166,7 @@ def compile_into(
 def _touch(folder: Path) -> None:
     """Mark a folder as used now.
 
-    Where there is a new one, drop those that nobody has used for long.
+    A new one drops those that nobody has used for long.
     """
     if folder.exists():
         with contextlib.suppress(OSError):

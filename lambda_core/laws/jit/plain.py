@@ -66,7 +66,7 @@ def processor() -> tuple[str, ...]:
 def callback(dispatcher: Any, signature: Any) -> tuple[int, object]:
     """Return a compiled function's address for C.
 
-    And the object that keeps it alive.
+    Also return the object that keeps it alive.
     """
     from numba import cfunc
 

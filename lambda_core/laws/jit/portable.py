@@ -278,7 +278,7 @@ def _module_of_entries(
 ) -> ir.Module:
     """Return a module with the entries.
 
-    And the table of functions.
+    It has the table of functions, too.
     """
     module = ir.Module("entries")
     module.triple, module.data_layout = codegen._llvm_module.triple, codegen._data_layout

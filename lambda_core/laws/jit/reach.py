@@ -121,7 +121,7 @@ class _Walk:
     def value(self, value: Any, where: str) -> None:
         """Add one value.
 
-        A constant, a function, or a container of them.
+        It is a constant, a function, or a container of them.
         """
         if value is None or value is Ellipsis or isinstance(value, bool | int | float | complex | str | bytes):
             self.add("constant", type(value).__name__, repr(value))
@@ -174,7 +174,7 @@ class _Walk:
     def code(self, code: CodeType, scope: dict[str, Any], free: dict[str, Any], where: str) -> None:
         """Add one code object.
 
-        Its instructions, its constants and the globals that it reads.
+        It has its instructions, its constants and the globals that it reads.
         """
         self.codes.append(code)
         self.add("code", code.co_code, code.co_argcount, code.co_kwonlyargcount, code.co_flags)
@@ -218,7 +218,7 @@ def _name(value: Any) -> str:
 def _of_library(value: Any) -> bool:
     """Tell whether an object belongs to a library.
 
-    A function or type of Python, numpy or Numba.
+    The object is a function or type of Python, numpy or Numba.
     """
     if not isinstance(value, BuiltinFunctionType | np.ufunc | type) and not callable(value):
         return False

@@ -32,7 +32,7 @@ class PlateContact:
 def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, inner: bool) -> PlateContact:
     """Return the plate capacitance of one contact.
 
-    Under `load` [N] at `contact_angle` [rad].
+    The contact carries `load` [N] at `contact_angle` [rad].
 
     Raises
     ------
@@ -102,7 +102,7 @@ def _rows(inner: PlateContact, outer: PlateContact) -> list[MethodRow]:
 def evaluate(inputs: MethodInputs) -> MethodTable:
     """Compute the capacitance of the loaded contacts.
 
-    Of the contacts of the most heavily loaded ball, and of all loaded balls together.
+    It is that of the most heavily loaded ball's contacts, and of all loaded balls together.
 
     A ball's two contacts are in series, the balls in parallel; balls without load are left out.
     """

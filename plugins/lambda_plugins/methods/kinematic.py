@@ -11,7 +11,7 @@ from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable
 def _mean_angle(inputs: MethodInputs) -> float:
     """Return the mean contact angle of loaded balls [rad].
 
-    Weighted by the load; 0 without an equilibrium.
+    The load weights it; it is 0 without an equilibrium.
     """
     if inputs.state is None:
         return 0.0
@@ -28,7 +28,7 @@ def _mean_angle(inputs: MethodInputs) -> float:
 def evaluate(inputs: MethodInputs) -> MethodTable:
     """Compute cage and ball speeds and characteristic frequencies.
 
-    FTF, BPFO, BPFI and BSF.
+    The frequencies are FTF, BPFO, BPFI and BSF.
     """
     angle = _mean_angle(inputs)
     gamma = diameter_ratio(inputs.ball_diameter, inputs.pitch_diameter, angle)

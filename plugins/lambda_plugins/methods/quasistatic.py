@@ -27,7 +27,7 @@ _SUMS = {
 def _stiffness_rows(stiffness: tuple[tuple[float, ...], ...]) -> list[MethodRow]:
     """Return the upper triangle of the stiffness matrix.
 
-    5 x 5, in N/um, N/mrad and N m/mrad.
+    It is 5 x 5, in N/um, N/mrad and N m/mrad.
     """
     rows = []
     for i, first in enumerate(_AXES):

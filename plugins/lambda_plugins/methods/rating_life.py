@@ -22,7 +22,7 @@ from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, No
 def _ratings(inputs: MethodInputs, assumptions: list[str]) -> tuple[float, float, float]:
     """Return C, C_0 and C_u.
 
-    From the catalogue where it has them, else from the geometry, as `assumptions` reports.
+    They come from the catalogue where it has them, otherwise from the geometry, as `assumptions` reports.
     """
     of_kind: dict[str, Any] = {
         "contact_angle": inputs.contact_angle,
@@ -57,7 +57,7 @@ def _gamma(inputs: MethodInputs) -> float:
 def evaluate_iso281(inputs: MethodInputs) -> MethodTable:
     """Compute rating lives and static safety from loads.
 
-    Basic and modified rating life, from radial and axial load.
+    The lives are basic and modified, from radial and axial load.
     """
     assumptions: list[str] = []
     dynamic, static, fatigue = _ratings(inputs, assumptions)
@@ -82,7 +82,7 @@ def _modified_rows(
 ) -> list[MethodRow]:
     """Return kappa, a_ISO and the modified life.
 
-    Or give the reason for their absence among the assumptions.
+    The assumptions give the reason where they are absent.
     """
     if inputs.relative_speed == 0.0:
         return []
@@ -105,7 +105,7 @@ def _modified_rows(
 def evaluate_ts16281(inputs: MethodInputs) -> MethodTable:
     """Compute the reference rating life.
 
-    From the quasi-static load of every ball.
+    It follows from the quasi-static load of every ball.
     """
     if inputs.state is None:
         raise NotApplicable("the loads of the contacts are needed: no quasi-static equilibrium was found")

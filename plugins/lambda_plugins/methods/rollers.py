@@ -196,7 +196,7 @@ def evaluate_iso281(inputs: RollerMethodInputs) -> MethodTable:
 def evaluate_iso16281(inputs: RollerMethodInputs) -> MethodTable:
     """Compute the reference rating life by laminae.
 
-    From the load of every lamina.
+    It follows from the load of every lamina.
     """
     bearing, state = inputs.bearing, inputs.state
     gamma = bearing.diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
@@ -219,7 +219,7 @@ def evaluate_iso16281(inputs: RollerMethodInputs) -> MethodTable:
 def evaluate_kinematics(inputs: RollerMethodInputs) -> MethodTable:
     """Compute speeds without sliding and defect frequencies.
 
-    Of cage and rollers.
+    They are those of cage and rollers.
     """
     bearing = inputs.bearing
     if inputs.relative_speed == 0.0:

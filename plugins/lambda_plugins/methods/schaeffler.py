@@ -1,6 +1,6 @@
 """Compute the friction torque of Schaeffler's catalogue.
 
-M = M_0 (speed, oil) + M_1 (load), the model of Palmgren.
+It is M = M_0 (speed, oil) + M_1 (load), the model of Palmgren.
 
 Source: Schaeffler, Rolling Bearings HR 1 (2019), "Friction and increases in temperature"; M_0 is printed as eq.
 (38)-(39) of Syla et al. 2026. M_0 holds churning, drag and rolling resistance together: it must not be added to a
@@ -20,7 +20,7 @@ from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, No
 class SeriesFactors:
     """Factors f_0 and f_1 of a series [-].
 
-    f_0 for an oil bath to the middle of the lowest ball, for grease and for oil-air.
+    The factor f_0 is for an oil bath to the middle of the lowest ball, for grease and for oil-air.
     """
 
     f0_bath: float
@@ -57,7 +57,7 @@ def series_factors(series: str) -> SeriesFactors:
 def idle_torque(f0: float, mean_diameter: float, speed: float, kinematic_viscosity: float) -> float:
     """Return the idle torque M_0 [N m].
 
-    f_0 1e-7 d_m^3 (nu n)^(2/3), or 160e-7 f_0 d_m^3 below nu n = 2000 (Syla et al. 2026, eq. 38-39).
+    It is f_0 1e-7 d_m^3 (nu n)^(2/3), or 160e-7 f_0 d_m^3 below nu n = 2000 (Syla et al. 2026, eq. 38-39).
 
     (mm, mm2/s, 1/min; N mm.) The two branches meet within 0.8 % at nu n = 2000.
 
@@ -80,7 +80,7 @@ def load_torque(
 ) -> tuple[float, float]:
     """Return M_1 [N m] and its decisive load P_1 [N].
 
-    M_1 = f_1 sqrt(P_0/C_0) P_1 d_m, P_1 = max(F_r, 3.3 F_a - 0.1 F_r), P_0 the static equivalent load.
+    It is M_1 = f_1 sqrt(P_0/C_0) P_1 d_m, with P_1 = max(F_r, 3.3 F_a - 0.1 F_r) and the static equivalent load P_0.
     """
     deciding = max(radial_load, 3.3 * axial_load - 0.1 * radial_load)
     static_load = max(0.6 * radial_load + 0.5 * axial_load, radial_load)

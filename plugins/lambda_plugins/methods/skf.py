@@ -1,6 +1,6 @@
 """Compute the friction torque of SKF's catalogue.
 
-M = M_rr + M_sl + M_drag + M_seal.
+It is M = M_rr + M_sl + M_drag + M_seal.
 
 Source: SKF, Rolling bearings, catalogue PUB BU/P1 17000 EN (2018), chapter "Friction". Public functions
 take SI; the catalogue's formulas are in mm, N, 1/min, mm2/s and give N mm, converted inside.
@@ -30,9 +30,9 @@ NEGLIGIBLE_AXIAL_SHARE = 1e-3
 
 @dataclass(frozen=True)
 class SeriesConstants:
-    """Constants of one dimension series (mm, N.
+    """Constants of one dimension series in mm and N.
 
-    G_rr and G_sl in N mm).
+    G_rr and G_sl are in N mm.
     """
 
     r1: float
@@ -108,7 +108,7 @@ def load_variables(
 ) -> tuple[float, float]:
     """Return the load and geometry variables G_rr and G_sl.
 
-    In the catalogue's units (torque in N mm).
+    They are in the catalogue's units (torque in N mm).
 
     F_a = 0 (below 0.1 % of F_r): G_rr = R1 d_m^1.96 F_r^0.54, G_sl = S1 d_m^-0.26 F_r^(5/3); else G_rr = R1 d_m^1.96
     (F_r + R2 F_a/sin alpha_F)^0.54, G_sl = S1 d_m^-0.145 (F_r^5 + S2 d_m^1.5 F_a^4/sin alpha_F)^(1/3). The
@@ -157,7 +157,7 @@ def continuous_sliding(
 def inlet_heating_factor(speed_rpm: float, mean_diameter: float, viscosity: float) -> float:
     """Return the inlet heating factor phi_ish.
 
-    1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) (n in 1/min, d_m in mm, nu in mm2/s).
+    It is 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) (n in 1/min, d_m in mm, nu in mm2/s).
     """
     return float(1.0 / (1.0 + 1.84e-9 * (speed_rpm * mean_diameter) ** 1.28 * viscosity**0.64))
 
@@ -165,7 +165,7 @@ def inlet_heating_factor(speed_rpm: float, mean_diameter: float, viscosity: floa
 def boundary_share(speed_rpm: float, viscosity: float, mean_diameter: float) -> float:
     """Return the share of boundary lubrication phi_bl.
 
-    exp(-2.6e-8 (n nu)^1.4 d_m) (1/min, mm2/s, mm).
+    It is exp(-2.6e-8 (n nu)^1.4 d_m) (1/min, mm2/s, mm).
     """
     return math.exp(-2.6e-8 * (speed_rpm * viscosity) ** 1.4 * mean_diameter)
 
@@ -180,7 +180,8 @@ def replenishment_factor(
 ) -> float:
     """Return the replenishment factor phi_rs.
 
-    exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))) (mm, 1/min, mm2/s); K_rs 3e-8 bath, 6e-8 grease.
+    It is exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))) (mm, 1/min, mm2/s), with K_rs 3e-8 for a bath and 6e-8 for
+    grease.
     """
     geometry = (bore + outside) * math.sqrt(k_z / (2.0 * (outside - bore)))
     return math.exp(-STARVATION[lubrication] * viscosity * speed_rpm * geometry)
@@ -204,7 +205,7 @@ def skf_friction(
 ) -> SkfFriction:
     """Return the friction torque of a ball bearing by SKF.
 
-    Open deep groove or angular contact bearing; the module names the source.
+    The bearing is an open deep groove or angular contact bearing; the module names the source.
 
     M_rr = phi_ish phi_rs G_rr (nu n)^0.6; M_sl = G_sl mu_sl, mu_sl = phi_bl mu_bl + (1 - phi_bl) mu_EHL,
     phi_bl = exp(-2.6e-8 (n nu)^1.4 d_m). Valid for steady running at normal operating clearance.

@@ -1,6 +1,6 @@
 """Define SKF's friction variables of other ball bearings.
 
-Those that are not deep groove ball bearings.
+They are those that are not deep groove ball bearings.
 
 Angular contact of one and two rows, four-point contact, self-aligning. Source: SKF, general catalogue 6000, "Friction":
 tables 2a, 3, 3b and 5, footnote: F_a is the external axial load.
@@ -23,9 +23,9 @@ SERIES = tuple(K_Z)
 
 @dataclass(frozen=True)
 class AngularConstants:
-    """Constants of one kind (mm, N, 1/min.
+    """Constants of one kind in mm, N and 1/min.
 
-    G_rr and G_sl in N mm).
+    G_rr and G_sl are in N mm.
     """
 
     r1: float
@@ -54,7 +54,7 @@ def angular_variables(
 ) -> tuple[float, float]:
     """Return the load and geometry variables G_rr and G_sl.
 
-    In the catalogue's units (torque in N mm).
+    They are in the catalogue's units (torque in N mm).
 
     G_rr = R1 d_m^1.97 (F_r + F_g + R2 F_a)^0.54 with F_g = R3 d_m^4 n^2; G_sl = S1 d_m^0.26 ((F_r + F_g)^(4/3) +
     S2 F_a^(4/3)) with F_g = S3 d_m^4 n^2 (mm, N, 1/min); of self-aligning bearings d_m has the powers 2, -0.12, 3.5.

@@ -29,7 +29,7 @@ def drag_torque(
 ) -> tuple[float, float]:
     """Return both parts of the drag torque [N m].
 
-    M_drag of a single-row ball bearing in an oil bath: (part of V_M, churning part).
+    They are M_drag of a single-row ball bearing in an oil bath: (part of V_M, churning part).
 
     0.4 V_M K_ball d_m^5 n^2 + 1.093e-7 n^2 d_m^3 (n d_m^2 f_t/nu)^-1.379 R_s, K_ball = K_Z (d + D)/(D - d) 1e-12,
     R_s = 0.36 d_m^2 (t - sin t) f_A, f_A = 0.05 K_Z (D + d)/(D - d), t = 2 acos((0.6 d_m - H)/(0.6 d_m)), H at most
@@ -67,7 +67,7 @@ def drag_torque_2008(
 ) -> tuple[float, float]:
     """Return M_drag of the older catalogue [N m].
 
-    (M_drag, 0), M_drag = V_M K_ball d_m^5 n^2 (Syla et al. 2026, eq. 40).
+    It is (M_drag, 0), with M_drag = V_M K_ball d_m^5 n^2 (Syla et al. 2026, eq. 40).
 
     Without the factor 0.4 of the newer edition: take V_M from the chart of the same edition.
     """

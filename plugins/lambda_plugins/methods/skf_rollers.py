@@ -1,6 +1,6 @@
 """Compute SKF's friction torque of roller bearings.
 
-M = M_rr + M_sl + M_drag.
+It is M = M_rr + M_sl + M_drag.
 
 Source: SKF, Rolling bearings, catalogue PUB BU/P1 17000 EN (2018), chapter "Friction". The constants were read in the
 table of a public tool that implements the catalogue, those of needle bearings are not in it.
@@ -54,7 +54,7 @@ def roller_load_variables(
 ) -> tuple[float, float]:
     """Return G_rr and G_sl of a roller bearing.
 
-    In the catalogue's units (torque in N mm).
+    They are in the catalogue's units (torque in N mm).
 
     Cylindrical: G_rr = R1 d_m^2.41 F_r^0.31, G_sl = S1 d_m^0.9 F_a + S2 d_m F_r. Tapered: G_rr = R1 d_m^2.38 (F_r +
     R2 Y F_a)^0.31, G_sl = S1 d_m^0.82 (F_r + S2 Y F_a).

@@ -46,7 +46,7 @@ _WRITTEN = re.compile(r"(?<![A-Z0-9])(2?)(RZ|RSL|RSH|RS1)(?![A-Z0-9])")  # of NB
 def seals_of(designation: str) -> tuple[str, int]:
     """Return kind and number of seals of a designation.
 
-    By SKF's suffix; ("", 0) for none.
+    SKF's suffix gives them; they are ("", 0) for none.
     """
     match = _WRITTEN.search(designation.upper())
     return (match[2], 2 if match[1] else 1) if match else ("", 0)
@@ -55,7 +55,7 @@ def seals_of(designation: str) -> tuple[str, int]:
 def seal_torque(kind: str, outside_diameter: float, counterface: float, sides: int = 2) -> float | None:
     """Return the friction torque of the seals [N m].
 
-    Of a deep-groove ball bearing; None where the table has no row.
+    The bearing is a deep-groove ball bearing; the result is None where the table has no row.
 
     M_seal = K_S1 d_s^beta + K_S2 of two seals; one has half of it.
 

@@ -52,7 +52,7 @@ def _words(geometry: Geometry, free: str) -> str:
 def _resolve(given: Given) -> Angles | None:
     """Return angles, clearance and distance of the rows.
 
-    None after a problem.
+    The result is None after a problem.
     """
     if not is_consistent(given, _NAME, _ARRANGEMENTS):
         return None

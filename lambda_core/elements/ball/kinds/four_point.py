@@ -62,7 +62,7 @@ def _words(geometry: Geometry, free: str) -> str:
 def _resolve(given: Given) -> Angles | None:
     """Return angles and clearance of four-point contact.
 
-    None after a problem.
+    The result is None after a problem.
     """
     bearing, distance, ledger = given.bearing, given.centres, given.ledger
     shim = given.inline.shim_angle
