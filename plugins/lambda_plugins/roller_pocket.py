@@ -176,7 +176,7 @@ def roller_pocket(
     "roller-roller",
     Neighbours,
     role_api=3,
-    reference="Teutsch 2005; Reynolds' equation; Yang et al. 2001, J. Tribol. 123, 36 (what is left out)",
+    reference="Teutsch 2005; Reynolds' equation of a cylinder; Yang et al. 2001, J. Tribol. 123, 36 (what is left out)",
     validity="parallel cylinders but for small angles; boundary friction; all constants are assumptions",
     prepare=prepare_pair,
     contact="line",

@@ -363,7 +363,7 @@ async def test_unsaved_work_survives_a_crash(hand_written: Path, monkeypatch: py
         assert builder(pilot).draft.is_changed()
         await pilot.press("ctrl+s")
         await wait_for(pilot, lambda: not builder(pilot).draft.is_changed())
-    assert 'radial = "9 kN"      # belt' in hand_written.read_text(encoding="utf-8")
+    assert 'radial = "9 kN"        # belt' in hand_written.read_text(encoding="utf-8")
     assert not list((recovery.state_folder() / "unsaved").glob("*.json"))
 
 

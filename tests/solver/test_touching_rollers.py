@@ -174,7 +174,9 @@ def test_a_full_complement_is_not_exported(tmp_path: Path) -> None:
 
 def test_a_full_complement_runs() -> None:
     """Rollers come to touch and rub, none passes through another, energy is balanced; a resumed run has these bits."""
-    engine, resumed = (BearingEngine(api.check(CASE), equilibrium=equilibrium()) for _ in range(2))
+    model = api.check(CASE)
+    # Each has an equilibrium of its own: two engines that start from one share its working memory.
+    engine, resumed = (BearingEngine(model, equilibrium=solve(model)) for _ in range(2))
     while engine.time < 0.02:
         engine.advance(0.02)
     resumed.restore(engine.state())

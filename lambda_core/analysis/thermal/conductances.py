@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.special import erfcx
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.laws.context import Material
@@ -47,6 +46,8 @@ def exchanged(time: FloatArray, film: float, one: float, other: float) -> FloatA
     one, other : float
         Effusivities [W s^0.5/(m2 K)].
     """
+    from scipy.special import erfcx  # most commands need no temperatures
+
     rate = film * (1.0 / one + 1.0 / other)
     x = rate * np.sqrt(time)
     # erfcx - 1 + 2 x/sqrt(pi) loses its digits below x = 0.01; its series starts x^2 - 4 x^3/(3 sqrt(pi)) + x^4/2

@@ -144,10 +144,7 @@ def _refuse_touching_rollers(model: BearingModel | MachineModel) -> None:
 
     Exported code of theirs fails when its outputs are read.
     """
-    from lambda_core.model.machine_model import MachineModel
-
-    bearings = [one.model for one in model.bearings] if isinstance(model, MachineModel) else [model]
-    for one in bearings:
+    for one in model.bearing_models.values():
         if one.rollers is not None and not one.depth.cage:
             raise UsageError(f"{one.name}: rollers without a cage are not exported: run them, or give them a cage")
 
