@@ -119,8 +119,8 @@ def page() -> str:
     text = [
         "# Convergence",
         "",
-        "How far the dissipated power is from that of a much finer computation. Written by",
-        "`python -m benchmarks.convergence --write`; counts and deviations, no timings.",
+        "This page compares the dissipated power with that of a much finer computation, for readers who choose a grid",
+        "or a tolerance. Written by `python -m benchmarks.convergence --write`; counts and deviations, no timings.",
         "",
         "## Grid",
         "",

@@ -20,7 +20,8 @@ DURATION = "50 ms"
 
 _TEXT = f"""# Cross-check with SUNDIALS CVODE
 
-One integrator cannot check itself. `lambda-bearing cross-check CASE` solves the same equations, from the same start,
+This page compares the integrator with another one, for readers who judge the integration over time.
+`lambda-bearing cross-check CASE` solves the same equations, from the same start,
 with CVODE (Hindmarsh et al. 2005, ACM Trans. Math. Softw. 31, 363; BDF up to order 2, the same absolute scales of
 error), through [scikit-sundae](https://scikit-sundae.readthedocs.io): `pip install "lambda-bearing[sundials]"`.
 
@@ -28,7 +29,7 @@ CVODE shares the right-hand side and the Jacobian with the program, so this veri
 physics. `lambda_core.api.cross_check` returns the same as an object. Written by
 `python -m benchmarks.crosscheck --write`.
 
-Of a machine shaft and all bearings move together in both integrators; `--bearing NAME` takes one bearing out, alone
+In a machine the shaft and all bearings move together in both integrators; `--bearing NAME` takes one bearing out, alone
 under the load that it carries. The geared shaft of `init --template geared-shaft` over half a cage turn (25 ms):
 24.2237 W with ours, 24.2219 W with the reference (+0.007 %), states within 2.6 tolerances (CVODE at the same
 tolerance: 3.3).

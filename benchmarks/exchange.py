@@ -295,8 +295,9 @@ def page() -> str:
     text = [
         "# Laws exchanged",
         "",
-        f"The built-in case `{CASE}` (6319, 16 kN radial, 1500 rpm, FVA3A at 62.5 degC), run once for every law",
-        "of every role while all other roles keep theirs. The first line of a table has the numbers, the others what",
+        "This page shows the effect of every law, for readers who choose one. The built-in case",
+        f"`{CASE}` (6319, 16 kN radial, 1500 rpm, FVA3A at 62.5 degC) ran once for every law",
+        "of every role, while all other roles kept theirs. The first line of a table has the numbers, the others what",
         f"changes; `=` is below the last digit. Runs are averaged from {BEGIN:g} to {END:g} s, four turns of the cage;",
         "the torque of such a run is known to about 0.3 %. `film` is the smallest central film, `film degC` the",
         "highest mean temperature of a film, which scatters by 0.3 K with the impacts of the cage and by 1 K with a",

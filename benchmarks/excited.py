@@ -103,8 +103,9 @@ def _over_kinematic(result: Result, rows: NDArray[np.bool_]) -> FloatArray:
 
 _TEXT = f"""# A transition: the 6220 shaken along its shaft
 
-Above a limit of axial excitation the balls outside the load zone leave the speed that they have without it (Syla et
-al. 2026, Fig. 5 and 6). Here one run goes through it: the built-in case `{CASE}`, 5 kN radial, 1500 1/min throughout,
+This page is an example of [motions over time](run.md#loads-and-speeds-over-time), for readers of the paper. Above a
+limit of axial excitation the balls outside the load zone leave the speed that they have without it (Syla et al. 2026,
+Fig. 5 and 6). Here one run goes through it: the built-in case `{CASE}`, 5 kN radial, 1500 1/min throughout,
 the outer ring still for {REST} s, then shaken at {FREQUENCY:g} Hz with an amplitude that grows to {PEAK:g} m/s2 within
 {GROWTH} s. Written by `python -m benchmarks.excited --write`.
 

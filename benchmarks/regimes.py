@@ -72,16 +72,17 @@ def refusal(changes: Sequence[str]) -> str:
 
 _TEXT = """# Hard regimes
 
-What the dynamics go through without failing, and how far the energy balance closes: input minus dissipation minus the
-change of kinetic and elastic energy, over the energy that flowed (the larger of the external work, counted positive,
-and the dissipation). Every row is a test (`tests/solver/test_regimes.py`): the run reaches its end, what the row is
-named after is seen to happen, no mechanism gains energy, the balance closes within 1e-3. Written by
+This page lists hard regimes that the dynamics pass, for readers whose case stops, reverses or is shaken. The energy
+balance is input minus dissipation minus the change of kinetic and elastic energy, over the energy that flowed (the
+larger of the external work, counted positive, and the dissipation). Every row is a test
+(`tests/solver/test_regimes.py`): the run reaches its end, the event in the name of the row happens, no mechanism gains
+energy, the balance closes within 1e-3. Written by
 `python -m benchmarks.regimes --write`.
 
 All at the default tolerance of 1e-3; the last column is the balance at a tenth of it. Work and losses are integrated by
-the same formula as the motion, with the powers that each step's own equations transfer; what the scheme itself
-dissipates, and what its Newton iteration leaves unaccounted for, are each kept within 0.4 tolerances of the energy that
-flows, step by step ([theory](theory/dynamics.md#energy-balance)).
+the same formula as the motion, with the powers that each step's own equations transfer. In each step the dissipation of
+the scheme and the remainder of its Newton iteration are each kept within 0.4 tolerances of the energy that flows
+([theory](theory/dynamics.md#energy-balance)).
 
 """
 _REFUSALS = """
