@@ -24,7 +24,7 @@ class Written(Section):
     """
 
     name: str = option(description="short name, used for files", pattern=NAME_PATTERN)
-    description: str = option("", "what this case is, for people")
+    description: str = option("", "short text about the case")
     assumptions: list[str] = option([], "what the author of the case assumed, repeated with every result")
     # what stands in for required options that are missing or wrong, so that the rest of the case can be checked
     STAND_INS: ClassVar[StandIns] = {}

@@ -19,7 +19,7 @@ def listed(given: Iterable[T], name: str) -> list[T]:
         When it is one text, which Python would read letter by letter, or no list.
     """
     if isinstance(given, str):
-        raise UsageError(f'{name}: a list is needed, and "{given}" is one text: write ["{given}"]')
+        raise UsageError(f'{name}: "{given}" is a text, not a list: write ["{given}"]')
     if not isinstance(given, Iterable):
-        raise UsageError(f"{name}: a list is needed, and {type(given).__name__} is none: write [...]")
+        raise UsageError(f"{name}: must be a list, not {type(given).__name__}: write [...]")
     return list(given)

@@ -29,7 +29,7 @@ class Parameter(Section):
     """
 
     path: str = option(description="path of the option in the case, as --set takes it", min_length=1)
-    values: list[bool | int | float | str] | None = option(None, "the values, as they would stand in a case")
+    values: list[bool | int | float | str] | None = option(None, "the values, written as in a case")
     range: list[int | float | str] | None = option(
         None, "first and last value, ends included", min_length=2, max_length=2
     )
@@ -126,7 +126,7 @@ class Study(Section):
     """A study file (``study.toml``)."""
 
     name: str = option(description="short name, used for the folder", pattern=NAME_PATTERN)
-    title: str = option("", "what is asked, for people")
+    title: str = option("", "the question of the study; the title of its results")
     case: str = option(description="case file, relative to this one, or a built-in case")
     mode: Mode = option("quasi-static", "equilibrium only, or full runs")
     set: dict[str, bool | int | float | str] = option({}, "fixed changes to the case: path = value")

@@ -49,7 +49,7 @@ _EXPONENT = 3.0  # of ball bearings: L = (C/P)^3
 class Phase(Section):
     """One part of a duty cycle."""
 
-    name: str = option(description="what it is, for people", min_length=1)
+    name: str = option(description="name of the phase in the answer", min_length=1)
     time: Time = option(description="how long it lasts in one cycle", gt=0.0)
     changes: dict[str, bool | int | float | str] = option({}, "what differs from the case: option and value")
 

@@ -39,11 +39,11 @@ CASE, CHANGE = "6319-cp10-1500", "loads.radial=5 kN"
     ],
 )
 def test_one_text_is_refused_where_a_list_is_needed(call: Callable[[Path], object], tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match=r'a list is needed, and ".*" is one text'):
+    with pytest.raises(UsageError, match=r'".*" is a text, not a list: write'):
         call(tmp_path)
     assert not list(tmp_path.iterdir())
 
 
 def test_what_is_no_list_is_refused() -> None:
-    with pytest.raises(UsageError, match="overrides: a list is needed, and int is none"):
+    with pytest.raises(UsageError, match="overrides: must be a list, not int"):
         api.check(CASE, 5)  # type: ignore[arg-type]

@@ -38,7 +38,7 @@ def test_a_change_that_is_no_text_is_named(change: Any) -> None:
         (lambda: API.electric_map(CASE, points=0), r"points = 0 is not allowed: give a text\. Speeds times"),
         (lambda: API.fit(CASE, None, ["loss_factor"]), "fit: measured = None is not allowed: give a path or"),
         (lambda: API.resume(None), "resume: path = None is not allowed: give a path. Result file of a run that"),
-        (lambda: API.stribeck(CASE, speeds_rpm="100"), 'stribeck: speeds_rpm: a list is needed, and "100" is one text'),
+        (lambda: API.stribeck(CASE, speeds_rpm="100"), 'stribeck: speeds_rpm: "100" is a text, not a list'),
         (lambda: API.stribeck(CASE, speeds_rpm=[math.nan]), r"speeds_rpm = \[nan\] .*, a finite number"),
         (lambda: API.iterate(CASE, couple="x"), 'couple = \'x\' is not allowed: give "force" or "motion"'),
         (lambda: API.run(CASE, progress=3), "run: progress = 3 is not allowed: give callable"),

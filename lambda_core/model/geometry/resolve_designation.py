@@ -121,7 +121,7 @@ _DECIDES = {"clearance": _clearance, "cage": _cage, "balls": _balls, "design": _
 
 
 def _left(case: Case, written: str, suffix: Suffix, other: str, ledger: Ledger) -> Case:
-    ledger.assume(f"{written} of the designation ({suffix.meaning}) does not count: {other} stands in the case")
+    ledger.assume(f"{written} of the designation ({suffix.meaning}) is ignored: the case gives {other}")
     return case
 
 
