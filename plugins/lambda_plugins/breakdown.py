@@ -83,7 +83,7 @@ def statistical(
 ) -> int:
     """Rough film that breaks down at its lowest spot.
 
-    P(no breakdown | V) = Phi((h - V/E_b)/sigma)^N, N = A/l_c^2.
+    It follows P(no breakdown | V) = Phi((h - V/E_b)/sigma)^N, N = A/l_c^2.
 
     h is the mean film, sigma the composite rms roughness. The exact form of the cited statistics was not read.
     """

@@ -1,6 +1,6 @@
 """Define the arc in a film that broke down.
 
-i = (V - U)/R, until the current is too small.
+The current is i = (V - U)/R until it is too small.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ def loss_factor(
 ) -> int:
     """Hysteresis couple of an elliptical contact.
 
-    M = (3/16) alpha_h Q b.
+    It is M = (3/16) alpha_h Q b.
 
     Greenwood, Minshall and Tabor 1961, Proc. R. Soc. A 259, 480; Johnson, Contact Mechanics (1985), section 9.2: the
     elastic work on the front half of the contact, of which the share alpha_h is lost; b is the semi-axis along rolling.
@@ -70,7 +70,7 @@ def houpert(
 class Scheuermann(Parameters):
     """Constants of Scheuermann's rolling moment.
 
-    Not published, so there is no default.
+    They are not published, so there is no default.
     """
 
     coefficient: float = parameter(
@@ -103,7 +103,7 @@ def scheuermann(
 ) -> int:
     """Rolling moment of the solids after Scheuermann.
 
-    A power of the load: M = c_r Q^e_r.
+    It is a power of the load: M = c_r Q^e_r.
 
     Wingertszahn et al. 2023, Lubricants 11, 369, eq. 19; c_r and e_r must be given.
     """

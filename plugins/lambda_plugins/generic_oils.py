@@ -184,7 +184,7 @@ def prepare_roelands(parameters: RoelandsOil, context: Context) -> RoelandsSerie
 def roelands(p: FloatArray, T: FloatArray, par: RoelandsSeries, ln_eta: FloatArray, rho: FloatArray) -> int:
     """Viscosity after Roelands and Walther.
 
-    Roelands over pressure, Walther over temperature.
+    Roelands' law holds over pressure and Walther's over temperature.
 
     ln eta = ln eta_0 + (ln eta_0 + 9.67) [(1 + 5.1e-9 p)^Z - 1], Z from alpha_p at 40 degC and constant: Roelands
     1966 (thesis, Delft); Hamrock, Schmid and Jacobson 2004, Fundamentals of Fluid Film Lubrication, section 4.6.
@@ -241,7 +241,7 @@ def prepare_barus(parameters: BarusOil, context: Context) -> BarusSeries:
 def barus_limited(p: FloatArray, T: FloatArray, par: BarusSeries, ln_eta: FloatArray, rho: FloatArray) -> int:
     """Viscosity after Barus and Walther.
 
-    Barus with a limited exponent over pressure, Walther over temperature.
+    Barus' law with a limited exponent holds over pressure, and Walther's over temperature.
 
     ln eta = ln eta_0 + min(alpha_p p, limit), corner rounded over a unit; Barus 1893, Am. J. Sci. 45, 87. alpha_p goes
     with nu^t over temperature: Gold et al. 2001, J. Synth. Lubr. 18, 51. eta_0 by ASTM D341. ln(eta) is capped at 1e12

@@ -237,7 +237,7 @@ def johnson_line(
 ) -> int:
     """Hysteresis couple of a line contact.
 
-    M = (2/(3 pi)) alpha_h Q b.
+    It is M = (2/(3 pi)) alpha_h Q b.
 
     The elastic work on the front half of the contact, of which the share alpha_h is lost: Johnson, Contact Mechanics
     (1985), section 9.2.

@@ -55,7 +55,7 @@ def matsuyama(
 ) -> int:
     """Rolling resistance after Matsuyama.
 
-    Strip by strip, with Aihara's thermal factor.
+    It is computed strip by strip, with Aihara's thermal factor.
 
     F/l = 7.1 E' R_x U^0.75 G^-0.04 W^0.08, half of the moment 14.2 E' l R_x^2 U^0.75 G^-0.04 W^0.08 over R_x: Manjunath
     et al. 2023, Machines 11, 801, table 1. U = eta0 u_m/(E' R_x), G = alpha_p E', W = w/(E' R_x): a fit to solved EHL
@@ -98,7 +98,7 @@ def zhou_hoeprich(
 ) -> int:
     """Rolling resistance after Zhou and Hoeprich.
 
-    Strip by strip, with Aihara's thermal factor.
+    It is computed strip by strip, with Aihara's thermal factor.
 
     F/l = 29.2 (R_x/alpha_p) (G U)^0.648 W^0.246: Zhou and Hoeprich 1991, J. Tribol. 113, 590, eq. 17, a fit to their
     solutions of isothermal line contacts (table 1), in the form of Goksem and Hargreaves. Their thermal factor, Zhu and

@@ -141,7 +141,7 @@ def biboulet_houpert(
 ) -> int:
     """Rolling resistance after Biboulet and Houpert.
 
-    Strip by strip, with Aihara's thermal factor.
+    It is computed strip by strip, with Aihara's thermal factor.
 
     F/l = 1.4 E' R_x sqrt(U2 W)/{0.985 [1 + (0.966 sqrt(M))^10]^0.1}, U2 = 2 eta0 u_m/(E' R_x), W = w/(E' R_x),
     M = W/sqrt(U2): Biboulet and Houpert 2010, Proc. IMechE J 224, Part 1: line contacts, doi 10.1243/13506501JET790,
@@ -185,7 +185,7 @@ def goksem_hargreaves(
 ) -> int:
     """Rolling resistance after Goksem and Hargreaves.
 
-    Strip by strip, with Aihara's thermal factor.
+    It is computed strip by strip, with Aihara's thermal factor.
 
     F/l = 4.318 (R_x/alpha_p) (G U)^0.658 W^0.0126, U = eta0 u_m/(E' R_x) with the mean velocity, W = w/(E' R_x):
     Goksem and Hargreaves 1978, J. Lubr. Technol. 100, 346; Zhou and Hoeprich 1991, J. Tribol. 113, 590.

@@ -96,7 +96,7 @@ def series(function: Callable[[FloatArray], FloatArray], low: float, high: float
 def polynomial(x: float, c: FloatArray) -> float:
     """Return sum c[i] x^i of 13 terms.
 
-    Spelled out, so that loops over cells vectorise.
+    The sum is spelled out, so that loops over cells vectorise.
     """
     low = c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * (c[5] + x * c[6])))))
     high = c[7] + x * (c[8] + x * (c[9] + x * (c[10] + x * (c[11] + x * c[12]))))

@@ -79,7 +79,7 @@ def sphere_drag(
 ) -> int:
     """Drag and churning of a sphere by its immersion.
 
-    Drag curve and moment of a spinning sphere, times the submerged share of the ball.
+    It is the drag and the moment of a spinning sphere, times the submerged share of the ball.
 
     F = C_D rho v^2 pi R^2/2, C_D = 24/Re (1 + 0.15 Re^0.687) + 0.42/(1 + 42500 Re^-1.16), Re = 2 R v/nu < 3e5: Schiller
     and Naumann 1933; Clift and Gauvin 1970; Clift, Grace and Weber 1978, Bubbles, Drops and Particles, eq. 5-8.

@@ -198,7 +198,7 @@ def skf_replenishment(
 ) -> int:
     """Starvation by SKF's kinematic replenishment.
 
-    Rolling resistance by phi_rs, the film as flooded or as the case prescribes.
+    The factor of rolling resistance is phi_rs; the film is as flooded or as the case prescribes.
 
     phi_rs = exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))), mm, mm2/s, 1/min: the inlet does not refill between two
     balls. SKF, Rolling bearings, catalogue 17000 EN (2018), Friction. n from the mean surface velocity of the contact.

@@ -60,7 +60,7 @@ def oil_layer(
 ) -> int:
     """Contact that is fed by a layer of oil.
 
-    Film and rolling resistance.
+    The law reduces film and rolling resistance.
 
     Film: :func:`starved_film` (Chevalier et al. 1998), compressibility left out. Rolling: of the inlet that leaves this
     film, :func:`meniscus` and :func:`starved_rolling`.
@@ -137,7 +137,7 @@ def density_ratio(p: float) -> float:
 def _clock(y: float) -> float:
     """Return the time of a decay to y.
 
-    Of dy/dtau = 1 - y^3: to y from nothing below 1, from infinity above 1.
+    The decay follows dy/dtau = 1 - y^3: to y from nothing below 1, from infinity above 1.
     """
     if y > FAR:  # the closed form would leave 1/y^2 of its digits
         cube = y**-3.0
@@ -197,7 +197,7 @@ def side_flow_layer(
 ) -> int:
     """Layer that every overrolling presses aside.
 
-    Film and rolling resistance.
+    The law reduces film and rolling resistance.
 
     The pressure of a contact drives oil out of its middle to both sides, most where the oil is still thin; what it
     loses does not come back.

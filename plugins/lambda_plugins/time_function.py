@@ -35,7 +35,7 @@ class Sweep(Parameters):
 def chirp(t: float, par: Sweep, out: FloatArray) -> int:
     """Sine whose frequency changes evenly over time.
 
-    Sin phi, dphi/dt = 2 pi f(t).
+    It is sin phi with dphi/dt = 2 pi f(t).
     """
     rate = (par.end - par.start) / par.duration
     swept = min(max(t, 0.0), par.duration)

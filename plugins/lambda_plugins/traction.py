@@ -56,7 +56,7 @@ def ree_eyring(
 ) -> int:
     """Shear stress of an Eyring fluid.
 
-    Limited to a share of the pressure.
+    It is limited to a share of the pressure.
 
     tau = tau_e asinh(eta gamma_dot/tau_e), gamma_dot = v/h_cen (Johnson and Tevaarwerk 1977, Proc. R. Soc. A 356, 215;
     Syla et al. 2026, eq. 20-21), tau <= zeta p with the corner rounded over the last tenth. Viscous part only: no shear

@@ -75,7 +75,7 @@ def prepare(parameters: VogelDicke, context: Context) -> Constants:
 def vogel_dicke(p: FloatArray, T: FloatArray, par: Constants, ln_eta: FloatArray, rho: FloatArray) -> int:
     """Viscosity after Vogel and Dicke.
 
-    Density linear in temperature with Dowson-Higginson compression.
+    The density is linear in temperature, with Dowson-Higginson compression.
 
     eta = K exp[B/(C + t)] exp{p/[a1 + a2 t + (b1 + b2 t) p]}, t in degC, p in bar: Wingertszahn et al. 2023, Lubricants
     11, 369, Table A1. ln(eta) is capped at 1e12 Pa s; temperatures outside -40..300 degC act like the nearest bound.

@@ -1,6 +1,6 @@
 """Repeat the experiments of Syla et al. 2026.
 
-Syla, Brill, Paulus, Graf and Koch, Lubricants 14, 154.
+The source is Syla, Brill, Paulus, Graf and Koch, Lubricants 14, 154.
 
 Table 4 (torque of the 6319), Fig. 5 (altered running of the 6220), Fig. 7 (capacitance of the 6208). A plugin like
 anyone's: cases and command come in by entry points.

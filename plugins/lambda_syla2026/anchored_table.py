@@ -33,7 +33,7 @@ _EDITION: dict[str, str | None] = {"parameters.fluid_drag.edition": "2018", "par
 class Residual(Record):
     """Scatter of other tools' rows over ours.
 
-    Without drag, for one choice of temperatures.
+    It is without drag and belongs to one choice of temperatures.
     """
 
     temperatures: str
@@ -133,7 +133,7 @@ def temperature_of(torque: FloatArray, printed: float) -> float:
 def _over_bath(bath: float) -> dict[str, str | None]:
     """Return the anchored set with separate temperatures.
 
-    Of rings and balls, which the oil bath alone cools.
+    Rings and balls have their own temperatures; the oil bath alone cools them.
 
     An alternative, not a fit: coefficients are the thermal network's, nothing leaves through shaft and housing.
     """
@@ -156,7 +156,7 @@ def _full_film(answer: JobResult) -> float:
 def _band(runner: JobRunner, heat: Sequence[float], offset: FloatArray, count: int) -> tuple[list[float], list[float]]:
     """Return 5 % and 95 % of the torques.
 
-    Over the published ranges, temperatures about the recovered ones.
+    The samples vary within the published ranges, and the temperatures about the recovered ones.
     """
     own = {path for path, value in P.anchored().items() if value is not None} | set(_OWN_LAWS)
     rows = []
@@ -177,7 +177,7 @@ _OWN_LAWS = ("models.rolling_resistance",)
 def _loss(sampled: str) -> str:
     """Move a loss factor to the anchored range.
 
-    From that of the blind set, both logarithmic.
+    It comes from the blind set's range; the map is logarithmic in both ranges.
     """
     first = [float(end) for end in P.entry(LOSS).range]
     share = np.log(float(sampled) / first[0]) / np.log(first[1] / first[0])
@@ -197,7 +197,7 @@ def _calibrations(runner: JobRunner, at: Sequence[Mapping[str, str | None]], off
 def _residuals(runner: JobRunner, heat: Sequence[float]) -> list[Residual]:
     """Return the residuals with the blind set.
 
-    Once with one temperature and once with the recovered ones.
+    They are computed once with one temperature and once with the recovered ones.
     """
     choices = {
         f"{CONSTANT:g} degC everywhere": [CONSTANT] * len(POINTS),
@@ -216,7 +216,7 @@ def _residuals(runner: JobRunner, heat: Sequence[float]) -> list[Residual]:
 def plane_residual(ratio: FloatArray) -> float:
     """Return the scatter of ln(ratio) about a plane [%].
 
-    In ln n and ln F, per degree of freedom.
+    The plane is over ln n and ln F; the scatter counts per degree of freedom.
     """
     terms = np.array([[1.0, np.log(point.speed), np.log(LOADS[point.load])] for point in POINTS])
     left = np.log(ratio) - terms @ np.linalg.lstsq(terms, np.log(ratio), rcond=None)[0]
@@ -226,7 +226,7 @@ def plane_residual(ratio: FloatArray) -> float:
 def _lambda_row(runner: JobRunner, runs: Sequence[JobResult]) -> dict[str, float]:
     """Return the mean deviation from LaMBDA's row.
 
-    Of both sets without drag, as the paper computes.
+    Both sets are without drag, and the mean is computed as in the paper.
     """
     blind = runner.all([Job(point.case, P.changes(), "torque") for point in POINTS])
     row = TABLE_4["LaMBDA"]

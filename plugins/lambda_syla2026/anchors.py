@@ -1,6 +1,6 @@
 """Compare the friction torque with SKF's catalogue model.
 
-Other bearings than the 6319, grooves, random cases, Stribeck.
+It covers other bearings than the 6319, grooves, random cases and Stribeck curves.
 
 No number of Table 4 enters. "default" is what any case gets, "blind" the first set. Both sides are without drag and
 cage, with SKF's factor of replenishment, quasi-static; the mean is over the positions of the balls.
@@ -47,7 +47,7 @@ _SEED = 16
 class Spread(Record):
     """Deviation of one set from SKF's model.
 
-    Over the grid, ratios less one.
+    It describes the ratios less one over the grid.
     """
 
     parameters: str
@@ -100,7 +100,7 @@ class Anchors(Record):
 class _Row:
     """Catalogue values that the grid needs.
 
-    Mm and N.
+    Values are in mm and N.
     """
 
     designation: str
@@ -115,7 +115,7 @@ class _Row:
     def changes(self, share: float, speed_factor: float, oil: str = "mineral-vg68", heat: str = "") -> tuple[str, ...]:
         """Return load C/P and speed n d_m as changes.
 
-        With the bearing, as changes of the case.
+        The changes of the case also name the bearing.
         """
         return (
             f"bearing.designation={self.designation}",
@@ -214,7 +214,7 @@ def _spread(parameters: str, grooves: str, rows: Sequence[_Row], answers: Sequen
 def _populations(runner: JobRunner) -> list[Population]:
     """Return random bearings against SKF's model.
 
-    With random loads, speeds and temperatures, by both sets.
+    Both sets answer for random loads, speeds and temperatures.
     """
     kinds = [(name, parameters) for parameters in SETS for name in POPULATIONS]
     plans = [[Job(ANCHOR, (*case, *laws_of(kind[1])), "anchor") for case in random_cases(kind[0])] for kind in kinds]

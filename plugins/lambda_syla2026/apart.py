@@ -31,7 +31,7 @@ class Apart(Record):
 def apart(runner: JobRunner) -> list[Apart]:
     """Run the 6220 under growing excitation and compare.
 
-    Variant A, axial excitation.
+    It runs variant A with axial excitation.
     """
     jobs = [Job(CASE, SETTING.changes(), "friction")]
     jobs += [Job(CASE, SETTING.changes(FREQUENCY, a), "torque") for a in ACCELERATIONS]

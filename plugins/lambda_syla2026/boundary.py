@@ -57,7 +57,7 @@ class Setting:
     def changes(self, frequency: float = 0.0, acceleration: float = 0.0) -> tuple[str, ...]:
         """Return the changes for an axial motion.
 
-        Of this amplitude [m/s2]; no motion when 0.
+        The motion has this amplitude [m/s2]; 0 stands for no motion.
 
         The motion X (cos(2 pi f t) - 1) starts from rest where the rings' equilibrium is.
         """
@@ -94,7 +94,7 @@ class Setting:
 class Boundary:
     """Point of a ray where a criterion is met.
 
-    With its uncertainty.
+    It has an uncertainty.
 
     Attributes
     ----------
@@ -115,7 +115,7 @@ class Boundary:
 class Ray:
     """Growing excitation at one frequency.
 
-    The amplitudes tried, and the bracket of each criterion.
+    It holds the tried amplitudes and the bracket of each criterion.
     """
 
     setting: Setting
@@ -130,7 +130,7 @@ class Ray:
     def bracket(self, criterion: str, still: JobResult) -> tuple[float | None, float | None]:
         """Return the bracket of a criterion [m/s2].
 
-        The largest unaltered amplitude below the smallest altered one, and that one.
+        It consists of the largest unaltered amplitude below the smallest altered one, and of that one.
         """
         altered = sorted(a for a, answer in self.tried.items() if excess(criterion, answer, still) > 0.0)
         high = altered[0] if altered else None
@@ -227,7 +227,7 @@ def search(runner: JobRunner, rays: Iterable[Ray], ratio: float) -> Mapping[Sett
 def _next(ray: Ray, still: JobResult, ratio: float) -> list[float]:
     """Return the amplitudes that the criteria need next.
 
-    Both may need the same.
+    Both criteria may need the same amplitude.
     """
     wanted = (ray.wanted(criterion, still, ratio) for criterion in CRITERIA)
     return sorted({amplitude for amplitude in wanted if amplitude is not None})

@@ -56,7 +56,7 @@ def torques(answers: Sequence[JobResult]) -> list[float]:
 def laws_of(role: str) -> list[str]:
     """Return the laws of a role without user constants.
 
-    Only registered laws, the blind one first.
+    Only registered laws count; the blind one comes first.
 
     Without rolling resistance there is nothing to compare, so "none" counts for hysteresis only.
     """
@@ -108,7 +108,7 @@ def _chosen(pair: tuple[str, ...]) -> dict[str, str | None]:
 def band(table: FloatArray) -> tuple[list[float], list[float]]:
     """Return 5 % and 95 % of each point's samples.
 
-    Of those that have a result.
+    Only samples that have a result count.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def _on_curve(pair: tuple[str, ...], grid: FloatArray, load: str) -> Calibration
 def by_runs(fit: Calibration, load: str, row: list[float]) -> Calibration:
     """Return a calibration with torques of runs.
 
-    At its tau_e.
+    The runs use its tau_e.
     """
     pair = (fit.elastic_hysteresis, fit.rolling_resistance)
     tau = (fit.tau_e_MPa, fit.at_limit, fit.free_tau_e_MPa)
@@ -151,7 +151,7 @@ def by_runs(fit: Calibration, load: str, row: list[float]) -> Calibration:
 def fitted(grid: FloatArray, load: str) -> tuple[float, bool, float]:
     """Return tau_e [MPa] fitted on the points of one load.
 
-    Also whether it is at a limit, and the free optimum.
+    Also return whether it is at a limit, and the free optimum.
 
     Least squares of the relative errors, on a spline through the grid.
 

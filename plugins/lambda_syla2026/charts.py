@@ -31,7 +31,7 @@ def _array(values: object) -> FloatArray:
 def table4_chart(found: Table4) -> ViewData:
     """Draw torque over speed for both loads.
 
-    Measurement, blind with its band, calibrated, and the other methods.
+    It shows the measurement, the blind set with its band, the calibrated sets and the other methods.
     """
     speed = _array(SPEEDS)
     panels = []
@@ -61,7 +61,7 @@ def table4_chart(found: Table4) -> ViewData:
 def sensitivity_chart(found: Table4) -> ViewData:
     """Draw the change of torque over every range.
 
-    From one end to the other, largest first; parameters without effect are listed in words.
+    The bars lead from one end of the range to the other, the largest first; words list parameters without effect.
     """
 
     def effect(s: Sensitivity) -> float:
@@ -90,7 +90,7 @@ def sensitivity_chart(found: Table4) -> ViewData:
 def fig5_chart(found: Fig5) -> ViewData:
     """Draw the excitation velocity at the boundary.
 
-    Over frequency, a panel per variant and criterion.
+    The axis is the frequency; each variant and criterion has a panel.
     """
     panels = []
     for variant, criterion in dict.fromkeys((p.variant, p.criterion) for p in found.points):
@@ -137,7 +137,7 @@ def _slope_of_one(points: Sequence[BoundaryPoint]) -> Series:
 def fig7_chart(found: Fig7) -> ViewData:
     """Compare simulated and analytical C_Hertz over axial load.
 
-    For both rings.
+    It shows both rings.
     """
     panels = []
     for ring in ("inner", "outer"):

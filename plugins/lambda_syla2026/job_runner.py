@@ -192,7 +192,7 @@ class JobRunner:
     def all(self, jobs: Sequence[Job]) -> list[JobResult]:
         """Do jobs in parallel and return their answers.
 
-        In order; equal jobs are done once.
+        The answers come in order; equal jobs are done once.
 
         Raises
         ------

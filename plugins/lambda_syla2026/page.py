@@ -34,7 +34,7 @@ class Chapter:
 def write(registry: Registry, chapters: Sequence[Chapter], folder: Path) -> list[Path]:
     """Write all charts and the page.
 
-    ``NAME.svg`` and ``NAME.png`` of every chart and ``reproduction.html`` with all of it.
+    It writes ``NAME.svg`` and ``NAME.png`` of every chart, and ``reproduction.html`` with all of it.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def write(registry: Registry, chapters: Sequence[Chapter], folder: Path) -> list
 def _figure(registry: Registry, data: ViewData) -> Figure:
     """Draw a chart that belongs to no installed view.
 
-    In the style of the program.
+    It is in the style of the program.
     """
 
     def unused(subject: object, options: object) -> ViewData:

@@ -79,7 +79,7 @@ def _entry(
 def laws(replaced: Mapping[str, str | None] | None = None) -> tuple[str, ...]:
     """Return the general laws and constants of the set.
 
-    For any bearing, without the 6319, its oil, its cage and its bath.
+    They suit any bearing: the 6319, its oil, its cage and its bath are left out.
     """
     return tuple(
         change
@@ -93,7 +93,7 @@ def laws(replaced: Mapping[str, str | None] | None = None) -> tuple[str, ...]:
 def anchored_set() -> tuple[tuple[str, str | None, str], ...]:
     """Return path, value and source of the anchored set.
 
-    Those that differ from the blind one; None removes an entry.
+    They are the entries that differ from the blind set; None removes an entry.
     """
     data = tomllib.loads(files(__package__).joinpath(ANCHORED_FILE).read_text(encoding="utf-8"))
     return tuple((table["path"], table.get("value"), table["source"]) for table in data["entry"])
@@ -112,7 +112,7 @@ def entry(path: str) -> Entry:
 def changes(replaced: Mapping[str, str | None] | None = None) -> tuple[str, ...]:
     """Return the set as ``path=value`` texts.
 
-    Some values replaced; None leaves an entry out.
+    The arguments replace some values; None leaves an entry out.
     """
     values: dict[str, str | None] = {entry.path: entry.value for entry in blind_set()}
     values.update(replaced or {})
@@ -131,7 +131,7 @@ def with_law(role: str, name: str) -> dict[str, str | None]:
 def samples(count: int, seed: int = 1) -> list[dict[str, str | None]]:
     """Return Latin hypercube samples of every published range.
 
-    As replacements (McKay, Beckman and Conover 1979).
+    They are replacements of values (McKay, Beckman and Conover 1979).
     """
     points = _plan(count, seed).points()
     return [{path: value for path, _, value in (c.partition("=") for c in point.changes)} for point in points]
@@ -155,6 +155,6 @@ def _plan(count: int, seed: int) -> Plan:
 def _numbers(ends: tuple[str, ...]) -> list[str | float]:
     """Return the ends of a range for a study.
 
-    Unit strings, or plain numbers.
+    They are unit strings or plain numbers.
     """
     return list(ends) if scale_of(ends) is not None else [float(end) for end in ends]

@@ -1,6 +1,6 @@
 """Provide the published values of Syla et al. 2026.
 
-Syla, Brill, Paulus, Graf and Koch 2026, Lubricants 14, 154.
+The source is Syla, Brill, Paulus, Graf and Koch 2026, Lubricants 14, 154.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ GAP_CHANGE = -9.0  # [%] of the gap from 700 to 2000 N
 def mean_absolute_error(values: tuple[float, ...] | list[float], points: tuple[Point, ...] = POINTS) -> float:
     """Return the mean of |value/measured - 1| [%].
 
-    Over operating points, without those that have no value.
+    It is the mean over the operating points that have a value.
     """
     errors = [abs(value / point.measured - 1.0) for value, point in zip(values, points, strict=True)]
     known = [error for error in errors if not math.isnan(error)]
@@ -83,6 +83,6 @@ def known_mean(values: FloatArray) -> float:
 def largest(values: Sequence[float]) -> float:
     """Return the value of the largest magnitude.
 
-    With its sign, without NaN; NaN where nothing is left.
+    It keeps its sign and ignores NaN; it is NaN where nothing is left.
     """
     return max((value for value in values if not math.isnan(value)), key=abs, default=math.nan)

@@ -23,7 +23,7 @@ BAR = (0.8, 1.25)
 class Rated(Record):
     """Losses over q_r A_r of one series.
 
-    Or of all: median, and the range that holds 90 % of the bearings.
+    A row may also stand for all series. It has the median and the range that holds 90 % of the bearings.
     """
 
     series: str
@@ -40,7 +40,7 @@ class Rated(Record):
 def rated_speeds(runner: JobRunner) -> tuple[list[Rated], int]:
     """Compare the losses of all bearings and series.
 
-    Returns all together, each series, and the number without an answer.
+    Return all together, each series, and the number without an answer.
 
     No answer: the catalogue does not decide the inner geometry.
     """

@@ -45,7 +45,7 @@ def _grouped(losses: Mapping[str, float]) -> dict[str, float]:
 def friction(model: BearingModel) -> Numbers:
     """Return the quasi-static friction torque [N mm].
 
-    Averaged over the positions of the balls; no cage.
+    It is the mean over the positions of the balls, without a cage.
     """
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.solver.records import CONTACT_CHANNELS
@@ -66,7 +66,7 @@ def friction(model: BearingModel) -> Numbers:
 def skf(model: BearingModel) -> Numbers:
     """Return the friction torque of SKF's model [N mm].
 
-    Of the complete model on the same case.
+    The complete model answers for the same case.
     """
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry
@@ -80,7 +80,7 @@ def skf(model: BearingModel) -> Numbers:
 def anchor(model: BearingModel) -> Numbers:
     """Return friction torques without cage and drag [N mm].
 
-    Mean over the positions of the balls, and SKF's.
+    Return the means over the positions of the balls, and SKF's torque.
     """
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry
@@ -160,7 +160,7 @@ def capacitance(model: BearingModel) -> Numbers:
 def contact_numbers(channels: Mapping[str, FloatArray], carrying: float) -> Numbers:
     """Return contact means and the bearing's capacitance.
 
-    Means over loaded contacts of each ring.
+    The means are over the loaded contacts of each ring.
 
     Parameters
     ----------
@@ -193,7 +193,7 @@ def contact_numbers(channels: Mapping[str, FloatArray], carrying: float) -> Numb
 def axial_resonance(model: BearingModel) -> Numbers:
     """Return axial stiffness and natural frequency [Hz].
 
-    The stiffness about the equilibrium; the frequency of the inner ring with its shaft on it.
+    The stiffness holds about the equilibrium; the frequency is that of the inner ring with its shaft.
 
     Of the bearing under its static load; where the rings share their axial motion it is the frequency that the
     inner ring would have. It also returns those of bodies that only centrifugal force holds axially, in the
@@ -222,7 +222,7 @@ def axial_resonance(model: BearingModel) -> Numbers:
 def _held_by_centrifugal_force(found: Equilibrium) -> tuple[float, float]:
     """Return the axial natural frequencies of loose parts [Hz].
 
-    Of an unloaded ball and of the cage on all unloaded balls, which centrifugal force holds.
+    Centrifugal force holds these parts: an unloaded ball, and the cage on all unloaded balls.
     """
     model = found.context.model
     geometry, cage = model.geometry, model.cage_body
@@ -268,7 +268,7 @@ def _averages_start(result: Result) -> float:
 def contacts(result: Result) -> Numbers:
     """Return mean contacts of a run.
 
-    Over time and loaded balls, for comparison with the quasi-static ones.
+    They are means over time and loaded balls, for comparison with the quasi-static ones.
     """
     names = ("load", "contact_angle", "semi_axis_a", "semi_axis_b", "film_central", "capacitance_hertz", "capacitance")
     blocks = list(result.blocks(names, _averages_start(result)))

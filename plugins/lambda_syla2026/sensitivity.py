@@ -71,7 +71,7 @@ class Sensitivity(Record):
     def span(self) -> str:
         """Both ends of the range.
 
-        Or the other law where there is one only.
+        It is the other law where there is one only.
         """
         return self.low if self.low == self.high else f"{self.low} to {self.high}"
 
@@ -79,7 +79,7 @@ class Sensitivity(Record):
     def effect(self) -> str:
         """Change of the torque at both ends [%].
 
-        With the other law where there is one only.
+        It is the change with the other law where there is one only.
         """
         low, high = f"{self.low_change_pct:+.1f}", f"{self.high_change_pct:+.1f}"
         return f"{low} % with {self.low}" if self.low == self.high else f"{low} to {high} %"
@@ -99,7 +99,7 @@ def sensitivities(
 ) -> list[Sensitivity]:
     """Return the effect of every parameter with a range.
 
-    Largest first.
+    The largest effect comes first.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def _static(
 def _of_cage(runner: JobRunner, runs: Sequence[JobResult]) -> list[Sensitivity]:
     """Return the effects of the cage's parameters.
 
-    By runs at one point.
+    Runs at one point give them.
     """
     mine = next(i for i, point in enumerate(POINTS) if point.case == _CAGE_CASE)
     varied = [entry for entry in P.blind_set() if entry.cage and entry.ends]

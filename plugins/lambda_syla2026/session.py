@@ -171,7 +171,7 @@ def _chapters(found: Reproduction) -> list[Chapter]:
 def _notes(found: Reproduction, name: str, notes: Sequence[str]) -> tuple[str, ...]:
     """Return the notes of an experiment.
 
-    With its points without a result, and how many runs have not converged.
+    They name its points without a result and count the runs that have not converged.
     """
     lost = found.failed.get(name, [])
     wrong = [sentence for sentence in found.unconverged.get(name, []) if sentence not in lost]

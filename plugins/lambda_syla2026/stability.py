@@ -36,7 +36,7 @@ class Zone:
     def outside(self, azimuth: FloatArray) -> NDArray[np.bool_]:
         """Tell which azimuths [rad] are outside the zone.
 
-        By more than the margin.
+        An azimuth counts as outside beyond the margin.
         """
         away = np.abs(np.mod(azimuth - self.middle + math.pi, 2.0 * math.pi) - math.pi)
         return np.asarray(away > self.half + MARGIN)
@@ -72,7 +72,7 @@ def excitation_frequency(result: Result) -> float:
 def jackknife(sums: NDArray[Any], counts: NDArray[Any]) -> tuple[float, float]:
     """Return the rms of means and its standard error.
 
-    Over bins of the mean of a quantity (Efron and Tibshirani 1993, eq. 11.5).
+    They are taken over bins of the mean of a quantity (Efron and Tibshirani 1993, eq. 11.5).
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def jackknife(sums: NDArray[Any], counts: NDArray[Any]) -> tuple[float, float]:
 def stability(result: Result) -> dict[str, float | None]:
     """Return S, T and their standard errors.
 
-    Over the whole excitation periods after the first cage turn.
+    They cover the whole excitation periods after the first cage turn.
     """
     zone, frequency = static_zone(result), excitation_frequency(result)
     time, turn = result["time"], _cage_turn(result)
@@ -133,7 +133,7 @@ def _cage_turn(result: Result) -> float:
 def _over_kinematic(result: Result, rows: NDArray[np.bool_]) -> FloatArray:
     """Return orbital over kinematic speed of every ball.
 
-    Shape (time, ball).
+    The shape is (time, ball).
 
     Kinematic: no slip at the mean contact angle of the loaded balls.
     """

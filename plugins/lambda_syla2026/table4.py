@@ -85,7 +85,7 @@ class Table4(Record):
 def jobs_of(replaced: Mapping[str, str | None] | None = None, kind: str = "friction") -> list[Job]:
     """Return the jobs of the six points.
 
-    With some values of the blind set replaced.
+    The argument replaces some values of the blind set.
     """
     return [Job(point.case, P.changes(replaced), kind) for point in POINTS]
 
@@ -153,7 +153,7 @@ def _halves(answers: Sequence[JobResult]) -> tuple[list[JobResult], list[JobResu
 def _band(runner: JobRunner, offset: FloatArray, count: int) -> tuple[list[float], list[float], int]:
     """Return 5 % and 95 % of the sampled torques.
 
-    At each point, and the number of samples that have a solution.
+    Each point has its own. Also return the number of samples that have a solution.
     """
     jobs = [job for replaced in P.samples(count) for job in jobs_of(replaced)]
     answers = runner.all(jobs)
@@ -167,7 +167,7 @@ def _simulated(
 ) -> list[list[float]]:
     """Return the six torques of each parameter set.
 
-    By runs, or when `quick` quasi-static plus the offset.
+    They come from runs or, when `quick`, from the quasi-static torque plus the offset.
     """
     kind = "friction" if quick else "torque"
     answers = runner.all([job for replaced in sets for job in jobs_of(replaced, kind)])
@@ -188,7 +188,7 @@ def _laws(runner: JobRunner, offset: FloatArray, quick: bool) -> list[Law]:
 def _calibrations(runner: JobRunner, offset: FloatArray, fits: Sequence[Calibration], quick: bool) -> list[Calibration]:
     """Return the calibrations with the blind laws.
 
-    By runs at the fitted tau_e unless `quick`.
+    They come from runs at the fitted tau_e unless `quick`.
     """
     if quick:
         return list(fits)

@@ -113,7 +113,7 @@ def _line(key: tuple[str, float, str], points: Sequence[BoundaryPoint]) -> Line:
 def _slope(points: Sequence[BoundaryPoint]) -> tuple[float | None, float | None]:
     """Return the log-log slope and its standard error.
 
-    Velocity over frequency; None where a boundary is missing.
+    It is the slope of velocity over frequency; None where a boundary is missing.
     """
     velocity = [p.velocity_m_per_s for p in points]
     if any(v is None for v in velocity):
@@ -126,7 +126,7 @@ def _slope(points: Sequence[BoundaryPoint]) -> tuple[float | None, float | None]
 def _spread(points: Sequence[BoundaryPoint], weights: FloatArray) -> float | None:
     """Return the standard error of a weighted sum.
 
-    Of logarithms of points that share their run without excitation.
+    The sum consists of logarithms of points that share their run without excitation.
     """
     own, still = [p.own_error for p in points], [p.still_error for p in points]
     if any(e is None for e in (*own, *still)):
@@ -138,7 +138,7 @@ def _spread(points: Sequence[BoundaryPoint], weights: FloatArray) -> float | Non
 def steps(points: Sequence[BoundaryPoint]) -> list[Step]:
     """Return the effect of every step of the load.
 
-    Over the declared range; none where a boundary is missing.
+    The steps lie in the declared range; there are none where a boundary is missing.
     """
     found = []
     for variant, criterion in dict.fromkeys((p.variant, p.criterion) for p in points):
@@ -244,7 +244,7 @@ def _said(mine: Sequence[Step]) -> Iterator[str]:
 def _rise(step: Step) -> str:
     """Write a step with its standard error.
 
-    And whether it is more than twice that.
+    Also tell whether it is more than twice that.
     """
     text = f"{with_error(step.rise_pct, step.error_pct, 1)} % to {step.to_N / 1e3:g} kN"
     resolved = step.error_pct is None or abs(step.rise_pct) > RESOLVED * step.error_pct
@@ -254,7 +254,7 @@ def _rise(step: Step) -> str:
 def _against(mine: Sequence[BoundaryPoint]) -> Iterator[str]:
     """Name every point below the next lower load's.
 
-    With the difference.
+    Also give the difference.
     """
     for point in mine:
         lower = [p for p in mine if (p.variant, p.frequency_Hz) == (point.variant, point.frequency_Hz)]

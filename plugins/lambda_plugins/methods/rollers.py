@@ -1,6 +1,6 @@
 """Define comparison methods for roller bearings.
 
-Palmgren's torque, Houpert's rolling resistance, lives, kinematics.
+They are Palmgren's torque, Houpert's rolling resistance, lives and kinematics.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def factors_of(inputs: RollerMethodInputs) -> SeriesFactors:
 def evaluate_schaeffler(inputs: RollerMethodInputs) -> MethodTable:
     """Compute M_0 + M_1 of Palmgren for a roller bearing.
 
-    As Schaeffler prints it.
+    The formula is that of Schaeffler's catalogue.
 
     M_1 = f_1 P_1 d_m, P_1 = F_r of cylindrical and needle rollers, the larger of F_r and 2 Y F_a of tapered ones.
     """

@@ -1,6 +1,6 @@
 """Compute SKF's drag loss M_drag in two editions.
 
-Single-row ball bearings; K_Z of deep groove ball bearings.
+It covers ball bearings of one row; K_Z is that of deep groove ball bearings.
 
 The older formula is printed as eq. (40) of Syla et al. 2026 after the SKF catalogue of 2008. V_M is a chart over H/d_m
 in both editions, not available as numbers: it is an input. SI in and out, mm, 1/min and mm2/s inside.

@@ -1,6 +1,6 @@
 """Compute SKF's friction torque of contact seals.
 
-M_seal = K_S1 d_s^beta + K_S2, for seals on both sides.
+It is M_seal = K_S1 d_s^beta + K_S2, for seals on both sides.
 
 SKF, General catalogue 6000 (2008), chapter Friction, table 4 (exponent and constants of contact seals), read in its
 German edition; the same numbers stand in the edition 10000 EN (2013), after the public transcription of JRaposo-m,
@@ -19,7 +19,7 @@ from dataclasses import dataclass
 class SealRow:
     """One row of the table of seals.
 
-    Limit of the outside diameter, exponent, constants.
+    It holds the limit of the outside diameter, the exponent and the constants.
     """
 
     up_to: float  # D [mm], included

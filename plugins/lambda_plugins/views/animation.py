@@ -154,7 +154,7 @@ def _balls(axes: Any, scene: Scene, ball: float) -> Any:
 def _vectors(axes: Any, scene: Scene, races: list[float], ball: float) -> Any:
     """Draw the forces on the rings and balls.
 
-    Of the balls on the rings, and of the cage on the balls.
+    They are those of the balls on the rings and of the cage on the balls.
     """
     force = 1e-3 * scene.load_vectors()[..., 1:]
     sizes = np.linalg.norm(force, axis=-1)
@@ -227,7 +227,7 @@ def _unit(angle: Any) -> FloatArray:
 def _loads(axes: Any, scene: Scene) -> Any:
     """Draw the load of every ball over its azimuth.
 
-    The past and the present position.
+    It shows the past and the present position.
     """
     azimuth, load = np.degrees(scene.ball_azimuth) % 360.0, 1e-3 * scene.load
     points = []
@@ -254,7 +254,7 @@ def _loads(axes: Any, scene: Scene) -> Any:
 def _orbit(axes: Any, scene: Scene) -> Any:
     """Draw the centre of the cage in the outer ring.
 
-    To its own scale.
+    The orbit has its own scale.
     """
     away = 1e6 * (scene.body_position[:, 2, 1:] - scene.body_position[:, 1, 1:])
     axes.plot(away[:, 0], away[:, 1], color=_CAGE, linewidth=1.0, alpha=0.5)

@@ -32,7 +32,7 @@ def notes(span: Span) -> tuple[str, ...]:
 def load_distribution(run: RunData, options: Options) -> ViewData:
     """Draw the load of every ball on both rings.
 
-    Polar and over azimuth.
+    It has a polar panel and one over azimuth.
     """
     span = averaging(run)
     series = tuple(_series(run, span, "load", 1e-3, loaded=False))
@@ -62,7 +62,7 @@ def pressure(run: RunData, options: Options) -> ViewData:
 def film(run: RunData, options: Options) -> ViewData:
     """Show film thickness and film parameter over azimuth.
 
-    Central film of the loaded contacts.
+    It shows the central film of the loaded contacts.
     """
     span = averaging(run)
     thickness = _series(run, span, "film_central", 1e6)

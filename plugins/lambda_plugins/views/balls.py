@@ -12,7 +12,7 @@ from lambda_plugins.views.common import averaging, of_ring, over_azimuth, source
 def ball_speeds(run: RunData, options: Options) -> ViewData:
     """Show speeds and sliding of the balls over azimuth.
 
-    Orbital and spinning speed over kinematics, and sliding at both rings.
+    It shows orbital and spinning speeds over the kinematic ones, and sliding at both rings.
     """
     span = averaging(run)
     known = speeds(run, span)

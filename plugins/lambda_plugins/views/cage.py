@@ -34,7 +34,7 @@ def _circle(radius: float) -> tuple[FloatArray, FloatArray]:
 def cage_orbit(run: RunData, options: Options) -> ViewData:
     """Show path, whirl and speed of the cage.
 
-    Its whirl speed over the cage speed, and the cage speed over kinematics.
+    The whirl speed is over the cage speed, and the cage speed over the kinematic one.
     """
     require_cage(run)
     span = averaging(run)
@@ -71,7 +71,7 @@ def cage_orbit(run: RunData, options: Options) -> ViewData:
 def _close_up(path: Series, end: Series, radius: float) -> tuple[Panel, ...]:
     """Return the orbit alone where it is small.
 
-    Compared with the circle [um] of the clearance.
+    It is small if it is so beside the circle [um] of the clearance.
     """
     size = max(float(np.ptp(path.x)), float(np.ptp(path.y)))
     if not math.isfinite(radius) or size > _SMALL * 2.0 * radius:
@@ -84,7 +84,7 @@ def _close_up(path: Series, end: Series, radius: float) -> tuple[Panel, ...]:
 def _whirl(time: FloatArray, away: FloatArray, spin: FloatArray) -> tuple[Series, ...]:
     """Return the relative whirl speed of the cage.
 
-    Over its own speed, averaged over a tenth of a revolution.
+    It is relative to the cage's own speed and averaged over a tenth of a revolution.
     """
     angle = np.unwrap(np.arctan2(away[:, 1], away[:, 0]))
     turned = np.abs(np.concatenate([[0.0], np.cumsum(0.5 * (spin[1:] + spin[:-1]) * np.diff(time))])) / (2.0 * math.pi)
@@ -101,7 +101,7 @@ def _whirl(time: FloatArray, away: FloatArray, spin: FloatArray) -> tuple[Series
 def pocket_forces(run: RunData, options: Options) -> ViewData:
     """Show forces on the cage over azimuth and time.
 
-    Of the balls and of the lands.
+    They are the forces of the balls and of the lands.
     """
     require_cage(run)
     span = averaging(run)

@@ -16,7 +16,7 @@ _STEADY = 1e-9  # relative swing below which there is no spectrum
 def capacitance(run: RunData, options: Options) -> ViewData:
     """Show the capacitance of the bearing and its contacts.
 
-    Of the bearing over time and its spectrum, of the contacts over azimuth.
+    It shows the bearing over time with its spectrum, and the contacts over azimuth.
     """
     span = averaging(run)
     rows = span.rows(run["time"])

@@ -1,6 +1,6 @@
 """Draw any channel of a run over time.
 
-Channels of the program, of observers and of states of contacts.
+The channels are those of the program, of observers and of states of contacts.
 """
 
 from __future__ import annotations

@@ -37,7 +37,7 @@ class Span:
 def averaging(run: RunData) -> Span:
     """Return the averaging window of a run.
 
-    Whole cage revolutions after the discarded ones.
+    It consists of whole cage revolutions after the discarded ones.
     """
     settings = Solver(**{name: float(value) for name, value in run.model["solver"].items()})
     chosen = window(settings, run.revolutions(), run.integrals()[-1])
@@ -155,7 +155,7 @@ def over_azimuth(
 def of_ring(run: RunData, channel: str, ring: str) -> FloatArray:
     """Return a contact channel of one ring.
 
-    Shape (time, ball), SI.
+    It has the shape (time, ball), in SI.
     """
     return run[channel][:, :, RINGS.index(ring)]
 
@@ -164,7 +164,7 @@ def of_ring(run: RunData, channel: str, ring: str) -> FloatArray:
 class Speeds:
     """Mean and kinematic speeds of a span.
 
-    [rad/s] except `orders`.
+    They are in rad/s, except `orders`.
     """
 
     inner: float
@@ -236,7 +236,7 @@ def spectrum(time: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArr
 def integration(run: RunData, frequency: float) -> tuple[str, ...]:
     """Return what the integration does to vibrations.
 
-    In a spectrum that ends at a frequency [Hz].
+    It concerns a spectrum that ends at a frequency [Hz].
     """
     found = run.summary().vibrations
     return (found.note(frequency),) if found is not None and frequency > 0.0 else ()
@@ -245,7 +245,7 @@ def integration(run: RunData, frequency: float) -> tuple[str, ...]:
 def trace(name: str, x: FloatArray, y: FloatArray, role: str = "") -> Series:
     """Return a line of at most some thousand points.
 
-    Of a long record every k-th point is drawn.
+    It has every k-th point of a long record.
     """
     step = max(1, -(-x.size // _MOST_POINTS))
     return Series(name, x[::step], y[::step], "line", role)

@@ -118,7 +118,7 @@ def _field(run: Any, row: int, sample: dict[str, FloatArray], ball: int, ring: s
 def _place(run: RunData, row: int, context: SolverContext, ball: int, ring: str) -> int:
     """Return a ball's contact with a ring.
 
-    Of two arcs the one that carries more.
+    If there are two arcs, it is on the one that carries more.
     """
     from lambda_core.solver.drivers.ring_values import rings_of_contacts
 
@@ -179,7 +179,7 @@ def _edge(found: ContactField) -> Series:
 def _slip_arrows(found: ContactField) -> Arrows:
     """Return slip vectors at some cells.
 
-    u along the major axis, v along rolling.
+    The component u is along the major axis, v along rolling.
     """
     strips, rows = found.across.shape
     some = np.ix_(
@@ -222,7 +222,7 @@ def _film(found: ContactField) -> Field:
 def _running(values: FloatArray, w: FloatArray) -> FloatArray:
     """Return the running integral of values over w.
 
-    By the trapezoidal rule.
+    It follows the trapezoidal rule.
     """
     return np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(w))])
 

@@ -103,7 +103,7 @@ def _width(panel: Panel, columns: int) -> float:
 def _legends(panels: tuple[Panel, ...]) -> set[int]:
     """Return the panels that get a legend.
 
-    Of several with the same entries one, a round one last.
+    One of several with the same entries gets it; a round one comes last.
     """
     first: dict[tuple[str, ...], int] = {}
     for number in sorted(range(len(panels)), key=lambda n: panels[n].shape == "polar"):

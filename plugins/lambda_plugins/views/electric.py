@@ -76,7 +76,7 @@ def voltage(run: Any, options: Seed) -> ViewData:
 def discharges(run: Any, options: Seed) -> ViewData:
     """Show breakdowns of the raceways with voltages and energies.
 
-    Share of the breakdowns over each raceway, and the size of voltages and energies.
+    It shows the share of breakdowns over each raceway, and the size of voltages and energies.
     """
     found = _simulation(run, f"electric.seed={options.seed}")
     outcome = found.outcome
@@ -103,7 +103,7 @@ def discharges(run: Any, options: Seed) -> ViewData:
 def impedance(run: Any, options: Options) -> ViewData:
     """Show the impedance between the rings over frequency.
 
-    As a meter measures it while the bearing turns.
+    A meter measures it so while the bearing turns.
     """
     from lambda_core.analysis.electric.circuit import impedance as meter
 

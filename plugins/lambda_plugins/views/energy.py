@@ -16,7 +16,7 @@ _LOSS = [COLUMNS.index(f"loss.{name}") for name in LOSSES]
 def energy_balance(run: RunData, options: Options) -> ViewData:
     """Work, dissipated and stored energy over time.
 
-    And the difference between them.
+    It also shows the difference between them.
     """
     rows = run.integrals()
     if rows.shape[0] < 2:

@@ -150,7 +150,7 @@ def _is_full(panel: Panel) -> bool:
 def draw_legend(axes: Any, panel: Panel) -> None:
     """Put a legend where it hides nothing.
 
-    Inside, next to or below the axes.
+    It is inside, next to or below the axes.
     """
     handles, labels = axes.get_legend_handles_labels()
     if not labels or (len(labels) == 1 and panel.field is None and not panel.marks and len(panel.series) == 1):

@@ -20,7 +20,7 @@ _ANGLE, _TIME = COLUMNS.index("relative_angle"), COLUMNS.index("time")
 def friction_breakdown(run: RunData, options: Options) -> ViewData:
     """Show the friction torque by mechanism and ring.
 
-    Mean of the averaging window.
+    It is the mean of the averaging window.
     """
     summary = run.summary()
     parts = summary.friction_breakdown_Nmm
@@ -53,7 +53,7 @@ def friction_breakdown(run: RunData, options: Options) -> ViewData:
 def _over_records(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return middle times and friction torque between records.
 
-    [ms] and [N mm].
+    They are in ms and N mm.
     """
     growth = np.diff(rows, axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -64,7 +64,7 @@ def _over_records(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
 def convergence(run: RunData, options: Options) -> ViewData:
     """Show the friction torque over time and its mean.
 
-    With the means of whole cage revolutions, and the confidence of their mean.
+    It shows the means of whole cage revolutions, and the confidence of their mean.
     """
     summary = run.summary()
     records, turns = run.integrals(), run.revolutions()

@@ -14,7 +14,7 @@ _POINTS = 4000  # of a line, at most
 def orbit(run: Any, options: Options) -> ViewData:
     """Show orbits of the shaft at bearings and extremes.
 
-    At every bearing and where the shaft moves most.
+    It shows every bearing and the place where the shaft moves most.
     """
     machine = _machine(run)
     moved = 1e6 * _thinned(machine["shaft_position"])
@@ -55,7 +55,7 @@ def _is_machine(run: Any) -> bool:
 def _machine(run: Any) -> Any:
     """Return the result of the whole machine.
 
-    NotApplicable for one bearing alone.
+    One bearing alone raises NotApplicable.
     """
     if not _is_machine(run):
         raise NotApplicable("the case is one bearing alone, not a machine with a shaft")

@@ -1,6 +1,6 @@
 """Draw a machine at its operating point.
 
-Deflection and bending moment of its shaft, natural frequencies over speed.
+It shows deflection and bending moment of its shaft, and natural frequencies over speed.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def _source(found: Any) -> str:
 def deflection(machine: MachineData, options: Options) -> ViewData:
     """Return deflection and bending moment of the shaft.
 
-    Over one axis.
+    They share one axis.
     """
     model, report = machine.model, machine.equilibrium
     if report is None:
@@ -58,7 +58,7 @@ def deflection(machine: MachineData, options: Options) -> ViewData:
 def _drawing(model: Any, report: Any) -> Panel:
     """Draw the shaft from the side.
 
-    With its bearings, discs, and the reactions as arrows.
+    It shows its bearings and discs, and the reactions as arrows.
     """
     series = [_loop("shaft", [_box(1e3 * a, 1e3 * b, -500.0 * d, 500.0 * d) for a, b, d, _ in model.outline], "total")]
     bores = [_box(1e3 * a, 1e3 * b, -500.0 * bore, 500.0 * bore) for a, b, _, bore in model.outline if bore > 0.0]
@@ -104,7 +104,7 @@ def _loop(name: str, boxes: list[list[tuple[float, float]]], role: str) -> Serie
 def ball_loads(machine: MachineData, options: Options) -> ViewData:
     """Return the ball loads over azimuth.
 
-    On both rings, a panel for each bearing.
+    It shows both rings, with a panel for each bearing.
     """
     found = machine.equilibrium
     if found is None or not hasattr(next(iter(getattr(found, "bearings", [found]))), "contacts"):
@@ -129,7 +129,7 @@ def _loads(name: str, contacts: Any) -> Panel:
 def campbell(machine: MachineData, options: Options) -> ViewData:
     """Return natural bending frequencies over speed.
 
-    With the line of one per revolution.
+    It shows the line of one per revolution, too.
     """
     report = machine.modes
     if report is None or len(report.campbell) < 2:

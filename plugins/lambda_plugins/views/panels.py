@@ -60,7 +60,7 @@ def _name(series: Series) -> str | None:
 def _looks(series: tuple[Series, ...]) -> list[Look]:
     """Return the look of every series.
 
-    That of its role, of its group, or the next of the cycle.
+    It is that of its role, of its group, or the next of the cycle.
 
     Inner and outer ring look like the first two of the cycle: where they are drawn, the cycle starts behind them.
     """
@@ -125,7 +125,7 @@ def _fill(look: Look) -> dict[str, Any]:
 def _values(axes: Any, places: Any, tops: Any, values: Any) -> None:
     """Write numbers at the ends of bars.
 
-    All to the digits of the largest one.
+    All have the digits of the largest one.
     """
     largest = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0
     digits = max(0, 2 - int(np.floor(np.log10(largest)))) if largest > 0.0 else 0
@@ -172,7 +172,7 @@ def _stacks(axes: Any, series: tuple[Series, ...], looks: list[Look]) -> None:
 def _corners(places: FloatArray, log: bool) -> FloatArray:
     """Return the corners of a mesh's cells.
 
-    Half-way to the next place, on a linear or log axis.
+    They lie half-way to the next place, on a linear or log axis.
     """
     grid = np.log(places) if log else np.asarray(places, dtype=np.float64)
     for axis in (0, 1):

@@ -19,7 +19,7 @@ _STILL = 1e-12  # [m] below this a ring does not move
 def ring_orbit(run: RunData, options: Options) -> ViewData:
     """Show path and motion of the inner ring's centre.
 
-    The path across the shaft, the motion over time.
+    It shows the path across the shaft and the motion over time.
     """
     span = averaging(run)
     rows = span.rows(run["time"])
@@ -64,7 +64,7 @@ def _last_turns(run: RunData, rows: slice) -> int:
 def ring_spectrum(run: RunData, options: Options) -> ViewData:
     """Show the amplitude spectrum of the inner ring's motion.
 
-    With the characteristic frequencies.
+    It marks the characteristic frequencies.
     """
     span = averaging(run)
     rows = span.rows(run["time"])

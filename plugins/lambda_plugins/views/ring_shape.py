@@ -19,7 +19,7 @@ Orders = dict[int, NDArray[np.float64]]
 def ring_shape(run: RunData, options: Options) -> ViewData:
     """Show the shape and the waves of rings and cage.
 
-    At the end of the run, displacements enlarged; the size of every wave over time.
+    It enlarges the displacements at the end of the run, and shows the size of every wave over time.
     """
     found = _waves(run)
     if not found:
@@ -43,7 +43,7 @@ def ring_shape(run: RunData, options: Options) -> ViewData:
 def _waves(run: RunData) -> dict[str, Orders]:
     """Return the wave amplitudes of every part.
 
-    By the number of waves, shape (n, 2) [m].
+    They are ordered by the number of waves, shape (n, 2) [m].
     """
     found: dict[str, Orders] = {}
     for channel in run.channels:
@@ -60,7 +60,7 @@ def _part(name: str) -> str:
 def _shape(orders: Orders, azimuths: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the outward displacement of a part [m].
 
-    At azimuths in its own frame.
+    The azimuths are in its own frame.
     """
     total = np.zeros(azimuths.size)
     for n, (cosine, sine) in orders.items():

@@ -36,7 +36,7 @@ def _require_rollers(run: RunData) -> None:
 def line_contact(run: RunData, options: Choice) -> ViewData:
     """Show pressure and load along a roller's contacts.
 
-    Over the length of both contacts, spread as the law of the contact does.
+    They run over the length of both contacts, spread as the law of the contact does.
     """
     _require_rollers(run)
     times = run["time"]
@@ -91,7 +91,7 @@ def _fields(run: Any, sample: dict[str, Any], roller: int) -> dict[str, LineFiel
 def lean(run: RunData, options: Options) -> ViewData:
     """Show tilt and skew of the rollers.
 
-    Over azimuth, and of all rollers over time.
+    It shows them over azimuth, and of all rollers over time.
     """
     _require_rollers(run)
     span, time, angles = averaging(run), run["time"], 1e3 * run["roller_lean"]
@@ -117,7 +117,7 @@ def lean(run: RunData, options: Options) -> ViewData:
 def rib_load(run: RunData, options: Options) -> ViewData:
     """Show the loads of the ribs on the rollers.
 
-    Over azimuth, and their sums over time.
+    It shows them over azimuth, and their sums over time.
     """
     _require_rollers(run)
     span, time, loads = averaging(run), run["time"], run["rib_load"]

@@ -47,7 +47,7 @@ def _surface(
 ) -> tuple[Column, Column, FloatArray, FloatArray, FloatArray]:
     """Return the mesh of one response.
 
-    Over its two parameters.
+    The mesh is over its two parameters.
 
     A crossed study fills the mesh as it is; points scattered over these two parameters are interpolated linearly
     between neighbours. Where a third parameter varies there is no map: neighbours would differ for a reason that it
@@ -177,7 +177,7 @@ def _has_result(parts: list[Column], row: int) -> bool:
 def _levelled(panels: list[Panel]) -> tuple[Panel, ...]:
     """Give stacked panels one height.
 
-    So that they can be compared.
+    A reader can then compare them.
     """
     top = 1.05 * max(float(np.sum([s.y for s in panel.series], axis=0).max()) for panel in panels)
     return tuple(replace(panel, y=replace(panel.y, high=top)) for panel in panels)

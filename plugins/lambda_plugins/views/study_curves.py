@@ -30,7 +30,7 @@ _SAME: dict[str, str] = {"friction/total": "friction_torque_Nmm"}
 def study_curves(table: StudyTable, options: Curves) -> ViewData:
     """Show every response over one parameter.
 
-    A curve for each combination of the others.
+    It has a curve for each combination of the others.
     """
     candidates = [*numeric_parameters(table), *varied(table)]
     if not candidates:
@@ -74,7 +74,7 @@ def _least(columns: list[Column]) -> float:
 def _by_question(columns: list[Column]) -> list[list[Column]]:
     """Return the responses in groups.
 
-    Those together that answer one question in one unit.
+    A group answers one question in one unit.
     """
     found: dict[tuple[str, str], list[Column]] = {}
     for column in columns:

@@ -111,7 +111,7 @@ def responses(table: StudyTable, name: str) -> list[Column]:
 def rows_by_label(table: StudyTable, x: Column) -> dict[str, list[int]]:
     """Return rows that share all parameters but `x`.
 
-    By a label of these.
+    They are sorted by a label of these parameters.
     """
     others = [column for column in varied(table) if column.name != x.name]
     found: dict[str, list[int]] = {}

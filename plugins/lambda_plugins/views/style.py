@@ -103,6 +103,6 @@ SIGNED_MAP = "RdBu_r"
 def look_of(role: str, position: int) -> Look:
     """Return the look of a series.
 
-    That of its role, or the next of the cycle.
+    It is that of its role, or the next of the cycle.
     """
     return ROLES.get(role) or CYCLE[position % len(CYCLE)]

@@ -68,7 +68,7 @@ class _Signal:
 def envelope(time: FloatArray, values: FloatArray, low: float) -> FloatArray:
     """Return the envelope of a signal above a frequency.
 
-    The size of its analytic signal.
+    It is the size of its analytic signal.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def envelope(time: FloatArray, values: FloatArray, low: float) -> FloatArray:
 def vibration(run: RunData, options: VibrationOptions) -> ViewData:
     """Show a vibration signal and its spectra.
 
-    Displacement, velocity or acceleration over time, its spectrum and that of its envelope.
+    It shows displacement, velocity or acceleration over time, its spectrum and that of its envelope.
     """
     span = averaging(run)
     unit, _ = _MOTIONS[options.motion]
@@ -168,7 +168,7 @@ def _read(options: VibrationOptions) -> _Signal:
 def _over_time(signals: list[_Signal], motion: str, unit: str) -> Panel:
     """Return signals of equal length.
 
-    Each from its beginning on, as long as the shorter one.
+    Each starts at its beginning and is as long as the shortest one.
     """
     length = min(float(s.time[-1] - s.time[0]) for s in signals)
     series = []
