@@ -24,7 +24,7 @@ _NUMBER = "+-.0123456789"  # what a number begins with
 class Dof(Section):
     """One degree of freedom.
 
-    "free", "locked", a stiffness, or a table of stiffness and damping, or of a motion.
+    It is "free", "locked", a stiffness, or a table of stiffness and damping, or of a motion.
     """
 
     damps_what_is_locked: ClassVar[bool] = False

@@ -105,7 +105,7 @@ class MachineThermal(Thermal):
 class BearingThermal(Section):
     """Thermal options of one bearing of a machine.
 
-    Absent: as in [thermal].
+    If the table is absent, [thermal] applies.
     """
 
     inlet: Literal["oil", "surfaces"] | None = option(None, "temperature of the oil that enters its contacts")

@@ -98,7 +98,7 @@ class BearingRow(Frozen):
 class RollerRow(Frozen):
     """Roller bearing of one row.
 
-    Boundary dimensions, ratings and inner geometry (SI).
+    It holds boundary dimensions, ratings and inner geometry (SI).
     """
 
     designation: str
@@ -154,7 +154,7 @@ class MaterialRow(Frozen):
 class CageRow(Frozen):
     """Cage type in SI.
 
-    Guidance, clearances and the constants of its mass formula.
+    It holds guidance, clearances and the constants of its mass formula.
     """
 
     name: str

@@ -88,7 +88,7 @@ def lambda_frames(scene: Scene) -> Iterator[NDArray[np.uint8]] | None:
 def lambda_data(register: Callable[[Any], None]) -> None:
     """Register catalogue rows.
 
-    ``register(path)`` with a folder of seed files of this package.
+    ``register(path)`` takes a folder of seed files of this package.
 
     A folder ``measured`` in it holds measured series: for each a TOML file that describes it, and a CSV file of the
     same name with its points.

@@ -101,7 +101,7 @@ class Registry:
     def names(self, role: str) -> tuple[str, ...]:
         """Return the names of the models for `role`.
 
-        Built-in ones first; imports nothing.
+        Built-in ones come first; the function imports nothing.
 
         A name that several packages have stands here with the package before it.
         """
@@ -282,7 +282,7 @@ class Registry:
     def _set_aside(self, hook: str, failure: str) -> None:
         """Report once that a plugin's hook failed.
 
-        Another one answered.
+        Another hook answered instead.
         """
         if failure not in self.set_aside.setdefault(hook, []):
             self.set_aside[hook].append(failure)

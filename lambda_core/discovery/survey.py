@@ -1,6 +1,6 @@
 """List all installed models, methods, views and faults.
 
-Plain data for faces and documentation; `check_installed` tries every model out.
+It gives plain data for faces and documentation; `check_installed` tries every model out.
 """
 
 from __future__ import annotations

@@ -116,7 +116,7 @@ _ALSO_WRITTEN = {
 def _spelling(unit: str) -> str:
     """Fold the common spellings of one unit.
 
-    Micro sign, dots, superscripts, spaces.
+    It folds micro signs, dots, superscripts and spaces.
     """
     table = str.maketrans({"µ": "u", "μ": "u", "·": " ", "*": " ", "²": "2", "³": "3", "°": "deg"})
     folded = re.sub(r"\s+", " ", unit.translate(table)).strip().replace("^", "")

@@ -84,7 +84,7 @@ def coordinates(conditions: Sequence[Mapping[str, float]]) -> FloatArray:
 class Prediction:
     """Values predicted with discrepancy.
 
-    A mixture of normal distributions, one for each size and reach.
+    It is a mixture of normal distributions, one for each size and reach.
 
     Attributes
     ----------
@@ -182,7 +182,7 @@ def predict(
 def _known_before(parameters: Sequence[Parameter]) -> tuple[FloatArray, FloatArray]:
     """Return the prior of the parameters.
 
-    Means and standard deviations before the measurements.
+    It consists of means and standard deviations before the measurements.
     """
     means = [
         0.5 * (p.low + p.high) if math.isfinite(p.high - p.low) and not p.is_prior else p.start for p in parameters
@@ -203,8 +203,8 @@ def _joined(one: Place, other: Place) -> Place:
 def _beyond(measured: FloatArray, asked: FloatArray) -> NDArray[np.bool_]:
     """Mark the pairs that extrapolate.
 
-    A pair extrapolates where one lies outside the range of measured conditions and the other was measured. Shape (n,
-    n).
+    A pair extrapolates where one lies outside the range of measured conditions and the other was measured. The shape is
+    (n, n).
 
     Outside, what residuals say of the laws' errors is no evidence: there the discrepancy is as unknown as before.
     """

@@ -158,7 +158,7 @@ class Fit:
     def left_out(self) -> FloatArray:
         """Error of each point's prediction from the others.
 
-        Predicted less measured values.
+        It is the predicted less the measured value.
         """
         return U.left_out_residuals(self.predicted - self.data.values, self.leverages)
 

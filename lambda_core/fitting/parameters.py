@@ -1,6 +1,6 @@
 """Define parameters of a fit.
 
-Start, bounds and knowledge before the measurements.
+A parameter has a start, bounds and what is known before the measurements.
 """
 
 from __future__ import annotations

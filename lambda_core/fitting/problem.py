@@ -110,7 +110,7 @@ class CaseProblem:
     def jacobian(self, values: FloatArray) -> FloatArray:
         """Return their derivatives by the parameters, shape (n, p).
 
-        Differences towards the inside of the bounds, at one position of the balls.
+        The differences lead towards the inside of the bounds, at one position of the balls.
         """
         base, columns = self._stacked(values, self._conditions, one=True), []
         for index, parameter in enumerate(self.parameters):
@@ -139,7 +139,7 @@ class CaseProblem:
     def input_deviations(self, values: FloatArray) -> FloatArray:
         """Return the predictions' deviations by conditions.
 
-        Standard deviations by the errors of the conditions, shape (n,).
+        They are the standard deviations by the errors of the conditions, shape (n,).
         """
         data = self.data
         if not data.input_errors.size:

@@ -20,7 +20,7 @@ _MOST_POINTS = 30
 def report_text(report: FitReport, width: int | None, units: UnitSystem) -> str:
     """Return the text of a fit.
 
-    The sentence, the table of parameters, and notes on them.
+    It has the sentence, the table of parameters, and notes on them.
     """
     lines = [report.title, report.sentence, *report.warnings, ""]
     lines += _table([_HEAD, *(_row(parameter) for parameter in report.parameters)])

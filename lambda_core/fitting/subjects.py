@@ -54,7 +54,7 @@ class Subject(Protocol):
     ) -> FloatArray:
         """Return predicted quantities of the changed case.
 
-        Shape (positions of the balls, names).
+        The shape is (positions of the balls, names).
         """
 
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:

@@ -83,7 +83,7 @@ def robust_factor(standardised: FloatArray, count: int, limit: float = HUBER) ->
 def covariance(jacobian: FloatArray, factor: float) -> FloatArray:
     """Return the covariance of the parameters.
 
-    Infinite along directions without information.
+    It is infinite along directions without information.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def separable(jacobian: FloatArray, spread: FloatArray, factor: float) -> list[i
 def prediction_variance(gradients: FloatArray, matrix: FloatArray) -> FloatArray:
     """Return the variance of predicted values.
 
-    Shape (m,), from their gradients, shape (m, p).
+    It has the shape (m,) and follows from their gradients, shape (m, p).
     """
     found: FloatArray = np.einsum("ij,jk,ik->i", gradients, matrix, gradients)
     return found

@@ -1,6 +1,6 @@
 """Compute the operating clearance step by step.
 
-Unmounted clearance minus the effects of interference fits and temperatures.
+It is the unmounted clearance minus the effects of interference fits and temperatures.
 
 Elastic thick rings (Lame); diametral quantities, SI. Dimensions hold at 20 degC (ISO 1) unless told otherwise.
 """

@@ -63,7 +63,7 @@ def ball_raceway_radii(
 ) -> tuple[float, float]:
     """Return the reduced radii of a ball contact [m].
 
-    R_x along rolling, R_y across, of a ball in a raceway groove.
+    They are R_x along rolling and R_y across, of a ball in a raceway groove.
 
     1/R_x = 2/D_w +- 2 gamma / (D_w (1 -+ gamma)), gamma = D_w cos(alpha)/d_m, upper signs for the inner
     ring; 1/R_y = 2/D_w - 1/r_g (Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 1, ch. 2).

@@ -100,7 +100,7 @@ def entrainment_speed(
 ) -> float:
     """Return the mean surface speed of a contact [m/s].
 
-    (u_1 + u_2)/2 in the contact's frame, the same at both raceways.
+    It is (u_1 + u_2)/2 in the contact's frame, the same at both raceways.
 
     (d_m/4) (1 - gamma^2) |omega_i - omega_o|: the "hydrodynamic speed" from geometry alone (Barz 1996, as used
     in Syla et al. 2026, section 4.3).

@@ -132,7 +132,7 @@ def dynamic_equivalent_load(
 def _factors(relative: float, angle: float) -> tuple[float, float, float]:
     """Return e, X and Y of one row.
 
-    Single-row ball bearings of a contact angle [deg].
+    The row belongs to a ball bearing of a contact angle [deg].
     """
     radial = (
         _interpolate(relative, _RELATIVE_AXIAL, _LIMIT),

@@ -138,7 +138,7 @@ def alpha_secant(log_viscosity: LogViscosity, pressure: float = 0.2e9) -> float:
 def alpha_reciprocal(log_viscosity: LogViscosity, highest: float = 3e9) -> float:
     """Return the reciprocal pressure coefficient [1/Pa].
 
-    Asymptotic isoviscous: 1 / int_0^inf eta_0/eta dp (Blok 1963).
+    It is the asymptotic isoviscous one: 1 / int_0^inf eta_0/eta dp (Blok 1963).
 
     Integrated to `highest` [Pa]; the tail beyond is added as an exponential with the last slope.
     """

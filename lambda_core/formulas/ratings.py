@@ -1,6 +1,6 @@
 """Compute load ratings from inner geometry (ISO 281, ISO 76).
 
-Radial ball bearings of one row or several.
+The bearings are radial ball bearings of one row or several.
 
 Self-aligning bearings, whose outer raceway is a sphere, have factors of their own: the standards' formulas with that
 sphere's radius for the outer groove, inner grooves of 0.53 D_w, no reduction of f_c, and 4600 MPa in place of 4200.
@@ -158,7 +158,7 @@ def static_rating(
 ) -> float:
     """Return the static load rating C_0r [N].
 
-    Basic radial rating f_0 i Z D_w^2 cos(alpha) of i rows (ISO 76).
+    It is the basic radial rating f_0 i Z D_w^2 cos(alpha) of i rows (ISO 76).
     """
     gamma = ball_diameter * math.cos(contact_angle) / pitch_diameter
     factor = static_factor(gamma, inner_conformity, outer_conformity, on_sphere=on_sphere) * rows

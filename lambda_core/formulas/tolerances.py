@@ -1,6 +1,6 @@
 """Tabulate limits of size of ISO 286 and ISO 492.
 
-Classes of shafts and housings; normal tolerances of bearings, 3 to 500 mm.
+The tables hold classes of shafts and housings, and normal tolerances of bearings, 3 to 500 mm.
 
 Deviations in metres from the nominal size. The tables hold ISO 286-1's standard tolerances and fundamental
 deviations in micrometres; holes K to P follow the standard's rule ES = -ei + Delta, Delta = IT_n - IT_(n-1).

@@ -1,6 +1,6 @@
 """Call a kernel on trial.
 
-In plain Python with protected inputs, in machine code between guard cells.
+It runs in plain Python with protected inputs, and in machine code between guard cells.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ def plain_call(kernel: Callable[..., int], role: Role, arguments: list[Any]) -> 
 def handed_over(role: Role, arguments: list[Any]) -> list[Any]:
     """Return the arguments of one contact.
 
-    As compiled laws take them: numbers in which contacts differ are arrays of one.
+    Compiled laws take them so: numbers in which contacts differ are arrays of one.
     """
     pairs = zip(role.arguments, arguments, strict=True)
     return [np.array([value]) if argument.each else value for argument, value in pairs]
@@ -149,7 +149,7 @@ def compiled_call(dispatcher: Callable[..., int], role: Role, arguments: list[An
 def relative_difference(found: tuple[FloatArray, ...], expected: tuple[FloatArray, ...]) -> float:
     """Return the largest relative difference.
 
-    Relative to the larger magnitude (NaN equals NaN).
+    It is relative to the larger magnitude (NaN equals NaN).
     """
     worst = 0.0
     for one, other in zip(found, expected, strict=True):

@@ -43,7 +43,7 @@ class Oil:
 class Context:
     """Set-up for a law's `prepare`.
 
-    Frozen geometry, materials and oil, SI.
+    It holds frozen geometry, materials and oil, in SI.
 
     Lengths that a force element does not have are NaN (a cage contact has no groove).
     """

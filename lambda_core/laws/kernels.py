@@ -37,7 +37,7 @@ Announce = Callable[[str], None]
 def cache_folder() -> Path:
     """Return the folder of all compiled code.
 
-    ``LAMBDA_BEARING_CACHE`` or the user's cache.
+    It is ``LAMBDA_BEARING_CACHE`` or the user's cache.
     """
     if base := os.environ.get("LAMBDA_BEARING_CACHE"):
         return Path(base).expanduser() / "kernels"

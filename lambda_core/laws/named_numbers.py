@@ -73,7 +73,7 @@ def layout_of(record: type) -> Layout:
 def is_record(candidate: Any) -> bool:
     """Tell whether a type has named members.
 
-    A pydantic model, a NamedTuple or a dataclass.
+    Such a type is a pydantic model, a NamedTuple or a dataclass.
     """
     if not isinstance(candidate, type):
         return False

@@ -106,7 +106,7 @@ def _fault_of_default(name: str, error: Any) -> str:
 def default_fault(parameters: type[BaseModel]) -> str:
     """Report a default that is not valid.
 
-    Or a text that would reach the kernel unread; nothing when all are valid.
+    Also report a text that would reach the kernel unread; report nothing when all are valid.
     """
     try:
         parameters.model_validate({})

@@ -27,7 +27,7 @@ _NAME = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 class State:
     """State that every raceway contact keeps.
 
-    One number: a temperature, a wear depth, a layer of oil.
+    It is one number: a temperature, a wear depth or a layer of oil.
 
     Attributes
     ----------

@@ -32,7 +32,7 @@ class Choice:
 def try_out(choices: Sequence[Choice]) -> None:
     """Check chosen laws with the run's `par`.
 
-    Together, once for all processes.
+    They are checked together, once for all processes.
 
     Trials are drawn alike every time, so what they found holds as long as code, parameters, the trials themselves and
     the machine are the same. Their hash names an empty folder; only laws without a fault leave one.

@@ -1,6 +1,6 @@
 """Define exp, log and asinh that compilers vectorise.
 
-Branch-free plain Python, accurate to a few units in the last place.
+They are branch-free plain Python, accurate to a few units in the last place.
 
 Calls of the C library keep a loop over cells scalar; these take a fifth of the time. The exponent of a float is read
 and written through its bits, the rest is a polynomial (Muller 2016, Elementary Functions, 3rd ed., chapters 2 and 11).

@@ -278,7 +278,7 @@ class Effects:
     def _logarithms(self, model: BearingModel, *, near: bool, other: bool = False) -> FloatArray:
         """Return ln of relative results at one position.
 
-        Results of a model over those of the case, for one position of the balls.
+        They are results of a model over those of the case, for one position of the balls.
 
         With `near` only laws differ; with `other` they are other laws, which have kernels of their own.
         """

@@ -1,6 +1,6 @@
 """Collect the ranges of a case's parameters.
 
-Published with the laws, of the clearance class, or usual for an option.
+A range is published with the law, that of the clearance class, or usual for an option.
 """
 
 from __future__ import annotations

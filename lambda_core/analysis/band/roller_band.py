@@ -104,7 +104,7 @@ class RollerEffects:
     def _logarithms(self, changed: RollerModel) -> FloatArray:
         """Return ln of relative results at one place.
 
-        Results of a changed model over those of the base, for one place of the rollers.
+        They are results of a changed model over those of the base, for one place of the rollers.
         """
         is_moved = changed.bearing != self._base.bearing
         solved = solve_rollers(changed, PLACES[:1]) if is_moved else with_friction(changed, self._solved)

@@ -62,7 +62,7 @@ def impedance(films: Films, around: Surroundings, frequency: FloatArray) -> NDAr
 def shoulders_capacitance(geometry: Mapping[str, float]) -> float:
     """Return the capacitance of the rings without balls [F].
 
-    Coaxial cylinders in air, 2 pi eps_0 B/ln(D_2/d_1).
+    It is that of coaxial cylinders in air, 2 pi eps_0 B/ln(D_2/d_1).
 
     d_1 and D_2 are the diameters of the shoulders, B the width. Cage, seals and oil raise it.
     """

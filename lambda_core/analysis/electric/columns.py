@@ -67,7 +67,7 @@ class Held(NamedTuple):
 class Tables(NamedTuple):
     """Contacts at the samples.
 
-    Arrays of shape (samples, Z, 2); units as in `Held`.
+    The arrays have the shape (samples, Z, 2); their units are those of `Held`.
     """
 
     capacitance: Any

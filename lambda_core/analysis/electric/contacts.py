@@ -134,7 +134,7 @@ class Contacts:
 def turned(known: FloatArray, angle: FloatArray, times: FloatArray) -> FloatArray:
     """Return an angle at times.
 
-    Linear between the known ones and beyond them.
+    It is linear between the known ones and beyond them.
     """
     i = np.clip(np.searchsorted(known, times, side="right") - 1, 0, known.size - 2)
     slope = (angle[i + 1] - angle[i]) / (known[i + 1] - known[i])

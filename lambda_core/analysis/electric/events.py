@@ -156,7 +156,7 @@ def discharges_of(events: Events) -> Discharges:
 def sector_shares(events: Events, ring: int, sectors: int = SECTORS) -> FloatArray:
     """Return the share of breakdowns per raceway sector.
 
-    Shape (sectors,), of one raceway; zeros without any.
+    The shares of one raceway have the shape (sectors,); they are zero without any.
     """
     angles = events.angle[events.ring == ring]
     count, _ = np.histogram(angles, bins=sectors, range=(0.0, 2.0 * math.pi))

@@ -189,7 +189,7 @@ def energy_residual(total: FloatArray) -> float:
 def charge_residual(simulation: Simulation) -> float:
     """Return the relative charge residual.
 
-    Charge brought by the source - leaked - through arcs - kept, over the charge that the source moved.
+    It is the charge that the source brought less the leaked, discharged and kept charge, over the charge that it moved.
     """
     total, (times, volts) = simulation.solution.total, simulation.source
     begin, end = np.interp((total[L.T_BEGAN], total[L.T_TIME]), times, volts)

@@ -99,7 +99,7 @@ class Simulation:
     def outcome(self) -> Outcome:
         """Outcome in the words of the interface.
 
-        Voltages, discharges and impedance.
+        It consists of voltages, discharges and impedance.
         """
         from lambda_core.analysis.electric.outcome import outcome_of
 
@@ -127,7 +127,7 @@ class CircuitSimulation:
     def outcome(self) -> ShaftOutcome:
         """Outcome of shaft and bearings.
 
-        Voltages and discharges in the words of the interface.
+        It consists of voltages and discharges in the words of the interface.
         """
         from lambda_core.analysis.electric.outcome import shaft_outcome
 

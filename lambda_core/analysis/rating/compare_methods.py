@@ -65,7 +65,7 @@ def comparison_inputs(
 ) -> MethodInputs:
     """Collect the equilibrium's inputs of comparison methods.
 
-    Loads, stiffness, oil, permittivity of the inner contact.
+    They are loads, stiffness, oil and the permittivity of the inner contact.
 
     The `stiffness` takes more equilibria, and can be left out; `loads` are the sizes of radial and axial load [N], by
     default those of the bearing's case.

@@ -138,7 +138,7 @@ class BodyMoved(Record):
 class MachineEquilibrium(Answer):
     """Quasi-static equilibrium of a machine.
 
-    Loads, deflection, lives and friction of its bearings.
+    It holds loads, deflection, lives and friction of its bearings.
     """
 
     interface: int = INTERFACE
@@ -328,7 +328,7 @@ def _moved(motion: FloatArray) -> BodyMoved:
 def _at(model: MachineModel, state: ShaftState, place: Place) -> FloatArray:
     """Return the displacement and rotation of a place.
 
-    Zeros on the ground and off the nodes of the shaft.
+    They are zero on the ground and off the nodes of the shaft.
     """
     own, moves = point_on(model, static_rows(model), place.body, place.point)
     return np.asarray(moves @ state.motions[own])

@@ -118,7 +118,7 @@ def _table(
 def equilibrium_text(found: MachineEquilibrium, width: int | None = None, units: UnitSystem = SI) -> str:
     """Return the text of one equilibrium.
 
-    The bearings side by side, then the shaft.
+    The bearings stand side by side, and the shaft follows.
     """
     own = [units.sentence(line) for line in _shaft_lines(found)]
     judged = [(one.name, one.verdict) for one in found.bearings]
@@ -276,7 +276,7 @@ def machine_warnings(model: MachineModel) -> list[str]:
 def model_text(model: MachineModel, *, everything: bool = False) -> str:
     """Return the text of a resolved shaft.
 
-    The verdict, its parts, warnings, assumptions by effect.
+    It lists the verdict, its parts, warnings, and assumptions by effect.
     """
     warned = machine_warnings(model)
     shaft = "rigid shaft" if model.body.is_rigid else f"shaft of {1e3 * model.outline[-1][1]:.6g} mm"

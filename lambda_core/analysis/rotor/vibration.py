@@ -93,7 +93,7 @@ def _of_each(matrix: FloatArray) -> FloatArray:
 def _damping_in_series(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
     """Return the shaft's damping at all bearings.
 
-    Shape (5 bearings, 5 bearings).
+    The shape is (5 bearings, 5 bearings).
     """
     speed = abs(model.speed) or 1.0
     matrix = _joined(model, state, springs=False) + 1j * speed * _resisting(model, state, dampings, springs=False)
@@ -103,7 +103,7 @@ def _damping_in_series(model: MachineModel, state: ShaftState, dampings: FloatAr
 def _in_series(model: MachineModel, state: ShaftState) -> FloatArray:
     """Return the shaft's stiffness at all bearings.
 
-    Shape (5 bearings, 5 bearings).
+    The shape is (5 bearings, 5 bearings).
 
     Rings and bodies behind the bearings follow without inertia.
     """
@@ -162,7 +162,7 @@ def _resisting(model: MachineModel, state: ShaftState, dampings: FloatArray, *, 
 def _inner_against_outer(model: MachineModel, rows: Rows, index: int) -> FloatArray:
     """Return the relative motion of the rings.
 
-    Inner against outer, shape (5, rows).
+    It is that of the inner against the outer ring, shape (5, rows).
     """
     size = len(PLACES)
     found: FloatArray = np.zeros((size, rows.size))
@@ -188,7 +188,7 @@ def _moving(model: MachineModel, rows: Rows) -> tuple[list[int], list[int]]:
 def _seen(matrix: Any, kept: Any, others: list[int]) -> Any:
     """Return the condensed stiffness at the rows `kept`.
 
-    The others follow: K_kk - K_ko K_oo^-1 K_ok.
+    The other rows follow: K_kk - K_ko K_oo^-1 K_ok.
     """
     found = np.array(matrix[np.ix_(kept, kept)])
     others = [row for row in others if abs(matrix[row, row]) > 0.0]

@@ -132,7 +132,7 @@ class BearingNodes:
     def capacities(self, density: float) -> dict[str, float]:
         """Return the heat capacities [J/K].
 
-        Rings, balls, oil of a density [kg/m3], and cage.
+        They are those of the rings, the balls, the oil of a density [kg/m3], and the cage.
         """
         g, model, t = self.model.geometry, self.model, self.thermal
         rings: dict[str, Material] = {"inner": model.inner_material, "outer": model.outer_material}

@@ -1,6 +1,6 @@
 """Compute conductances inside a bearing.
 
-Rolling contacts, oil on surfaces, solid parts, seats. SI throughout.
+They belong to rolling contacts, oil on surfaces, solid parts and seats. Units are SI throughout.
 """
 
 from __future__ import annotations

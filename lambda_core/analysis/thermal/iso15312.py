@@ -1,6 +1,6 @@
 """Compute the thermal reference speed by ISO 15312.
 
-The speed at which a bearing in oil reaches 70 degC by its own loss.
+A bearing in oil reaches 70 degC by its own loss at this speed.
 """
 
 from __future__ import annotations

@@ -100,7 +100,7 @@ class MachineNetwork:
     def capacities(self, points: Sequence[Point]) -> FloatArray:
         """Return the heat capacity of every node [J/K].
 
-        Shape (n,), infinite where the temperature is held.
+        The shape is (n,); the capacity is infinite where the temperature is held.
 
         Parameters
         ----------

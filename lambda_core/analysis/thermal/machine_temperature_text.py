@@ -91,7 +91,7 @@ def elements_in(found: MachineTemperatures) -> str:
 def course_text(found: MachineTemperaturesOverTime, units: UnitSystem) -> str:
     """Return the text of temperatures over time.
 
-    A table, times of rise, the balance.
+    It has a table, the times of rise and the balance.
     """
     nodes = [f"{name}.{part}" for name in found.bearings for part in ("inner_ring", "outer_ring", "oil")]
     nodes = [name for name in (*nodes, "housing") if name in found.temperatures_degC]

@@ -63,7 +63,7 @@ class MachineLoop(Loop):
     def seen(self, temperatures: FloatArray) -> FloatArray:
         """Return the quantities that the contacts see.
 
-        Inlet temperatures [K], clearances [m], and growth of the shaft beyond the housing's [m].
+        They are inlet temperatures [K], clearances [m], and growth of the shaft beyond the housing's [m].
         """
         at, heat = self.nodes.named(temperatures), self.machine.heat
         inlets, clearances = [], []

@@ -85,7 +85,7 @@ def temperature_sources(band: ModelBand | None) -> list[str]:
 def course_text(found: TemperaturesOverTime) -> str:
     """Return the text of temperatures over time.
 
-    A table, times of rise, the balance.
+    It has a table, the times of rise and the balance.
     """
     names = list(found.temperatures_degC)
     last = len(found.time_s) - 1
@@ -135,7 +135,7 @@ def _assumed(found: SteadyTemperatures | TemperaturesOverTime) -> list[str]:
 def gain_text(gain: LoopGain) -> str:
     """Return the gain of the loop.
 
-    Torque-temperature loop, with its two parts.
+    It is the gain from torque to temperature and back, with its two parts.
     """
     # what rounds to nothing has no sign; a format of numbers would say -0.00
     clearance, viscosity, loop = (round(part, 2) + 0.0 for part in (gain.clearance, gain.viscosity, gain.loop))

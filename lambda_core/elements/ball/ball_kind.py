@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 class Angles(NamedTuple):
     """Angles and clearances of a bearing.
 
-    Angles [rad], radial clearance as bought, diametral [m], arrangement and distance of two rows [m].
+    It holds angles [rad], radial clearance as bought, diametral [m], arrangement and distance of two rows [m].
     """
 
     free: float

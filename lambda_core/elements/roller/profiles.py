@@ -140,7 +140,7 @@ def two_radii(x: FloatArray | float, middle_length: float, middle_radius: float,
 def tabulated(x: FloatArray | float, positions: Sequence[float], drops: Sequence[float]) -> FloatArray:
     """Return the drop [m] between measured points.
 
-    Monotone between neighbours (PCHIP, Fritsch and Carlson 1980).
+    The curve is monotone between neighbours (PCHIP, Fritsch and Carlson 1980).
 
     Raises
     ------

@@ -1,6 +1,6 @@
 """Define the inner geometry of roller bearings.
 
-Cylindrical, tapered and needle rollers of one row.
+The bearings have one row of cylindrical, tapered or needle rollers.
 
 The plane of a roller has the coordinates (a, r): a along the bearing's axis in the direction in which thrust pushes the
 inner ring, r away from the axis. The small end of a tapered roller therefore points to positive a.

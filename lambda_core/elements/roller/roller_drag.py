@@ -35,7 +35,7 @@ def bath_drag(
 ) -> float:
     """Return the bath's drag on one row [N m].
 
-    M_drag of rollers in an oil bath.
+    It is M_drag of rollers in an oil bath.
 
     4 V_M K_roll C_w B d_m^4 n^2 + 1.093e-7 n^2 d_m^3 (n d_m^2 f_t/nu)^-1.379 R_s, K_roll = K_L K_Z (d + D)/(D - d)
     1e-12, C_w = 2.789e-10 l^3 - 2.786e-4 l^2 + 0.0195 l + 0.6439, l = 5 K_L B/d_m, R_s = 0.36 d_m^2 (t - sin t) f_A,
@@ -68,7 +68,7 @@ def bath_drag_terms(
 ) -> tuple[float, float]:
     """Return the drag terms of a bath.
 
-    Drag of rollers over n^2 and n^0.621 nu^1.379.
+    They are the drag of rollers over n^2 and over n^0.621 nu^1.379.
 
     In N mm, 1/min and mm2/s; the equation is that of :func:`bath_drag`.
 

@@ -252,7 +252,7 @@ def takes_one_side(bearing: RollerBearing) -> bool:
 def single_springs(bearing: RollerBearing, slices: int) -> Springs:
     """Return all contacts of one roller.
 
-    Outer slices, inner slices, ribs.
+    They are outer slices, inner slices and ribs.
     """
     angles, half = bearing.angles, 0.5 * bearing.diameter
     inner, outer, axis = angles.inner, angles.outer, angles.roller

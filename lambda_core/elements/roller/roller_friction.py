@@ -251,7 +251,8 @@ def _rib(
 ) -> tuple[float, float, float, HertzContact] | None:
     """Return power [W] and film [m] of ribs.
 
-    Power of all rollers, smallest film, friction and contact of the most loaded; None unloaded.
+    The power is that of all rollers; the film is the smallest, with friction and contact of the most loaded; None
+    unloaded.
     """
     if not np.any(loads > 0.0):
         return None

@@ -125,7 +125,7 @@ def modified_lamina_life(
 def _mean(loads: FloatArray, exponent: float) -> FloatArray:
     """Return the power mean over the rollers.
 
-    Relative to the largest, so that zero stays zero without overflow.
+    It is computed relative to the largest value, so that zero stays zero without overflow.
     """
     top = loads.max(axis=0)
     scale = np.where(top > 0.0, top, 1.0)

@@ -53,7 +53,7 @@ def raceway_ratio(gamma: float, coefficient: float = _RATIO) -> float:
 def roller_dynamic_factor(gamma: float, reduction: float = REDUCTION_FACTOR) -> float:
     """Return f_c of ISO 281 for rollers.
 
-    Radial roller bearings (N, mm; without b_m).
+    It is that of radial roller bearings (N, mm; without b_m).
 
     f_c = 207.9 lambda {1 + [1.04 ((1-g)/(1+g))^(143/108)]^(9/2)}^(-2/9) g^(2/9) (1-g)^(29/27)/(1+g)^(1/4)
     (Lundberg and Palmgren 1952; ISO/TR 1281-1): the closed form behind the standard's table.

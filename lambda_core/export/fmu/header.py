@@ -339,7 +339,7 @@ def _start_tables(frozen: Frozen) -> list[str]:
 def _curves(frozen: Frozen) -> list[str]:
     """Return the dependent constants' curves.
 
-    Points of every option, values of every curve.
+    They are the points of every option and the values of every curve.
     """
     rows: list[str] = []
     curves: list[str] = []

@@ -1,6 +1,6 @@
 """Store a model's arrays and pointers as bytes.
 
-An instance, a saved state, a checkpoint.
+They belong to an instance, a saved state or a checkpoint.
 
 At its beginning stand the arguments of the solver's compiled functions, as words of eight bytes: an array is its number
 and size of items, where its bytes are, shape and strides; a pointer to a function is an address; a named tuple is its

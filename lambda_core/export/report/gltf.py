@@ -221,7 +221,7 @@ def _pose(scene: Scene, body: int) -> FloatArray:
 def _from_x(direction: FloatArray) -> FloatArray:
     """Return the rotations from x to unit vectors.
 
-    The identity for zero vectors.
+    It is the identity for zero vectors.
     """
     found = np.stack([np.zeros(len(direction)), -direction[:, 2], direction[:, 1], 1.0 + direction[:, 0]], axis=1)
     size = np.linalg.norm(found, axis=1, keepdims=True)

@@ -37,7 +37,7 @@ _LEAST_LOAD = 0.01  # of the largest load of a contact, as in `loaded balls`
 class Table:
     """One table of a page.
 
-    A caption, headings, rows of text.
+    It has a caption, headings and rows of text.
     """
 
     caption: str
@@ -226,7 +226,7 @@ def machine_figures(found: Any, units: UnitSystem = SI, run: Any = None) -> Tabl
 def machine_reactions(found: Any, units: UnitSystem = SI) -> Table:
     """Return the reactions of a machine.
 
-    Forces and moments of the bearings on the shaft, and the forces of gears.
+    They are forces and moments of the bearings on the shaft, and the forces of gears.
     """
     force, moment = units.unit("N"), units.unit("N m")
     head = ("", f"x {force}", f"y {force}", f"z {force}", f"about y {moment}", f"about z {moment}")
@@ -396,7 +396,7 @@ def study_points(table: StudyTable, units: UnitSystem = SI) -> Table:
 def _cell(value: Any, unit: str, units: UnitSystem) -> str:
     """Write a number of a point.
 
-    A life as a life, others to four digits.
+    It writes a life as a life, and others to four digits.
     """
     if not isinstance(value, float):
         return written(value)

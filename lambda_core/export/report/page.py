@@ -67,7 +67,7 @@ APPENDICES = ("tables", *(name for name, _ in _CHAPTERS))
 class Cover:
     """Cover data that the user gives.
 
-    Project, author, day, the appendices after the standard pages, units.
+    They are project, author, day, the appendices after the standard pages, and units.
     """
 
     project: str = ""
@@ -80,7 +80,7 @@ class Cover:
     def line(self) -> str:
         """One line for the head of the page.
 
-        "" without one.
+        It is "" without one.
         """
         return "   ".join(filter(None, (self.project, self.author, self.date)))
 
@@ -154,7 +154,7 @@ def _start_of(result: Result) -> tuple[Any, Any] | None:
 def machine_drawings(registry: Registry, model: Any, found: Any, cover: Cover) -> list[Picture]:
     """Draw a machine's equilibrium.
 
-    Deflection, bending moment and the other drawings.
+    It draws deflection, bending moment and the other drawings.
     """
     from lambda_core.views.view import MachineData
 

@@ -101,7 +101,7 @@ def _play(cage: dict[str, object]) -> float:
 def _rotations(times: FloatArray, azimuth: FloatArray, spin: FloatArray, at: FloatArray) -> FloatArray:
     """Return the orientation of each ball at moments.
 
-    Shape (frames, balls, 4): quaternions x, y, z, w.
+    The shape is (frames, balls, 4): quaternions x, y, z, w.
 
     The angular velocity is taken as constant between recorded samples (their mean), turned by its exponential map.
     """

@@ -1,4 +1,4 @@
 """Describe elastic bodies by matrices.
 
-Shafts as beams, their modes, imported reduced models. SI in and out.
+The bodies are shafts as beams, their modes, and imported reduced models. Units are SI.
 """

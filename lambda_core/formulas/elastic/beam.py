@@ -1,6 +1,6 @@
 """Compute matrices of a Timoshenko beam element.
 
-Four nodes of six degrees of freedom: stiffness, mass, gyroscopic matrix.
+It has four nodes of six degrees of freedom: stiffness, mass, gyroscopic matrix.
 
 All six motions are cubic along the element (Lagrange through equally spaced nodes). The solution of Timoshenko's
 equations under loads at the ends, deflection cubic and lean of the sections quadratic, is one of these, so that static
@@ -30,7 +30,7 @@ _PLANES = ((1, 5, 1.0), (2, 4, -1.0))
 class ElementMatrices:
     """Matrices of one element.
 
-    Shape (24, 24), in the order of its nodes.
+    They have the shape (24, 24), in the order of its nodes.
     """
 
     stiffness: FloatArray

@@ -130,7 +130,7 @@ def elements_of(
 ) -> FloatArray:
     """Return the ends of a shaft's elements [m].
 
-    Arguments as for :func:`shaft_body`, discs among the places.
+    The arguments are those of :func:`shaft_body`; discs are among the places.
     """
     return mesh(_ends(sections), places, [fineness * section.outside_diameter for _, section in sections])
 

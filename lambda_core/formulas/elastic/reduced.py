@@ -1,6 +1,6 @@
 """Check imported reduced models.
 
-Mass, stiffness and nodes of any finite-element program, in one file.
+Any finite-element program may give mass, stiffness and nodes in one file.
 
 docs/shaft-reference.md describes the file. Units are SI, or millimetres, tonnes and newtons.
 """

@@ -1,6 +1,6 @@
 """Compute inextensional bending of rings and cages.
 
-Fourier modes n >= 2, in a bedding or free. SI.
+The Fourier modes are n >= 2, in a bedding or free. Units are SI.
 
 Radial displacement w = sum of c_n cos(n th) + s_n sin(n th), and a tangential one that keeps the length,
 v = -integral of w dth (Love 1927, Theory of Elasticity, art. 293; Timoshenko, Vibration Problems in Engineering).
@@ -89,7 +89,7 @@ class ElasticRing:
     def flexibility(self, angles: FloatArray, orders: int = 10) -> FloatArray:
         """Return the flexibility of a ring [m/N].
 
-        Radial displacements outwards under unit radial forces at the same places, shape (m, m).
+        It is the radial displacement outwards under unit radial forces at the same places, shape (m, m).
 
         Bending alone: translation (n = 1) is the rigid body's. Forces are to be in balance, as far as no bedding holds.
 
@@ -152,7 +152,7 @@ def ovality(amplitudes: FloatArray) -> FloatArray:
 class RingWaves:
     """Modelled waves of an elastic ring or cage.
 
-    Orders 2 to `orders`, with modal damping.
+    The orders are 2 to `orders`, with modal damping.
 
     Attributes
     ----------

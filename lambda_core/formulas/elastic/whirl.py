@@ -144,7 +144,7 @@ def critical_speeds(
 def _direction(shape: np.ndarray, nodes: int, spin: float) -> float:
     """Return the whirl direction of a motion.
 
-    How far exp(i w t) circles with the spin: areas of the nodes' orbits over their squares.
+    It tells how far exp(i w t) circles with the spin: areas of the nodes' orbits over their squares.
     """
     y, z = shape[1 : 6 * nodes : 6], shape[2 : 6 * nodes : 6]
     square = float(np.sum(np.abs(y) ** 2 + np.abs(z) ** 2))

@@ -1,6 +1,6 @@
 """Define options of functions that exist in callers only.
 
-Options of ``numba.njit``; none without Numba's internals.
+They are options of ``numba.njit``; there are none without Numba's internals.
 
 They come from :mod:`inside_callers`.
 """

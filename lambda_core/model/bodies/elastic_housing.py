@@ -23,7 +23,7 @@ def elastic_housing(
 ) -> tuple[FloatArray, FloatArray] | tuple[None, None]:
     """Return stiffness and damping between outer rings.
 
-    Shape (5 bearings, 5 bearings); None after a problem.
+    The shape is (5 bearings, 5 bearings); None follows a problem.
 
     What the rings do not hold, further nodes and modes, follows without force: K_kk - K_ko K_oo^-1 K_ok.
 

@@ -99,7 +99,7 @@ def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: f
 def _sphered_ring(g: Geometry, density: float) -> Inertia:
     """Return a self-aligning bearing's outer ring.
 
-    A bar less the layer of a sphere between its faces.
+    It is a bar less the layer of a sphere between its faces.
     """
     sphere = g.groove_radius_outer
     volume = math.pi * ((0.25 * g.outside_diameter**2 - sphere**2) * g.width + g.width**3 / 12.0)

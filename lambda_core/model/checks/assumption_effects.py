@@ -41,7 +41,7 @@ _OPEN, _KNOWN, _SMALL = range(3)
 def weight(assumption: str) -> int:
     """Return the weight of an assumption.
 
-    0 for unknown values, 1 for published values, 2 for numerical settings.
+    It is 0 for unknown values, 1 for published values, 2 for numerical settings.
     """
     return _SMALL if _NUMERICAL.search(assumption) else _KNOWN if _PUBLISHED.search(assumption) else _OPEN
 

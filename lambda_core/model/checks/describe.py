@@ -70,7 +70,7 @@ class CaseReport(BaseModel):
     def text(self, everything: bool = False) -> str:
         """Return the lines of the report.
 
-        The verdict, a summary of the case, warnings, assumptions by effect.
+        They are the verdict, a summary of the case, warnings, and assumptions by effect.
 
         Parameters
         ----------

@@ -43,7 +43,7 @@ class OilPoint(BaseModel):
 class OilCoefficients(BaseModel):
     """Coefficients of an oil at one temperature.
 
-    Pressure coefficients by their definitions, and the temperature coefficient.
+    It holds pressure coefficients by their definitions, and the temperature coefficient.
     """
 
     temperature_degC: float

@@ -12,7 +12,7 @@ from lambda_core.analysis.electric.compiled.patches import NO_PATCH
 def _between(table, i, x, out):
     """Write an interpolated row of a sample table.
 
-    Linear between samples i and i + 1.
+    It is linear between samples i and i + 1.
     """
     for j in range(out.shape[0]):
         for ring in range(2):
