@@ -84,7 +84,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
 def entries() -> dict[str, Entry]:
     """Return every command that exists here, by name.
 
-    Imports none of them.
+    It imports none of them.
     """
     found = {
         name: _built_in(name, target, text)

@@ -98,7 +98,7 @@ class Printed:
     def pitch_diameter(self) -> float:
         """Pitch diameter [mm].
 
-        Known, or middle of bore and outside diameter, averaged with the shoulders' if printed.
+        It is known, or the middle of bore and outside diameter, averaged with the shoulders' if printed.
         """
         if self.known_pitch is not None:
             return self.known_pitch

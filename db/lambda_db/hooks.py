@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def lambda_catalogue(seed_folders: list[Any]) -> Catalogue:
     """Open the catalogue with all sources.
 
-    The built-in seeds, the folders that plugins bring and the user's own database.
+    They are the built-in seeds, the folders that plugins bring and the user's own database.
     """
     from lambda_db.catalogue import open_catalogue
 

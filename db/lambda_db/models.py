@@ -65,7 +65,7 @@ _CATALOGUE = ("reference_speed_rpm", "limiting_speed_rpm", "mass_kg")
 class Bearing(Base):
     """Bearing of one maker.
 
-    Dimensions, ratings, speeds, mass and, where known, inner geometry.
+    It holds dimensions, ratings, speeds, mass and, where known, inner geometry.
     """
 
     __tablename__ = "bearing"

@@ -18,7 +18,7 @@ APPLICATION = "lambda-bearing"
 def cache_folder() -> Path:
     """Return the folder of the built core database.
 
-    ``LAMBDA_BEARING_CACHE`` or the user's cache folder.
+    It is ``LAMBDA_BEARING_CACHE`` or the user's cache folder.
     """
     given = os.environ.get("LAMBDA_BEARING_CACHE")
     return Path(given) if given else platformdirs.user_cache_path(APPLICATION)

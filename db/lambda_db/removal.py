@@ -36,7 +36,7 @@ class RemovalReport:
 def remove_row(catalogue: SqlCatalogue, table: str, cells: Mapping[str, object]) -> RemovalReport:
     """Remove one row of the user and dependent rows.
 
-    Candidates of a bearing, constants of an oil.
+    Dependent rows are candidates of a bearing and constants of an oil.
 
     Parameters
     ----------

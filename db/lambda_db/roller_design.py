@@ -1,6 +1,6 @@
 """Define the table of roller bearings.
 
-Boundary dimensions, ratings and inner geometry of one row of rollers.
+It holds boundary dimensions, ratings and inner geometry of one row of rollers.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _RATIO = "(roller_diameter_mm / pitch_diameter_mm)"
 class RollerDesign(Base):
     """Roller bearing of one maker.
 
-    Dimensions, ratings and inner geometry.
+    It holds dimensions, ratings and inner geometry.
     """
 
     __tablename__ = "roller_design"

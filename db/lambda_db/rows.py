@@ -1,6 +1,6 @@
 """Convert table rows to the core's catalogue rows.
 
-SI values, each with its source, grade and status.
+They hold SI values, each with its source, grade and status.
 """
 
 from __future__ import annotations
@@ -228,7 +228,7 @@ def lubricant_row(
 ) -> LubricantRow:
     """Convert one lubricant with properties and parameters.
 
-    Properties in SI, the parameters of every law as published.
+    Properties are in SI, and the parameters of every law as published.
     """
     nested: dict[str, dict[str, dict[str, Parameter]]] = {}
     for p in parameters:

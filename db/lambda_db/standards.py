@@ -1,6 +1,6 @@
 """Hold printed tables for the derivation of geometry.
 
-Ball sizes, ISO 76 f_0, ISO 281 f_c, published designs.
+They are ball sizes, ISO 76 f_0, ISO 281 f_c and published designs.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def iso76_f0(*, both_052: bool = False) -> tuple[tuple[float, ...], tuple[float,
 def iso281_fc() -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Return f_c of ISO 281 for single rows.
 
-    Radial contact ball bearings: (D_w cos(alpha)/D_pw, f_c), N and mm.
+    It is that of radial contact ball bearings: (D_w cos(alpha)/D_pw, f_c), N and mm.
     """
     rows = _rows("iso281_fc.csv")
     return tuple(float(row["gamma"]) for row in rows), tuple(float(row["fc"]) for row in rows)

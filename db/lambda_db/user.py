@@ -1,6 +1,6 @@
 """Open and write the user's own database.
 
-WAL, a busy timeout for several writers, versions by PRAGMA user_version.
+It uses WAL, a busy timeout for several writers, and versions by PRAGMA user_version.
 """
 
 from __future__ import annotations

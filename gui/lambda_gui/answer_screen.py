@@ -1,6 +1,6 @@
 """Answer questions about the case without a run.
 
-Equilibrium, temperatures, currents, friction.
+The answers are equilibrium, temperatures, currents and friction.
 """
 
 from __future__ import annotations

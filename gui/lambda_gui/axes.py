@@ -68,7 +68,7 @@ class _Canvas:
 def axes_sketch(colours: Mapping[str, str]) -> Text:
     """Draw rings, balls, axes and azimuth.
 
-    Also the positive sense of rotation.
+    It also draws the positive sense of rotation.
 
     Parameters
     ----------

@@ -147,7 +147,7 @@ class Derived(Static):
     def _of_a_machine(self, units: UnitSystem) -> Text:
         """Return the lines of a machine.
 
-        A line for each bearing, then the numbers of the shaft.
+        Each bearing has a line, and the numbers of the shaft follow.
         """
         estimate: Any = self.estimate
         if estimate is None:

@@ -88,7 +88,7 @@ _NAMES = 18  # columns for the names of cases; what is longer is wrapped
 def _short(folder: Path) -> str:
     """Return a folder relative to home.
 
-    Only where it is there.
+    A folder elsewhere stays as it is.
     """
     home = Path.home()
     return f"~/{folder.relative_to(home)}" if folder.is_relative_to(home) else str(folder)
@@ -97,7 +97,7 @@ def _short(folder: Path) -> str:
 class OpenCase(ModalScreen[str | None]):
     """Choice of a case.
 
-    Empty, a shaft, a file, a machine, a built-in name; None when left with Esc.
+    It is empty, a shaft, a file, a machine or a built-in name; None when left with Esc.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [

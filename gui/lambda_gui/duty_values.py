@@ -28,7 +28,7 @@ _WIDE = 11  # columns of a value
 class Column:
     """Column of the spectrum.
 
-    Key or path of an option, head, width, and the quantity of its values.
+    It has the key or path of an option, a head, a width, and the quantity of its values.
     """
 
     key: str
@@ -165,7 +165,7 @@ def cycle_view(
 def _table(found: DutyCycle, units: UnitSystem) -> Table:
     """Return one bearing's phases and their sum.
 
-    As a table.
+    They form a table.
     """
     table = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False, header_style="dim")
     heads = ("time %", "rpm", f"P {units.unit('N')}", "L10rh h", "damage %", f"loss {units.unit('W')}", "energy kJ")

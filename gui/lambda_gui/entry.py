@@ -37,7 +37,7 @@ def completed(text: str, units: Sequence[str]) -> str:
 def meant(text: str, names: Sequence[str]) -> list[str]:
     """Return the name that begins with a text.
 
-    Else all names that hold it; only letters and digits count.
+    If none begins so, return all names that hold it; only letters and digits count.
     """
     folded = text.strip().casefold()
     first = next((name for name in names if name.casefold().startswith(folded)), None)
@@ -156,7 +156,7 @@ class Entry(Input):
     def accept(self) -> None:
         """Accept the proposal in grey.
 
-        Else the only name that holds the typed text; list them if there are more.
+        Without it, accept the only name that holds the typed text; list them if there are more.
         """
         self.complete()
         if self._names is None or not self.value or self.value in self._names():

@@ -1,6 +1,6 @@
 """Run the heavy work of the builder in a process.
 
-Equilibria, views, figures.
+It does equilibria, views and figures.
 
 It is a process of its own because compiled code takes seconds to load and holds the
 interpreter meanwhile. ``python -m lambda_gui.helper_process`` reads one JSON object per line

@@ -134,7 +134,7 @@ class _Scale:
     def rows(self, inner: float, outer: float, *, below: bool) -> tuple[float, float]:
         """Return top and bottom between two radii.
 
-        Above the axis or below it.
+        They lie above the axis or below it.
         """
         near, far = inner / self.unit, outer / self.unit
         return (self.axis + near, self.axis + far) if below else (self.axis - far, self.axis - near)
@@ -267,7 +267,7 @@ def _names_above(canvas: Canvas, model: MachineModel, scale: _Scale, colours: Ma
 def _label(canvas: Canvas, line: int, middle: float, label: str, colour: str, *, moves: bool) -> None:
     """Write a name around a place.
 
-    Where it moves at the next free one to the right; nothing without room.
+    If it moves, it takes the next free place to the right; without room nothing is written.
     """
     most = max(0, canvas.width - len(label))
     column = min(max(0, round(middle - 0.5 * len(label))), most)
@@ -359,7 +359,7 @@ def _bend(
 def _between(place: float, places: list[float], values: list[float]) -> float:
     """Return the value at a place.
 
-    Linear between its neighbours.
+    It is linear between its neighbours.
     """
     for left, right, a, b in zip(places, places[1:], values, values[1:], strict=False):
         if place <= right and right > left:

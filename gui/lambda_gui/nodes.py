@@ -162,7 +162,7 @@ def plain_fields(root: type[BaseModel], table: Keys) -> list[str]:
 def about(root: type[BaseModel], table: Keys, *, own: bool = True) -> str:
     """Return a table's description.
 
-    The first sentence of its class, or the description of its field.
+    It is the first sentence of its class, or the description of its field.
     """
     if not own:
         return str(table_model(root, table[:-1]).model_fields[table[-1]].description)

@@ -120,7 +120,7 @@ def outline(root: type[BaseModel], names: Names | None = None) -> list[Node]:
 def section_names(draft: Draft) -> dict[str, tuple[str, ...]]:
     """Return the names of a draft's tables.
 
-    Those in sections of named tables, and the numbers of the pieces of its shaft.
+    They are those in sections of named tables, and the numbers of the pieces of its shaft.
     """
     found: dict[str, tuple[str, ...]] = {}
     for section, info in draft.root.model_fields.items():
@@ -243,7 +243,7 @@ class _Outline:
     def _forces(self) -> Node:
         """Return the laws of contacts.
 
-        Of single ones too where the case has one bearing.
+        They include those of single ones where the case has one bearing.
         """
         every = Node("models", "All elements", "one law for every force element that has the role", kind="roles",
                      children=[self._role("", role) for role in MOTION_ROLES])  # fmt: skip

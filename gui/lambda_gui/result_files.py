@@ -17,7 +17,7 @@ def is_study(path: Path) -> bool:
 def named(path: Path) -> str:
     """Return the listed name of a result.
 
-    Or of a study.
+    It may also be that of a study.
     """
     return f"{path.name}/" if path.is_dir() else path.stem
 

@@ -97,7 +97,7 @@ class Names(Surroundings):
 def row_of(widget: Widget) -> Row | None:
     """Return the row of a widget.
 
-    None outside of rows.
+    It is None outside of rows.
     """
     return next((around for around in widget.ancestors_with_self if isinstance(around, Row)), None)
 

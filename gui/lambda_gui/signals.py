@@ -109,7 +109,7 @@ class SignalRow(Branch):
     def twigs(self) -> Iterator[Widget]:
         """Yield the options of the kind.
 
-        Or the terms of a sum.
+        For a sum, yield its terms.
         """
         table = self._tables.get(self._kind())
         if table is None:

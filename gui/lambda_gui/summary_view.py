@@ -31,7 +31,7 @@ def _currents(summary: Summary) -> Sequence[tuple[str, str, str]]:
 def summary_view(summary: Summary, colours: Mapping[str, str], units: UnitSystem = SI) -> Text:
     """Return the summary of a run.
 
-    Friction, kinematics, films, capacitance and accuracy.
+    It shows friction, kinematics, films, capacitance and accuracy.
     """
     text = Text()
     for line in units.sentence(summary.headline).splitlines():

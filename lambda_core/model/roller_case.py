@@ -231,7 +231,7 @@ def roller_title(case: Case, found: RollerDesignation | None, geometry: RollerBe
 def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger) -> RollerBearing | None:
     """Return the geometry.
 
-    The case's values first, then the catalogue's; None after a problem.
+    The case's values come first, then the catalogue's; None follows a problem.
     """
     rollers, row = case.bearing.rollers or InlineRollers(), found.row if found else None
     boundary = _boundary(case, row, ledger)
@@ -363,7 +363,7 @@ def _profile(rollers: InlineRollers, row: RollerRow | None, diameter: float, led
 def _clearance(case: Case, found: RollerDesignation | None, bore: float, ledger: Ledger) -> float:
     """Return the radial clearance [m].
 
-    A value, or of a class its value as picked.
+    It is a value or, of a class, its value as picked.
     """
     text = case.bearing.clearance or (found.clearance if found else None) or "CN"
     if case.bearing.clearance is None and (found is None or found.clearance is None):

@@ -1,6 +1,6 @@
 """Let answers remember their question.
 
-The same question for a changed case, tables with units, a picture.
+They can answer it for a changed case, as tables with units, and as a picture.
 """
 
 from __future__ import annotations

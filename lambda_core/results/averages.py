@@ -124,7 +124,7 @@ class Interval:
     def torque(self) -> float:
         """Return the friction torque [N m].
 
-        Dissipated energy over the relative angle of the rings.
+        It is the dissipated energy over the relative angle of the rings.
         """
         angle = self.change("relative_angle")
         return float((self.last - self.first)[_LOSS].sum()) / angle if angle > 0.0 else math.nan
@@ -157,7 +157,7 @@ class Interval:
 class Estimate:
     """Mean with its 95 % confidence half-width.
 
-    NaN from fewer than two values.
+    It is NaN from fewer than two values.
     """
 
     mean: float

@@ -36,7 +36,7 @@ def is_narrow(found: Sequence[float]) -> bool:
 def ends(found: Sequence[float], unit: str, units: UnitSystem = SI, *, named: bool = False) -> str:
     """Return the ends of a model band.
 
-    Rounded to the meaningful digits; a dash for none.
+    They are rounded to the meaningful digits; a dash stands for none.
 
     The unit follows where it is to be `named` and the ends are numbers.
     """

@@ -53,7 +53,7 @@ class Entry:
 def bibtex(citation: Citation) -> str:
     """Return the references of a result as BibTeX.
 
-    The program, the method, and every publication behind its laws and data.
+    They are the program, the method, and every publication behind its laws and data.
 
     A law that brings entries of its own is cited by these. What has no year, such as a handbook's value, is no
     publication and stands as a comment.

@@ -314,7 +314,7 @@ def chunk_bytes(item: h5py.Dataset) -> int:
 def size(source: h5py.File, rows: Rows) -> int:
     """Return the size limit of a copy [bytes].
 
-    An upper bound with the first `rows` rows, metadata aside.
+    It is an upper bound with the first `rows` rows, without metadata.
     """
     total = 0
     for name, item in objects(source).items():
@@ -368,7 +368,7 @@ def soon() -> Stop:
 def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool, stop: Stop = never) -> None:
     """Copy a result with its first rows.
 
-    The first `rows` rows of its growing datasets.
+    It takes the first `rows` rows of its growing datasets.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ _HEAD, _COLUMN = 26, 14
 def machine_text(found: Summary, width: int | None = None, units: UnitSystem = SI) -> str:
     """Return the text of a machine's run.
 
-    `width` and `units` as for one bearing.
+    The arguments `width` and `units` are those for one bearing.
     """
     each = list(found.bearings.values())
     rows = [("bearing", [one.title.split(" (")[0] for one in each]), *_rows(found, units)]

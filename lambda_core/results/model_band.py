@@ -203,14 +203,14 @@ class MachineBand(Record):
     def shares(self) -> list[str]:
         """Return the uncertainty of each result [%].
 
-        A line for each bearing and result.
+        It has a line for each bearing and result.
         """
         return [f"{name}: {text}" for name, band in self.bearings.items() for text in band.shares()]
 
     def text(self) -> str:
         """Return the lines of all bearings' bands.
 
-        A heading and one line per result for each bearing.
+        Each bearing has a heading and one line per result.
         """
         return "\n".join(f"{name}: {band.text()}" for name, band in self.bearings.items())
 

@@ -113,7 +113,7 @@ def added(angle: float, *, fine: bool) -> tuple[float, float]:
 def numerical_damping(settings: Solver, status: Status, time: float) -> NumericalDamping | None:
     """Return the accuracy of a run's vibrations.
 
-    None of a result of an older version.
+    It is None for a result of an older version.
     """
     powers = status.statistics.get(FOURTH_POWERS, 0.0)
     if not powers > 0.0 or not time > 0.0:

@@ -115,7 +115,7 @@ def channels_of(group: h5py.Group) -> Iterator[tuple[Channel, dict[str, str]]]:
 def labels_of(data: h5py.Dataset) -> tuple[int, ...] | tuple[float, ...] | tuple[str, ...]:
     """Return the labels of a dimension.
 
-    Names, numbers of balls, places [m].
+    They are names, numbers of balls or places [m].
     """
     if h5py.check_string_dtype(data.dtype):
         return tuple(printable(label) for label in data.asstr()[()])

@@ -1,6 +1,6 @@
 """Declare the numbers of the machine interface.
 
-Unit, names, digits and group of each in one place.
+It holds unit, names, digits and group of each in one place.
 
 A field is declared once, with :func:`quantity`. The text of a result, the columns of a machine's text, the responses of
 studies, the tables of reports and the builder read the declaration.

@@ -22,7 +22,7 @@ class Record(BaseModel):
     def __str__(self) -> str:
         """Return the lines of text.
 
-        Else the short form where there are none.
+        They are the short form where there are none.
         """
         text = getattr(type(self), "text", None)
         return str(text(self)) if callable(text) else repr(self)

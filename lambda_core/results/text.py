@@ -271,7 +271,7 @@ def _oval(found: RingDeformation, units: UnitSystem) -> str:
 def _bent(found: RingShape, units: UnitSystem) -> tuple[str, str]:
     """Report the deformation of an elastic ring.
 
-    Outwards and inwards, with the places.
+    It gives the largest one outwards and inwards, with the places.
     """
     return (
         f"{found.ring} {units.text(found.outwards_um, 'um', 2)} outwards at {found.outwards_deg:.0f} deg",
@@ -282,7 +282,7 @@ def _bent(found: RingShape, units: UnitSystem) -> tuple[str, str]:
 def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSystem = SI) -> str:
     """Return the text of an equilibrium.
 
-    A line per subject and a table of contacts; `width` as above.
+    It has a line per subject and a table of contacts; `width` is as above.
     """
     tilt_y, tilt_z = found.inner_ring_tilt_mrad
     load, film = (f"{name} {units.unit(unit)}" for name, unit in (("load", "N"), ("film", "um")))

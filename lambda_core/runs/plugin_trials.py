@@ -1,6 +1,6 @@
 """Try plugins on the first samples of a run.
 
-Observers, events, views, sections and methods.
+It tries observers, events, views, sections and methods.
 
 `plugins check` tries them on a short run of a 6208 in a process of its own; `check` tries the observers and events of a
 case on the first two samples of that case.

@@ -15,7 +15,7 @@ _ROLLER = "roller"  # called by pointer: in no other code
 def compiled_sources() -> tuple[Path, ...]:
     """Return the sources of every machine's code.
 
-    Files and folders of compiled Python.
+    They are files and folders of compiled Python.
     """
     others = (_DRIVERS, _ROLLER)
     return tuple(
@@ -28,7 +28,7 @@ def compiled_sources() -> tuple[Path, ...]:
 def roller_sources() -> tuple[Path, ...]:
     """Return the sources of rollers' code.
 
-    Files and folders of compiled Python for machines with rollers.
+    They are files and folders of compiled Python for machines with rollers.
     """
     return (*compiled_sources(), _SOLVER / _ROLLER)
 

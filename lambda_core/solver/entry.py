@@ -158,7 +158,7 @@ def wait() -> None:
 def call_and_pointer(name: str, announce: Callable[[str], None] | None = None) -> tuple[Any, Pointer]:
     """Return a unit's callable and address.
 
-    Machine code as a Python callable, and as an address for other compiled code.
+    The callable is machine code for Python; the address is for other compiled code.
 
     A dispatcher would work out the types of its arguments at every call, a millisecond for the bundle; here they are
     always the same, made by lambda_core.solver.drivers.solver_context.

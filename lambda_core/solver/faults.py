@@ -9,7 +9,7 @@ from lambda_core.solver.layout import helper
 def report(fault, role, status, place, i0, i1, i2, i3):
     """Record the first fault of an evaluation.
 
-    Role, the kernel's status, raceway or land, inputs.
+    It records role, the kernel's status, raceway or land, and inputs.
     """
     if fault.role < 0:
         fault.role = role

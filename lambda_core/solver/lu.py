@@ -22,7 +22,7 @@ def inner_product(row, other, n):
 def take_multiple(row, factor, other, n):
     """Take a row's multiple from a row.
 
-    The first n entries.
+    It takes the first n entries.
     """
     for i in range(n):
         row[i] -= factor * other[i]

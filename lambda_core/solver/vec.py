@@ -102,7 +102,7 @@ def combine(k, a, b, c):
 def combine_onto(start, k, a, b, c):
     """Return start plus the vector of k.
 
-    Components along the axes a, b, c, summed from the left.
+    The components are along the axes a, b, c, summed from the left.
     """
     return (
         start[0] + k[0] * a[0] + k[1] * b[0] + k[2] * c[0],

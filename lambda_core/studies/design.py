@@ -187,7 +187,7 @@ class Plan:
 def saltelli(samples: int, dimensions: int, seed: int) -> FloatArray:
     """Return the shares of a Saltelli design.
 
-    Shape (samples (dimensions + 2), dimensions).
+    The shape is (samples (dimensions + 2), dimensions).
 
     Matrices A, B, then A with column i from B for each i (Saltelli et al. 2010, Comput. Phys. Commun. 181, 259).
     """

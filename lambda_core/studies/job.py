@@ -77,7 +77,7 @@ class Outcome:
 def work(task: Task) -> Outcome:
     """Do one task.
 
-    Never raises for an error of the point.
+    It never raises for an error of the point.
     """
     global _asked_to_stop
     start = time.perf_counter()

@@ -56,7 +56,7 @@ def static_lambda(point: StaticPoint) -> float:
 def static_capacitance(point: StaticPoint) -> float:
     """Return the capacitance of the balls [nF].
 
-    Balls in parallel, the two contacts of a ball in series; infinite where asperities short a ball.
+    The balls are parallel, the two contacts of a ball in series; it is infinite where asperities short a ball.
     """
     each = _contacts(point, "capacitance")
     with np.errstate(divide="ignore"):

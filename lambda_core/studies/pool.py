@@ -235,7 +235,7 @@ class Given(Pool):
 def pool(where: str | Executor, workers: int) -> Pool:
     """Return the pool of `where`.
 
-    ``processes``, ``here``, ``dask``, a scheduler's address, or an executor.
+    It is ``processes``, ``here``, ``dask``, a scheduler's address, or an executor.
 
     Raises
     ------

@@ -52,7 +52,7 @@ RATED = (
 class StaticPoint:
     """Quasi-static point of a bearing.
 
-    The equilibrium, the same in the words of the machine interface, and its compiled laws.
+    It holds the equilibrium, the same in the words of the machine interface, and its compiled laws.
     """
 
     equilibrium: Equilibrium

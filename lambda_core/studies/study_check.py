@@ -186,7 +186,7 @@ def _first_model(study: Study, plan: Plan, case_toml: str) -> BearingModel | Mac
 def _corner(plan: Plan, chosen_: dict[int, tuple[str, float | str]]) -> Point:
     """Return the point of all first values.
 
-    Except for the parameters in `chosen_`.
+    The parameters in `chosen_` are exceptions.
     """
     pairs = [chosen_.get(place, c.at(0.0)) for place, c in enumerate(plan.coordinates)]
     changes = tuple(f"{c.parameter.path}={text}" for c, (text, _) in zip(plan.coordinates, pairs, strict=True))

@@ -247,7 +247,7 @@ class ViewData:
 def plain(value: Any) -> Any:
     """Return dataclasses and arrays as JSON values.
 
-    NaN and infinity as None, empty entries left out.
+    NaN and infinity become None, and empty entries are left out.
     """
     if is_dataclass(value) and not isinstance(value, type):
         found = {f.name: getattr(value, f.name) for f in fields(value)}

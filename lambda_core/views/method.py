@@ -72,7 +72,7 @@ class EquilibriumState:
 class MethodInputs:
     """Inputs of a method.
 
-    Plain SI numbers, frozen; None means that the case has no value.
+    They are plain SI numbers, frozen; None means that the case has no value.
     """
 
     title: str  # the bearing for people: "6319 (Syla2026)"
@@ -113,7 +113,7 @@ class MethodInputs:
     def mean_diameter(self) -> float:
         """Mean diameter d_m [m].
 
-        (d + D)/2 of the catalogues, not the pitch diameter.
+        It is (d + D)/2 of the catalogues, not the pitch diameter.
         """
         return 0.5 * (self.bore_diameter + self.outside_diameter)
 
@@ -132,7 +132,7 @@ class MethodInputs:
 class RollerMethodInputs:
     """Inputs of a method for rollers.
 
-    Plain SI numbers, frozen.
+    They are plain SI numbers, frozen.
     """
 
     title: str  # the bearing for people: "NU 208 (SKF)"
@@ -179,7 +179,7 @@ class MethodRow:
 class MethodTable:
     """Result of a method.
 
-    Rows, and its assumptions.
+    It has rows and its assumptions.
     """
 
     rows: tuple[MethodRow, ...]  # in the order in which they are shown

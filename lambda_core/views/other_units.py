@@ -12,7 +12,7 @@ from lambda_core.views.chart import Arrows, Axis, Field, Mark, Panel, Series, Vi
 def in_units(data: ViewData, units: UnitSystem) -> ViewData:
     """Return a view's data in other units.
 
-    Axes, fields, marks and notes.
+    It converts axes, fields, marks and notes.
 
     Parameters
     ----------

@@ -74,7 +74,7 @@ class Scene:
     def load_vectors(self) -> FloatArray:
         """Return the ball forces on the rings [N].
 
-        Normal forces, shape (frames, balls, 2, 3).
+        They are normal forces, shape (frames, balls, 2, 3).
 
         On the outer ring outwards, on the inner ring inwards; a positive contact angle turns the force on the outer
         ring towards +x.

@@ -60,7 +60,7 @@ class Column:
     def label(self) -> str:
         """Label of the column.
 
-        The meaning, or the last words of the path.
+        It is the meaning, or the last words of the path.
         """
         return self.meaning or self.name.rpartition(".")[2].replace("_", " ")
 
@@ -71,7 +71,7 @@ class Column:
     def ends(self) -> FloatArray:
         """Return the ends of the band.
 
-        Shape (rows, 2); NaN where there is none.
+        They have the shape (rows, 2); they are NaN where there is none.
         """
         return np.array([(np.nan, np.nan) if ends is None else ends for ends in self.band])
 

@@ -38,7 +38,7 @@ class RunData(Protocol):
     def channels(self) -> tuple[Channel, ...]:
         """Channels over time with those of observers.
 
-        Names, dimensions, units, meanings.
+        They have names, dimensions, units and meanings.
         """
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:

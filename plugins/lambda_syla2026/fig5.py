@@ -68,7 +68,7 @@ class Resonance(Record):
 class Variation(Record):
     """Effect of one assumption on the boundary.
 
-    Velocity over that of the base case at the same frequency.
+    It is the velocity over that of the base case at the same frequency.
     """
 
     what: str

@@ -126,7 +126,7 @@ def _answer(job: Job, folder: str) -> JobResult:
 def case_text(name: str) -> str:
     """Return a built-in case as a file.
 
-    Or the case that any bearing is put into.
+    It may also be the case that any bearing is put into.
     """
     from lambda_core.case.case_io import load_case
     from lambda_core.case.case_writer import standalone_toml

@@ -23,7 +23,7 @@ def geometry_of(known: dict[str, Any]) -> Geometry:
 def ring_profile(geometry: Geometry, ring: int) -> Callable[[float], float]:
     """Return the profile of a ring's surface [m].
 
-    Distance from its axis over the place along the shaft.
+    It is the distance from its axis over the place along the shaft.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def ring_profile(geometry: Geometry, ring: int) -> Callable[[float], float]:
     def surface(way: Raceway, x: float) -> float:
         """Return the groove's surface.
 
-        Where the groove does not reach, the surface is far beyond the ball.
+        It lies far beyond the ball where the groove does not reach.
         """
         square = way.groove_radius**2 - (x - way.axial_offset) ** 2
         return way.groove_circle + toward * math.sqrt(square) if square > 0.0 else -toward * math.inf

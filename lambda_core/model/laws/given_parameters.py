@@ -60,7 +60,7 @@ def law_by_name(
 ) -> ChosenLaw | None:
     """Return the law of a table, with parameters.
 
-    The table of a case names it; None with every mistake in the ledger.
+    The table of a case names it; None comes with every mistake in the ledger.
 
     Parameters
     ----------

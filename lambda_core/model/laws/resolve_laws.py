@@ -268,7 +268,7 @@ class LawResolver:
     def _case_texts(self, element: str, role: str, chosen: Law) -> dict[str, tuple[Any, str]]:
         """Return parameter -> (text, path) of the case.
 
-        The element's own before the general ones.
+        The element's own parameters come before the general ones.
         """
         texts: dict[str, tuple[Any, str]] = {}
         known = chosen.parameters.model_fields

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 def written_parameters(law: Law, role: str, written: Mapping[str, Any], ledger: Ledger) -> BaseModel | None:
     """Return a law's parameters as in a case.
 
-    The others by default; None after a problem.
+    The others have their defaults; None follows a problem.
     """
     try:
         found: BaseModel = law.parameters.model_validate(dict(written))

@@ -114,7 +114,7 @@ def planned_speed(function: TimeFunction) -> float:
 def spin_at_start(body: Body) -> float:
     """Return the prescribed spin at t = 0 [rad/s].
 
-    0 where nothing prescribes it.
+    It is 0 where nothing prescribes it.
     """
     return initial(body.dofs[SPIN].motion) if body.dofs[SPIN].mode == "prescribed" else 0.0
 

@@ -193,7 +193,7 @@ def _say_what_folds(case: Case, highest: float, ledger: Ledger) -> None:
 def end_in_sight(given: Solver, interval: float | None, end: float, turn: float, ledger: Ledger) -> None:
     """Refuse what no machine finishes.
 
-    Too long a time, too many steps or samples in it.
+    It refuses too long a time, and too many steps or samples in it.
 
     Parameters
     ----------

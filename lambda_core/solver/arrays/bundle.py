@@ -1,6 +1,6 @@
 """Bundle state vector, tables and workspaces.
 
-State vector y, float64, shape (states of rolling elements + n_active + states of contacts,):
+The state vector y is float64, shape (states of rolling elements + n_active + states of contacts,):
 
 * row by row, element by element, ROW.size states each from ROW.first_state on: a records.BALL (x, radius, azimuth,
   velocity, spin), or a records.ROLLER, which begins with the same.
@@ -234,7 +234,7 @@ def elements_in(bundle: Bundle, states: Any) -> Any:
 def named_balls(y: Any, row: Any) -> Any:
     """Return the balls of a row by name.
 
-    A view of a state vector: a table of records.BALL.
+    They are a view of a state vector: a table of records.BALL.
     """
     return y[row.first_state : row.first_state + NB * row.balls].view(R.BALL)
 

@@ -55,7 +55,7 @@ class RollerBlocks(NamedTuple):
 class Factors(NamedTuple):
     """Inverses of ball blocks and Schur factors.
 
-    LU factors of the Schur complement; `size` is that of the largest block.
+    The LU factors are those of the Schur complement; `size` is that of the largest block.
     """
 
     inverse: Any  # (Z, size, size): (A_j^-1)^T

@@ -187,7 +187,7 @@ def _land_columns(land, bundle, bl):
 def _land_slopes(land, bundle, column, step, bl):
     """Add a land's force slopes to one column.
 
-    Change over a step on cage, ring and the cage's waves.
+    They are changes over a step, on cage, ring and the cage's waves.
     """
     fm = bl.wrenches
     add_slope(bl.shared[land.cage], column, fm[2], fm[0], step)

@@ -52,7 +52,7 @@ def turning_body(body):
 def write_frame(axis, phi, g):
     """Write a body's unit vectors at angle phi.
 
-    Axis, radial and tangential, about its axis.
+    They are axial, radial and tangential, about its axis.
     """
     ax, ay, az = axis
     c1 = 1.0 + ax
@@ -97,7 +97,7 @@ def pocket_state(ball, cage, j, row, bundle, g):
 def land_state(cage, ring, land, bundle, g):
     """Write the state of a land's station.
 
-    Position of a station of the cage's axis relative to the ring's, and its velocity.
+    It is the position of a station of the cage's axis relative to the ring's, and its velocity.
     """
     offset = land.offset
     axis, omega = turning_body(cage)
@@ -118,7 +118,7 @@ def land_state(cage, ring, land, bundle, g):
 def neighbour_state(ball, other, g):
     """Write a ball's state relative to its neighbour.
 
-    Position and velocity, axes of the inertial frame.
+    It consists of position and velocity along axes of the inertial frame.
     """
     store(g.axial, (1.0, 0.0, 0.0))
     store(g.radial, (0.0, 1.0, 0.0))
@@ -264,7 +264,7 @@ def land_apply(cage, ring, g, out, on_cage, on_ring):
 def neighbour_apply(azimuth, arm, out, sign, on_ball):
     """Add a ball-ball force.
 
-    Inertial, times sign, at `arm` from the ball's centre.
+    It is inertial, times sign, and acts at `arm` from the ball's centre.
     """
     c, s = cosine_sine(azimuth)
     f = scale(sign, out)

@@ -1,6 +1,6 @@
 """Find contacts and their velocities.
 
-Exact sphere in torus with ring tilt.
+The geometry is an exact sphere in a torus, with ring tilt.
 
 Vectors have components along x (shaft), r (radial at the ball), t (tangential), a right-handed frame
 that turns with the ball's azimuth.
@@ -48,7 +48,7 @@ def axis_x(ay, az):
 def _from_axis(ball, ring, c, s):
     """Return the ball's place from a ring.
 
-    The ring's axis, the ball's centre from the ring's, its part along the axis and that across it.
+    Return the ring's axis, the ball's centre from the ring's, its part along the axis and that across it.
 
     c and s are cosine and sine of the ball's azimuth.
     """

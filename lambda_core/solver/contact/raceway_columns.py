@@ -139,7 +139,7 @@ def _wave_columns(ball, j, ring, raceway, row, bundle, bl):
 def raceway_columns(ball, j, row, bundle, bl):
     """Add ball j's raceway contacts to the slopes.
 
-    The force slopes.
+    The slopes are those of forces.
     """
     scratch = bundle.scratch[0]
     kin = scratch.kinematics[0]

@@ -34,7 +34,7 @@ def _sum_cells(half_curvature, a, b, grid, cells):
 def sum_wrench(raceway, kin, system, grid, contact, cells, wrench):
     """Return the wrench on the ball.
 
-    Integral of the shear over the ellipse, with the scalar laws.
+    It is the integral of the shear over the ellipse, with the scalar laws.
     """
     a, b = contact.semi_axis_a, contact.semi_axis_b
     ft, fs, mt, ms, mn = _sum_cells(0.5 / raceway.radius_deformed, a, b, grid, cells)

@@ -77,7 +77,7 @@ def add_pushes(first, last, pushes, bundle):
 def add_push_slope(slopes, i, column, step, pushes):
     """Add a push's slope on wave i.
 
-    Change over a step, to one column of the slopes of its force, (6, n).
+    It is a change over a step and goes to one column of the slopes of its force, (6, n).
 
     The push where it was stands in pushes[0], what is near it in pushes[1].
     """

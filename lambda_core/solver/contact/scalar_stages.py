@@ -1,6 +1,6 @@
 """Evaluate laws without cells.
 
-Load, damping, film, rolling losses.
+They give load, damping, film and rolling losses.
 
 A law is called once for all contacts from place `first` on, `count` of them, which lie in scratch. It takes what it
 needs from scratch.lanes and leaves its results in scratch.out, STRIDE numbers apart.
@@ -80,7 +80,7 @@ def _repeat(lane, first, count, n):
 def _motion(first, count, n, scratch):
     """Write penetration and surface velocity into lanes.
 
-    Mean surface velocity of contacts.
+    The surface velocity is the mean one of contacts.
     """
     lanes = scratch.lanes
     for k in range(first, first + count):

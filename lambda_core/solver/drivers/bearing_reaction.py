@@ -164,6 +164,6 @@ class BearingReaction(Reaction):
     def at_pose(self) -> Equilibrium:
         """Return the last pose's equilibrium with friction.
 
-        The friction of the balls.
+        The friction is that of the balls.
         """
         return solve(held(self.model, self._pose.tolist()), self._kernels, self._announce, strict=False)

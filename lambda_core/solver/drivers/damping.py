@@ -105,7 +105,7 @@ def _fill(context: SolverContext, state: FloatArray) -> None:
 def _response(context: SolverContext, shake: float) -> NDArray[np.complex128]:
     """Return the inner ring's response matrix.
 
-    Forces and moments over its motion exp(i w t), shape (6, 6).
+    It is forces and moments over its motion exp(i w t), shape (6, 6).
     """
     blocks, body = context.blocks, context.model.inner_ring
     rows = [L.NS * INNER + k for k in _STATES], [L.NS * INNER + k for k in _RATES]

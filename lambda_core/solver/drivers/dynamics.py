@@ -271,7 +271,7 @@ class MotionEngine(Generic[Sampled, Summed_co]):
     def statistics(self) -> dict[str, float]:
         """Return counters of the integrator.
 
-        Steps, rejected, newton_iterations, rhs_calls, jacobians and so on.
+        They are steps, rejected, newton_iterations, rhs_calls, jacobians and so on.
 
         With `steps_to_the_fourth`, the sum of the fourth powers of the steps [s4], and `iteration_work`, the work that
         early ends of Newton's iteration put in or took, counted positive [J].
@@ -283,7 +283,7 @@ class MotionEngine(Generic[Sampled, Summed_co]):
     def modes(self) -> list[tuple[float, float]]:
         """Return the modes at `time`.
 
-        Frequency [Hz] and damping ratio, of rings, shaft and bodies.
+        Each has a frequency [Hz] and a damping ratio; rings, shaft and bodies move.
         """
         bundle, blocks = self.context.bundle, self.context.blocks
         return ring_modes(bundle, blocks, self._memory.inertia, until=self._modes_until)

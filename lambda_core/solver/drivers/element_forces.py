@@ -81,7 +81,7 @@ def _apart(first: np.ndarray, second: np.ndarray, row: Any) -> tuple[FloatArray,
 def _turning(body: np.ndarray) -> tuple[FloatArray, FloatArray]:
     """Return the turning frame and its velocity.
 
-    Axis, radial and tangential direction as columns, shape (n, 3, 3), and the angular velocity, (n, 3).
+    Return axis, radial and tangential direction as columns, shape (n, 3, 3), and the angular velocity, (n, 3).
     """
     (ay, az), (wy, wz) = body["tilt"].T, body["tilt_velocity"].T
     ax = np.sqrt(np.maximum(1.0 - ay * ay - az * az, 1e-12))

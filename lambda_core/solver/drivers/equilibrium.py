@@ -380,7 +380,7 @@ def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) 
 def mean_frame(geometry: Geometry, contacts: FloatArray, before: ContactFrame) -> ContactFrame:
     """Return mean angles and loads of loaded contacts.
 
-    Load-weighted, angles absolute, of each ring.
+    They are weighted by loads, with absolute angles, for each ring.
     """
     angles, loads, rings, ribs = [], [], rings_of_contacts(geometry), are_ribs(geometry)
     for i in range(2):

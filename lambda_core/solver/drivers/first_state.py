@@ -103,7 +103,7 @@ def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
 def roll(model: BearingModel, frame: ContactFrame, balls: NDArray[Any], contacts: FloatArray | None = None) -> None:
     """Set the balls to pure rolling, in place.
 
-    Orbital speeds and spins, at the frozen contact angle.
+    It sets orbital speeds and spins at the frozen contact angle.
 
     With two arcs or rows the axis of each ball lies between the normals of its `contacts`, shape (balls, contacts, 16).
     """

@@ -93,7 +93,7 @@ def line_field(model: BearingModel, ring: str, load: float, lean: float) -> Line
     def slices(middle: float) -> FloatArray:
         """Return load, half width and pressure of slices.
 
-        Load over length, all slices, (3, n).
+        They are load over length, of all slices, (3, n).
         """
         found = np.zeros((3, SLICES))
         for k in np.flatnonzero(middle + shift > 0.0):

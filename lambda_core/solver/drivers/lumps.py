@@ -193,7 +193,7 @@ def _field(body: ElasticBody, values: FloatArray, slopes: FloatArray) -> FloatAr
 def _inertias(body: ElasticBody, places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return mass and inertia of every lump.
 
-    [kg], polar and transverse [kg m2], discs left out.
+    They are in kg, and in kg m2 about polar and transverse axes; discs are left out.
 
     Of the mass matrix: masses by the parabolas, polar inertia in a straight line between neighbours. What ends beyond
     the outermost lumps lack of the moment of inertia these get - a mass at a distance d beyond a lump, the next one h

@@ -350,7 +350,7 @@ class MemberChannels:
     def __call__(self, times: FloatArray, flat: FloatArray) -> Channels:
         """Return the channels from shared states.
 
-        The complete shared state of samples, shape (n, 12 bodies).
+        The argument is the complete shared state of samples, shape (n, 12 bodies).
         """
         bodies = flat.view(R.BODY_STATE)
         lumps, twist = bodies[:, self._numbers.lumps], self._twist(flat)
@@ -367,7 +367,7 @@ class MemberChannels:
     def _with_parts(self, bodies: np.ndarray, rigid: FloatArray) -> FloatArray:
         """Return the motions of bodies and parts.
 
-        Rigid bodies, then outer rings and cages without their rotation.
+        Rigid bodies come first, then outer rings and cages without their rotation.
         """
         parts = bodies[:, self._parts]
         return np.concatenate([rigid, _motions(parts, np.zeros(parts.shape))], axis=1)
@@ -387,7 +387,7 @@ class MemberChannels:
     def _markers(self, lumps: FloatArray, bodies: FloatArray) -> FloatArray:
         """Return x, y, z of every marker.
 
-        Shape (n, markers, 3), from motions of shape (n, lumps or bodies, 6).
+        They have the shape (n, markers, 3) and follow from motions of shape (n, lumps or bodies, 6).
         """
         n = len(lumps)
         found: FloatArray = np.einsum("maj,nj->nma", self._of_lumps, lumps.reshape(n, -1))

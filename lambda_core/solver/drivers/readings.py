@@ -286,7 +286,7 @@ class MachineReadings:
     def shared(self, times: FloatArray, states: FloatArray) -> FloatArray:
         """Return the complete shared state of samples.
 
-        Shape (n, 12 bodies).
+        The shape is (n, 12 bodies).
         """
         bundle = self._context.bundle
         if self._standing is None:
@@ -311,7 +311,7 @@ class MachineReadings:
     ) -> tuple[Channels, FloatArray]:
         """Return a bearing's channels and reaction.
 
-        Force and moment of its contacts on the shaft, (n, 6).
+        The reaction is force and moment of its contacts on the shaft, (n, 6).
         """
         context, span, n = one.context, one.span, times.size
         kept = states.shape[1] - self._context.bundle.states.size + span.first_state

@@ -162,7 +162,7 @@ class Handle:
     def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
         """Return the rates of the running integrals.
 
-        Shape (times, powers) [W, rad/s, m].
+        They have the shape (times, powers) [W, rad/s, m].
         """
         out = np.zeros((times.size, L.power_count(self.context.bundle)))
         if _compiled(_rates)(times, np.ascontiguousarray(states), out, self._handle) != 1:

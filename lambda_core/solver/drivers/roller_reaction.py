@@ -123,7 +123,7 @@ class RollerReaction(Reaction):
     def at_pose(self) -> Equilibrium:
         """Return the last pose's equilibrium with friction.
 
-        The friction of the rollers by the laws of the model.
+        The laws of the model give the friction of the rollers.
 
         Friction skews the rollers of a tilted ring, and the way there starts from a straight one: straight into the
         tilted pose it is lost in some places.

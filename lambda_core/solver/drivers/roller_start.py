@@ -67,7 +67,7 @@ def press_rollers(model: BearingModel, rollers: RollerBearing, bodies: NDArray[A
 def roll_rollers(rollers: RollerBearing, inner: float, outer: float, places: NDArray[Any]) -> None:
     """Set the rollers to pure rolling, in place.
 
-    Orbital speeds and spins without sliding between rings of these speeds [rad/s].
+    It sets orbital speeds and spins without sliding between rings of these speeds [rad/s].
     """
     motion, axis = rolling_motion(rollers, inner, outer), rollers.faces * rollers.angles.roller
     spin = -math.copysign(motion.spin, inner - outer)

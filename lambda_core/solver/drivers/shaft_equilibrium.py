@@ -1,6 +1,6 @@
 """Solve the quasi-static equilibrium of a shaft.
 
-Newton's method on shaft nodes and outer rings.
+It uses Newton's method on shaft nodes and outer rings.
 
 Every bearing answers a pose of its inner ring against the outer one with a force, a moment and a stiffness, its balls
 in equilibrium throughout. Contacts open and close, so that the steps are damped as Levenberg and Marquardt do:
@@ -101,7 +101,7 @@ class ShaftState:
 class _System:
     """Unknowns of a machine and their forces.
 
-    Shaft, outer rings and other bodies in one vector.
+    One vector holds shaft, outer rings and other bodies.
 
     The shaft's are the pose of the node that the coupling holds and, of all others, what they move relative to a rigid
     shaft with that pose. Elastic forces then are those of deflections alone: however stiff the shaft is, its motion as

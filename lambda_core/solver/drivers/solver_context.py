@@ -141,7 +141,7 @@ class SolverContext:
     def shared_part(self, state: FloatArray) -> FloatArray:
         """Return a state vector's free shared part.
 
-        A view of the entries of the bodies' states.
+        It is a view of the entries of the bodies' states.
         """
         end = self.size - self.bundle.states.size
         return state[end - self.bundle.active.size : end]

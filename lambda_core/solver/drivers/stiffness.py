@@ -55,7 +55,7 @@ def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
 def freed(found: SolverContext) -> SolverContext:
     """Return the context with a free inner ring.
 
-    The same bearing, without supports and other force elements.
+    The bearing is the same, without supports and other force elements.
     """
     free = dataclasses.replace(found.model, inner_ring=found.model.inner_ring.freed(_FREED), links={})
     return assemble(free, found.kernels, found.frame, found.oils)

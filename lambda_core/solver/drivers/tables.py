@@ -119,7 +119,7 @@ class _Part(NamedTuple):
 class _Offsets(NamedTuple):
     """Law and slot counts of earlier bearings.
 
-    Sets of laws and slots.
+    It counts sets of laws, and slots.
     """
 
     raceways: int = 0

@@ -25,7 +25,7 @@ _CAGE = list(BODIES).index("cage")
 def waves_of(model: BearingModel) -> list[tuple[int, int, RingWaves]]:
     """Return body, order and waves.
 
-    Ring or cage (number of its body), of every wave, in the order of their bodies.
+    Each wave has a ring or cage (number of its body); waves follow the order of their bodies.
     """
     bodies = list(BODIES)
     return [(bodies.index(body), n, waves) for body, waves in model.elastic.items() for n in waves.counts]

@@ -314,7 +314,7 @@ def _energy_of_bends(inertia, new, now, before, per_w):
 def _dissipated(mem, h):
     """Return the scheme's own dissipation [J].
 
-    Kinetic energy in this step.
+    It is kinetic energy in this step.
 
     With base = u_1 + a (u_1 - u_2) and d_k = u - u_k, gamma [D(u^2) - 2 u D(u)] = a d_2^2 - (1 + a) d_1^2: a difference
     of two norms, which the next steps give back, and a w e^2, e = d_1/w - (u_1 - u_2), w the ratio of the steps; all

@@ -26,7 +26,7 @@ from lambda_core.solver.layout import helper, rows_helper
 def _add(row, factor, other, n):
     """Add a multiple of a row's first entries.
 
-    The first n entries of another row.
+    It adds the first n entries of another row.
     """
     for i in range(n):
         row[i] += factor * other[i]
@@ -35,7 +35,7 @@ def _add(row, factor, other, n):
 def chains_of(size: int) -> tuple[Any, ...]:
     """Return the functions that couple balls.
 
-    Balls of `size` states, a constant for the compiler.
+    The balls have `size` states, a constant for the compiler.
 
     find_chains, take_from_block, take_from_columns, take_from_rows, write_ahead, take_part.
     """
@@ -124,7 +124,7 @@ def chains_of(size: int) -> tuple[Any, ...]:
     def take_part(matrix, part, its):
         """Take a matrix product from a part.
 
-        A matrix times one ball's part of a solution, from another's part.
+        The product is a matrix times one ball's part of a solution; it is taken from another's part.
         """
         for i in range(size):
             total = 0.0

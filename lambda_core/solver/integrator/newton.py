@@ -30,7 +30,7 @@ _SWING = 0.04  # share of its square by which a correction turns round before th
 def _move(mem, first, last, relax, again):
     """Move states by their correction.
 
-    The states first..last; where corrections swing to and fro, by the secant.
+    They are the states first..last; where corrections swing to and fro, the secant moves them.
 
     The correction c(x) is to vanish. Where it turned round, the root along the last move m is at
     c - theta (m + c - c_0), theta = c.(c - c_0)/|c - c_0|^2: Anderson 1965, J. ACM 12, 547, with one difference.

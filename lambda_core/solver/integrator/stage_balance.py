@@ -56,7 +56,7 @@ def add_turn_over(mem, h):
 def _settled(mem, end, inertia, k, h):
     """Return a prescribed speed's remaining energy [J].
 
-    Growth of its kinetic energy in a step beyond that given to the stages.
+    It is the growth of its kinetic energy in a step beyond that given to the stages.
     """
     start, given = mem.shared[k], 0.0
     for i in range(STAGES):

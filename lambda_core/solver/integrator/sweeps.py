@@ -29,7 +29,7 @@ def sums_of(size: int) -> tuple[Any, ...]:
     def take_rows(row, factors, rows, n):
         """Take multiples of rows.
 
-        `size` rows, from the first n entries of a row.
+        There are `size` rows; they are taken from the first n entries of a row.
         """
         for q in range(n):
             total = row[q]
@@ -74,7 +74,7 @@ def write_multiple(row, factor, other, n):
 def spread(row, places, own, factor, other, n):
     """Add two rows at their places.
 
-    The first n entries of one, and a multiple of another.
+    They are the first n entries of one, and a multiple of another.
     """
     for i in range(n):
         row[places[i]] += own[i] + factor * other[i]

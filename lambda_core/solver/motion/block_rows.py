@@ -50,7 +50,7 @@ def ball_block(ball, row, bl, a, b):
 def neighbour_block(row, bl, block):
     """Turn neighbour slopes into rows.
 
-    The slopes of a ball's force with the states of its neighbour, into rows of the first.
+    They are slopes of a ball's force with the states of its neighbour; the rows belong to the first ball.
     """
     for i in range(6):
         inverse = 1.0 / row.ball_mass if i < 3 else 1.0 / row.ball_inertia

@@ -13,7 +13,7 @@ from lambda_core.solver.records import FREE, PRESCRIBED
 def ball_rates(ball, wrench, row, rate):
     """Write the rates of one ball.
 
-    Equations of motion in its turning frame (Coriolis and gyroscopic terms).
+    They are equations of motion in its turning frame (Coriolis and gyroscopic terms).
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ def _rotate(body, now, wrench, inputs, rate):
 def body_rates(body, now, wrench, inputs, gravity, rate):
     """Write the rates of one body.
 
-    Equations of motion under the wrench of its contacts.
+    They are equations of motion under the wrench of its contacts.
 
     Adds loads, gravity, unbalance and supports.
 

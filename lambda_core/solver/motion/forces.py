@@ -50,7 +50,7 @@ def _move_ball(ball, j, row, bundle, running, want, rate):
 def _move_bodies(bundle, running, want, dydt):
     """Write the rates of bodies and contacts.
 
-    Free states of the bodies, and states of contacts.
+    They are those of free states of the bodies, and of states of contacts.
     """
     active, base = bundle.active, bundle.system[0].tail
     for b in range(bundle.bodies.size):

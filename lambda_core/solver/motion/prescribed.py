@@ -1,6 +1,6 @@
 """Evaluate prescribed loads and motions over time.
 
-Values with two derivatives.
+It gives values with two derivatives.
 """
 
 from __future__ import annotations
@@ -129,7 +129,7 @@ def _prescribe(body, inputs, now):
 def fill_shared(t, y, bundle):
     """Write the complete shared state at t.
 
-    Free entries from y, the others prescribed, and states of contacts.
+    Free entries and the states of contacts come from y; the other entries are prescribed.
 
     Returns 1 when well.
     """

@@ -1,4 +1,4 @@
 """Compute rollers in motion.
 
-Line contacts, ribs, pockets, equations of motion. Compiled.
+It covers line contacts, ribs, pockets and equations of motion. It is compiled.
 """

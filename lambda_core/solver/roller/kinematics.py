@@ -33,7 +33,7 @@ from lambda_core.solver.vec import (
 def centre_from(roller, ring):
     """Return a roller's centre from a ring's.
 
-    Cosine and sine of the roller's azimuth, the ring's axis, and the centre.
+    Return cosine and sine of the roller's azimuth, the ring's axis, and the centre.
     """
     c, s = math.cos(roller.azimuth), math.sin(roller.azimuth)
     ay, az = ring.tilt[0], ring.tilt[1]
@@ -45,7 +45,7 @@ def centre_from(roller, ring):
 def _outwards(place, axis):
     """Return a place along and off an axis.
 
-    Distance along the axis, distance from it, and the unit vector away from it.
+    Return distance along the axis, distance from it, and the unit vector away from it.
     """
     along = dot(place, axis)
     across = subtract(place, scale(along, axis))

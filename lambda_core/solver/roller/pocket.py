@@ -31,7 +31,7 @@ SHARES = 0.5 * SHARES
 def _station_state(roller, cage, j, row, share, g):
     """Write a station's state in its pocket.
 
-    Place and velocity of a station of the roller's axis, along the pocket's axes.
+    It is place and velocity of a station of the roller's axis, along the pocket's axes.
 
     `share` is where the station is, -1..1 of half of the length of a bar.
     """

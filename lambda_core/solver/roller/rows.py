@@ -207,7 +207,7 @@ def evaluate(stage, t, y, r, bundle, dydt, rates, want):
 def energy(y, r, bundle):
     """Return the rollers' energy [J].
 
-    Kinetic and elastic, of a row with its contacts, pockets or neighbours.
+    It is the kinetic and elastic energy of a row with its contacts, pockets or neighbours.
     """
     row, rollers, total = bundle.rows[r], rollers_of(y, bundle.rows[r]), 0.0
     kin = bundle.scratch[0].kinematics[0]

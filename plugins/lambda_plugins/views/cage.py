@@ -71,7 +71,7 @@ def cage_orbit(run: RunData, options: Options) -> ViewData:
 def _close_up(path: Series, end: Series, radius: float) -> tuple[Panel, ...]:
     """Return the orbit alone where it is small.
 
-    It is small if it is so beside the circle [um] of the clearance.
+    It counts as small relative to the circle [um] of the clearance.
     """
     size = max(float(np.ptp(path.x)), float(np.ptp(path.y)))
     if not math.isfinite(radius) or size > _SMALL * 2.0 * radius:
