@@ -137,7 +137,7 @@ def show(
 ) -> None:
     """Show one row with its sources and grades.
 
-    Prints the source and grade of every value; an oil also over temperature and pressure.
+    It prints the source and grade of every value; an oil also over temperature and pressure.
     """
     from lambda_db.presentation import find
 

@@ -22,7 +22,7 @@ def duty(
 ) -> None:
     """Add up rating life and losses.
 
-    Adds over the phases of a duty cycle.
+    It adds over the phases of a duty cycle.
 
     Each phase at its quasi-static equilibrium; lives by ISO 281 and ISO/TS 16281, damages added (Palmgren, Miner). Of a
     machine: every bearing, and the life of all of them. spectrum = "loads.csv" in the TOML file reads the phases from

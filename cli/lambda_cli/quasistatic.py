@@ -69,7 +69,7 @@ def modes(
 ) -> None:
     """Compute critical speeds and modes of a machine.
 
-    Prints also natural frequencies and the stiffness of every bearing.
+    It also prints natural frequencies and the stiffness of every bearing.
 
     The bearings are as stiff as at the quasi-static equilibrium, and damped by their films and contacts.
     --draw writes the Campbell diagram: natural frequencies over speed.

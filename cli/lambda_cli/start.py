@@ -1,6 +1,6 @@
 """Start the program before any other import.
 
-So Ctrl+C ends it at once with one line.
+Ctrl+C therefore ends it at once with one line.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ _INTERRUPTED = 130
 def main() -> int:
     """Run the requested command and return its code.
 
-    Imports the commands first.
+    It imports the commands first.
     """
     try:
         from lambda_cli.main import main as run

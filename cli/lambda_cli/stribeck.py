@@ -47,7 +47,7 @@ def stribeck(
 ) -> None:
     """Compute the friction torque over speed.
 
-    Prints its parts, too, and compares them with SKF's catalogue model.
+    It prints its parts, too, and compares them with SKF's catalogue model.
 
     Quasi-static and without cage; from 1 1/min to n d_m = 500 000 mm/min unless speeds are given.
     """

@@ -35,7 +35,7 @@ def traction(
 ) -> None:
     """Compute traction over slide-roll ratio.
 
-    Compares all traction laws, for a steel ball of 19.05 mm on a steel disc.
+    It compares all traction laws, for a steel ball of 19.05 mm on a steel disc.
     """
     from lambda_core import api
 

@@ -61,7 +61,7 @@ def studied(root: type[BaseModel], paths: Iterable[str]) -> tuple[str, ...]:
 def card_of(root: type[BaseModel], path: str) -> FieldCard:
     """Return the card of an option.
 
-    That of a plain text where the case has none at this path.
+    It is that of a plain text where the case has none at this path.
     """
     *parents, name = path.split(".")
     table = model_at(root, [int(key) if key.isdecimal() else key for key in parents])

@@ -1,7 +1,7 @@
 """Compute epicyclic kinematics of a ball bearing.
 
-Angular speeds in rad/s, counted positive about the shaft axis; ``gamma = D_w cos(alpha)/d_m`` with the pitch
-diameter. Sources: Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 1, ch. 10.
+Angular speeds are in rad/s and positive about the shaft axis; ``gamma = D_w cos(alpha)/d_m`` has the pitch diameter.
+The source is Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 1, ch. 10.
 """
 
 from __future__ import annotations
@@ -114,7 +114,7 @@ def frequency_orders(
 ) -> FrequencyOrders:
     """Return the orders of the characteristic frequencies.
 
-    Multiply by (omega_i - omega_o)/(2 pi) for Hz.
+    Multiplied by (omega_i - omega_o)/(2 pi) they give Hz.
 
     The cage order is relative to a fixed outer ring.
     """

@@ -327,7 +327,7 @@ def cross_check(
 ) -> CrossCheck:
     """Integrate a case also with SUNDIALS CVODE and compare.
 
-    Needs the extra ``sundials``.
+    It needs the extra ``sundials``.
 
     Parameters
     ----------

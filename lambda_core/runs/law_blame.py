@@ -103,7 +103,7 @@ class BlamingEngine(MotionEngine[Sampled, Summed_co]):
     def _suspicions(self) -> Iterator[str]:
         """Yield the faults of laws of plugins.
 
-        First for the present state, then for any.
+        The present state comes first, then any state.
         """
         for number, one in enumerate(self.bearings):
             labels = {law.label for law in foreign_laws(one.context.model)}

@@ -29,7 +29,7 @@ def reproduce(
 ) -> None:
     """Repeat experiments of Syla et al. 2026.
 
-    Compares them with the printed values of Lubricants 14, 154.
+    It compares them with the printed values of Lubricants 14, 154.
 
     table4: friction torque of the 6319, blind and calibrated; anchors: friction of other bearings against SKF's model;
     fig5: limits of axial excitation of the 6220; fig7: capacitance of the 6208. Writes figures (SVG, PNG) and one HTML

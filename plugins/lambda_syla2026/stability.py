@@ -45,8 +45,8 @@ class Zone:
 def half_zone(shift: float, clearance: float) -> float:
     """Return half the angle of the load zone [rad].
 
-    cos(psi_l) = P_d/(2 delta_r), P_d the clearance and delta_r the radial displacement of the rings against each
-    other: Harris and Kotzalas, Essential Concepts of Bearing Technology, 5th ed., eq. 7.12.
+    It follows cos(psi_l) = P_d/(2 delta_r), P_d the clearance and delta_r the radial displacement of the rings against
+    each other: Harris and Kotzalas, Essential Concepts of Bearing Technology, 5th ed., eq. 7.12.
     """
     if shift == 0.0:
         return math.pi if clearance < 0.0 else 0.0

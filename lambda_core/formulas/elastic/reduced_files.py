@@ -1,6 +1,6 @@
 """Read files of reduced bodies.
 
-Formats: JSON, NumPy's .npz, HDF5, and TOML that names a CSV file for every matrix.
+The formats are JSON, NumPy's .npz, HDF5, and TOML that names a CSV file for every matrix.
 """
 
 from __future__ import annotations

@@ -72,7 +72,7 @@ def _way() -> ModuleType:
 def role_signature(role: Role) -> Any:
     """Return the Numba signature of a role's laws.
 
-    ``int64(float64, ..., float64[::1], ...)``.
+    It looks like ``int64(float64, ..., float64[::1], ...)``.
 
     Numbers in which contacts differ are arrays (:mod:`lambda_core.laws.jit.binding`).
     """

@@ -31,7 +31,7 @@ def is_forced() -> bool:
 def is_plain() -> bool:
     """Tell whether this process uses the plain way.
 
-    Loads Numba.
+    It loads Numba.
     """
     if is_forced():
         return True

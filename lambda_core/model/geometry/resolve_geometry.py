@@ -149,7 +149,7 @@ def _of_kind(
 ) -> Angles | None:
     """Return angles and clearance of a bearing.
 
-    Its kind is written; None after a problem.
+    Its kind is written; None follows a problem.
     """
     assert kind.resolve is not None  # a kind that can be written says what follows
     text = bearing.clearance

@@ -48,7 +48,7 @@ def _slope_and_rates(t, y, out, handle):
 def _dense(t, y, out, handle):
     """Write the Jacobian as a dense matrix.
 
-    Returns 1, or the status of the kernels.
+    Return 1, or the status of the kernels.
     """
     memory = handle.memory
     for i in range(memory.new.size):
