@@ -5,7 +5,7 @@ It is *physically sensible* when it is accepted and its shaft always turns at 10
 bearing as one that stands still (SKF, Rolling bearings, 2018, "static load rating"; ISO 76). It *ends usable* when
 there is a result with a finite friction torque that is not negative and an energy residual of 1e-3 at most, over a
 whole turn of the cage or as much of it as the case's own limit of wall time allowed. A sensible one that was stopped
-too early for that is gone on with once, for longer.
+too early for that is continued once, for longer.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from tests.attacks.written import toml
 WALL = 4.0  # limit of wall time that each case sets itself [s]
 OVER = 2.0  # by which it may be passed, measured from when the result file is there to the end of the process [s]
 ENERGY = 1e-3  # |energy residual| that a usable result may have
-LONGER = 45.0  # limit of wall time with which such a case is gone on with [s]
+LONGER = 45.0  # limit of wall time with which such a case is continued [s]
 _START = 60.0  # for start, equilibrium and a busy machine, beyond which a trial hangs [s]
 _SLOWEST = 10.0  # speed of a sensible case [rpm]
 _TURN = 0.999  # of the cage; the last record may end within the last step
@@ -129,7 +129,7 @@ def _gone_on_with(outcome: Outcome, folder: Path, *longer_than: str) -> tuple[Ou
     arguments = ["resume", str(folder / "out.h5"), "--max-wall", f"{LONGER:g} s", "--json", *longer_than]
     longer = attempt(arguments, place, LONGER + _START)
     if longer.verdict not in ("fine", "partial"):
-        return (longer.but("lost", "could not be gone on with") if longer.good else longer), False
+        return (longer.but("lost", "could not be continued") if longer.good else longer), False
     return outcome, _is_usable(_numbers(place))
 
 

@@ -1,6 +1,6 @@
 """Kill runs, damage their files, run two on one file.
 
-What is compared is what a user would see: every number of a run that was killed and gone on with, every word of a
+What is compared is what a user would see: every number of a run that was killed and continued, every word of a
 command that reads a damaged file. A damaged file may be refused or called damaged; it may not look whole and differ.
 """
 
@@ -160,7 +160,7 @@ def gone_on_with(folder: Path, undisturbed: Path) -> Outcome:
     file = folder / "out.h5"
     outcome = attempt(("resume", "out.h5"), folder, LIMIT)
     if outcome.verdict not in ("fine", "partial"):
-        outcome = outcome.but("lost", "could not be gone on with") if outcome.good else outcome
+        outcome = outcome.but("lost", "could not be continued") if outcome.good else outcome
     elif wrong := differences(undisturbed, file):
         outcome = outcome.but("different", f"not bit for bit: {', '.join(wrong)}")
     elif left := hidden(folder):

@@ -130,7 +130,7 @@ def _gone_on_with(outcome: Outcome, folder: Path, arguments: tuple[str, ...]) ->
     longer = attempt(("resume", "out.h5"), folder, _LIMIT)
     over = longer.verdict == "usage" and "is finished: nothing is left to do" in longer.said
     if longer.verdict not in ("fine", "partial") and not over:
-        return longer.but("lost", "could not be gone on with") if longer.good else longer
+        return longer.but("lost", "could not be continued") if longer.good else longer
     if wrong := differences(undisturbed_result(folder), file):
         return longer.but("different", f"not bit for bit: {', '.join(wrong)}")
     return outcome

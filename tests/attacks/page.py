@@ -71,7 +71,7 @@ def _of_cases(entries: Entries) -> list[str]:
         f"energy residual at most {cases.ENERGY:g} in {len(residuals) - over} of {len(residuals)} results, named among "
         f"the reasons in the other {over}",
         f"usable: {_share(sensible)} of those physically sensible, {_share(slow)} of those slower than 10 rpm",
-        f"a sensible one that was stopped before it was usable was gone on with for {cases.LONGER:g} s",
+        f"a sensible one that was stopped before it was usable was continued for {cases.LONGER:g} s",
     ]
 
 
