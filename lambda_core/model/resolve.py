@@ -85,6 +85,7 @@ def resolve(
     is_static: bool = False,
     place: Callable[[str], str] = str,
     defaults: Mapping[str, str] = DEFAULT_MODELS,
+    has_grooves: bool = True,
 ) -> BearingModel:
     """Freeze a case into the model that a run needs.
 
@@ -102,6 +103,8 @@ def resolve(
         Where in the file stands what stands at a path of the case: a machine has several bearings.
     defaults : mapping
         Law of each role where the case has none.
+    has_grooves : bool
+        Whether the balls roll in grooves; those that stand for rollers do not.
 
     Raises
     ------
@@ -111,7 +114,7 @@ def resolve(
     found = rollers_of(case, catalogue, place)
     if found is not None:
         balls, usual = as_balls(case, found[0]), DEFAULT_MODELS | DEFAULT_ROLLER_MODELS
-        model = resolve(balls, registry, catalogue, is_static=is_static, place=place, defaults=usual)
+        model = resolve(balls, registry, catalogue, is_static=is_static, place=place, defaults=usual, has_grooves=False)
         of_ribs = usual | DEFAULT_RIB_MODELS
         ribs = _laws_of_ribs(with_ribs(balls, case), registry, catalogue, of_ribs, place) if found[0].ribs else {}
         model = with_rollers(
@@ -155,7 +158,7 @@ def resolve(
     mounting = resolve_mounting(case, geometry, bought, parts["inner"].solid, parts["balls"].solid, ledger)
     if mounting is not None:
         geometry = with_clearance(geometry, clearance_in_operation(case, geometry, mounting, ledger))
-    check_clearance(geometry, ledger)
+    check_clearance(geometry, ledger, has_grooves=has_grooves)
     _possible(case, ledger)
     lubrication = lubrication_of(case.lubricant, lubricant)
     oil_level = resolve_oil_level(case.lubricant, lubricant, geometry.ball_diameter, ledger)

@@ -94,7 +94,7 @@ def prepare_roller(parameters: RollerPocket, context: Context) -> RollerGuide:
 def prepare_pair(parameters: Neighbours, context: Context) -> RollerPair:
     """Return the distance of first touch and the film.
 
-    The rollers' diameter; the film is that of two cylinders, R_x = R/2.
+    They touch at the rollers' diameter. The film is that of two cylinders, R_x = R/2.
     """
     radius, width = 0.5 * context.ball_diameter, parameters.film_width
     wet = width > 0.0 and context.radius_y > 0.0

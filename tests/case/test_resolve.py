@@ -223,7 +223,7 @@ def test_the_contact_of_two_balls_has_parameters_of_its_own() -> None:
 
 def test_neighbouring_balls_or_pockets_never_both() -> None:
     own = {"parameters": {"cage_contact": {"mu_d": 0.02}}}
-    with pytest.raises(CaseError, match=r"forces.ball_ball +balls touch each other only without a cage"):
+    with pytest.raises(CaseError, match=r"forces.ball_ball +neighbours touch only without a cage"):
         model_of("6319-cp10-1500", forces={"ball_ball": own})
     with pytest.raises(CaseError, match=r"forces.ball_cage +contradicts depth.cage = false.*forces.ball_ball"):
         model_of("6319-cp10-1500", depth={"cage": False}, forces={"ball_cage": own})

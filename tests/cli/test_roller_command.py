@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 from lambda_cli.main import main
 
+from lambda_core import api
+
 CASE = """\
 name = "{name}"
 [bearing]
@@ -314,3 +316,9 @@ def test_the_weight_of_a_given_mass_loads_the_rollers(tmp_path: Path, capsys: py
     assert found[0]["max_load_N"] == pytest.approx(found[1]["max_load_N"], rel=1e-9)
     said = ["weight of the inner ring is left out" in " ".join(one["assumptions"]) for one in found]
     assert said == [False, False, True]
+
+
+def test_a_large_clearance_of_rollers_is_no_matter_of_grooves(tmp_path: Path) -> None:
+    """The balls that stand for rollers while a run is prepared refused it by the contact angle of their grooves."""
+    model = api.check(case(tmp_path, "SKF NCF 3008 CV"), ["bearing.clearance=0.5 mm"])
+    assert model.bearing_models[""].geometry.clearance == pytest.approx(0.5e-3)

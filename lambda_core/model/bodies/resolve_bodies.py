@@ -307,10 +307,11 @@ def check_bodies(case: Case, ledger: Ledger) -> None:
         ):
             if there:
                 ledger.problem(
-                    where, "contradicts depth.cage = false: there is no cage (forces.ball_ball is between the balls)"
+                    where,
+                    "contradicts depth.cage = false: there is no cage (forces.ball_ball is between neighbours)",
                 )
     elif "ball_ball" in case.forces.model_fields_set:
-        ledger.problem("forces.ball_ball", "balls touch each other only without a cage: it needs depth.cage = false")
+        ledger.problem("forces.ball_ball", "neighbours touch only without a cage: it needs depth.cage = false")
     _check_locked_loads(case, ledger)
     _say_free_tilt(case, ledger)
     if outer.spin.mode == "prescribed" and not time_function(outer.spin.motion).terms and not speed.terms:
