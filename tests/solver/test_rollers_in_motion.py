@@ -227,6 +227,18 @@ THRUST: dict[str, dict[str, Any]] = {
 }
 
 
+def test_another_process_continues_a_run(tmp_path: Path) -> None:
+    """A checkpoint had the addresses of the rollers' code, which is elsewhere in another process: it crashed."""
+    both, parted = tmp_path / "both.h5", tmp_path / "parted.h5"
+    api.run(CASE, ["solver.duration=2 ms"], out=both)
+    api.run(CASE, ["solver.duration=1 ms"], out=parted)
+    code = f"from lambda_core import api; api.resume({str(parted)!r}, ['solver.duration=2 ms'])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    ours, theirs = (api.result(path)["ball_azimuth"] for path in (both, parted))
+    assert np.array_equal(ours[-1], theirs[-1])
+
+
 @pytest.mark.parametrize("name", [*THRUST])
 def test_ribs_take_thrust_in_motion(name: str) -> None:
     """Loads of ribs as in the quasi-static answer but for friction; energy is kept, and the skew stays small."""

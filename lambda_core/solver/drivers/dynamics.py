@@ -55,6 +55,8 @@ _COUNTERS = (
 _BUFFER = ("sample_t", "sample_y")  # of the memory
 # Of the blocks, what is kept from one step to the next; the rest is room to work in.
 _BLOCKS = ("a", "b", "c", "d", "d_own", "changed", "newer", "cross", "shared", "parts")
+# Of the factors, where the code of rollers is in this process; in another one it is elsewhere.
+_ADDRESSES = "factors.rollers"
 _INPUTS = ("bodies", "par", "tie_stiffness", "terms", "table")  # tables that say what moves and under what
 
 
@@ -308,6 +310,8 @@ class MotionEngine(Generic[Sampled, Summed_co]):
             for name, array in group._asdict().items():
                 if not isinstance(array, np.ndarray) or (prefix == "blocks" and name not in _BLOCKS):
                     continue
+                if f"{prefix}.{name}" == _ADDRESSES:
+                    continue
                 if samples or name not in _BUFFER:
                     parts[f"{prefix}.{name}"] = array.copy()
         parts |= {f"readings.{name}": array for name, array in self._readings.state().items()}
@@ -327,6 +331,8 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         groups, read = self._groups(), {}
         for key, saved in state.items():
             prefix, _, name = key.partition(".")
+            if key == _ADDRESSES:
+                continue
             if prefix == "readings":
                 read[name] = saved
             elif prefix in groups:
