@@ -17,7 +17,10 @@ from benchmarks.timing import Effort
 
 @pytest.mark.full
 def test_a_version_is_as_good_as_itself(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Counts of evaluations and the loss depend on no clock; a case that neither version knows stands in the notes."""
+    """Compare counts and losses, which depend on no clock.
+
+    A case that neither version knows is listed in the notes.
+    """
     points = {"axial": ("6208-axial-1300", {}, 1e-4, 1e-4), "unheard of": ("nothing", {}, 1e-4, 1e-4)}
     monkeypatch.setattr(against, "POINTS", points)
     section = against.measure(Path(sys.prefix), Effort(quick=True))

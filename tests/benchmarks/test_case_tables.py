@@ -8,7 +8,10 @@ from lambda_core import api
 
 
 def test_every_eighth_case_is_still_valid() -> None:
-    """A case file of an earlier version means the same later: a case that is refused proves nothing."""
+    """Resolve case files of an earlier version.
+
+    A refused case would prove nothing.
+    """
     found = cases()
     assert len(found) == len({case["name"] for case in found}) == 200
     for case in found[::8]:
@@ -16,13 +19,16 @@ def test_every_eighth_case_is_still_valid() -> None:
 
 
 def test_the_cases_hold_every_kind_of_bearing() -> None:
-    """Bearings of the catalogue and of own geometry."""
+    """Find bearings of the catalogue and of own geometry."""
     kinds = {api.check(case).geometry.kind.name for case in cases()[:60]}
     assert kinds == {"deep groove", "angular contact", "four-point", "double row", "self-aligning"}
 
 
 def test_another_number_is_another_table() -> None:
-    """The same case twice has the same hashes; a larger load changes the terms and nothing else."""
+    """Repeat one case, then change its load.
+
+    The same case has the same hashes; a larger load changes only the terms.
+    """
     case = {
         "name": "one",
         "bearing": {"designation": "SKF 6208"},

@@ -61,7 +61,10 @@ def test_the_choice_reaches_the_force_elements(exchange: object) -> None:
 
 @pytest.mark.parametrize("role", ["film_thickness", "elastic_hysteresis", "traction", "asperity_load", "fluid_drag"])
 def test_the_page_is_of_today(role: str) -> None:
-    """Quasi-static torque of every law of some roles, against the page: python -m benchmarks.exchange --write."""
+    """Compute quasi-static torques for some roles and compare the page.
+
+    `python -m benchmarks.exchange --write` renews it.
+    """
     exchange = next(each for each in EXCHANGES if each.role == role)
     rows = sections()[role]
     base = quasistatic_torque(overrides(exchange, exchange.laws[0]))

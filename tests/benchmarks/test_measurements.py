@@ -47,7 +47,10 @@ def test_the_dense_jacobian_is_the_slope_of_the_right_hand_side() -> None:
 
 @pytest.mark.full
 def test_integrators_agree_on_the_losses() -> None:
-    """Two integrators, two ways to sum up losses: the same power, the same cage speed."""
+    """Compare power and cage speed of two integrators.
+
+    They sum up the losses in different ways.
+    """
     pytest.importorskip("sksundae")
     ours = passage(start().context.model, start(), Horizon(0.0, 1.0), samples=False)
     problem = Problem(start().context.model, start(), ours.simulated)

@@ -36,7 +36,10 @@ def mistakes(**changes: Any) -> dict[str, str]:
 
 
 def test_each_bearing_has_its_own_oil() -> None:
-    """Films of the one are those in the machine with that oil alone; what is left out is the machine's."""
+    """Compare each bearing's films with a machine of that oil.
+
+    Values that a bearing leaves out are those of the machine.
+    """
     thin = {"name": "mineral-vg32", "temperature": "50 degC"}
     mixed = api.quasistatic(machine(bearings={"right": {"lubricant": thin}}))
     shared, other = api.quasistatic(machine()), api.quasistatic(machine(lubricant=thin))
@@ -83,7 +86,10 @@ def test_a_machine_without_cages() -> None:
 
 
 def test_laws_know_the_flow_of_oil() -> None:
-    """Of [thermal], or of the bearing's own: an oil jet needs it."""
+    """Take the flow from `[thermal]` or from the bearing.
+
+    An oil jet needs it.
+    """
     jet = {"lubrication": "oil jet"}
     shared = machine(lubricant=jet, thermal={"oil_flow": "1 l/min", "oil_supply": "40 degC"})
     assert [bearing.model.oil_flow for bearing in shared.bearings] == pytest.approx([1e-3 / 60.0] * 2)

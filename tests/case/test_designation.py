@@ -132,7 +132,10 @@ def test_ceramic_balls_are_taken() -> None:
 
 
 def test_a_designation_means_what_the_same_options_mean() -> None:
-    """The numbers of a run are decided by what the suffixes stand for, and the result keeps them as written."""
+    """Compare the numbers of suffixes and of equal options.
+
+    The result keeps the suffixes as they were written.
+    """
     named = model("SKF 6208-2Z/C3 MA")
     plain = model("6208", bearing={"maker": "SKF", "clearance": "C3"}, bodies={"cage": {"type": "brass-outer-ring"}})
     assert api.describe(named).hash == api.describe(plain).hash
@@ -183,7 +186,10 @@ def test_what_the_case_says_wins(designation: str, changes: Any, words: str, fou
 
 @pytest.mark.parametrize(("clearance", "count"), [("C3", 1), ("C2", 0), ("6 um", 0)])
 def test_two_classes_of_clearance_are_a_warning(clearance: str, count: int) -> None:
-    """A measured value next to a class is how one writes it; another class is a slip of one of the two."""
+    """Accept a measured value next to a class of clearance.
+
+    A second class is a mistake in one of the two.
+    """
     warned = operating_warnings(model("SKF 6208 C2", bearing={"clearance": clearance}))
     assert [sentence for sentence in warned if "contradict" in sentence] == count * [
         "C2 of the designation and bearing.clearance = C3 contradict each other: C3 counts"

@@ -203,7 +203,7 @@ def test_replacing_everything_can_be_undone(file: Path) -> None:
     ],
 )
 def test_tables_that_go_on_further_down_are_changed_too(changes: dict[tuple[str, ...], object]) -> None:
-    """[bearing.fits] of a machine stands behind [operation]: the file says what the draft does, comments stay."""
+    """Change `[bearing.fits]` below `[operation]` and keep the comments."""
     draft = api.draft(template="electric-motor")
     for keys, value in changes.items():
         draft.set(*keys, value=value)
@@ -212,7 +212,10 @@ def test_tables_that_go_on_further_down_are_changed_too(changes: dict[tuple[str,
 
 
 def test_a_renamed_table_keeps_its_comments(tmp_path: Path) -> None:
-    """Also where its values change afterwards, and for tables in it; other tables stay as they are."""
+    """Rename a table, its subtables and its values.
+
+    Other tables stay as they are.
+    """
     text = (
         'name = "box"\n\n# the left one\n[bearings.left]\nat = "20 mm"  # its middle\n'
         '[bearings.left.geometry]  # own\nball_count = 9\n\n# the right one\n[bearings.right]\nat = "150 mm"\n'
@@ -228,7 +231,10 @@ def test_a_renamed_table_keeps_its_comments(tmp_path: Path) -> None:
 
 
 def test_two_renamed_tables_that_also_change_keep_their_comments() -> None:
-    """Both have new names and new values: each name stands where the old one stood."""
+    """Give two tables new names and values.
+
+    Each new name replaces its old one in place.
+    """
     text = (
         'name = "box"\n# the left one\n[bearings.left]\nat = "20 mm"  # its middle\n'
         'support.x = "free"  # floats\n'
@@ -250,7 +256,10 @@ def test_two_renamed_tables_that_also_change_keep_their_comments() -> None:
     ],
 )
 def test_a_table_is_renamed_however_it_is_written(text: str) -> None:
-    """Below the header of its section, inline, dotted, quoted; what else has that name keeps it."""
+    """Rename tables below headers, inline, dotted and quoted.
+
+    Other items of that name keep it.
+    """
     draft = draft_of(text, None)
     draft.set(
         "markers", value={"toe" if name == "foot" else name: table for name, table in draft.get("markers").items()}

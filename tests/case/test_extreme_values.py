@@ -40,7 +40,10 @@ def test_names_of_any_length_are_answered_at_once(table: str, key: str) -> None:
 
 
 def test_integers_of_any_length_are_answered(tmp_path: Path) -> None:
-    """Python reads none of more than 4300 digits and said so in an error of its own."""
+    """Answer integers of more than 4300 digits.
+
+    Python does not read them and raised an error of its own.
+    """
     with pytest.raises(LambdaError, match="has 5000 characters, at most 200 are allowed"):
         api.check(CASE, [f"bearing.designation={'6' * 5000}"])
     (tmp_path / "long.toml").write_text(f"name = {'6' * 5000}", encoding="utf-8")

@@ -47,7 +47,7 @@ def mistakes(source: Any) -> dict[str, str]:
     ],
 )
 def test_short_and_long_forms_are_one(short: Any, long: Any) -> None:
-    """Of a ring in the case of one bearing; what is written back reads the same."""
+    """Write a ring's support back as it was read."""
     rings = []
     for how in (short, long):
         case = api.case("6208-axial-1300").with_(bodies={"outer_ring": {"y": how}})
@@ -57,7 +57,7 @@ def test_short_and_long_forms_are_one(short: Any, long: Any) -> None:
 
 
 def test_a_seat_takes_what_a_ring_takes() -> None:
-    """Stiffness and damping, and a motion, in every kind of table."""
+    """Give seats stiffness, damping and motion in every table."""
     support = {"y": {"stiffness": "200 N/um", "damping": "1000 N s/m"}, "tilt_z": {"motion": "0.2 mrad"}}
     seat = machine(bearings={"right": {"support": support}}).bearings[1].seating
     assert seat.stiffness[1] == pytest.approx(2e8)
@@ -66,7 +66,7 @@ def test_a_seat_takes_what_a_ring_takes() -> None:
 
 
 def test_the_ground_damps_a_body() -> None:
-    """Stiffness and damping of its support stand in the rows of its centre."""
+    """Find stiffness and damping of a support at the centre."""
     held = {"x": {"stiffness": "3 N/um", "damping": "70 N s/m"}, "tilt_x": {"damping": "2 N m s/rad"}, "z": "5 N/um"}
     model = machine(bodies={"box": {**BOX, "support": held}})
     rows = static_rows(model)
@@ -121,7 +121,10 @@ def test_what_to_write_instead(changes: dict[str, Any], where: str, said: str) -
 
 
 def test_loads_turn_a_body_that_is_free_to_spin() -> None:
-    """A torque on the outer ring counts where it may turn, else it is a mistake, as other loads along locks."""
+    """Apply a torque to an outer ring that may turn.
+
+    At a locked ring it is a mistake, as any load along a lock is.
+    """
     case = api.case("6208-axial-1300")
     load = {"outer_ring": {"moment_x": "2 N m"}}
     free = check_bearing(case.with_(loads=load, bodies={"outer_ring": {"spin": "free"}}))
@@ -130,7 +133,7 @@ def test_loads_turn_a_body_that_is_free_to_spin() -> None:
 
 
 def test_a_draft_edits_short_forms() -> None:
-    """Stiffness and mode of a degree of freedom are seen and changed, whichever way it is written."""
+    """Show and change stiffness and mode in both forms."""
     draft = draft_of(geared_shaft("box"), None)
     support = ("bearings", "right", "support")
     assert draft.get(*support, "x", "mode") == "free"

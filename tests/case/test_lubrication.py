@@ -93,7 +93,10 @@ def power_of_drag(model: BearingModel) -> float:
 
 
 def test_a_jet_drags_less_than_a_bath_and_the_cage_keeps_its_speed() -> None:
-    """Measured bearings of this kind had jets: their cages lost at most 6 % (NASA TN D-7870)."""
+    """Compare with bearings that lost at most 6 %.
+
+    NASA TN D-7870 measured the cages of bearings of this kind under jets.
+    """
     jet = with_lubrication("oil jet", "thermal.oil_flow=6 l/min")
     assert power_of_drag(jet) < 0.5 * power_of_drag(api.check(FAST))
     free, slowed = (solve(model).orbit for model in (api.check(FAST, ["models.fluid_drag=none"]), jet))

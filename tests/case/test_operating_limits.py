@@ -81,7 +81,10 @@ def test_loads_that_motion_decides_are_not_judged(motor: Path) -> None:
     ids=["preloaded", "locked"],
 )
 def test_balls_that_preload_presses_need_no_minimum_load(motor: Path, held: list[str]) -> None:
-    """The weight of the ring was taken for the load: "P = 1.05 N is below the minimum load"."""
+    """Accept preloaded balls without an external load.
+
+    The check took the ring's weight for the load: "P = 1.05 N is below the minimum load".
+    """
     unloaded = api.check(motor, ["loads.radial=0 N", "loads.axial=0 N", *held])
     assert operating_warnings(unloaded) == []
 
@@ -93,13 +96,19 @@ def test_the_verdict_asks_a_preloaded_bearing_for_no_minimum_load(motor: Path) -
 
 
 def test_an_impossible_load_is_the_reason_why_no_equilibrium_is_found(motor: Path) -> None:
-    """The message asked whether the ring is held."""
+    """Blame the load, not the support of the ring.
+
+    The message asked whether the ring is held.
+    """
     with pytest.raises(SolverError, match=r"P0 = 1e[+]13 N is above the static load rating C0 = 24 kN"):
         api.quasistatic(motor, ["loads.radial=1e13 N"], band=False)
 
 
 def test_the_heating_factor_is_that_of_the_law_at_epicyclic_rolling(motor: Path) -> None:
-    """Murch and Wilson 1975 by hand, with the oil's own viscosity: 3.94/(3.94 + L^0.62), L = eta0 beta u^2/k."""
+    """Compare with Murch and Wilson 1975 by hand.
+
+    3.94/(3.94 + L^0.62), L = eta0 beta u^2/k, with the oil's own viscosity.
+    """
     model = api.check(motor, ["models.thermal_correction=murch-wilson"])
     factor = heating_factor(model)
     assert factor is not None

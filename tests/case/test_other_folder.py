@@ -54,7 +54,10 @@ def rig(tmp_path: Path) -> Path:
 
 @pytest.mark.parametrize("as_machine", [False, True])
 def test_a_new_case_names_the_files_of_its_source(rig: Path, tmp_path: Path, as_machine: bool) -> None:
-    """It kept the words `data/load.csv`, which are no file in its own folder."""
+    """Write a path that leads to the source's file.
+
+    The new case kept `data/load.csv`, which does not exist in its own folder.
+    """
     (tmp_path / "new").mkdir()
     new = api.init_case("mine", str(rig / "rig.toml"), tmp_path / "new" / "mine.toml", as_machine=as_machine)
     assert 'file = "../rig/data/load.csv"' in new.read_text()
@@ -72,7 +75,10 @@ def test_a_case_saved_in_its_own_folder_keeps_its_words(rig: Path, tmp_path: Pat
 
 
 def test_the_case_in_a_result_of_a_machine_needs_no_file(rig: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A run of it could not be resumed: `data/load.csv` was not found, a path of the series counted as a change."""
+    """Resume a machine from the case in its result.
+
+    `data/load.csv` was not found, and a path of the series counted as a change.
+    """
     first = api.check(rig / "box.toml")
     assert ".csv" not in first.case_toml
     monkeypatch.chdir(rig.parent)
@@ -88,7 +94,10 @@ def test_the_case_in_a_result_of_a_machine_needs_no_file(rig: Path, monkeypatch:
 
 @pytest.mark.parametrize("designation", ["SKF 32208", "SKF NJ 208 ECP"])
 def test_a_roller_bearing_of_one_direction_is_written_as_a_machine(designation: str, tmp_path: Path) -> None:
-    """The machine had no `takes`, which its own check requires."""
+    """Write `takes` for a roller bearing of one direction.
+
+    The check of machines requires it.
+    """
     new = api.init_case("m", path=tmp_path / "m.toml", bearing=designation, as_machine=True)
     machine = api.check(new)
     assert isinstance(machine, MachineModel)

@@ -29,7 +29,10 @@ MISTAKES = [
 
 @pytest.mark.parametrize(("option", "value", "where", "words"), MISTAKES)
 def test_a_body_or_motion_that_no_bearing_has_is_refused(option: str, value: str, where: str, words: str) -> None:
-    """A cage 50 mm from its bearing ran to its end; masses of 1e-300 kg ended in steps that were too small."""
+    """Refuse displaced cages and tiny masses.
+
+    A cage 50 mm from its bearing ran to its end; masses of 1e-300 kg made the time steps too small.
+    """
     with pytest.raises(api.CaseError) as caught:
         api.check(CASE, [f"bodies.{option}={value}"])
     (problem,) = caught.value.problems

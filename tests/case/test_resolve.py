@@ -62,7 +62,10 @@ def test_builtin_case_resolves_and_can_be_run_again_from_its_result(name: str) -
 
 
 def test_paper_6208_has_the_printed_raceways() -> None:
-    """Syla et al. 2026, Table 6: raceways 48.083 and 71.917 mm leave exactly the 14 um of the case."""
+    """Compare with Table 6 of Syla et al. 2026.
+
+    Raceways of 48.083 and 71.917 mm leave exactly the 14 um of the case.
+    """
     g = model_of("6208-axial-700").geometry
     assert g.race_diameter_inner == pytest.approx(48.083e-3, abs=1e-9)
     assert g.race_diameter_outer == pytest.approx(71.917e-3, abs=1e-9)
@@ -71,7 +74,10 @@ def test_paper_6208_has_the_printed_raceways() -> None:
 
 
 def test_paper_6319_takes_the_class_and_says_so() -> None:
-    """Raceways of Table 3 are rounded to 0.1 mm (they would leave 100 um): CN middle, 12 to 36 um at 95 mm bore."""
+    """Take the middle of CN, 12 to 36 um.
+
+    Table 3 rounds the raceways to 0.1 mm, which would leave 100 um; the bore is 95 mm.
+    """
     model = model_of("6319-cp10-1500")
     g = model.geometry
     assert g.clearance == pytest.approx(24e-6)
@@ -273,7 +279,10 @@ def test_inline_lubricant_takes_its_law_from_the_case() -> None:
 def test_estimated_masses_add_up_to_the_catalogue_mass(
     designation: str, cage: str, tolerance: float, rows: Catalogue
 ) -> None:
-    """SKF prints the whole bearing; chamfers and shoulder heights are not known, hence 8-10 %."""
+    """Compare with SKF's mass to 8-10 %.
+
+    SKF prints the mass of the complete bearing; chamfers and shoulder heights are not known.
+    """
     bearing = {"designation": designation, "maker": "SKF"}
     model = model_of("6208-axial-700", bearing=bearing, bodies={"cage": {"type": cage}})
     g = model.geometry
@@ -285,7 +294,10 @@ def test_estimated_masses_add_up_to_the_catalogue_mass(
 
 
 def test_brass_cage_of_the_6319_weighs_what_the_formula_says() -> None:
-    """m = rho 0.60 pi d_m (0.50 D_w)(1.2 D_w) with rho 8450 kg/m3: 1.27 kg."""
+    """Compare the cage's mass with 1.27 kg.
+
+    m = rho 0.60 pi d_m (0.50 D_w)(1.2 D_w) with rho = 8450 kg/m3.
+    """
     assert model_of("6319-cp10-1500").cage_body.mass == pytest.approx(1.27, rel=2e-3)
 
 
@@ -368,7 +380,7 @@ def test_torque_driven_start_from_rest() -> None:
 
 
 def test_solver_defaults_follow_the_cage() -> None:
-    """omega_c = Omega (1 - D_w/d_m)/2 at zero contact angle."""
+    """Compare with Omega (1 - D_w/d_m)/2 at zero contact angle."""
     solver = model_of("6319-cp10-3000").solver
     turn = 2.0 / (50.0 * (1.0 - 30.0 / 147.5))
     assert solver.max_duration == pytest.approx(30.0 * turn)
@@ -381,7 +393,10 @@ def test_solver_defaults_follow_the_cage() -> None:
 
 
 def test_what_undoes_the_following_of_vibrations_is_said() -> None:
-    """Longer steps than it needs are not taken; samples that are too far apart are; endless files are refused."""
+    """Warn of options that prevent resolved vibrations.
+
+    Too long steps are replaced, too wide samples are kept, and endless files are refused.
+    """
 
     def said(words: str, **tables: object) -> list[str]:
         found = model_of("6319-cp10-3000", **tables)
@@ -400,7 +415,10 @@ def test_what_undoes_the_following_of_vibrations_is_said() -> None:
 
 
 def test_vibrations_are_followed_where_they_are_the_answer() -> None:
-    """Something shakes faster than the shaft turns (50 Hz), or a raceway is not nominal; and where a case says so."""
+    """Resolve vibrations under fast excitation or raceway defects.
+
+    The excitation is faster than the shaft's 50 Hz; a case can also ask for it.
+    """
 
     def shaken(frequency: str, **solver: object) -> BearingModel:
         load = {"kind": "harmonic", "amplitude": "1 N", "frequency": frequency}
@@ -448,7 +466,10 @@ def test_row_without_inner_geometry_asks_for_it() -> None:
 
 
 def test_every_catalogue_bearing_resolves_or_says_what_is_missing(rows: Catalogue) -> None:
-    """Every third deep groove bearing; of angular contact, whose rows all have the same values, every sixth."""
+    """Resolve a sample of the catalogue.
+
+    Every third deep groove bearing, and every sixth of angular contact, whose rows all have the same values.
+    """
     base = api.case("6319-cp10-500")
     missing = {"bearing.geometry.ball_count", "bearing.geometry.ball_diameter"}
     resolved = 0

@@ -26,7 +26,10 @@ def geometry(name: str) -> Geometry:
 
 @pytest.mark.parametrize("name", ["SKF 6308", "7208BE", "QJ208", "3208A", "1208E"])
 def test_rings_touch_the_balls_where_their_grooves_do(name: str) -> None:
-    """A ball on its pitch circle clears each ring by the clearance at most, and no ring reaches into it (1 nm)."""
+    """Keep rings within the clearance of the balls.
+
+    A ball on its pitch circle clears each ring by the clearance at most; no ring reaches into it (1 nm).
+    """
     g = geometry(name)
     rings, radius = profiles(g), 0.5 * g.ball_diameter
     for place in row_places(g):
@@ -47,7 +50,10 @@ def test_rings_touch_the_balls_where_their_grooves_do(name: str) -> None:
 
 
 def test_shoulders() -> None:
-    """Radial contact has two high ones, angular contact one, back to back the outer ring the middle one."""
+    """Compare shoulder heights of three kinds.
+
+    Radial contact has two high ones, angular contact one; back to back the outer ring has the middle one.
+    """
     deep, angular, rows = (geometry(name) for name in ("SKF 6308", "7208BE", "3208A"))
     inner, outer = profiles(deep)
     edge = 0.499 * deep.width

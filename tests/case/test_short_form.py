@@ -32,7 +32,10 @@ def cases() -> list[dict[str, Any]]:
 
 
 def test_a_random_bearing_has_the_tables_of_its_machine() -> None:
-    """Every sixteenth of the 200 cases; half of the others in the full suite, all of them in the slow one."""
+    """Compare tables for every sixteenth of 200 cases.
+
+    The full suite tests half of the others, the slow one all.
+    """
     _compare_tables(cases()[::16])
 
 
@@ -72,7 +75,10 @@ def _tables(tables: dict[str, Any], with_catalogue: Catalogue) -> tuple[Any, Any
 
 
 def test_the_equilibrium_is_that_of_the_bearing() -> None:
-    """With the friction of the balls; the pose of the shaft is that without."""
+    """Include the friction of the balls.
+
+    The pose of the shaft is that without friction.
+    """
     changes = [*STRAIGHT, "gravity.z=0 m/s2"]
     single = api.quasistatic("6208-axial-1300", changes)
     long = api.long_form("6208-axial-1300", changes)
@@ -245,7 +251,7 @@ def test_the_motion_is_that_of_the_bearing_bit_by_bit(name: str, changes: list[s
 
 
 def test_a_brake_of_the_shaft_is_no_friction_of_its_bearing(tmp_path: Path) -> None:
-    """A torque drives the shaft against a resistance that grows with the speed."""
+    """Drive the shaft against a resistance that grows with speed."""
     changes = [*STRAIGHT, "operation.torque=0.5 N m", 'bodies.inner_ring.spin={damping="0.002 N m s/rad"}']
     changes.append("solver.duration=10 ms")
     long = api.long_form("6208-axial-1300", changes)

@@ -100,7 +100,10 @@ def test_the_value_at_the_start_is_the_one_that_the_run_begins_with(term: TableT
 @settings(deadline=None)
 @given(tables().filter(lambda term: len(term.values) > 4))
 def test_the_rate_has_no_jump(term: TableTerm) -> None:
-    """What a table moves has a velocity: at every point, the first and the last ones too, it is one number."""
+    """Find one velocity at every point of a table.
+
+    The first and last points are included.
+    """
     function, times, values = TimeFunction((term,)), np.array(term.values[0::2]), np.array(term.values[1::2])
     at, steepest = course(function), np.abs(np.diff(values) / np.diff(times)).max()
     for t in times:
@@ -110,7 +113,10 @@ def test_the_rate_has_no_jump(term: TableTerm) -> None:
 
 
 def test_a_pulse_stays_a_pulse() -> None:
-    """Between its points it once went to -1327 N: a load of 30 N took 1500 N off a bearing."""
+    """Keep an interpolated pulse between its points.
+
+    It went to -1327 N: a load of 30 N took 1500 N off a bearing.
+    """
     model = api.check("6208-axial-1300", ["loads.axial=1.5 kN", f'loads.radial={{kind = "table", points = {PULSE}}}'])
     down = scaled(model.inner_ring.force[2], -1.0)
     at = course(down)
@@ -137,7 +143,10 @@ def test_a_spline_says_where_it_leaves_its_points(is_summand: bool) -> None:
 
 
 def test_a_spline_through_a_well_sampled_sine_is_silent() -> None:
-    """32 points per period, none on a crest: the crests between them are no mistake."""
+    """Accept crests between the points of a sine.
+
+    The table has 32 points per period, none of them on a crest.
+    """
     times = np.arange(65) / 32.0
     points = [[f"{t} s", f"{np.sin(2.0 * np.pi * (t - 1.0 / 64.0)):.9f} kN"] for t in times]
     model = api.check("6208-axial-1300", [f'loads.radial={{kind="table", interpolation="spline", points={points}}}'])
@@ -157,7 +166,10 @@ def test_a_shaft_says_where_a_spline_leaves_its_points() -> None:
 
 
 def test_every_csv_file_is_read_by_the_same_rules(tmp_path: Path) -> None:
-    """Loads and voltages took no comment and no semicolon, measurements and spectra did."""
+    """Read comments and semicolons in every CSV file.
+
+    Tables of loads and voltages accepted neither; measurements and spectra did.
+    """
     rows = "\ufeff# bench 3\n\ntime [ms];{} [{}]\n0;1\n# a pause\n5 ; 2\n10;3\n"
     (tmp_path / "load.csv").write_text(rows.format("load", "kN"), encoding="utf-8")
     (tmp_path / "volts.csv").write_text(rows.format("voltage", "V"), encoding="utf-8")

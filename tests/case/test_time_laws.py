@@ -60,7 +60,10 @@ def test_mistakes_are_sentences(text: str, where: str, message: str) -> None:
 
 
 def test_a_prescribed_motion_takes_the_derivatives_of_the_law() -> None:
-    """At the start the chirp stands at 0, rises with 2 pi f_0 and speeds up with the sweep: times the amplitude."""
+    """Multiply the law's derivatives by the amplitude.
+
+    At the start the chirp is 0, its rate is 2 pi f_0, and its acceleration follows the sweep.
+    """
     motion = CHIRP.replace("2 kN", "1 um")
     model = api.check(CASE, [f'bodies.outer_ring.x={{mode = "prescribed", motion = {motion}}}'])
     bundle = solve(model).context.bundle

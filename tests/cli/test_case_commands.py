@@ -68,7 +68,10 @@ def loaded() -> Iterator[Any]:
 
 
 def test_help_is_broken_into_lines_by_the_terminal_and_loses_no_word() -> None:
-    """Brackets would be read as markup and vanish; a switch does not look as if it took a value."""
+    """Keep brackets and switches in wrapped help texts.
+
+    Markup would swallow brackets, and a switch must not seem to take a value.
+    """
     for command in loaded():
         texts = [command.help, *(getattr(parameter, "help", None) or "" for parameter in command.params)]
         for text in texts:
@@ -219,7 +222,10 @@ def test_init_writes_a_commented_case_that_checks(call: Call, tmp_path: Path, mo
 
 @pytest.mark.parametrize("machine", sorted(MACHINES))
 def test_init_starts_from_a_machine(call: Call, machine: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every start is a case without an error or a warning, with a bearing of its own or of ours."""
+    """Check every template without errors and warnings.
+
+    It has a bearing from the catalogue or a user's own.
+    """
     monkeypatch.chdir(tmp_path)
     assert call("init", "one", "--template", machine)[0] == 0
     model = api.check("one.toml")
@@ -265,7 +271,10 @@ def test_init_takes_load_speed_and_oil_on_its_line(call: Call, tmp_path: Path, m
 def test_the_axial_load_of_a_new_case_follows_from_a_given_radial_one(
     bearing: str, call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The axial load was that of a tenth of C, and the comment called the given load a tenth of C."""
+    """Derive the axial load from the given radial load.
+
+    It was derived from a tenth of C, and the comment called the given load a tenth of C.
+    """
     monkeypatch.chdir(tmp_path)
     assert call("init", "usual", "--bearing", bearing)[0] == 0
     assert call("init", "light", "--bearing", bearing, "--radial", "500 N")[0] == 0

@@ -34,6 +34,9 @@ def test_from_init_to_a_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     ("housing", "load", "told"), [("0 N/m", "20 kN", 1), ("0 N/m", "10 kN", 0), ("1 N/um", "20 kN", 0)]
 )
 def test_a_ring_that_nothing_backs_under_a_heavy_load(housing: str, load: str, told: int) -> None:
-    """6319: C = 159 kN; above 0.1 C a load is heavy (SKF)."""
+    """Warn about a 6319 with C = 159 kN.
+
+    Above 0.1 C a load is heavy (SKF).
+    """
     model = api.check("6319-cp10-1500", [f"elastic.outer_ring.housing_stiffness={housing}", f"loads.radial={load}"])
     assert sum("nothing backs the outer ring" in warning for warning in operating_warnings(model)) == told

@@ -53,7 +53,10 @@ def test_quasistatic(designation: str, axial: str, tmp_path: Path, capsys: pytes
 
 
 def test_lives_with_a_iso(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """ISO 281:2007, 9.3.3.3: 0.1 [1 - (1.5859 - 1.2348/kappa^0.071739) (e_C C_u/P)^0.4]^-9.185 for 1 <= kappa <= 4."""
+    """Compare a_ISO with ISO 281:2007, 9.3.3.3.
+
+    0.1 [1 - (1.5859 - 1.2348/kappa^0.071739) (e_C C_u/P)^0.4]^-9.185 for 1 <= kappa <= 4.
+    """
     path = case(tmp_path, "NU 208")
     assert main(["quasistatic", path, "--json", "--set", "life.contamination=0.3"]) == 0
     found = json.loads(capsys.readouterr().out)
@@ -68,7 +71,10 @@ def test_lives_with_a_iso(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
 
 
 def test_a_iso_ends_where_its_formula_does(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Below kappa = 0.1 the standard gives none."""
+    """Give no a_ISO below kappa = 0.1.
+
+    The standard ends there.
+    """
     slow = ["--set", 'operation.speed="5 rpm"', "--set", 'lubricant.temperature="100 degC"']
     assert main(["quasistatic", case(tmp_path, "NU 208"), "--json", *slow]) == 0
     found = json.loads(capsys.readouterr().out)
@@ -90,7 +96,10 @@ def test_too_much_thrust_is_a_warning(tmp_path: Path, capsys: pytest.CaptureFixt
 
 
 def test_thrust_alone_has_no_radial_load(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Rounding leaves forces of 1e-12 N, which are no load: no life and no static safety follow from them."""
+    """Ignore radial forces of 1e-12 N from rounding.
+
+    They are no load: no life and no static safety follow from them.
+    """
     assert main(["quasistatic", case(tmp_path, "NJ 208", "500 N"), "--json", "--set", 'loads.radial="0 N"']) == 0
     found = json.loads(capsys.readouterr().out)
     assert "radial 0 N, axial 500 N" in found["headline"]
@@ -251,7 +260,10 @@ def test_a_case_starts_from_the_catalogue(
 def test_a_run_rates_rollers_as_rollers(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Lives near those of the quasi-static answer, which leaves out the ring's weight; nothing of balls alone."""
+    """Compare lives with the quasi-static answer.
+
+    It leaves out the ring's weight; the summary has no value that only balls have.
+    """
     monkeypatch.chdir(tmp_path)
     path = case(tmp_path, "SKF NU 208 ECP")
     assert main(["quasistatic", path, "--json"]) == 0
@@ -292,7 +304,10 @@ def test_a_run_rates_rollers_as_rollers(
 
 
 def test_the_speed_of_the_outer_ring_counts_without_motion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """It was left out without a word: a bearing whose outer ring turns had no friction."""
+    """Count the speed of a turning outer ring.
+
+    It was left out silently, so that such a bearing had no friction.
+    """
     path, torque = case(tmp_path, "NU 208"), []
     for inner, outer in (("0 rpm", "3000 rpm"), ("3000 rpm", "3000 rpm"), ("1500 rpm", "-1500 rpm")):
         speeds = ("--set", f"operation.speed={inner}", "--set", f"bodies.outer_ring.spin.motion={outer}")
@@ -304,7 +319,10 @@ def test_the_speed_of_the_outer_ring_counts_without_motion(tmp_path: Path, capsy
 
 
 def test_the_weight_of_a_given_mass_loads_the_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A shaft of a tonne changed nothing; the load acts downwards as the weight does."""
+    """Load the rollers with the weight of a mass.
+
+    A shaft of a tonne changed nothing; the weight acts downwards.
+    """
     path, found = case(tmp_path, "NU 208"), []
     for changes in (
         ("bodies.inner_ring.mass=1 kg", "bodies.inner_ring.shaft_mass=199 kg", "gravity.z=-10 m/s2"),
@@ -319,6 +337,9 @@ def test_the_weight_of_a_given_mass_loads_the_rollers(tmp_path: Path, capsys: py
 
 
 def test_a_large_clearance_of_rollers_is_no_matter_of_grooves(tmp_path: Path) -> None:
-    """The balls that stand for rollers while a run is prepared refused it by the contact angle of their grooves."""
+    """Accept clearances that no groove of balls allows.
+
+    The balls that prepare a run of rollers refused it by the contact angle of their grooves.
+    """
     model = api.check(case(tmp_path, "SKF NCF 3008 CV"), ["bearing.clearance=0.5 mm"])
     assert model.bearing_models[""].geometry.clearance == pytest.approx(0.5e-3)

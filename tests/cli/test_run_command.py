@@ -101,7 +101,10 @@ def test_progress_as_json_is_one_object_per_line(capsys: pytest.CaptureFixture[s
 @pytest.mark.full
 @pytest.mark.parametrize("colour", [True, False])
 def test_a_terminal_shows_a_bar_with_the_time_left(colour: bool, warm: Warm) -> None:
-    """Through a pseudo-terminal; NO_COLOR leaves the movement and takes the colours."""
+    """Show the bar in a pseudo-terminal.
+
+    NO_COLOR keeps the movement and removes the colours.
+    """
     pty = pytest.importorskip("pty")
     terminal, end = pty.openpty()
     environment = {**os.environ, "TERM": "xterm", "COLUMNS": "100"} | ({} if colour else {"NO_COLOR": "1"})
@@ -196,7 +199,10 @@ def test_a_longer_duration_goes_on_bit_for_bit(capsys: pytest.CaptureFixture[str
 
 @pytest.mark.full
 def test_a_limit_of_wall_time_holds_for_one_start(capsys: pytest.CaptureFixture[str]) -> None:
-    """The run that it stopped goes on without it, to its end or to a limit of its own, and is the undisturbed run."""
+    """Resume a run that a time limit stopped.
+
+    It goes on without the limit or with a new one, and equals an undisturbed run.
+    """
     main(["run", CASE, "--duration", "12 ms", "--band", "none", "--out", "whole.h5", "--quiet"])
     options = ["--duration", "12 ms", "--max-wall", "1 us", "--out", "part.h5", "--quiet"]
     assert main(["run", CASE, *options]) == 5
@@ -226,7 +232,10 @@ def test_resume_refuses_what_would_be_another_run(
 @pytest.mark.full
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
 def test_an_interrupted_run_is_readable_and_goes_on_bit_for_bit(number: int, warm: Warm, in_folder: Path) -> None:
-    """A long run in a process of its own, interrupted on its way, goes on for another 5 ms."""
+    """Interrupt a long run, then continue it by 5 ms.
+
+    The run has a process of its own.
+    """
     path = in_folder / "part.h5"
     options = ("--duration", "5 s", "--set", "output.checkpoint_interval=0.05 s", "--out", str(path))
     process = warm.start(PROGRAM, "run", CASE, *options)

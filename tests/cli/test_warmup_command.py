@@ -30,7 +30,10 @@ def test_after_it_nothing_is_left_to_compile(capsys: pytest.CaptureFixture[str])
 def test_what_is_compiled_is_announced(
     monkeypatch: pytest.MonkeyPatch, tmp_path: object, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """In an empty cache every law is compiled; the solver is left out here, it would take too long."""
+    """Compile every law into an empty cache.
+
+    The solver is left out because it takes too long.
+    """
     monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(tmp_path))
     monkeypatch.setattr("lambda_core.runs.warmup.begin", lambda announce, units: None)
     solver = SimpleNamespace(find=lambda name: None)

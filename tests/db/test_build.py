@@ -197,7 +197,10 @@ def test_a_missing_plugin_folder_is_named(cache: Path, tmp_path: Path) -> None:
 
 
 def test_statements_are_written_once_for_all_openings(user_folder: Path) -> None:
-    """A catalogue is opened for every check of a case, and writing its statements takes as long as asking them."""
+    """Write the catalogue's statements only once.
+
+    Each check of a case opens the catalogue, and writing the statements takes as long as running them.
+    """
     for opening in range(2):
         catalogue = open_catalogue()
         assert catalogue.bearings("6208")
@@ -210,7 +213,10 @@ def test_statements_are_written_once_for_all_openings(user_folder: Path) -> None
 
 @pytest.mark.clock
 def test_opening_is_quick(cache: Path) -> None:
-    """Opening costs a few milliseconds; the limit leaves room for a loaded machine, of five tries the best counts."""
+    """Open the catalogue within a few milliseconds.
+
+    The limit allows for a loaded machine; the best of five tries counts.
+    """
     open_catalogue().close()
     best = 1.0
     for _ in range(5):
@@ -242,7 +248,10 @@ def test_paths_come_from_the_environment(cache: Path, monkeypatch: pytest.Monkey
 def test_on_windows_a_catalogue_that_another_process_reads_is_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Windows replaces no open file; the file under the name of a digest has the same content anyway."""
+    """Keep an open catalogue, which Windows cannot replace.
+
+    The file has the name of a digest, so that its content is the same anyway.
+    """
     monkeypatch.setattr(build, "fill", lambda connection, folders: Base.metadata.create_all(connection))
     first = build.build_file(tmp_path, "catalogue-x", [])
 

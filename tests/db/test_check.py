@@ -79,7 +79,10 @@ def test_a_damaged_user_file_is_an_error(user_folder: Path) -> None:
 
 
 def test_rows_added_during_a_check_are_no_findings(catalogue: SqlCatalogue, meanwhile: Meanwhile) -> None:
-    """A cage of an own material, added after the names of the materials were read and before the cages are."""
+    """Add a cage between reading materials and cages.
+
+    The cage has a material of its own, added after the names of materials were read.
+    """
     add_row(catalogue, "suffix", {"written": "QQ7", "kind": "cage", "meaning": "brass", "value": "brass-machined"})
     other = open_catalogue()
     before = findings(catalogue)

@@ -80,7 +80,10 @@ def test_cages_name_known_materials(catalogue: SqlCatalogue) -> None:
 
 
 def test_cage_mass_of_the_source(catalogue: SqlCatalogue) -> None:
-    """Mass formula: the brass cage of a 6319 weighs about 1.27 kg, the ribbon of a 6205 7.4 to 9 g (5 %)."""
+    """Compare brass and ribbon cages with known masses.
+
+    The brass cage of a 6319 weighs about 1.27 kg, the ribbon of a 6205 7.4 to 9 g (5 %).
+    """
     import math
 
     def mass(cage: str, ball: float, pitch: float) -> float:

@@ -34,14 +34,20 @@ def test_bode_mineral(catalogue: SqlCatalogue) -> None:
 
 @pytest.mark.parametrize("name", ["FVA3", "FVA3A"])
 def test_fva3(catalogue: SqlCatalogue, name: str) -> None:
-    """Vogel by hand at 62.5 degC: 0.062 exp(1021.7/164.0517) = 31.42 mPa s; Dicke: 1e4/(327.7918 + 62.5 2.9862)."""
+    """Compare Vogel and Dicke at 62.5 degC by hand.
+
+    0.062 exp(1021.7/164.0517) = 31.42 mPa s; 1e4/(327.7918 + 62.5 2.9862).
+    """
     table = oil_table(catalogue.lubricant(name), registry(), [335.65])
     assert table.points[0].viscosity_mPas == pytest.approx(0.062 * math.exp(1021.7 / 164.0517), rel=1e-9)
     assert table.coefficients[0].alpha_tangent_per_GPa == pytest.approx(1e4 / (327.7918 + 62.5 * 2.9862), rel=1e-5)
 
 
 def test_every_oil_has_a_table_by_every_law(catalogue: SqlCatalogue) -> None:
-    """No oil is without viscosity and density from -10 to 150 degC and to 1 GPa, whatever data it has."""
+    """Compute viscosity and density from -10 to 150 degC.
+
+    Every oil has both up to 1 GPa, whatever data it has.
+    """
     models = registry()
     for row in catalogue.lubricants(limit=1000):
         for law in row.parameters["rheology"]:

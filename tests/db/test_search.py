@@ -62,7 +62,7 @@ def test_comparisons_that_make_no_sense(catalogue: SqlCatalogue, text: str, mess
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(text=st.text(max_size=30))
 def test_anything_typed_is_answered(catalogue: SqlCatalogue, text: str) -> None:
-    """Rows, or a sentence: never an error of the database."""
+    """Return rows or a sentence, never a database error."""
     catalogue.lubricants(text, 5)
     if any(operator in text for operator in "=<>"):
         with suppress(CatalogueError):
@@ -79,7 +79,10 @@ def test_lubricants_by_words(catalogue: SqlCatalogue) -> None:
 
 @pytest.mark.clock
 def test_a_query_takes_20_ms_at_most(catalogue: SqlCatalogue) -> None:
-    """The best of five tries per query, as typed letter by letter; the benchmark prints the numbers."""
+    """Time queries typed letter by letter.
+
+    The best of five tries counts; the benchmark prints the numbers.
+    """
     catalogue.bearings("6")
     for text in ("6", "62", "620", "6208", "6208 s", "40 62", "d=40 C>30", "skf series=618"):
         best = 1.0

@@ -143,7 +143,10 @@ def test_every_source_is_used_and_every_key_known() -> None:
 
 
 def test_derived_rows_are_what_the_derivation_supports(catalogue: SqlCatalogue) -> None:
-    """A stored estimate is among its ranked candidates, and its grade is at most the derivation's."""
+    """Find each stored estimate among its ranked candidates.
+
+    Its grade is at most that of the derivation.
+    """
     derived = 0
     for cells in rows_of(catalogue, "bearing"):
         row, problems = parse_row("bearing", cells)

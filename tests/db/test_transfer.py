@@ -66,7 +66,10 @@ def test_bearings_make_the_round_trip_as_toml(catalogue: SqlCatalogue, tmp_path:
 
 
 def test_an_export_holds_what_one_moment_held(catalogue: SqlCatalogue, meanwhile: Meanwhile, tmp_path: Path) -> None:
-    """An oil that is added before its constants are read, and after the oils were, is left out with them."""
+    """Add an oil while the catalogue is exported.
+
+    It comes after the oils and before their constants were read, so both are left out.
+    """
     add_row(catalogue, "lubricant", {"name": "mine", "base_type": "PAO", "rheology": "roelands"})
     other = open_catalogue()
     with meanwhile(" FROM user.lubricant_parameter ORDER", lambda: add_oil(other)):

@@ -107,7 +107,10 @@ for i in range(25):
 
 @pytest.mark.full
 def test_four_processes_adding_rows_lose_none(user_folder: Path, tmp_path: Path, warm: Warm) -> None:
-    """Started together on an empty folder: the core database is built and the user's created in the same moment."""
+    """Start four writers together on an empty folder.
+
+    They build the core database and create the user's at the same moment.
+    """
     warm.ready()
     running = [warm.start(WRITER, str(n), env={"LAMBDA_BEARING_CACHE": str(tmp_path / "cache")}) for n in range(4)]
     outcomes = [(process.communicate()[1], process.returncode) for process in running]
@@ -128,7 +131,10 @@ def test_a_reader_sees_rows_written_meanwhile(catalogue: SqlCatalogue) -> None:
 def test_a_row_added_while_the_catalogue_is_opened_is_no_foreign_change(
     catalogue: SqlCatalogue, meanwhile: Meanwhile, caplog: pytest.LogCaptureFixture
 ) -> None:
-    """Another connection commits a row each time before the one that opens reads the user's bearings."""
+    """Commit rows from another connection during each opening.
+
+    Each row comes before the opener reads the user's bearings.
+    """
     add_row(catalogue, "bearing", ROW)
     names = ["6208"]
 
@@ -235,7 +241,10 @@ def test_a_newer_schema_is_left_alone(catalogue: SqlCatalogue, caplog: pytest.Lo
 
 
 def test_an_older_schema_is_migrated(catalogue: SqlCatalogue) -> None:
-    """Version 1 knew no table of suffixes, version 2 no seal."""
+    """Migrate versions 1 and 2.
+
+    Version 1 had no table of suffixes, version 2 no seal.
+    """
     add_row(catalogue, "bearing", ROW)
     catalogue.close()
     with sqlite3.connect(user_database()) as connection:
@@ -331,7 +340,10 @@ def test_c3_a_row_changed_by_others_is_named_until_it_is_accepted(
 def test_a_row_changed_between_opening_and_writing_is_not_sealed(
     catalogue: SqlCatalogue, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Another program changes a row after the file was checked and before this one writes."""
+    """Change a row between the check and the write.
+
+    Another program makes the change.
+    """
     add_row(catalogue, "bearing", ROW)
     checked = user.open_user_database
 
@@ -348,7 +360,10 @@ def test_a_row_changed_between_opening_and_writing_is_not_sealed(
 def test_a_catalogue_that_is_locked_is_not_read_without_its_newest_rows(
     catalogue: SqlCatalogue, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Read as a file that never changes, it would lack what stands in SQLite's log: it is left out and named."""
+    """Name and leave out a locked catalogue.
+
+    Read as an unchanging file it would lack the rows in SQLite's log.
+    """
     add_row(catalogue, "bearing", ROW)
     tried: list[str] = []
     uri = overlay.file_uri

@@ -476,7 +476,7 @@ def wavy_with_a_slip_of_the_sign(azimuth, contact_angle, par, out):
 
 
 def test_a_slope_that_is_not_the_derivative_is_told() -> None:
-    """A raceway whose slopes do not belong to its height would make energy from nothing."""
+    """Report a raceway whose slopes contradict its height."""
     good, bad = (
         replace(Law("surface", "trial", kernel, role_api=3, reference="own work"), distribution="trials 0.3")
         for kernel in (wavy, wavy_with_a_slip_of_the_sign)
@@ -489,7 +489,7 @@ def test_a_slope_that_is_not_the_derivative_is_told() -> None:
 
 @pytest.mark.full
 def test_a4_a_law_that_compiles_for_long_is_said_to(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A kernel of 400 branches took 48 s without a word: what takes longer than a moment is named while it goes on."""
+    """Announce a kernel of 400 branches during compilation."""
     monkeypatch.setattr(apart, "PATIENCE", 0.0)
     said: list[str] = []
     (card,) = apart.check_apart(registry(), ["contact_state/none"], announce=said.append)

@@ -112,7 +112,10 @@ def test_what_cannot_be_followed_is_refused_by_name(body: str, words: str) -> No
 
 @pytest.mark.full
 def test_keys_of_the_core_are_equal_in_every_process() -> None:
-    """Sets (the flags of fast mathematics) have another order under another hash seed."""
+    """Compare keys under another hash seed.
+
+    It changes the order of sets, such as the flags of fast mathematics.
+    """
     code = (
         "from lambda_core.solver import entry\n"
         "from lambda_core.laws.kernels import host_key\n"

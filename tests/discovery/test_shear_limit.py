@@ -44,7 +44,10 @@ def test_built_in_laws_stay_below_the_limit(name: str) -> None:
 
 
 def test_where_no_equilibrium_is_found_the_law_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One iteration is too few for any law: the sentence names the one without a limit, not speed or temperature."""
+    """Name the law without a limit of shear stress.
+
+    One iteration is too few for any law; the message must not blame speed or temperature.
+    """
     monkeypatch.setattr(equilibrium, "MAX_ITERATIONS", {False: 5000, True: 0})
     monkeypatch.setattr(equilibrium, "_FRESH_STARTS", 0)
     for chosen, expected in (("ree-eyring", "try a speed or temperature nearby"), (limitless, "limiting stress")):
@@ -54,7 +57,10 @@ def test_where_no_equilibrium_is_found_the_law_is_named(monkeypatch: pytest.Monk
 
 
 def test_a_law_of_no_oil_is_given_up_after_one_attempt(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Four starts anew and four warmer oils multiplied the time to the same sentence."""
+    """Stop after one attempt.
+
+    Four new starts and four warmer oils multiplied the time before the same message.
+    """
     monkeypatch.setattr(equilibrium, "MAX_ITERATIONS", {False: 5000, True: 0})
     monkeypatch.setattr(equilibrium, "_FRESH_ITERATIONS", 0)
     attempt, made = equilibrium._attempt, []

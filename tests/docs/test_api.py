@@ -9,7 +9,7 @@ from lambda_core import api
 
 
 def test_types_and_names_agree() -> None:
-    """The API reads its names from its own text: they are those that type checkers see."""
+    """Compare the API's names with those for type checkers."""
     tree = ast.parse(inspect.getsource(api))
     blocks = [node.body for node in tree.body if isinstance(node, ast.If)]
     lines = [line for block in blocks for line in block if isinstance(line, ast.ImportFrom)]

@@ -25,7 +25,10 @@ def test_what_is_counted_keeps_its_limits(figures: list[int]) -> None:
 
 
 def test_the_page_says_what_is_counted(figures: list[int]) -> None:
-    """To 10 %: a page need not be renewed for every line that is written."""
+    """Compare the page with the code to 10 %.
+
+    The page need not be renewed for every new line.
+    """
     rows = (
         metrics.PAGE.read_text(encoding="utf-8").partition(metrics.BEGIN)[2].partition(metrics.END)[0].splitlines()[2:]
     )
@@ -34,7 +37,10 @@ def test_the_page_says_what_is_counted(figures: list[int]) -> None:
 
 
 def test_subjects_of_commits_are_short() -> None:
-    """Skipped where the history is not there."""
+    """Limit subjects to 60 characters.
+
+    The test is skipped where there is no history.
+    """
     command = ["git", "log", "--no-merges", "--abbrev=8", "--format=%h %s", f"{LONG_BEFORE}..HEAD"]
     done = subprocess.run(command, cwd=metrics.ROOT, capture_output=True, text=True, check=False)
     if done.returncode != 0:

@@ -67,7 +67,10 @@ def test_only_set_up_is_left_out() -> None:
 
 
 def test_no_command_hides_in_a_block_that_is_not_run() -> None:
-    """A call of the program in a block without a language would be an example that nobody tries."""
+    """Find program calls in blocks without a language.
+
+    Nobody would try such an example.
+    """
     for path in DOCS.rglob("*.md"):
         fenced, language = False, ""
         for line in path.read_text(encoding="utf-8").splitlines():

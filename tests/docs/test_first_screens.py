@@ -29,7 +29,10 @@ class TestFirstScreen:
             assert word in lead
 
     def test_its_numbers_stand_in_the_record(self, name: str) -> None:
-        """Tables of the record are renewed by programs: the first screen must not stay behind."""
+        """Find each number of the first screen in the record.
+
+        Programs renew the tables of the record, and the first screen must follow.
+        """
         lead, record = _parts(name)
         stated = set(_NUMBER.findall(record))
         stale = sorted({number for number in _NUMBER.findall(lead) if number not in stated})

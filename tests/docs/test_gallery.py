@@ -47,7 +47,10 @@ def test_the_tutorial_reaches_a_report_in_five_commands() -> None:
 
 @pytest.mark.parametrize("name", ["index.md", "gallery.md", "first-bearing.md"])
 def test_what_the_page_points_at_exists(name: str) -> None:
-    """Also what stands in HTML, which the site's own check of links does not read."""
+    """Find the targets of links in HTML too.
+
+    The site's own check of links does not read HTML.
+    """
     text = (DOCS / name).read_text(encoding="utf-8")
     for place in re.findall(r'(?:src|href)="([^"]+)"', text) + re.findall(r"!\[[^]]*\]\(([^)]+)\)", text):
         target, _, anchor = place.partition("#")

@@ -75,6 +75,6 @@ def test_a_retired_word_is_used_nowhere(word: str) -> None:
 
 @pytest.mark.parametrize("name", sorted(_NAMES))
 def test_a_retired_name_is_given_to_nothing(name: str) -> None:
-    """Functions, arguments and variables of the packages."""
+    """Search functions, arguments and variables of the packages."""
     assert "compile_into" in _given()
     assert name not in _given(), f"call it {_NAMES[name]}: {_given()[name]}"

@@ -64,7 +64,10 @@ def test_the_architecture_page_names_every_package() -> None:
 
 
 def test_the_first_pages_name_every_kind_of_bearing() -> None:
-    """README and site said "deep-groove ball bearings only" when there were angular contact ones."""
+    """Name every kind in README and home page.
+
+    Both named only deep-groove ball bearings when there were angular contact ones.
+    """
     counts = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
     balls, rollers = kinds(), {kind.title.split()[0].lower() for kind in roller_kinds().values()}
     index = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")

@@ -72,7 +72,10 @@ def _in_line(name: str, parameter: str, doc: docstrings.Docstring) -> bool:
 
 
 def test_functions_that_people_call_have_all_sections() -> None:
-    """The API and the test kit, called from scripts: sections for everything, not a line in the text."""
+    """Find all sections in docstrings of API and test kit.
+
+    Scripts call these functions.
+    """
     called = {n: item for n, item in PUBLIC.items() if n.startswith(("lambda_core.api", "lambda_core.testing"))}
     without = []
     for name, item in called.items():
@@ -88,7 +91,7 @@ def test_functions_that_people_call_have_all_sections() -> None:
 
 
 def test_what_people_call_is_summarised_in_ten_words() -> None:
-    """Functions and classes of the API and the test kit."""
+    """Count the words of summaries in API and test kit."""
     called = {n: item for n, item in PUBLIC.items() if n.startswith(("lambda_core.api", "lambda_core.testing"))}
     summaries = {name: docstrings.parsed(item).text.split("\n\n")[0].split() for name, item in called.items()}
     assert {name: " ".join(words) for name, words in summaries.items() if len(words) > 10} == {}

@@ -41,7 +41,7 @@ def test_the_pages_are_those_of_today() -> None:
 
 @pytest.mark.full
 def test_a_stale_page_is_found(tmp_path: Path) -> None:
-    """The check fails when an option is renamed: tried on a copy of the pages."""
+    """Rename an option on a copy of the pages."""
     import shutil
 
     copy = tmp_path / "docs"
@@ -171,7 +171,7 @@ def test_every_error_and_exit_code_is_described() -> None:
 
 
 def test_every_environment_variable_is_described() -> None:
-    """Variables are read in few places; each has to stand on some page."""
+    """Find every variable that the program reads on a page."""
     root = DOCS.parent
     folders = ("lambda_core", "plugins", "db", "gui", "cli")
     sources = [path.read_text(encoding="utf-8") for folder in folders for path in (root / folder).rglob("*.py")]

@@ -58,14 +58,20 @@ def test_commands_can_be_copied(site: Path) -> None:
 
 
 def test_blocks_are_rendered_as_code(site: Path) -> None:
-    """A fence that the renderer does not know stays in the text as three backticks."""
+    """Find no fence of three backticks in the pages.
+
+    A fence that the renderer does not know stays in the text.
+    """
     for path in site.rglob("*.html"):
         assert "```" not in path.read_text(encoding="utf-8"), path.name
     assert not (site / "tools").exists()
 
 
 def test_formulas_are_set_as_formulas(site: Path) -> None:
-    """Every dollar of the theory has become MathML, in words that browsers know."""
+    """Find MathML for every dollar of the theory.
+
+    Browsers know all its elements.
+    """
     found = 0
     for path in (site / "theory").glob("*.html"):
         text = path.read_text(encoding="utf-8")
@@ -76,7 +82,10 @@ def test_formulas_are_set_as_formulas(site: Path) -> None:
 
 
 def test_no_formula_of_the_theory_is_left_in_plain_text() -> None:
-    """A line of code on a theory page is a command, Python or a case file; a formula stands between dollars."""
+    """Find only commands, Python and case files in code.
+
+    A formula on a theory page stands between dollars.
+    """
     for path in (DOCS / "theory").glob("*.md"):
         fenced = False
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):

@@ -28,7 +28,10 @@ CIRCUIT = one_bearing(50e-12, 1000e-12)
     ],
 )
 def test_quantiles(film: float, roughness: float, expected: tuple[float, ...]) -> None:
-    """A rough film of 2.7 mm2, correlation length 10 um, 30 V/um: computed apart from this program, to its digits."""
+    """Compare quantiles with values of another program.
+
+    A rough film of 2.7 mm2, correlation length 10 um, 30 V/um, to the printed digits.
+    """
     found = breakdown_voltage(np.array([0.1, 0.5, 0.9]), film, roughness, 30e6, 2.7e-6 / 1e-10)
     np.testing.assert_allclose(found, expected, rtol=5e-3)
     back = breakdown_probability(found, film, roughness, 30e6, 2.7e-6 / 1e-10)
@@ -37,12 +40,14 @@ def test_quantiles(film: float, roughness: float, expected: tuple[float, ...]) -
 
 @pytest.mark.parametrize("p", [1e-300, 1e-20, 1e-11, 1e-5, 0.01, 0.3, 0.5, 0.8, 0.999])
 def test_normal_quantile(p: float) -> None:
-    """Against scipy, which takes the lower tail."""
+    """Compare with scipy, which takes the lower tail."""
     assert upper_quantile(p) == pytest.approx(-ndtri(p), rel=1e-14, abs=1e-14)
 
 
 def test_drawn_voltages_follow_the_law() -> None:
-    """First breakdowns on a slow ramp for many seeds; Kolmogorov and Smirnov's test at 1 in 1000.
+    """Compare first breakdowns on a slow ramp with the law.
+
+    Many seeds; Kolmogorov and Smirnov's test at 1 in 1000.
 
     Only the weakest of the four films is seen: the law is that of 4 N spots.
     """
@@ -57,7 +62,10 @@ def test_drawn_voltages_follow_the_law() -> None:
 
 
 def test_deterministic_field() -> None:
-    """A smooth film breaks down at E_b h exactly; both contacts of a ball, one after the other."""
+    """Break a smooth film at E_b h exactly.
+
+    Both contacts of a ball break down, one after the other.
+    """
     source = np.array([0.0, 1e-4, 2e-4]), np.array([0.0, 0.0, 800.0])
     found = integrate(steady(100e-12, 200e-12, film=0.4e-6), CIRCUIT, SMOOTH, source).events
     assert abs(found[0, L.E_CONTACT_VOLTAGE]) == pytest.approx(12.0, rel=1e-12)
@@ -67,7 +75,10 @@ def test_deterministic_field() -> None:
 
 
 def test_strong_film_holds() -> None:
-    """One film breaks down, the other stands the whole voltage: the ball is charged, the rotor is not discharged."""
+    """Break one film down while the other holds.
+
+    The other film takes the full voltage: the ball is charged, the rotor is not discharged.
+    """
     films = steady(100e-12, 200e-12, film=0.4e-6)
     films.film[:, :, 1] = films.thinnest[:, :, 1] = 4e-6
     source = np.array([0.0, 1e-4, 2e-4, 2e-3]), np.array([0.0, 0.0, 500.0, 500.0])
@@ -77,7 +88,10 @@ def test_strong_film_holds() -> None:
 
 
 def test_particles_lower_the_threshold() -> None:
-    """A particle of 0.3 um in a film of 0.5 um leaves 0.2 um; without one the smooth film stands 15 V."""
+    """Compare breakdown with and without a particle.
+
+    A particle of 0.3 um in a film of 0.5 um leaves 0.2 um; without one the smooth film holds 15 V.
+    """
     source = np.array([0.0, 1e-4, 2e-4, 2e-3]), np.array([0.0, 0.0, 400.0, 400.0])
     clean = steady(100e-12, 100e-12, film=0.5e-6)
     law = strength("particles", roughness=1e-9, breaks={"particle_density": "40000 1/mm3"})  # 54 in each film
@@ -87,7 +101,10 @@ def test_particles_lower_the_threshold() -> None:
 
 
 def test_no_film_between_touching_and_parting() -> None:
-    """A contact that unloads between two samples does not break down on half a film."""
+    """Unload a contact between two samples.
+
+    It must not break down on half a film.
+    """
     films = steady(100e-12, 100e-12, film=0.6e-6)
     films.film[1:] = films.thinnest[1:] = 0.0
     source = np.array([0.0, 1e-4, 2e-4, 2e-3]), np.array([0.0, 0.0, 300.0, 300.0])
@@ -95,7 +112,9 @@ def test_no_film_between_touching_and_parting() -> None:
 
 
 def test_other_films_break_down_while_an_edge_feeds_an_arc() -> None:
-    """An edge of 200 V keeps the arc in one film of a ball alive, whose other film holds: 100 pF at 0.2 V/ns are 20 mA.
+    """Feed an arc from an edge of 200 V.
+
+    The arc burns in one film of a ball whose other film holds: 100 pF at 0.2 V/ns are 20 mA.
 
     The films of the second ball stand 1 V each, 2 V in series. They break down in time, not after the edge.
     """

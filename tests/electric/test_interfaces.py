@@ -26,7 +26,10 @@ SHORT = ["electric.duration=0.03 s"]
 
 
 def test_radial_6208() -> None:
-    """Every part of the outcome of a radially loaded 6208 on an 800 V inverter."""
+    """Compute a radially loaded 6208 on an 800 V inverter.
+
+    The test looks at every part of the outcome.
+    """
     found = api.electric("6208-axial-1300", [*RADIAL, *SHORT])
     outcome, events = found.outcome, found.events
     assert outcome.discharges + outcome.partial_discharges == events.discharge[-1] + 1
@@ -50,7 +53,7 @@ def test_radial_6208() -> None:
 
 
 def test_run_and_case_agree(combined_run: Result) -> None:
-    """Films of the dynamics and of equilibria: capacitances within 3 %."""
+    """Compare capacitances of dynamics and equilibria to 3 %."""
     run = api.electric(combined_run.path, ["electric.inverter.dc_link=400 V"]).outcome
     case = api.electric("6208-axial-1300", ["loads.radial=0.4 kN", *SHORT, "electric.inverter.dc_link=400 V"]).outcome
     assert "400 V" in run.source
@@ -70,7 +73,10 @@ def test_brush_stops_discharges() -> None:
 
 
 def test_same_seed_same_table(tmp_path: Path) -> None:
-    """The table of two computations is the same file, byte for byte; another seed makes another."""
+    """Compare two tables of one seed byte by byte.
+
+    Another seed makes another table.
+    """
     tables = []
     for name, seed in (("a", 7), ("b", 7), ("c", 8)):
         found = api.electric("6208-axial-1300", [*RADIAL, *SHORT, f"electric.seed={seed}"])
@@ -117,7 +123,9 @@ def test_command(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
 
 
 def test_densities_are_over_the_mean_area_of_one_raceway() -> None:
-    """Films are in series: one current goes through the contacts of the inner and then of the outer raceway.
+    """Divide by the mean area of one raceway.
+
+    Films are in series: one current goes through the contacts of the inner and then of the outer raceway.
 
     Under axial load all balls are alike, and each presses on 3/2 Q/p_max (Hertz); the outer's area is a little larger.
     """
@@ -152,7 +160,10 @@ def test_a_window_that_ends_before_it_begins_is_refused() -> None:
 @pytest.mark.parametrize("duration", ["1 ns", "10 us", "0.1 ms"])
 @pytest.mark.filterwarnings("error::RuntimeWarning")
 def test_short_spans(duration: str, combined_run: Result) -> None:
-    """Shorter than the samples of a run: told; a case computes at least one position of the balls."""
+    """Reject spans shorter than the samples of a run.
+
+    A case computes at least one position of the balls.
+    """
     with pytest.raises(UsageError, match="too short"):
         api.electric(combined_run.path, [f"electric.duration={duration}"])
     found = api.electric("6208-axial-1300", [f"electric.duration={duration}"]).outcome

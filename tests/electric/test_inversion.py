@@ -17,7 +17,7 @@ from lambda_core.domain.errors import UsageError
 @pytest.mark.parametrize("law", ["schneider", "gap-integral"])
 @pytest.mark.parametrize("scale", [0.3, 1.0, 2.0])
 def test_own_film_is_found_again(law: str, scale: float) -> None:
-    """To 1e-6, with the law that made the capacitance."""
+    """Find the film to 1e-6 with its own law."""
     model = api.check("6208-axial-1300", ["loads.radial=1 kN", f"models.capacitance={law}"])
     films = FilmModel(equilibria(model, 2), 4e-12)
     assert films.scale(films.capacitance(scale)) == pytest.approx(scale, rel=1e-6)
@@ -26,7 +26,10 @@ def test_own_film_is_found_again(law: str, scale: float) -> None:
 
 @pytest.mark.full
 def test_starved_bearing_is_recognised(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The capacitance of a bearing with 60 % of the film, given to the flooded case."""
+    """Recognise a film of 60 % in a flooded case.
+
+    The given capacitance is that of the starved bearing.
+    """
     starved = FilmModel(equilibria(api.check("6208-axial-1300", ["lubricant.starvation=0.6"]), 1), 0.0)
     rings = api.electric("6208-axial-1300", ["electric.duration=2 ms"]).circuit.bearings[0].rings
     value = 1e12 * (starved.capacitance(1.0) + rings)

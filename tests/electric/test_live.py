@@ -28,7 +28,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Result:
 
 
 def test_what_was_written_is_what_is_found_afterwards(run: Result) -> None:
-    """Bit for bit, from where averages begin."""
+    """Compare bit by bit from where averages begin."""
     written, found = run.discharges(), api.electric(run.path)
     assert found.events.time.size > 100
     begin = found.films.time[0]
@@ -44,7 +44,10 @@ def test_what_was_written_is_what_is_found_afterwards(run: Result) -> None:
 
 @pytest.mark.parametrize("size", [1, 7, 60])
 def test_samples_may_come_in_any_pieces(run: Result, size: int) -> None:
-    """One by one, or by the dozen: the tables are those of the run, which flushed by the clock."""
+    """Pass samples one by one and in dozens.
+
+    The tables are those of the run, which flushed by the clock.
+    """
     live = Live(api.check(CASE, CHANGES))
     samples = {name: run[name] for name in CHANNELS}
     parts = [
@@ -58,7 +61,7 @@ def test_samples_may_come_in_any_pieces(run: Result, size: int) -> None:
 
 @pytest.mark.full
 def test_a_longer_run_goes_on_with_its_circuit(run: Result, tmp_path: Path) -> None:
-    """Stopped after a third, continued: the same file as the run in one go."""
+    """Stop after a third, continue, compare the files."""
     path = tmp_path / "short.h5"
     api.run(CASE, [*CHANGES, "solver.duration=0.03 s"], out=path)
     assert 0 < api.result(path).discharges()["time"].size < run.discharges()["time"].size
@@ -81,7 +84,7 @@ def test_no_circuit_no_tables(combined_run: Result) -> None:
 
 
 def test_motion_is_not_touched(run: Result, tmp_path: Path) -> None:
-    """The same run without a circuit has the same samples."""
+    """Compare the samples with a run without a circuit."""
     plain = api.run(CASE, [*CHANGES[:2], "solver.duration=0.02 s"], out=tmp_path / "plain.h5")
     for name in ("load", "film_central", "body_position"):
         values = plain[name]
@@ -89,7 +92,7 @@ def test_motion_is_not_touched(run: Result, tmp_path: Path) -> None:
 
 
 def test_summary_counts_what_was_written(run: Result) -> None:
-    """The same discharges and voltages as the command electric finds."""
+    """Compare discharges and voltages with the command `electric`."""
     found, outcome = run.summary(), api.electric(run.path).outcome
     assert found.currents is not None
     assert found.currents.discharges_per_s == pytest.approx(outcome.discharges_per_s, rel=1e-12)

@@ -24,7 +24,10 @@ BARE, COATED = Surroundings(5e-12), Surroundings(8e-12, coating=600e-12, bridge=
 
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_equal_bearings_are_capacitances_in_parallel(count: int) -> None:
-    """Nothing leaks and nothing breaks down: U/V = C_w/(C_w + C_rf + n C_b), the same for every bearing."""
+    """Compare with U/V = C_w/(C_w + C_rf + n C_b).
+
+    Nothing leaks and nothing breaks down; every bearing has the same ratio.
+    """
     circuit = Circuit(50e-12, 800e-12, (BARE,) * count)
     films, source = steady(300e-12, 500e-12, balls=4), switching(2e-3)
     found = integrate([films] * count, circuit, [SMOOTH] * count, source, window=(0.0, 1.0))
@@ -38,7 +41,10 @@ def test_equal_bearings_are_capacitances_in_parallel(count: int) -> None:
 
 
 def test_a_second_bearing_that_moves_alike_is_a_twin() -> None:
-    """While films leak nothing and hold, two bearings with the same balls are one with `twins`."""
+    """Compare two bearings with one that has `twins`.
+
+    They are equal while films do not leak and hold.
+    """
     films, source = turning(leak=0.0), switching(0.02)
     twin = integrate([films], Circuit(50e-12, 800e-12, (BARE,), twins=1.0), [SMOOTH], source)
     both = integrate([films, films], Circuit(50e-12, 800e-12, (BARE, BARE)), [SMOOTH] * 2, source)
@@ -79,7 +85,10 @@ def _nodes(films: list[Films], circuit: Circuit) -> tuple[FloatArray, FloatArray
 
 @pytest.mark.parametrize("second", [BARE, COATED], ids=["bare", "insulated"])
 def test_two_unequal_bearings_against_an_independent_solution(second: Surroundings) -> None:
-    """The same circuit branch by branch through scipy's DOP853, at every corner of the source."""
+    """Solve the circuit by scipy's DOP853 for comparison.
+
+    The comparison goes branch by branch, at every corner of the source.
+    """
     films = [steady(200e-12, 300e-12, balls=3, leak=4e-7), steady(80e-12, 120e-12, balls=2, leak=1e-7)]
     circuit = Circuit(50e-12, 800e-12, (BARE, second), brush=1e-6)
     times, volts = switching(1e-3, rise=2e-6)
@@ -111,7 +120,10 @@ def test_two_unequal_bearings_against_an_independent_solution(second: Surroundin
 
 @pytest.mark.parametrize("second", [BARE, COATED, Surroundings(5e-12, 1e-9, 1e-9, 4e-12, 2e-12, 3e-12)])
 def test_energy_and_charge_balance_through_discharges(second: Surroundings) -> None:
-    """Films of both break down, one bearing insulated or with a cage of metal."""
+    """Break films of both bearings down.
+
+    One bearing is insulated or has a metal cage.
+    """
     films = [turning(film=0.4e-6), turning(film=0.3e-6)]
     circuit, source = Circuit(50e-12, 900e-12, (BARE, second), brush=1e-8), switching(0.02)
     found = integrate(films, circuit, [ROUGH, strength(roughness=0.05e-6)], source, seed=5)
@@ -124,7 +136,10 @@ def test_energy_and_charge_balance_through_discharges(second: Surroundings) -> N
 
 
 def test_the_thinner_film_takes_the_discharges() -> None:
-    """A bearing whose films stand twice the voltage never sees it: the other one has discharged the shaft before."""
+    """Double the voltage that one bearing's films hold.
+
+    That bearing never sees this voltage: the other one has discharged the shaft before.
+    """
     films = [turning(film=0.2e-6), turning(film=0.8e-6)]
     circuit, source = Circuit(50e-12, 900e-12, (BARE, BARE)), switching(0.02)
     found = integrate(films, circuit, [SMOOTH] * 2, source)
@@ -135,7 +150,10 @@ def test_the_thinner_film_takes_the_discharges() -> None:
 
 
 def test_an_insulated_bearing_leaves_the_voltage_to_the_other() -> None:
-    """A coating keeps most of the voltage, so that equal films break down in the bare bearing alone."""
+    """Break equal films down in the bare bearing only.
+
+    The coating takes most of the voltage.
+    """
     films = [turning(film=0.3e-6)] * 2
     circuit = Circuit(50e-12, 900e-12, (BARE, Surroundings(5e-12, coating=30e-12, bridge=1e-12)))
     found = integrate(films, circuit, [SMOOTH] * 2, switching(0.02))
@@ -146,7 +164,10 @@ def test_an_insulated_bearing_leaves_the_voltage_to_the_other() -> None:
 
 
 def test_first_bearing_is_drawn_as_if_it_were_alone() -> None:
-    """Random numbers are keyed by ball: a second bearing behind a tiny capacitance changes nothing of the first."""
+    """Add a second bearing behind a tiny capacitance.
+
+    Random numbers are keyed by ball, so that nothing changes in the first bearing.
+    """
     films, source = turning(film=0.4e-6), switching(0.02)
     far = Surroundings(0.0, coating=1e-20, bridge=1e-20)
     tiny = replace(steady(1e-20, 1e-20, stop=0.02), time=films.time[[0, 20, 40]])
@@ -157,7 +178,10 @@ def test_first_bearing_is_drawn_as_if_it_were_alone() -> None:
 
 
 def test_films_at_common_times() -> None:
-    """Straight lines between samples; where a film has gone at one end there is none between."""
+    """Interpolate films linearly between samples.
+
+    Where a film is missing at one end, there is none between.
+    """
     one, other = steady(1e-12, 2e-12, film=0.4e-6), steady(3e-12, 4e-12, film=0.4e-6)
     one.film[2], one.capacitance[1] = 0.0, 5e-12
     other = replace(other, time=other.time * 0.75)

@@ -30,7 +30,10 @@ def found() -> CircuitSimulation:
 
 
 def test_both_bearings_stand_in_one_circuit(found: CircuitSimulation) -> None:
-    """The ratio is that of all capacitances by hand; the coated bearing shares its voltage with the coating."""
+    """Compare the ratio with all capacitances by hand.
+
+    The coated bearing shares its voltage with the coating.
+    """
     near, far = found.bearings["drive_end"], found.bearings["other_end"]
     assert near.circuit is far.circuit
     assert not near.circuit.bearings[0].insulated
@@ -58,7 +61,10 @@ def test_outcome_of_the_shaft(found: CircuitSimulation) -> None:
 
 
 def test_the_line_of_discharges_names_the_share_at_the_assumed_limit(found: CircuitSimulation) -> None:
-    """A rate without it was read as a forecast; it was written as 4.759e+04."""
+    """Print the share at the assumed limit.
+
+    Users read the rate alone as a forecast; it was printed as 4.759e+04.
+    """
     lines = [line for line in found.outcome.text().splitlines() if line.startswith("discharges")]
     share = "% of the breakdowns at breakdown.least_voltage, an assumed lower limit"
     assert [share in line for line in lines] == [True, True, False]
@@ -66,7 +72,10 @@ def test_the_line_of_discharges_names_the_share_at_the_assumed_limit(found: Circ
 
 
 def test_insulation_at_the_drive_end_moves_the_discharges() -> None:
-    """A thin sleeve there takes nearly all of its voltage: the films of the other end break down."""
+    """Break films down at the end without a sleeve.
+
+    The thin sleeve takes nearly all of the voltage at the drive end.
+    """
     moved = api.electric(MOTOR, [*SHORT, "electric.bearings.drive_end.insulation=5 pF"]).outcome.bearings
     assert moved["drive_end"].discharges == 0
     assert moved["other_end"].discharges > 0
@@ -118,7 +127,10 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> api.Result:
 
 
 def test_circuit_during_a_run_of_a_machine(run: api.Result) -> None:
-    """What was written while it ran is what the command finds afterwards, bearing by bearing, bit for bit."""
+    """Compare the run's tables with those of the command.
+
+    They agree bit by bit for each bearing.
+    """
     found = api.electric(run.path)
     both = run.of_machine().circuit()
     assert both["bearing_voltage_least"].shape[1] == 2

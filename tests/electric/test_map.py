@@ -45,7 +45,10 @@ def numbers(folder: Path) -> list[dict[str, Any]]:
 
 
 def test_map(capsys: pytest.CaptureFixture[str], tmp_path: Path, alone: Path) -> None:
-    """Hot and slow is metal; what discharges has a breakdown voltage; file, answer and study agree."""
+    """Compare file, answer and study of a map.
+
+    A hot and slow bearing conducts; a point with discharges has a breakdown voltage.
+    """
     assert main(["electric-map", str(alone), "--quiet", "--json", "--out", str(tmp_path / "m.csv")]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["speeds_rpm"] == pytest.approx([500.0 * 8.0 ** (k / 4) for k in range(5)])
@@ -71,7 +74,10 @@ def test_map(capsys: pytest.CaptureFixture[str], tmp_path: Path, alone: Path) ->
 
 
 def test_picture_says_why_a_point_is_empty(alone: Path) -> None:
-    """Films that hold, metal and no equilibrium are three marks with names; every empty point of a panel has one."""
+    """Name holding films, metal and missing equilibria.
+
+    Each has a mark of its own, and every empty point of a panel has one.
+    """
     found = map_of(alone)
     kinds = {"films hold": {"discharges_per_s": 0.0, "metal_share": 0.0}, "metal": {"discharges_per_s": 0.0,
              "metal_share": 0.3}, "no equilibrium": dict.fromkeys(UNITS), "": {"discharges_per_s": 9.0}}  # fmt: skip
@@ -101,7 +107,10 @@ def test_map_in_customary_units(capsys: pytest.CaptureFixture[str], alone: Path)
 
 
 def test_point_is_what_the_circuit_of_its_case_gives(alone: Path) -> None:
-    """The events behind a point: those of the circuit at three positions of the balls, with the map's seed."""
+    """Compare the events of a point with its circuit.
+
+    Three positions of the balls, with the map's seed.
+    """
     from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
     from lambda_core.analysis.electric.contacts import contacts_of_equilibria, equilibria
     from lambda_core.analysis.electric.current_numbers import PHASES, numbers_of
@@ -134,7 +143,10 @@ def done(folder: Path) -> int:
 
 @pytest.mark.full
 def test_killed_map_goes_on_to_the_same_bits(alone: Path, tmp_path: Path, warm: Warm) -> None:
-    """Killed with its workers when some points are there, continued by another command and number of workers."""
+    """Kill a map with its workers, then continue it.
+
+    Another command continues with another number of workers.
+    """
     folder = tmp_path / "killed"
     options = [part for change in CHANGES for part in ("--set", change)]
     options += [part for name, value in SPAN.items() for part in (f"--{name}", value)]
@@ -188,7 +200,10 @@ def test_mistakes_in_a_map_are_named(arguments: list[str], words: str, capsys: p
 
 @pytest.mark.full
 def test_runs_of_workers_have_the_events_of_a_single_run(tmp_path: Path) -> None:
-    """A dynamic study on two workers: the table of discharges of each run is that of the run alone, bit for bit."""
+    """Compare discharges of workers with single runs.
+
+    The dynamic study has two workers; the tables are equal bit by bit.
+    """
     common = {"solver.duration": "0.02 s", "electric.seed": 3, "loads.radial": "2 kN", "loads.axial": "0 N"}
     study = {
         "name": "s", "case": CASE, "mode": "dynamic", "responses": ["discharges_per_s", "bearing_voltage_V"],

@@ -22,7 +22,10 @@ from lambda_core.domain.errors import SolverError
 
 @pytest.mark.parametrize(("link", "peak"), [(800.0, 16.0), (400.0, 8.0)])
 def test_voltage_divider_at_every_edge(link: float, peak: float) -> None:
-    """C_wr 50, C_rf 800, two bearings of 200 pF: BVR 0.04 exactly (Muetze and Binder 2007, definition of BVR)."""
+    """Compare with a bearing voltage ratio of exactly 0.04.
+
+    C_wr 50, C_rf 800, two bearings of 200 pF (Muetze and Binder 2007, definition of BVR).
+    """
     circuit = one_bearing(winding=50e-12, rotor=1000e-12)
     source = switching(2e-3, link)
     found = integrate(steady(400e-12, 400e-12), circuit, SMOOTH, source, window=(0.0, 1.0))
@@ -33,7 +36,9 @@ def test_voltage_divider_at_every_edge(link: float, peak: float) -> None:
 
 
 def test_discharge_of_the_rotor() -> None:
-    """1.25 nF at 20 V through 10 Ohm: 0.25 uJ, 2 A, time constant 12.5 ns.
+    """Discharge 1.25 nF at 20 V through 10 Ohm.
+
+    0.25 uJ, 2 A, time constant 12.5 ns.
 
     Films of next to no capacitance share the voltage and break down at 10 V; two arcs of 5 Ohm in series.
     """
@@ -52,7 +57,10 @@ def test_discharge_of_the_rotor() -> None:
 
 
 def test_isolated_rotor_keeps_its_charge() -> None:
-    """Capacitance halves: the voltage doubles, and the surfaces do the work U Q/2."""
+    """Halve the capacitance and double the voltage.
+
+    The surfaces do the work U Q/2.
+    """
     films = steady(400e-12, 400e-12)
     films = dataclasses.replace(films, capacitance=films.capacitance * np.array([1.0, 0.5, 0.5])[:, None, None])
     circuit = one_bearing(winding=1e-21, rotor=0.0)  # brings the charge, and is too small to be seen
@@ -67,7 +75,10 @@ def test_isolated_rotor_keeps_its_charge() -> None:
 
 
 def test_full_step_doubles_the_voltage() -> None:
-    """With the step inside one interval, start and end are on either side of it."""
+    """Put the step inside one interval.
+
+    Start and end are on either side of it.
+    """
     films = steady(400e-12, 400e-12)
     time = np.array([0.0, 1e-3, 1e-3 + 1e-12, 2e-3])
     films = dataclasses.replace(films, time=time, **{
@@ -81,7 +92,9 @@ def test_full_step_doubles_the_voltage() -> None:
 
 
 def test_leak_makes_a_high_pass() -> None:
-    """A resistance across C_tot: |U/V| = BVR w RC/sqrt(1 + (w RC)^2), here at the corner frequency.
+    """Compare with a high-pass at its corner frequency.
+
+    A resistance across C_tot: |U/V| = BVR w RC/sqrt(1 + (w RC)^2).
 
     4000 corners per period stand for the sine; their error is (2 pi/4000)^2/12 = 2e-7.
     """
@@ -112,7 +125,10 @@ CIRCUITS = [
 @pytest.mark.parametrize("circuit", CIRCUITS)
 @pytest.mark.parametrize("metal", [False, True])
 def test_balance_without_arcs(circuit: Circuit, metal: bool) -> None:
-    """Energy and charge add up to 1e-9, with balls that pass, oil that leaks and a film that metal bridges at times."""
+    """Balance energy and charge to 1e-9.
+
+    Balls pass, oil leaks, and metal bridges a film at times.
+    """
     films = turning()
     if metal:
         films.conductance[10:15, 3, 0] = 1.0
@@ -125,7 +141,10 @@ def test_balance_without_arcs(circuit: Circuit, metal: bool) -> None:
 @pytest.mark.parametrize("circuit", CIRCUITS)
 @pytest.mark.parametrize("fall", [0.0, 0.3])
 def test_balance_with_arcs(circuit: Circuit, fall: float) -> None:
-    """Energy and charge add up to 1e-8 over hundreds of discharges, where 1e-6 was asked."""
+    """Balance energy and charge to 1e-8.
+
+    Hundreds of discharges; the requirement is 1e-6.
+    """
     films = turning(film=0.55e-6)
     films.conductance[10:15, 3, 0] = 1.0
     films.film[10:15, 3, 0] = 0.0
@@ -136,7 +155,10 @@ def test_balance_with_arcs(circuit: Circuit, fall: float) -> None:
 
 
 def test_brush_keeps_the_bearing_quiet() -> None:
-    """10 Ohm on the shaft: only while edges last does C_wr dV/dt drive a voltage, R C_wr dV/dt at most."""
+    """Ground the shaft by 10 Ohm.
+
+    Only during edges does C_wr dV/dt drive a voltage, at most R C_wr dV/dt.
+    """
     source = switching(2e-3)
     found = integrate(
         steady(400e-12, 400e-12), one_bearing(50e-12, 1000e-12, brush=0.1), SMOOTH, source, window=(0.0, 1.0)
@@ -146,7 +168,10 @@ def test_brush_keeps_the_bearing_quiet() -> None:
 
 
 def test_insulation_takes_the_voltage() -> None:
-    """A coating in series: the bearing keeps C_c/(C_c + C_b) of the rotor's voltage."""
+    """Leave C_c/(C_c + C_b) of the voltage to the bearing.
+
+    The coating is in series.
+    """
     circuit = one_bearing(50e-12, 1000e-12, coating=50e-12, bridge=1e-15)
     found = integrate(steady(400e-12, 400e-12), circuit, SMOOTH, switching(2e-3), window=(0.0, 1.0))
     expected = voltage_ratio(circuit, [200e-12]) * found.trace[:, 1]
@@ -156,7 +181,10 @@ def test_insulation_takes_the_voltage() -> None:
 
 
 def test_impedance() -> None:
-    """One ball, capacitance and conductance in each film, next to those of the rings."""
+    """Compare the impedance of one ball and the rings.
+
+    Each film has capacitance and conductance.
+    """
     films = steady(100e-12, 50e-12, leak=1e-8)
     omega = 2.0 * math.pi * np.array([1.0, 50.0, 1e6])
     each = [1.0 / (1e-8 + 1j * omega * c) for c in (100e-12, 50e-12)]
@@ -165,7 +193,7 @@ def test_impedance() -> None:
 
 
 def test_same_seed_same_events() -> None:
-    """Bit for bit; another seed draws others."""
+    """Compare events bit by bit and for another seed."""
     circuit, source = CIRCUITS[0], switching(0.02)
     films = turning(film=0.55e-6)
     first, again, other = (integrate(films, circuit, ROUGH, source, seed=s).events for s in (1, 1, 2))
@@ -174,7 +202,10 @@ def test_same_seed_same_events() -> None:
 
 
 def test_stretches_make_no_difference() -> None:
-    """However the samples are cut, events, extremes and the end are the same bits."""
+    """Cut the samples into different stretches.
+
+    Events, extremes and the end have the same bits.
+    """
     source, films = switching(0.021), turning(film=0.55e-6)
     for circuit in CIRCUITS[1:4:2]:
         complete = integrate(films, circuit, ROUGH, source, seed=1)
@@ -190,7 +221,7 @@ def test_stretches_make_no_difference() -> None:
 
 
 def test_laws_that_refuse_are_named() -> None:
-    """An arc that needs more voltage than the film stood."""
+    """Name an arc that needs more than the film's voltage."""
     law = strength("field", least_current="2 A")
     source = np.array([0.0, 1e-4, 2e-4]), np.array([0.0, 0.0, 800.0])
     with pytest.raises(SolverError, match=r"discharge/resistance.*least current needs more voltage"):
@@ -198,7 +229,10 @@ def test_laws_that_refuse_are_named() -> None:
 
 
 def test_twin_bearing() -> None:
-    """Another bearing like this one is its capacitance once more, also while it changes."""
+    """Count a twin as one more capacitance.
+
+    This also holds while the capacitance changes.
+    """
     films, source = turning(leak=0.0), switching(0.02)
     twin = integrate(films, one_bearing(50e-12, 800e-12, 5e-12, twins=1.0), SMOOTH, source)
     each = films.capacitance[:, :, 0] * films.capacitance[:, :, 1] / films.capacitance.sum(axis=2)
@@ -209,7 +243,10 @@ def test_twin_bearing() -> None:
 
 
 def test_cage_between_balls() -> None:
-    """Two unlike balls at a step of 1 V on the rotor: their potentials from the three charge balances, by hand."""
+    """Compare potentials with charge balances by hand.
+
+    Two unlike balls at a step of 1 V on the rotor.
+    """
     films = steady(100e-12, 50e-12, balls=2)
     films.capacitance[:, 1] = 20e-12, 80e-12
     circuit = one_bearing(1e-6, 1e-15, 0.0, pocket=10e-12, cage_inner=2e-12, cage_outer=3e-12)
@@ -234,7 +271,10 @@ def test_cage_balances_with_arcs() -> None:
 
 
 def test_balls_that_insulate() -> None:
-    """A circle of contact spreads its flux with 4 eps_0 eps_r a; a ball of endless permittivity conducts."""
+    """Spread a contact's flux with 4 eps_0 eps_r a.
+
+    A ball of endless permittivity conducts.
+    """
     contacts = contacts_of_equilibria(equilibria(api.check("6208-axial-1300"), 1), 1e-3)
     wide = np.maximum(contacts.semi_a, contacts.semi_b)
     circles = dataclasses.replace(contacts, semi_a=wide, semi_b=wide)

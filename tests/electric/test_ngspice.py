@@ -22,7 +22,9 @@ def own(time: FloatArray) -> FloatArray:
 
 
 def test_recorded_waveform() -> None:
-    """340 moments of 1 ms with 60 edges, leaks, brush, insulated ring, a bridged film; both within 1e-5 of the largest.
+    """Compare 340 moments of 1 ms to 1e-5.
+
+    60 edges, leaks, brush, insulated ring and a bridged film; the error refers to the largest value.
 
     1e-3 was asked for; 8e-7 is found. `tests/electric/ngspice.py` records the file anew.
     """

@@ -36,7 +36,10 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Result:
 
 
 def test_the_flat_is_a_plate_capacitor_of_the_area_that_carries(run: Result) -> None:
-    """C h/(eps_0 eps_r) is 2 b L of the slices: at most that of the full line, near F/(pi/4 p_max) (Johnson 1985)."""
+    """Compare C h/(eps_0 eps_r) with the slices' 2 b L.
+
+    It is at most that of the full line, near F/(pi/4 p_max) (Johnson 1985).
+    """
     load, a, b = run["load"][-1], run["semi_axis_a"][-1], run["semi_axis_b"][-1]
     carries = load > 100.0
     area = run["capacitance_hertz"][-1] * run["film_central"][-1] / (VACUUM_PERMITTIVITY * PERMITTIVITY)
@@ -66,7 +69,10 @@ def test_rollers_are_two_contacts_in_series_and_parallel_to_each_other(run: Resu
 
 
 def test_a_bearing_with_rollers_stands_in_a_circuit(run: Result) -> None:
-    """The circuit's capacitance is that of the run, the mean of which lies between its ends."""
+    """Compare the circuit's capacitance with the run's mean.
+
+    The mean lies between the ends of the capacitance.
+    """
     outcome = api.electric(run.path).outcome
     low, *_, high = outcome.bearing_capacitance_pF
     assert 0.9 * low <= 1e12 * float(np.mean(run["bearing_capacitance"])) <= 1.1 * high

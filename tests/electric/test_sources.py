@@ -29,7 +29,10 @@ def case_with(electric: dict[str, object], folder: Path | None = None) -> Case:
 
 
 def test_inverter_levels_and_edges() -> None:
-    """Six edges of a third of the dc link per period, levels of a half and a sixth of it."""
+    """Find six edges of a third per period.
+
+    The levels are a half and a sixth of the dc link.
+    """
     source = Inverter(dc_link="600 V", switching_frequency="8 kHz", rise_time="40 ns", modulation=0.5)
     time, volts = corners(source, 0.25, 0.35, lambda t: 300.0 * t)
     assert time[0] == 0.25
@@ -48,7 +51,10 @@ def test_inverter_levels_and_edges() -> None:
 
 
 def test_average_follows_no_fundamental() -> None:
-    """Three sines at 120 degrees: the common mode has no fundamental; its mean over many periods vanishes."""
+    """Find no fundamental in the common mode.
+
+    Three sines at 120 degrees; the mean over many periods vanishes.
+    """
     time, volts = corners(Inverter(), 0.0, 0.2, lambda t: 2.0 * np.pi * 25.0 * t)
     assert abs(np.trapezoid(volts, time) / 0.2) < 0.02 * 400.0
 
@@ -62,7 +68,10 @@ def test_average_follows_no_fundamental() -> None:
     ],
 )
 def test_stretches_have_the_same_corners(source: Inverter | Sine | Series) -> None:
-    """A span in two parts has the same corners, bit for bit."""
+    """Cut a span in two and compare its corners.
+
+    They agree bit by bit.
+    """
 
     def turned(t: FloatArray) -> FloatArray:
         return np.asarray(300.0 * t + 40.0 * t * t)
@@ -129,7 +138,10 @@ def _series(*points: tuple[str, str], repeat: bool = False) -> Electric:
 
 
 def test_a_series_has_the_syntax_and_the_ends_of_a_table() -> None:
-    """Pairs, the first value before them and the last one behind them; it began again, and its points were texts."""
+    """Read pairs and hold the first and last values.
+
+    The series began again, and its points were texts.
+    """
     points = (("10 us", "1 V"), ("20 us", "4 V"), ("30 us", "2 V"))
     held = _series(*points)
     for origin in (0.0, 0.5):
@@ -146,7 +158,10 @@ def test_a_series_has_the_syntax_and_the_ends_of_a_table() -> None:
 
 
 def test_a_series_that_ends_where_it_began_is_one_period() -> None:
-    """Corners that end at 100 us repeat every 100 us; a series that does not close gets one more step."""
+    """Repeat a series of 100 us every 100 us.
+
+    A series that does not close gets one more step.
+    """
     closed = _series(("0 us", "0 V"), ("25 us", "9 V"), ("75 us", "-9 V"), ("100 us", "0 V"), repeat=True)
     times, volts = corners(closed.source, 0.0, 2e-4, lambda t: t)
     np.testing.assert_allclose(times, [0.0, 25e-6, 75e-6, 100e-6, 125e-6, 175e-6, 200e-6], atol=1e-12)
@@ -193,7 +208,7 @@ def test_mistakes_in_a_series_are_named(text: str, words: str, tmp_path: Path) -
     ],
 )
 def test_mistakes_in_laws_are_named(changes: list[str], where: str, words: str) -> None:
-    """By `check`, before anything is computed."""
+    """Name the mistakes by `check` before any computation."""
     with pytest.raises(CaseError) as caught:
         api.check("6208-axial-1300", [f"electric.{change}" for change in changes])
     (problem,) = caught.value.problems

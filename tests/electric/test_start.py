@@ -26,7 +26,10 @@ def at_rest(angle: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("leak", [0.0, 1e-12, 1e-9, 1e-7])
 @pytest.mark.parametrize("brush", [0.0, 1e-8, 1e-5, 1.0])
 def test_begins_in_the_steady_state(leak: float, brush: float) -> None:
-    """The first period of the bearing voltage is the fortieth, from no leak at all to a brush of 1 Ohm."""
+    """Compare the first period with the fortieth.
+
+    The leak ranges from none to a brush of 1 Ohm.
+    """
     inverter = Inverter()
     source, rest = (f(inverter, 0.0, *t, at_rest) for f, t in ((corners, (STOP,)), (one_period, ())))
     films = steady(100e-12, 80e-12, leak=leak, stop=STOP)
@@ -38,7 +41,10 @@ def test_begins_in_the_steady_state(leak: float, brush: float) -> None:
 
 
 def test_grounded_rotor_has_no_voltage_at_the_start() -> None:
-    """A brush of 1 Ohm: nothing of the 16 V that an uncharged rotor would start with, only the current of the edges."""
+    """Start a grounded rotor with the current of edges.
+
+    An uncharged rotor would start with 16 V; the brush has 1 Ohm.
+    """
     inverter = Inverter()
     source, rest = corners(inverter, 0.0, STOP, at_rest), one_period(inverter, 0.0, at_rest)
     films = steady(400e-12, 400e-12, stop=STOP)
@@ -51,7 +57,10 @@ def test_grounded_rotor_has_no_voltage_at_the_start() -> None:
 
 
 def test_offset_of_a_measured_series_leaks_away() -> None:
-    """A series about 100 V: a bearing that leaks does not see the 100 V, from its first moment on."""
+    """Remove the mean of a series about 100 V.
+
+    A bearing that leaks does not see the 100 V from its first moment on.
+    """
     points = [(f"{1e-5 * k} s", f"{100.0 + 50.0 * math.sin(0.1 * math.pi * k)} V") for k in range(20)]
     series = Series(points=points, repeat=True)
     source, rest = corners(series, 0.0, STOP, at_rest), one_period(series, 0.0, at_rest)
@@ -63,7 +72,10 @@ def test_offset_of_a_measured_series_leaks_away() -> None:
 
 
 def test_periods_close() -> None:
-    """Every periodic source ends its first period at the voltage it began with; an edge has no period."""
+    """End each first period at its first voltage.
+
+    An edge has no period.
+    """
     series = Series(points=[("0 s", "3 V"), ("1 us", "5 V"), ("2 us", "-1 V")], repeat=True)
     for source in (Inverter(), Sine(amplitude="5 V", frequency="77 Hz"), series):
         times, volts = one_period(source, 0.0, lambda t: 288.0 * t)
@@ -73,7 +85,10 @@ def test_periods_close() -> None:
 
 
 def test_films_that_do_not_stand_the_start() -> None:
-    """What breaks down because of the start alone is no event, and its voltage no largest one; all still adds up."""
+    """Ignore breakdowns that only the start causes.
+
+    They are no events, their voltage is no largest one, and all sums close.
+    """
     source, rest = switching(0.021), switching(1e-4)
     films, circuit = turning(film=0.5e-6), one_bearing(50e-12, 1000e-12, 5e-12)
     found = integrate(films, circuit, ROUGH, source, seed=1, rest=rest)
@@ -86,7 +101,10 @@ def test_films_that_do_not_stand_the_start() -> None:
 
 
 def test_largest_voltage_is_one_that_films_stand() -> None:
-    """The rotor of a 6208 stands at 15 V when nothing breaks down; where all breaks down below that, it is not told."""
+    """Give no voltage when every film breaks down below.
+
+    The rotor of a 6208 has 15 V when nothing breaks down.
+    """
     found = api.electric(
         "6208-axial-1300", ["electric.duration=10 ms", "electric.breakdown.parameters.strength=5 V/um"]
     )

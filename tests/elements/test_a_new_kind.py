@@ -90,7 +90,10 @@ def test_a_new_kind_is_one_module(tandem: Geometry) -> None:
 
 
 def test_both_rows_in_tandem_carry_the_thrust(tandem: Geometry) -> None:
-    """Back to back one row alone takes it; in tandem each takes half."""
+    """Share the thrust in tandem, not back to back.
+
+    Back to back one row takes it alone; in tandem each takes half.
+    """
     thrust = api.check({**CASE, "loads": {"axial": "2 kN"}})
     shares = []
     for geometry in (thrust.geometry, tandem):

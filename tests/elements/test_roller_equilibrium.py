@@ -71,7 +71,7 @@ def test_thrust_that_no_rib_takes_is_refused(kind: str, thrust: float) -> None:
 
 
 def test_too_little_thrust_on_a_tapered_bearing_is_named() -> None:
-    """It ended after 200 steps without a reason."""
+    """Name too little thrust instead of 200 steps."""
     least = 5e3 * math.tan(TAPERED.angles.outer)
     with pytest.raises(ArithmeticError, match=r"must be above F_r tan\(a_o\) = "):
         balance(TAPERED, np.array([0.999 * least, 5e3, 0.0, 0.0, 0.0]))

@@ -35,7 +35,10 @@ def answer(direction: float, force: float = 5e3) -> tuple[FloatArray, list[Rolle
 
 
 def test_the_direction_of_the_load_does_not_matter() -> None:
-    """Against rollers that always begin at one azimuth, which differ by a tenth."""
+    """Compare with rollers that begin at one azimuth.
+
+    Their loads differ by a tenth.
+    """
     down, oblique = answer(-0.5 * math.pi), answer(0.3)
     assert down[0] == pytest.approx(oblique[0], rel=1e-6)
     assert mean_friction(down[1]).total == pytest.approx(mean_friction(oblique[1]).total, rel=1e-6)

@@ -24,7 +24,10 @@ def force(load: float, speed: float = 5.0, viscosity: float = 0.05) -> float:
 
 
 def test_the_sum_of_speeds_is_worth_a_factor() -> None:
-    """U with the sum of the surface speeds: twice the mean, 2^(3/4) = 1.68 in the torque of loaded contacts."""
+    """Compare the torque for both definitions of speed.
+
+    The sum of the surface speeds is twice the mean: 2^(3/4) = 1.68 in the torque of loaded contacts.
+    """
     assert force(2e5, speed=10.0) / force(2e5) == pytest.approx(2.0**0.75, rel=1e-3)
     # and the value itself: F/(E' R l) = 1.47 U^(3/4) under load, U = 2 eta u/(E' R)
     flow = 2.0 * 0.05 * 5.0 / (MODULUS * RADIUS)
@@ -112,7 +115,10 @@ def test_the_rib_slides_in_proportion_to_its_height() -> None:
 
 @pytest.mark.parametrize(("face", "least", "most"), [("sphere", 1.3, 2.0), ("cone", 0.9, 1.0)])
 def test_a_flatter_end_raises_the_film_of_a_spherical_rib(face: str, least: float, most: float) -> None:
-    """On a conical rib it makes the contact longer, not wider: the oil leaves it at the sides."""
+    """Compare a spherical with a conical rib.
+
+    On a conical rib the flatter end makes the contact longer, not wider, and oil leaves at its sides.
+    """
     films = []
     for share in (0.85, 0.95):
         contact = rib.rib_contact(ANGLES, LARGE, share * APEX, 3e-3, rib=face)
@@ -135,7 +141,9 @@ def test_the_rib_film_has_its_exponents(face: str) -> None:
 
 @pytest.mark.parametrize(("speed", "film"), [(0.0508, 0.107e-6), (0.2, 0.223e-6)])
 def test_the_film_of_an_ellipse_long_in_sliding_is_that_of_a_numerical_solution(speed: float, film: float) -> None:
-    """Isothermal Reynolds equation with Barus' law, Love's deflections and cavitation, 80 by 40 cells (own).
+    """Compare with an own solution of Reynolds' equation.
+
+    Isothermal, Barus' law, Love's deflections and cavitation, 80 by 40 cells.
 
     Rib of a 32216, R_x 9 R_y. Fits for ellipses across rolling give twice the film.
     """

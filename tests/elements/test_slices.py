@@ -62,7 +62,10 @@ def test_the_approach_at_a_load_carries_it(elastic: Elastic | None) -> None:
 @given(approach=st.floats(1e-6, 3e-5), tilt=st.floats(-3e-3, 3e-3))
 @settings(max_examples=30, deadline=None)
 def test_slices_press_or_gape(approach: float, tilt: float) -> None:
-    """Nowhere tension, nowhere overlap: q >= 0, gap >= 0, and one of both zero."""
+    """Find neither tension nor overlap.
+
+    q >= 0, gap >= 0, and one of both is zero.
+    """
     found = slices.elastic_loads(approach, tilt, DROP, LENGTH, BOTH)
     deflected = slices.deflection_matrix(found.loads[None, :], X, BOTH)[0] @ found.loads
     gap = deflected - (approach - X * math.tan(tilt) - DROP)

@@ -57,7 +57,10 @@ TORQUE = ("friction torque",)
 
 
 def test_the_interval_score_is_the_published_one() -> None:
-    """Eq. 43 of Gneiting and Raftery 2007 for one value inside, one below and one above; alpha = 0.1."""
+    """Compare with Eq. 43 of Gneiting and Raftery 2007.
+
+    One value inside, one below and one above; alpha = 0.1.
+    """
     low, high = np.array([1.0, 1.0, 1.0]), np.array([2.0, 2.0, 2.0])
     np.testing.assert_allclose(interval_score(low, high, np.array([1.5, 0.9, 2.2])), [1.0, 3.0, 5.0])
 
@@ -84,7 +87,10 @@ def test_the_band_of_table_4_holds_five_of_six_measured_torques() -> None:
 
 @pytest.mark.full
 def test_the_band_holds_skf_on_twenty_bearings() -> None:
-    """Under radial loads, on bearings and at points of a seeded draw: at least 16, and no wider than 25 %."""
+    """Count SKF's torque inside the band.
+
+    Bearings and points of a seeded draw under radial loads: at least 16 of 20, and no wider than 25 %.
+    """
     method, good = {"skf": registry().methods["skf"]}, []
     for one in drawn_bearings():
         case = one.case()
@@ -116,7 +122,10 @@ def _light_self_aligning(speed: int, load: int) -> ModelBand:
 
 
 def test_a_law_that_does_not_change_the_torque_adds_nothing_to_its_band() -> None:
-    """A search from the solved motion of unloaded balls ends in another one, with 27 % more torque."""
+    """Start the search from the motion of unloaded balls.
+
+    The search ended in another motion, with 27 % more torque.
+    """
     torque = _light_self_aligning(3000, 100).band("friction torque")
     assert {"law of capacitance", "permittivity.eps_r"}.isdisjoint(one.name for one in torque.contributors)
     assert torque.high < 2.5 * torque.value
@@ -205,7 +214,10 @@ def test_an_unknown_quantity_of_the_band_names_the_nearest() -> None:
 
 
 def test_a_fitted_machine_hands_its_bearings_their_part_of_the_fit() -> None:
-    """Of three fitted values the left bearing has two, the right one has one: it has its own value of the other."""
+    """Give each bearing of a machine its fitted values.
+
+    The left bearing has two of three; the right one has one, and its own value of the other.
+    """
     row = {"value": 0.03, "standard_error": 0.001}
     paths = ("parameters.elastic_hysteresis.loss_factor", "bearings.left.clearance", "bearings.left.support.z")
     units = ("", "um", "N/um")
@@ -227,7 +239,10 @@ def test_a_fitted_machine_hands_its_bearings_their_part_of_the_fit() -> None:
 
 @pytest.mark.full
 def test_the_errors_of_a_fitted_machine_replace_the_ranges() -> None:
-    """One value of both bearings: the law that it belongs to is kept, and its range does not count."""
+    """Replace the range of a law by its fitted error.
+
+    One value of both bearings: its law is kept, and the range does not count.
+    """
     tables = tomllib.loads(geared_shaft("box"))
     value = {"path": "parameters.elastic_hysteresis.loss_factor", "value": 0.03, "standard_error": 0.001}
     origin = {"file": "rig.csv", "sha256": "0", "date": "2026-01-01", "count": 9}
@@ -283,7 +298,10 @@ def test_life_in_the_band_is_that_of_the_standard() -> None:
 
 
 def test_a_machine_has_the_bands_of_its_bearings() -> None:
-    """Their sum is that of all bearings: errors of the same laws go together."""
+    """Compare the sum with the band of all bearings.
+
+    Errors of the same laws are correlated.
+    """
     found = api.quasistatic(tomllib.loads(geared_shaft("box")), band=True)
     each = [one.friction_torque_Nmm_band for one in found.bearings]
     assert found.friction_torque_Nmm_band == pytest.approx([sum(ends) for ends in zip(*each, strict=True)])
@@ -295,7 +313,10 @@ def test_a_machine_has_the_bands_of_its_bearings() -> None:
 
 @pytest.mark.parametrize("path", ["loss_factor", "tau_eyring", "roughness", "lubricant.temperature", "clearance"])
 def test_a_changed_model_is_the_resolved_changed_case(path: str) -> None:
-    """The short way of the band, from the solution of the case, ends where the long way does."""
+    """Compare the band's short way with a resolved case.
+
+    The short way starts from the solution of the case.
+    """
     model = check_bearing(api.case("6319-cp10-1500"), is_static=True)
     graded = next(entry for entry in graded_parameters(model) if entry.path.endswith(path))
     moved = with_value(model, graded, graded.high, partial(check_bearing, is_static=True))
@@ -310,7 +331,10 @@ def test_a_changed_model_is_the_resolved_changed_case(path: str) -> None:
 
 @pytest.mark.parametrize("path", ["lubricant.temperature", "clearance"])
 def test_another_clearance_or_oil_leaves_unloaded_balls_in_their_motion(path: str) -> None:
-    """At 100 N they have several steady motions; another one than that of the case once added to the band."""
+    """Keep the motion of unloaded balls at 100 N.
+
+    They have several steady motions; the motion of another one once widened the band.
+    """
     model = check_bearing(_light_case(3000, 100), is_static=True)
     graded = next(entry for entry in graded_parameters(model) if entry.path.endswith(path))
     near = solve(model, phase=0.125)
@@ -324,7 +348,10 @@ def test_another_clearance_or_oil_leaves_unloaded_balls_in_their_motion(path: st
 
 @pytest.mark.parametrize("load", ["loads.radial=300 N", "loads.axial=3 kN"])
 def test_a_search_that_changes_nothing_stays_where_it_is(load: str) -> None:
-    """Which unloaded balls the cage drives was once decided anew, and they found another steady motion."""
+    """Repeat a search without a change.
+
+    It decided again which unloaded balls the cage drives, and they found another steady motion.
+    """
     model = check_bearing(api.case("6319-cp10-1500", ("operation.speed=5000 rpm", load)), is_static=True)
     near = solve(model, phase=0.125)
     again = solve_near(model, near)
@@ -364,7 +391,10 @@ def test_a_study_tells_the_band_of_its_case_and_of_each_point(
 
 
 def test_points_between_get_their_bands_from_their_neighbours() -> None:
-    """Over one condition a band that changes evenly is exact, and names count as equally far apart."""
+    """Interpolate a band that changes evenly.
+
+    Over one condition the result is exact, and names count as equally far apart.
+    """
     places = places_of([(100.0, 1000.0, 10_000.0, 100.0), ("thin", "thin", "thin", "thick")])
     np.testing.assert_allclose(np.linalg.norm(places[0] - places, axis=1), [0.0, 0.5, 1.0, 1.0])
     line = places_of([(1.0, 1.5, 2.0)])
@@ -375,7 +405,10 @@ def test_points_between_get_their_bands_from_their_neighbours() -> None:
 
 @pytest.mark.full
 def test_bands_from_neighbours_are_those_of_the_full_computation() -> None:
-    """12 points over factors of 40 in speed and 12 in load, 6 in full: within 15 % of the half-width on average."""
+    """Compare 12 interpolated points with full bands.
+
+    Factors of 40 in speed and 12 in load, 6 points in full: within 15 % of the half-width on average.
+    """
     text = standalone_toml(case_of("6319-cp10-1500"))
     points = [(speed, load) for speed in (100.0, 300.0, 1e3, 4e3) for load in (2.0, 6.0, 24.6)]
     places = places_of(list(zip(*points, strict=True)))
@@ -407,14 +440,20 @@ def test_the_band_of_several_ranges_holds_nine_tenths_of_their_draws() -> None:
 
 
 def test_a_narrow_band_prints_four_digits() -> None:
-    """An axial load alone sets the pressure: its band of 1e-7 once printed nine digits."""
+    """Print four digits of a band of 1e-7.
+
+    An axial load alone sets the pressure; the band printed nine digits.
+    """
     assert rounded(1.6176779, 1.2e-7) == "1.618"
     assert rounded(18_359.46, 0.1) == "18 360"
     assert rounded(1250.3, 195.0) == "1 250"
 
 
 def test_a_band_without_width_prints_no_ends_and_no_causes() -> None:
-    """Under pure thrust no range moves the pressure: its ends are those of rounding."""
+    """Print no ends for a band of rounding.
+
+    Under pure thrust no range changes the pressure.
+    """
     narrow, wide = (
         Band(quantity=name, unit="GPa", value=1.618, low=low, high=1.6181, contributors=[])
         for name, low in (("maximum pressure", 1.6179), ("friction torque", 1.5))
@@ -429,7 +468,9 @@ def test_a_band_without_width_prints_no_ends_and_no_causes() -> None:
 
 
 def test_the_band_of_a_6308_holds_two_independent_models_and_not_the_formula_of_skf() -> None:
-    """Torque at F_a/F_r = 0.2 over that under the radial load alone, rings without tilt.
+    """Compare torques at F_a/F_r = 0.2 and radial load.
+
+    Rings do not tilt.
 
     Least dissipation of each ball over both ellipses, with Coulomb friction: 1.12 to 1.15 for a 6205, 6208 and 6316.
     Palmgren's load-dependent torque: 1.00, for F_a < 0.4 F_r. SKF's formula steps as soon as an axial load acts.

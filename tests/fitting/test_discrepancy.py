@@ -32,7 +32,10 @@ def place(x: np.ndarray, size: float) -> Place:
 
 
 def test_without_discrepancy_it_is_the_linear_prediction() -> None:
-    """Three equal points of error 3: the parameter's posterior by hand, prior 1 with the variance of its range."""
+    """Compare the posterior of a parameter by hand.
+
+    Three equal points of error 3; the prior is 1 with the variance of its range.
+    """
     x = np.zeros(3)
     found = predict([ONE], np.array([1.0]), np.array([106.0, 108.0, 110.0]), np.full(3, 3.0), place(x, 0.0),
                     place(np.zeros(1), 0.0))  # fmt: skip
@@ -52,7 +55,10 @@ def test_outside_of_what_was_measured_the_laws_are_as_unknown_as_before() -> Non
 
 
 def test_bands_hold_what_they_say_for_laws_that_are_wrong_as_expected() -> None:
-    """400 draws of a smooth error of the laws: the 95 % band holds 90 to 99 % of the true values."""
+    """Count true values in bands of 400 draws.
+
+    The laws have a smooth error; the 95 % band holds 90 to 99 % of the true values.
+    """
     draw, inside = np.random.default_rng(7), 0
     x = np.log([1.0, 2.0, 4.0, 8.0, 3.0])
     size, reach = 0.08, 1.0
@@ -91,7 +97,9 @@ def rows_of_table_4(rows: tuple[int, ...], name: str) -> Measurements:
     ],
 )
 def test_table_4_fitted_in_part_predicts_the_rest(seen: tuple[int, ...], held: int) -> None:
-    """By loads and by speeds: 11 of 12 points inside 95 % bands.
+    """Find 11 of 12 points inside 95 % bands.
+
+    The parts are chosen by loads and by speeds.
 
     C/P = 6.5 at 3 000 1/min from the three points at C/P = 10 is the one outside, by 2 % of the torque.
     """

@@ -169,7 +169,10 @@ def test_a_mistake_in_the_file_ends_the_command_with_its_line(
 
 
 def test_points_resolved_once_agree_with_the_changed_case() -> None:
-    """Parameters of laws, the roughness and an option move away and back: equal parameters have equal predictions."""
+    """Move parameters, roughness and an option, then return.
+
+    Equal parameters have equal predictions.
+    """
     subject = subject_of(CASE)
     varied = [
         subject.varied(text) for text in ("loss_factor", "tau_eyring", "surface.roughness", "lubricant.temperature")

@@ -52,7 +52,10 @@ def test_loss_factor_and_roughness_of_the_rib_are_found_again(tmp_path: Path) ->
     ],
 )
 def test_parameters_of_laws_count_in_the_answer_of_rollers(path: str, value: str) -> None:
-    """They were left out without a word."""
+    """Count parameters of laws in a fit of rollers.
+
+    They were left out silently.
+    """
     at = ("operation.speed=20 rpm", "loads.axial=15 kN")
     before, after = (api.quasistatic(CASE, (*at, *more)) for more in ((), (f"parameters.{path}={value}",)))
     assert abs(after.friction_torque_Nmm - before.friction_torque_Nmm) > 1e-6

@@ -44,7 +44,10 @@ def test_values_deviations_and_scatter_are_the_certified_ones(
 
 
 def test_the_curve_of_misra_is_told_to_be_the_wrong_law() -> None:
-    """The residuals of this famous set bend over pressure, which its own documentation says."""
+    """Reject the law for Misra's data.
+
+    The residuals bend over pressure, as the documentation of this data set states.
+    """
     parameters = [Parameter("b1", 250.0), Parameter("b2", 5e-4)]
     data = Data(C.MISRA_Y, np.ones(14), {"x": C.MISRA_X}, is_error_known=False)
     assert fit(C.misra, parameters, data, limit=math.inf).tests[0].is_significant
@@ -177,7 +180,10 @@ def test_an_interruption_keeps_the_best_values_so_far() -> None:
 
 
 def test_the_next_point_separates_what_the_data_do_not() -> None:
-    """Two powers of the speed that were measured at nearly one speed need another speed."""
+    """Propose another speed to separate two powers of it.
+
+    The data were measured at nearly one speed.
+    """
     speed = np.array([100.0, 100.5, 101.0])
     powers = np.column_stack([speed**0.6, speed**0.7])
     offered = np.array([100.0, 101.0, 1000.0])

@@ -32,7 +32,10 @@ def test_samples_of_a_well_determined_fit_are_those_of_its_covariance() -> None:
 
 
 def test_samples_stay_within_the_range_and_lean_on_its_end() -> None:
-    """The data want 1.2, the range ends at 1: the density falls from there, exp(-(x - 1.2)^2/(2 0.2^2)) below 1."""
+    """Sample a density that falls from the range's end.
+
+    The data want 1.2, the range ends at 1: exp(-(x - 1.2)^2/(2 0.2^2)) below 1.
+    """
     pytest.importorskip("emcee")
     data = Data(np.full(4, 1.2), np.full(4, 0.4))
     found = fit(lambda p: np.full(4, p[0]), [Parameter("x", 0.5, 0.0, 1.0)], data)
@@ -45,7 +48,10 @@ def test_samples_stay_within_the_range_and_lean_on_its_end() -> None:
 
 @pytest.mark.parametrize(("count", "corners"), [(1, 2), (2, 4), (3, 8), (4, 16), (7, 16), (12, 32)])
 def test_corners_stay_few_and_see_every_parameter(count: int, corners: int) -> None:
-    """Columns are balanced, and no product of two of them is a third: pairs are not taken for single parameters."""
+    """Balance the columns of the corners.
+
+    No product of two columns equals a third, so that pairs are not taken for single parameters.
+    """
     found = _corners(count)
     assert found.shape == (corners, count)
     signs = 2.0 * found - 1.0

@@ -15,7 +15,10 @@ POINT = ("FVA3", "1.2 GPa", "60 degC", "3 m/s")
 
 
 def test_small_slip_is_that_of_a_newtonian_film() -> None:
-    """At slip so small that nothing heats or limits the film every law is Newton's (Johnson 1985, section 8)."""
+    """Compare every law with Newton's at tiny slip.
+
+    Nothing heats or limits the film there (Johnson 1985, section 8).
+    """
     found = api.traction("FVA3", "0.4 GPa", "80 degC", "1 m/s")
     slopes = {law: values[1] / found.slide_roll_ratio[1] for law, values in found.coefficient.items()}
     assert slopes["bair-winer"] == pytest.approx(slopes["newtonian"], rel=0.05)
@@ -23,7 +26,10 @@ def test_small_slip_is_that_of_a_newtonian_film() -> None:
 
 
 def test_no_law_carries_more_than_its_limit() -> None:
-    """tau <= zeta p everywhere, so that the coefficient is at most zeta = 0.065 (Johnson and Tevaarwerk 1977)."""
+    """Limit the coefficient to zeta = 0.065.
+
+    tau <= zeta p everywhere (Johnson and Tevaarwerk 1977).
+    """
     found = api.traction(*POINT)
     for law in ("ree-eyring", "bair-winer", "newtonian"):  # another test may have handed over a law without a limit
         values = found.coefficient[law]
@@ -34,7 +40,10 @@ def test_no_law_carries_more_than_its_limit() -> None:
 
 
 def test_the_load_is_that_of_the_pressure() -> None:
-    """Johnson 1985, eq. 4.24: p = (6 W E*^2/(pi^3 R^2))^(1/3), E* = 115.4 GPa of steel on steel (E' = 2 E*)."""
+    """Compare with Johnson 1985, eq. 4.24.
+
+    p = (6 W E*^2/(pi^3 R^2))^(1/3), E* = 115.4 GPa of steel on steel (E' = 2 E*).
+    """
     found = api.traction(*POINT)
     reduced = 0.5 * 210e9 / (1.0 - 0.3**2)
     load = np.pi**3 * (1e9 * found.pressure_GPa) ** 3 * (0.5 * BALL) ** 2 / (6.0 * reduced**2)
@@ -77,7 +86,7 @@ def test_mistakes_have_their_line(tmp_path: Path) -> None:
     ],
 )
 def test_conditions_of_no_traction_machine_are_refused(change: dict[int, str], words: str) -> None:
-    """They gave a table of zeros."""
+    """Refuse conditions that gave a table of zeros."""
     with pytest.raises(UsageError, match=words):
         api.traction(*(change.get(i, value) for i, value in enumerate(POINT)))
 
@@ -87,7 +96,7 @@ def test_conditions_of_no_traction_machine_are_refused(change: dict[int, str], w
     [("5,1e300", "a traction coefficient is above 1: is the unit"), ("1e300,0.05", "a slide-roll ratio is above 20")],
 )
 def test_a_measured_value_of_a_wrong_unit_is_refused(row: str, words: str, tmp_path: Path) -> None:
-    """The sum of its squares went over the largest number."""
+    """Refuse a value whose square overflows."""
     path = tmp_path / "rig.csv"
     path.write_text(f"slide-roll ratio [%],traction coefficient [-]\n1,0.02\n{row}\n", encoding="utf-8")
     with pytest.raises(UsageError, match=f"rig.csv line 3: {words}"):

@@ -66,7 +66,10 @@ def of_the_program(steps: int) -> tuple[list[list[float]], Any]:
 
 
 def test_voltages_and_discharges_are_those_of_the_program(host: Any, unit: Any) -> None:
-    """Bit for bit, on both slopes of the source; saved, restored and in another instance the same."""
+    """Compare bit by bit on both slopes of the source.
+
+    A saved and restored instance and another instance give the same bits.
+    """
     steps = 80
     expected, events = of_the_program(steps)
     bearing, volts, state = host.Instance(unit).ready(), 0.0, b""
@@ -96,7 +99,10 @@ def test_voltages_and_discharges_are_those_of_the_program(host: Any, unit: Any) 
 
 
 def test_an_edge_moves_the_rotor_at_once(host: Any, unit: Any) -> None:
-    """A source that jumps by too little for a discharge: the bearing takes its share, the motion takes no notice."""
+    """Step the source by too little for a discharge.
+
+    The bearing takes its share of the voltage, and the motion does not change.
+    """
     bearing, still = host.Instance(unit).ready(), host.Instance(unit).ready()
     assert [each.step(STEP) for each in (bearing, still)] == [host.OK] * 2
     assert bearing.set(SOURCE, 1.0) == host.OK

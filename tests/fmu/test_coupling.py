@@ -17,7 +17,10 @@ _END = 1.92e-3  # [s] of the studies' time, half of it behind the push
 
 
 def test_a_rotor_in_the_host_against_the_same_mass_inside(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Verlet's scheme is of order 2, and its energy balances; with the place first energy comes out of nothing."""
+    """Find order 2 and balanced energy with Verlet's scheme.
+
+    With the position first, energy comes out of nothing.
+    """
     monkeypatch.setattr(coupling, "END", _END)
     reference, bearing = coupling.inside(COMMON, 1e-4), coupling.FromProgram(1e-4)
     off, leak = {}, {}
@@ -31,7 +34,10 @@ def test_a_rotor_in_the_host_against_the_same_mass_inside(monkeypatch: pytest.Mo
 
 
 def test_a_spring_of_the_host_against_the_same_inside(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of 10 N/um: held through a step it is of order 1, half a step ahead of order 2."""
+    """Compare a spring of 10 N/um in the host.
+
+    Held through a step it has order 1, half a step ahead order 2.
+    """
     monkeypatch.setattr(coupling_by_force, "END", _END)
     reference = coupling_by_force.path(COMMON, lambda bearing, pushed, *_: pushed, 1e7)
     off = {}

@@ -68,7 +68,10 @@ def seen(step: Any) -> dict[str, float]:
 def test_a_host_in_c_without_python_has_the_bits_of_the_program(
     host: Any, exported: Export, tmp_path: Path, c_compiler: tuple[str, ...], steps: int
 ) -> None:
-    """A 6208 in steps of 0.1 ms in an empty environment, with a push after the half."""
+    """Run a 6208 from C in an empty environment.
+
+    Steps of 0.1 ms, with a push after the half.
+    """
     unit = unit_of(host, exported, tmp_path)
     program = tmp_path / "plain_host"
     subprocess.run([*c_compiler, "-O1", str(HERE / "plain_host.c"), "-o", str(program), "-ldl"], check=True)
@@ -123,7 +126,7 @@ def test_a_prescribed_ring_has_the_bits_of_the_program(host: Any, exported: Expo
 
 @pytest.mark.slow
 def test_elastic_parts_have_the_bits_of_the_program(host: Any, c_compiler: tuple[str, ...], tmp_path: Path) -> None:
-    """A ring and a cage that bend, with a push on the way."""
+    """Push an elastic ring and cage on their way."""
     changes = (
         *CHANGES, "elastic.outer_ring.housing_stiffness=100 N/um", "elastic.outer_ring.orders=3",
         "elastic.cage.section_height=2 mm",
@@ -143,7 +146,10 @@ def test_elastic_parts_have_the_bits_of_the_program(host: Any, c_compiler: tuple
 
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_states_and_instances(host: Any, exported: Export, tmp_path: Path, fmi: int) -> None:
-    """Save, step, restore, step; the same by bytes and in another instance; ten side by side do not mix."""
+    """Save, step, restore and step again.
+
+    The bytes and another instance give the same; ten instances do not mix.
+    """
     unit = unit_of(host, exported, tmp_path, fmi)
     outputs = unit.named("output")
     first = host.Instance(unit).ready()
@@ -181,7 +187,10 @@ def test_states_and_instances(host: Any, exported: Export, tmp_path: Path, fmi: 
 
 
 def test_two_threads_step_their_own_bearings_at_once(host: Any, exported: Export, tmp_path: Path) -> None:
-    """Calls of the library run in parallel: ctypes lets other threads work meanwhile."""
+    """Step two bearings in two threads in parallel.
+
+    ctypes releases the other threads during a call.
+    """
     unit = unit_of(host, exported, tmp_path)
     outputs = unit.named("output")
 
@@ -250,7 +259,10 @@ def test_time_may_begin_anywhere(host: Any, exported: Export, tmp_path: Path) ->
 
 
 def test_what_no_bearing_takes_ends_with_a_sentence(host: Any, exported: Export, tmp_path: Path) -> None:
-    """A force in other units: steps of picoseconds lead nowhere, however long a step is asked for."""
+    """Refuse a force in other units with a message.
+
+    Steps of picoseconds lead nowhere, however long a step the host asks for.
+    """
     unit = unit_of(host, exported, tmp_path)
     bearing = host.Instance(unit).ready()
     kept = bearing.packed()
@@ -300,7 +312,7 @@ def test_fmpy_simulates_it(exported: Export, fmi: int) -> None:
 
 
 def test_units_say_what_one_of_them_is_in_si(host: Any, exported: Export, tmp_path: Path) -> None:
-    """Every variable has a unit that is defined, and values in it are SI."""
+    """Define a unit for every variable, values in SI."""
     unit = unit_of(host, exported, tmp_path)
     values = dict(zip(names := unit.named("output"), host.Instance(unit).ready().get(names), strict=True))
     assert 100.0 < values["bearing.load"] < 2000.0  # [N]
@@ -351,7 +363,10 @@ def test_a_place_that_takes_no_file_is_refused_before_the_work(c_compiler: tuple
 
 
 def test_code_that_needs_python_is_refused() -> None:
-    """A stub in the place of a function that works would give wrong numbers in silence."""
+    """Refuse a function that needs Python.
+
+    A stub in its place would silently give wrong numbers.
+    """
     import llvmlite.binding as llvm
 
     from lambda_core.laws.jit.portable import _without_python
@@ -386,7 +401,10 @@ def test_the_compiler_of_the_extra_builds_the_same(
 
 @pytest.mark.slow
 def test_another_processor_has_the_bits_of_its_own_program(host: Any, c_compiler: Any, tmp_path: Path) -> None:
-    """For x86-64-v3 all is compiled anew; against the code of this machine only the last digits differ."""
+    """Compile all anew for x86-64-v3.
+
+    Only the last digits differ from the code of this machine.
+    """
     unit = host.Unit(api.export_fmu(CASE, CHANGES, out=tmp_path / "v3.fmu"), tmp_path / "v3")
     bearing, here = host.Instance(unit).ready(), api.iterate(CASE, CHANGES, exact=True)
     for _ in range(10):

@@ -70,7 +70,10 @@ def rotor_inside(module: Any, end: float, step: float) -> tuple[Any, Any]:
 
 
 def test_a_rotor_on_two_bearings_in_exudyn(example: Callable[[str], Any], tmp_path: Path, c_compiler: Any) -> None:
-    """Against one bearing that owns half of it: 0.033 % and 1.3e-4 at 20 us, order 2; through the FMU the same bits."""
+    """Compare with one bearing that owns half the rotor.
+
+    0.033 % and 1.3e-4 at 20 us, order 2; through the FMU the same bits.
+    """
     pytest.importorskip("exudyn", reason="Exudyn is not installed: pip install exudyn")
     pytest.importorskip("fmpy", reason="FMPy is not installed: pip install fmpy")
     module, prescribed = example("rotor_in_exudyn"), example("prescribed_bearing")
@@ -98,7 +101,10 @@ def test_a_rotor_on_two_bearings_in_exudyn(example: Callable[[str], Any], tmp_pa
 
 
 def test_the_command_in_the_example_exports_its_case(example: Callable[[str], Any]) -> None:
-    """An FMU of another case begins elsewhere, and the rotor falls without a word."""
+    """Export the case of the example by its command.
+
+    An FMU of another case begins elsewhere, and the rotor falls without a message.
+    """
     module = example("rotor_in_exudyn")
     words = shlex.split(re.search(r"``(lambda-bearing .*?)``", module.__doc__, re.DOTALL)[1])  # type: ignore[index]
     assert words[1:6] == ["export", "fmu", module.CASE, "--couple", "motion"]
@@ -108,7 +114,10 @@ def test_the_command_in_the_example_exports_its_case(example: Callable[[str], An
 
 
 def test_a_step_is_repeated_until_both_sides_agree(exported: Export, example: Callable[[str], Any]) -> None:
-    """Iterate by rollback: the speed at the end of a step as the reactions at both ends want it."""
+    """Iterate by rollback until the speeds agree.
+
+    The speed at the end of a step follows from the reactions at both ends.
+    """
     pytest.importorskip("fmpy", reason="FMPy is not installed: pip install fmpy")
     module, prescribed = example("rotor_in_exudyn"), example("prescribed_bearing")
     element = module.Element(prescribed.FromUnit(exported(2, "motion")))
@@ -148,7 +157,10 @@ end SI; end Units; end Modelica;"""
 
 
 def test_the_text_for_modelica_is_a_model() -> None:
-    """Parsed, flattened, sorted and solved, with a spring of 200 N/um in the place of the FMU: 500 N are 2.5 um."""
+    """Parse, flatten, sort and solve the Modelica text.
+
+    A spring of 200 N/um replaces the FMU: 500 N are 2.5 um.
+    """
     modelica = pytest.importorskip("modelica.sim", reason="modelica is not installed: pip install modelica[sim]")
     from modelica.lang import parse
 

@@ -44,7 +44,7 @@ def seen(step: Any) -> dict[str, float]:
 
 
 def test_a_machine_has_the_bits_of_its_engine(host: Any, machine_unit: Any, shaft: Path) -> None:
-    """A push at the gear, then a shaft that runs up."""
+    """Push the gear, then run the shaft up."""
     instance, engine = host.Instance(machine_unit).ready(), api.iterate(shaft, CHANGES, exact=True)
     pushed = ("gears.wheel.force_z", "gears.wheel.moment_y", "shaft.spin")
     assert set(pushed) < set(engine.given)
@@ -107,7 +107,10 @@ def circuit_of_the_program(shaft: Path, steps: int, step: float) -> tuple[list[l
 
 
 def test_the_circuit_of_a_machine_is_that_of_the_program(host: Any, machine_unit: Any, shaft: Path) -> None:
-    """Both bearings in one circuit, bit for bit, while the source rises to 480 V."""
+    """Compare both bearings' circuit while the source rises.
+
+    It rises to 480 V; the bits are equal.
+    """
     steps, step, source = 16, 2e-5, "electric.source_voltage"
     expected, events = circuit_of_the_program(shaft, steps, step)
     instance, volts, found = host.Instance(machine_unit).ready(), 0.0, []
@@ -128,7 +131,10 @@ def test_the_circuit_of_a_machine_is_that_of_the_program(host: Any, machine_unit
 
 
 def test_states_of_a_machine_and_its_inputs(host: Any, machine_unit: Any, shaft: Path) -> None:
-    """Go back in the FMU and in the program: the same bits again, with what was given then."""
+    """Restore a state in the FMU and the program.
+
+    Both give the same bits with the inputs of that time.
+    """
     instance, outputs = host.Instance(machine_unit).ready(), machine_unit.named("output")
     assert [instance.set("gears.wheel.force_y", 200.0), instance.step(STEP)] == [host.OK] * 2
     kept, begin = instance.packed(), instance.time

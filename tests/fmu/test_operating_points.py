@@ -43,7 +43,10 @@ def moved(bearing: Any) -> Any:
 
 
 def test_a_start_elsewhere_is_that_of_the_case_there(host: Any, unit: Any) -> None:
-    """Its equilibrium is solved inside; contacts keep the frame of the exported case, which is worth some 1e-4."""
+    """Solve the equilibrium of another point in the FMU.
+
+    Contacts keep the frame of the exported case, which costs some 1e-4.
+    """
     bearing = moved(host.Instance(unit)).ready()
     changes = ("lubricant.temperature=55 degC", "bearing.clearance=18 um", f"operation.speed={SPEED} rad/s")
     there = api.iterate(CASE, (*CHANGES, *changes, f"loads.radial={-PUSH} N"), exact=True)

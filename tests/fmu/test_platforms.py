@@ -77,7 +77,10 @@ def called(library: ctypes.CDLL, name: str, count: int) -> Callable[..., float]:
 def test_own_mathematics_is_right_to_the_last_place(
     mathematics: ctypes.CDLL, name: str, ranges: list[tuple[float, float]], units: float
 ) -> None:
-    """Against 64-bit significands, whose own error is a two-thousandth of a unit of the last place."""
+    """Compare with 64-bit significands.
+
+    Their error is a two-thousandth of a unit of the last place.
+    """
     if np.finfo(np.longdouble).nmant < 60:
         pytest.skip("this numpy has no longer floats to compare with")
     rng = np.random.default_rng(7)
@@ -113,7 +116,7 @@ def test_own_mathematics_is_right_to_the_last_place(
 def test_own_mathematics_at_the_edges(
     mathematics: ctypes.CDLL, name: str, values: tuple[float, ...], expected: float
 ) -> None:
-    """As the C standard has them (ISO/IEC 9899, annex F.10)."""
+    """Follow the C standard (ISO/IEC 9899, annex F.10)."""
     found = called(mathematics, name, len(values))(*values)
     assert found == pytest.approx(expected, abs=0.0, rel=0.0, nan_ok=True)
     assert math.copysign(1.0, found) == math.copysign(1.0, expected) or math.isnan(expected)
@@ -143,7 +146,10 @@ def ran(command: list[str], unit: Any, library: Path, environment: dict[str, str
 def test_a_processor_without_the_features_is_told_so(
     host: Any, exported: Callable[[int, str], Path], tmp_path: Path, c_compiler: tuple[str, ...]
 ) -> None:
-    """A processor of 2008, which QEMU plays: no instance, and a sentence instead of an illegal instruction."""
+    """Refuse a processor of 2008, which QEMU plays.
+
+    There is no instance, and a message instead of an illegal instruction.
+    """
     emulator = shutil.which("qemu-x86_64")
     if emulator is None or "avx2" not in features():
         pytest.skip("QEMU for x86-64 is not installed, or this processor lacks AVX2 itself")
@@ -158,7 +164,10 @@ def test_a_processor_without_the_features_is_told_so(
 @pytest.mark.slow
 @pytest.mark.timeout(1500)
 def test_other_systems_run_it(host: Any, tmp_path: Path) -> None:
-    """Windows under Wine and ARM under QEMU have the bits of Linux; libraries for macOS are built and not run."""
+    """Run Windows under Wine and ARM under QEMU.
+
+    Both have the bits of Linux; libraries for macOS are built and not run.
+    """
     pytest.importorskip("ziglang", reason="the extra fmu is not installed")
     chosen = ["linux", "windows", "linux-arm", "mac-arm", "mac-intel"]
     file = api.export_fmu(CASE, CHANGES, out=tmp_path / "all.fmu", platforms=chosen, processor="native")
@@ -194,6 +203,9 @@ def test_other_systems_run_it(host: Any, tmp_path: Path) -> None:
 
 
 def test_libraries_of_other_systems_have_the_names_of_the_standard() -> None:
-    """FMI 3.0, section 2.5.1.4: x86_64 or aarch64, and linux, windows or darwin."""
+    """Compare names with FMI 3.0, section 2.5.1.4.
+
+    x86_64 or aarch64, and linux, windows or darwin.
+    """
     for platform in PLATFORMS.values():
         assert re.fullmatch(r"(x86_64|aarch64)-(linux|windows|darwin)", platform.folders[3])

@@ -49,7 +49,11 @@ def ask(law: Any, sizes: Any, par: Any, film: float, out: Any) -> int:
 
 @pytest.mark.parametrize("alike", [False, True])
 def test_a_law_behind_a_pointer_runs_in_a_library(c_compiler: tuple[str, ...], tmp_path: Path, alike: bool) -> None:
-    """The words of pointers and arrays, the code behind them, and no Python: the bits of the call from Python."""
+    """Call a law by pointer without Python.
+
+    The library has the words of pointers and arrays and the code behind them; the bits are those of the call from
+    Python.
+    """
     know_pointers()
     kind = numba.types.FunctionType(role_signature(ROLES["breakdown"]))
     bearing = circuit_bearings(api.check("6208-axial-1300"))[0]
@@ -102,7 +106,10 @@ define double @it(double %a, double %b, double %c, <2 x double> %v, ptr %to) {
 
 
 def test_products_and_sums_are_fused_where_it_is_written() -> None:
-    """One product for one sum, on either side; what says nothing, and what two sums use, is rounded for itself."""
+    """Fuse one product with one sum, on either side.
+
+    A product that two sums use, or that is not marked, is rounded by itself.
+    """
     complete = exact(llvm.parse_assembly(_SUMS), fused=True)
     complete.verify()
     lines = [line.strip() for line in str(complete).splitlines()]

@@ -84,7 +84,9 @@ def moving(host: Any, unit: Any) -> Any:
 
 
 def test_stiffness_and_damping_are_those_of_differences(host: Any, exported: Export, tmp_path: Path) -> None:
-    """All of both rings, each entry over the root of the product of its diagonals; differences are exact to 1e-7.
+    """Compare both rings' matrices with differences.
+
+    Each entry is over the root of the product of its diagonals; differences are exact to 1e-7.
 
     The Jacobian itself moves contacts by 1e-8 m and 1e-5 of their penetration, one-sided: 2e-4 in stiffness.
     """
@@ -108,7 +110,10 @@ def test_stiffness_and_damping_are_those_of_differences(host: Any, exported: Exp
 
 
 def test_slopes_with_rates_are_those_of_this_instant(host: Any, exported: Export, tmp_path: Path) -> None:
-    """After a step without setting anew: central differences about the motion as it goes on, by set and restore."""
+    """Compare with central differences about the motion.
+
+    The step goes on without setting anew; set and restore give the differences.
+    """
     unit, step = unit_of(host, exported, tmp_path, "motion"), 1e-4
     bearing, forces, rate, acceleration = host.Instance(unit).ready(), REACTIONS[0], 1e-3, 5.0
     (x,) = bearing.get(["inner_ring.x"])
@@ -136,7 +141,7 @@ def test_slopes_with_rates_are_those_of_this_instant(host: Any, exported: Export
 
 
 def test_who_asks_for_slopes_changes_nothing(host: Any, exported: Export, tmp_path: Path) -> None:
-    """The bits of what follows, in the middle of a motion."""
+    """Ask for slopes in motion and compare the bits."""
     unit = unit_of(host, exported, tmp_path, "motion")
     asked, left = moving(host, unit), moving(host, unit)
     outputs = unit.named("output")
@@ -149,7 +154,9 @@ def test_who_asks_for_slopes_changes_nothing(host: Any, exported: Export, tmp_pa
 
 
 def test_before_it_steps_balls_follow(host: Any, exported: Export, tmp_path: Path) -> None:
-    """While it is initialised outputs follow from inputs by an equilibrium: the bearing's own stiffness.
+    """Derive outputs from an equilibrium during initialisation.
+
+    The slope is the bearing's own stiffness.
 
     That of the program leaves out friction and centrifugal force's change: 1e-3.
     """
@@ -181,7 +188,10 @@ def test_before_it_steps_balls_follow(host: Any, exported: Export, tmp_path: Pat
     ("force", "bearing.film_minimum", "lubricant.temperature"),
 ])  # fmt: skip
 def test_seeds_of_any_size(host: Any, exported: Export, tmp_path: Path, couple: str, unknown: str, known: str) -> None:
-    """A slope is linear in what it is taken along, down to numbers that are hardly any, and beyond all is refused."""
+    """Scale seeds down to tiny numbers.
+
+    A slope is linear in its seed; seeds beyond all bounds are refused.
+    """
     bearing = host.Instance(unit_of(host, exported, tmp_path, couple)).ready()
     one = bearing.slope(unknown, known)
     assert one != 0.0

@@ -19,7 +19,10 @@ Export = Callable[[int, str], Path]
 
 
 def test_where_laws_end_the_host_is_told(host: Any, exported: Export, tmp_path: Path) -> None:
-    """Once when it begins, again when it has been over for a tenth of a second; the text gives the present values."""
+    """Warn at the start and after a tenth second.
+
+    The text gives the present values.
+    """
     unit = host.Unit(exported(2, "force"), tmp_path)
     bearing = host.Instance(unit).ready()
 
@@ -52,7 +55,10 @@ def test_where_laws_end_the_host_is_told(host: Any, exported: Export, tmp_path: 
 
 
 def test_a_film_thinner_than_the_roughness_is_told(host: Any, exported: Export, tmp_path: Path) -> None:
-    """Oil at 60 degrees and a slow shaft: at the start already, from the equilibrium that is solved there."""
+    """Warn of thin films at 60 degrees and slow shafts.
+
+    The warning comes at the start, from the equilibrium that is solved there.
+    """
     unit = host.Unit(exported(2, "force"), tmp_path)
     bearing = host.Instance(unit)
     assert [bearing.set(*each) for each in (("lubricant.temperature", 333.15), ("inner_ring.spin", 20.0))] == [0, 0]
@@ -74,7 +80,10 @@ def test_a_film_thinner_than_the_roughness_is_told(host: Any, exported: Export, 
 
 
 def test_metal_that_touches_is_no_infinite_capacitor(host: Any, exported: Export, tmp_path: Path) -> None:
-    """Balls in mixed friction on both rings connect these: counted as the contacts of a run are, told, left out."""
+    """Report mixed friction as contact, not as capacitance.
+
+    Balls in mixed friction on both rings connect these; they count as contacts of a run do and are left out.
+    """
     bearing = host.Instance(host.Unit(exported(2, "force"), tmp_path))
     pushed = (("inner_ring.spin", 44.0), ("inner_ring.force_z", -4000.0))
     assert [bearing.set(*each) for each in pushed] == [host.OK] * 2
@@ -109,7 +118,10 @@ def test_metal_that_touches_is_no_infinite_capacitor(host: Any, exported: Export
 def test_edges_of_every_kind_are_those_of_the_program(
     host: Any, c_compiler: Any, tmp_path: Path, designation: str, axial: float, push: Any, kinds: set[str]
 ) -> None:
-    """What the FMU says is what the limits of the program say of the same instant."""
+    """Compare the FMU's limits with those of the program.
+
+    Both look at the same instant.
+    """
     case = {
         "name": designation,
         "bearing": {"designation": designation},

@@ -144,7 +144,10 @@ async def test_a_load_over_time(hand_written: Path) -> None:
 
 @pytest.mark.full
 async def test_a_number_typed_on_the_kind_of_a_load_is_its_value(hand_written: Path) -> None:
-    """Arrow keys meet the kind first; what is typed replaces what stood there, in one go from either."""
+    """Replace the value when a number is typed.
+
+    Arrow keys reach the kind first; typed text replaces the old value from either field.
+    """
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
         draft = builder(pilot).draft
@@ -248,7 +251,10 @@ async def into(pilot: Pilot[None], section: str, first: str) -> None:
 
 @pytest.mark.full
 async def test_elements_come_and_go_by_keyboard(hand_written: Path) -> None:
-    """Added by name, edited to a stiff spring, undone by its button; at 80 x 24 as well as at any size."""
+    """Add, edit and remove a stiff spring by keyboard.
+
+    It works at 80 x 24 and at any size.
+    """
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
         await into(pilot, "elements", "#new-name")

@@ -43,7 +43,10 @@ async def test_a_mistake_in_the_circuit_stands_at_its_field(hand_written: Path) 
 
 
 def test_a_run_says_what_its_bearing_stands(tmp_path: Path) -> None:
-    """Voltage and rate while it runs; nothing without a circuit."""
+    """Show voltage and rate during a run.
+
+    A run without a circuit shows neither.
+    """
     said = Progress(
         time_s=0.1, percent=50.0, cage_revolutions=1.0, cage_revolutions_wanted=5.0, averaged=0,
         friction_torque_Nmm=None, friction_torque_ci_Nmm=None, friction_torque_now_Nmm=None, cage_speed_ratio=None,

@@ -37,7 +37,7 @@ from lambda_core.domain.errors import LambdaError
 async def test_an_answer(
     kind: type[Screen[None]], keys: list[str], is_fault: bool, hand_written: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The helper answers when parts of the screen that asked are gone already."""
+    """Answer after parts of the screen are gone."""
     asked: list[asyncio.Future[Any]] = []
 
     async def answer(helper: Helper, work: str, **arguments: Any) -> Any:
@@ -69,7 +69,7 @@ async def test_an_answer(
 
 
 async def test_a_picture(hand_written: Path) -> None:
-    """What was to be drawn after the next picture meets a screen that has been left."""
+    """Draw after the screen was left."""
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
         runs, catalogue = RunScreen(pilot.app.queue), CatalogueScreen(api.catalogue(), "bearing")  # type: ignore[attr-defined]

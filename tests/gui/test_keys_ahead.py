@@ -97,7 +97,10 @@ async def test_an_old_check_that_ends_last_is_not_shown(hand_written: Path, chec
 async def test_the_next_mistake_has_the_keyboard_though_the_cursor_has_just_moved(
     hand_written: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The form of the node that the cursor moved to is still to come; it must not take the keyboard away."""
+    """Keep the keyboard at the next mistake.
+
+    The form of the node below the cursor is still to come and must not take the keyboard away.
+    """
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
         await go_to(pilot, "lubricant.temperature")

@@ -107,7 +107,10 @@ def test_phases_and_studies_of_a_shaft_are_of_what_stands_on_it(case_file: Path)
 @pytest.mark.parametrize("case", CASES)
 @pytest.mark.parametrize("question", QUESTIONS)
 def test_every_machine_has_every_answer(case: str, question: str) -> None:
-    """The helper process answers; bearings and temperatures are named in words or in pictures."""
+    """Ask the helper process for every answer.
+
+    Words or pictures name bearings and temperatures.
+    """
     text, views = answer(lambda _: None, question, draft_of(case).tables, None, "si")
     words = {
         "equilibrium": "friction torque",

@@ -112,7 +112,7 @@ async def test_every_form_of_a_case(size: tuple[int, int]) -> None:
 @pytest.mark.full
 @pytest.mark.parametrize("case", ["6220-excited", pytest.param("6319-cp10-1500", marks=pytest.mark.slow)])
 async def test_what_is_written_in_other_cases(case: str) -> None:
-    """The forms with something written in the case: the others are as in the first one."""
+    """Show the forms that other cases change."""
     async with BuilderApp(case).run_test(size=SMALL) as pilot:
         await checked(pilot)
         draft = builder(pilot).draft

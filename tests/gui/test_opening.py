@@ -44,7 +44,7 @@ async def choose_the_file(pilot: Pilot[None]) -> None:
 
 
 async def test_what_is_saved_is_what_is_shown(hand_written: Path) -> None:
-    """With unsaved work of an earlier builder: it is asked about first, then which case to open."""
+    """Ask about unsaved work before opening a case."""
     await leave_unsaved_work()
     async with BuilderApp().run_test(size=SMALL) as pilot:
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, Ask))
@@ -93,7 +93,10 @@ async def test_discarded_work_is_asked_about_once(hand_written: Path) -> None:
 
 @pytest.mark.full
 async def test_a_case_opened_over_the_results_takes_the_place_of_the_one_below(hand_written: Path) -> None:
-    """The palette offers "Open a case" on every screen."""
+    """Replace the case below the results.
+
+    The palette offers "Open a case" on every screen.
+    """
     api.init_case("other", None, Path("other.toml"))
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)

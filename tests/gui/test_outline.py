@@ -108,7 +108,7 @@ def test_an_empty_model_says_what_it_needs() -> None:
 
 
 def test_a_new_bearing_is_held_as_init_holds_it() -> None:
-    """One rule: the empty model and every template lock the tilts of the inner ring."""
+    """Lock the inner ring's tilts in models and templates."""
     alone = [name for name, text in api.templates().items() if "shaft in two bearings" not in text]
     assert alone
     held = [api.draft(template=name).get("bodies", "inner_ring") for name in alone]

@@ -74,7 +74,10 @@ def settle(queue: api.RunQueue, run: api.QueuedRun, seconds: float = 200.0) -> N
 
 
 async def test_from_an_empty_model_to_a_result_by_keyboard(work_folder: Path, fresh_helper: None) -> None:
-    """The paper's 6208 under 1300 N (Syla et al. 2026, Fig. 7), run for 5 ms."""
+    """Build and run the paper's 6208 by keyboard.
+
+    1300 N (Syla et al. 2026, Fig. 7), 5 ms.
+    """
     async with BuilderApp().run_test(size=SMALL) as pilot:
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, OpenCase))
         await pilot.press("enter")  # the empty model
@@ -256,7 +259,10 @@ async def test_a_disk_that_fills_up_during_a_run_is_said(hand_written: Path) -> 
 
 @pytest.mark.full
 async def test_a_run_does_not_keep_one_from_working(hand_written: Path) -> None:
-    """The longest piece of work in the event loop while the solver runs and is watched, in seconds of the processor."""
+    """Measure the longest block of the event loop.
+
+    In seconds of the processor, while the solver runs and is watched.
+    """
     longest = 0.0
 
     async def probe() -> None:
@@ -316,7 +322,10 @@ async def test_a_read_only_folder_is_said(hand_written: Path, monkeypatch: pytes
 
 
 async def test_who_waits_for_a_helper_that_is_closed_is_cancelled() -> None:
-    """The screen that asked is gone: an error would have nowhere to be shown."""
+    """Cancel calls to a closed helper.
+
+    The screen that asked is gone, so that nothing could show an error.
+    """
     helper = Helper(lambda text: None)
     waiting = asyncio.create_task(helper.ask("views", subject="result"))
     while helper._process is None:
@@ -342,7 +351,10 @@ async def test_a_helper_that_is_closed_while_it_starts_leaves_no_process(monkeyp
 
 
 async def test_who_ends_a_helper_and_is_cancelled_leaves_no_process() -> None:
-    """The builder ends while a screen ends its helper: what is left would be closed on a loop that is not there."""
+    """Leave no process behind a cancelled end.
+
+    The builder ends while a screen ends its helper, whose loop is closed by then.
+    """
     helper = Helper(lambda text: None)
     waiting = asyncio.create_task(helper.ask("views", subject="result"))
     while helper._process is None:

@@ -54,7 +54,7 @@ def contrast(one: str, other: str) -> float:
 
 @pytest.mark.parametrize("theme", [DARK, LIGHT], ids=lambda theme: theme.name)
 def test_words_can_be_read_on_every_ground(theme: Theme) -> None:
-    """4.5 is what WCAG 2.2 asks for text (level AA)."""
+    """Require a contrast of 4.5 (WCAG 2.2, level AA)."""
     for ground in (theme.background, theme.surface, theme.panel):
         for colour in (theme.foreground, theme.primary, theme.accent, theme.error, theme.success, theme.warning):
             assert contrast(str(colour), str(ground)) >= 4.5, (colour, ground)

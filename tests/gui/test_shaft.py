@@ -140,7 +140,10 @@ async def from_tree(pilot: Pilot[None], key: str, place: tuple[str, ...]) -> Non
 
 
 async def test_a_shaft_from_nothing_by_keys(work_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The first table is added on a slow machine: the cursor rests on the first node until the new one is reached."""
+    """Build a shaft by keys on a slow machine.
+
+    The cursor rests on the first node until the new one is reached.
+    """
     at_once = ModelTree._move_to
     async with BuilderApp().run_test(size=SMALL) as pilot:
         await wait_for(pilot, lambda: "new shaft" in screen_text(pilot.app))  # type: ignore[arg-type]
@@ -186,7 +189,7 @@ async def test_a_shaft_from_nothing_by_keys(work_folder: Path, monkeypatch: pyte
 
 @pytest.mark.usefixtures("answered")
 async def test_a_defect_of_one_bearing_and_the_number_of_warnings(work_folder: Path) -> None:
-    """The law of one contact of one bearing, and nothing for the others."""
+    """Show the defect of one contact of one bearing."""
     (node,) = (node for node in nodes() if node.key == "bearings.b.forces.ball_outer.surface")
     assert node.heading == "b · Ball - outer · surface"
     api.init_case("box", template="geared-shaft")
@@ -315,7 +318,10 @@ def test_a_housing_is_drawn_with_its_springs() -> None:
 
 
 def test_a_new_name_goes_wherever_it_is_named(tmp_path: Path) -> None:
-    """A body in markers, springs and bearings, a marker in springs; one undo each."""
+    """Rename bodies and markers wherever they are named.
+
+    A body in markers, springs and bearings, a marker in springs; one undo each.
+    """
     text = geared_shaft("box").replace("# outer = ", "outer = ") + HOUSED
     draft = draft_of(text, tmp_path / "box.toml")
     found = [m for top in outline(draft.root, section_names(draft)) for m in top.walk()]

@@ -138,7 +138,10 @@ async def test_a_catalogue_that_cannot_be_opened_is_said(hand_written: Path, mon
 
 
 def test_without_a_terminal_it_says_what_to_do_instead() -> None:
-    """Its screen would go into a file or a pipe, and no key would ever come."""
+    """Refuse to start without a terminal.
+
+    The screen would go into a file or a pipe, and no key would ever come.
+    """
     answer = subprocess.run(
         [sys.executable, "-m", "lambda_cli", "gui"],
         stdin=subprocess.DEVNULL,

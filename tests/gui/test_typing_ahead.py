@@ -13,7 +13,7 @@ from lambda_gui.forms import NodeForm
 
 
 async def test_what_follows_enter_belongs_to_the_next_entry(work_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The way to the next row takes a while, and two values with their Enter are typed meanwhile."""
+    """Type two values while the next row loads."""
     at_once = NodeForm.on_row_done
 
     def slowly(self: NodeForm, event: Any) -> None:

@@ -59,7 +59,10 @@ def exact(section: RoundSection, ends: str, count: int) -> list[float]:
 @pytest.mark.parametrize("section", BARS, ids=["solid", "hollow"])
 @pytest.mark.parametrize("ends", ["pinned", "free"])
 def test_bending_modes_against_the_exact_frequency_equation(section: RoundSection, ends: str) -> None:
-    """The first five within 0.1 %, a bar ten and eight diameters long, elements one diameter long."""
+    """Compare the first five modes to 0.1 %.
+
+    A bar ten and eight diameters long, elements one diameter long.
+    """
     body = shaft_body([(LENGTH, section)])
     last = 6 * (body.positions.size - 1)
     kept = [i for i in range(body.mass.shape[0]) if i % 6 in (1, 5)]  # the horizontal plane alone
@@ -72,7 +75,10 @@ def test_bending_modes_against_the_exact_frequency_equation(section: RoundSectio
 
 
 def test_exact_roots_are_those_of_the_closed_form() -> None:
-    """A pinned bar bends in sines: the smaller root of a quadratic in omega^2 (Timoshenko 1921), for each n."""
+    """Compare with the closed form of a pinned bar.
+
+    It bends in sines: the smaller root of a quadratic in omega^2 (Timoshenko 1921), for each n.
+    """
     section = BARS[0]
     ei, kga = section.bending_stiffness, section.shear_stiffness
     m, j = section.material.density * section.area, section.material.density * section.second_moment
@@ -83,13 +89,19 @@ def test_exact_roots_are_those_of_the_closed_form() -> None:
 
 
 def test_shear_coefficients_of_cowper() -> None:
-    """Cowper 1966, J. Appl. Mech. 33, 335: circle 6(1+nu)/(7+6 nu), thin tube 2(1+nu)/(4+3 nu), nu = 0.3."""
+    """Compare with Cowper's values for circle and tube.
+
+    Cowper 1966, J. Appl. Mech. 33, 335: circle 6(1+nu)/(7+6 nu), thin tube 2(1+nu)/(4+3 nu), nu = 0.3.
+    """
     assert BARS[0].shear_coefficient == pytest.approx(7.8 / 8.8, rel=1e-12)
     assert RoundSection(1.0, 0.9999, STEEL).shear_coefficient == pytest.approx(2.6 / 4.9, rel=1e-6)
 
 
 def test_tip_of_a_cantilever() -> None:
-    """F l^3/(3 E I) + F l/(kappa G A), F l^2/(2 E I); force along y, moment about y, tension, torque (exact)."""
+    """Compare the tip's displacement with closed forms.
+
+    F l^3/(3 E I) + F l/(kappa G A), F l^2/(2 E I); force along y, moment about y, tension, torque (exact).
+    """
     section = BARS[1]
     body = shaft_body([(LENGTH, section)], fineness=100.0)
     free, tip = slice(6, None), body.mass.shape[0] - 12
@@ -103,7 +115,10 @@ def test_tip_of_a_cantilever() -> None:
 
 
 def test_a_stepped_beam_between_supports() -> None:
-    """Two halves of different stiffness, load in the middle: each half a cantilever of l/2 under F/2 (exact)."""
+    """Compare a stepped beam with two cantilevers.
+
+    Two halves of different stiffness, load in the middle: each half is a cantilever of l/2 under F/2 (exact).
+    """
     body = shaft_body([(0.5 * LENGTH, BARS[0]), (0.5 * LENGTH, BARS[1])], places=[0.5 * LENGTH])
     # energy: sum of both halves, deflection at the load is twice the energy over the force
     half, force = 0.5 * LENGTH, 1000.0
@@ -120,7 +135,10 @@ def test_a_stepped_beam_between_supports() -> None:
 
 
 def test_a_thin_disc_on_a_stiff_overhang_whirls_as_a_gyroscope() -> None:
-    """A symmetric rotor free in space under tilting springs: J_t w^2 - J_p spin w - k = 0 (forward), + (backward)."""
+    """Compare forward and backward whirl with the closed form.
+
+    J_t w^2 - J_p spin w - k = 0; a symmetric rotor free in space under tilting springs; - is forward, + backward.
+    """
     section = RoundSection(0.01, 0.0, STEEL)
     body = shaft_body([(0.02, section)], discs=[Disc(0.01, 1.0, 1e-3, 2e-3)], fineness=2.0)
     weight = STEEL.density * section.area * 0.02
@@ -140,7 +158,10 @@ def test_a_thin_disc_on_a_stiff_overhang_whirls_as_a_gyroscope() -> None:
 
 
 def test_reduction_keeps_statics_and_the_low_modes() -> None:
-    """Craig and Bampton 1968: flexibility at the kept nodes exact, first three bending modes to 1e-3."""
+    """Compare a Craig-Bampton reduction with the full beam.
+
+    Craig and Bampton 1968: flexibility at the kept nodes exact, first three bending modes to 1e-3.
+    """
     body = shaft_body([(LENGTH, BARS[0])], places=[0.1])
     small = craig_bampton(body, [0.0, 0.1, LENGTH], 12)
     assert small.mass.shape == (30, 30)

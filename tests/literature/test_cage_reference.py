@@ -49,7 +49,9 @@ def reference(found: Equilibrium) -> float:
 @pytest.mark.parametrize(("rpm", "allowed"), [(1000, 5e-4), (10000, 2e-3), (25000, 6e-3)])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_balls_of_a_fast_bearing_without_drag_do_not_slip(rpm: int, allowed: float, sign: float) -> None:
-    """22.24 kN of thrust on 15 balls of 20.6 mm, angles of 34 and 12 degrees at 25 000 1/min.
+    """Find no slip at 25 000 1/min under thrust.
+
+    22.24 kN on 15 balls of 20.6 mm, angles of 34 and 12 degrees.
 
     One mean angle takes 7 % of slip for it. What is left is the creep of contacts that spin.
     """
@@ -66,7 +68,10 @@ def test_balls_of_a_fast_bearing_without_drag_do_not_slip(rpm: int, allowed: flo
 
 @pytest.mark.parametrize("lean", [-0.2, 0.0, 0.3])
 def test_the_reference_is_that_of_contacts_that_roll(lean: float) -> None:
-    """Spin of a ball chosen such that both contacts roll, by cross products: the slip of both vanishes at the ratio."""
+    """Compare the ratio with contacts that roll.
+
+    The spin of a ball makes both contacts roll, by cross products: the slip of both vanishes at the ratio.
+    """
     angles, radius = (0.59, 0.21), 0.0775
     inner, outer = radius - 0.5 * BALL * math.cos(angles[0]), radius + 0.5 * BALL * math.cos(angles[1])
     spin = np.array([-math.cos(lean), math.sin(lean), 0.0])
@@ -78,7 +83,10 @@ def test_the_reference_is_that_of_contacts_that_roll(lean: float) -> None:
 
 
 def test_with_equal_angles_the_reference_is_harris() -> None:
-    """(1 - D_w cos(a)/d_m)/2: Harris and Kotzalas 2006, eq. 10.12; whatever the lean of the axis."""
+    """Compare with Harris and Kotzalas 2006, eq. 10.12.
+
+    (1 - D_w cos(a)/d_m)/2, whatever the lean of the axis.
+    """
     for lean in (0.0, 0.4):
         spin = np.array([[-math.cos(lean), math.sin(lean), 0.0]])
         ratio = rolling_ratio(np.ones((1, 2)), np.full((1, 2), 0.4), np.array([0.5 * PITCH]), spin, np.zeros(1), BALL)

@@ -24,14 +24,19 @@ from lambda_db.validation import trials
 
 
 def test_published_designs_of_the_same_maker_are_found(catalogue: SqlCatalogue) -> None:
-    """Ratings and design of one maker: SKF 6205 and 6203 (fault frequencies), NSK 61804 (data set)."""
+    """Find published designs from the same maker's ratings.
+
+    SKF 6205 and 6203 (fault frequencies), NSK 61804 (data set).
+    """
     own = [trial for trial in trials(catalogue) if trial.same_maker]
     assert {trial.published.designation for trial in own} == {"6205", "6203", "61804"}
     assert all(trial.found for trial in own)
 
 
 def test_misses_stay_misses(catalogue: SqlCatalogue) -> None:
-    """With another maker's ratings the published design need not come out: 23 of 31 do; the others are named.
+    """Count designs that another maker's ratings find.
+
+    23 of 31 come out; the test names the others.
 
     The paper's 6319 and Harris's 209 are other designs than SKF's and NSK's, and so are a 6208 of 11.91 mm balls
     against SKF's ratings, 61804 against SKF's, and a 6306 of 12.303 mm balls against NSK's and Koyo's.
@@ -52,7 +57,10 @@ def test_misses_stay_misses(catalogue: SqlCatalogue) -> None:
 
 
 def test_ratings_computed_from_a_geometry_are_no_evidence(catalogue: SqlCatalogue) -> None:
-    """The paper's 6208 carries ratings computed from its own geometry: deriving that geometry from them is circular."""
+    """Reject ratings that come from a geometry.
+
+    The paper's 6208 has ratings computed from its geometry; deriving it from them is circular.
+    """
     (row,) = (r for r in rows_of(catalogue, "bearing") if (r["designation"], r["maker"]) == ("6208", "Syla2026"))
     printed = printed_of(row)
     assert printed.static_rating is None
@@ -72,7 +80,10 @@ def test_no_rating_means_no_estimate(catalogue: SqlCatalogue) -> None:
     filling=st.floats(180.0, 196.0),
 )
 def test_a_design_is_found_from_its_own_ratings(count: int, ball: float, filling: float) -> None:
-    """Ratings computed from a design lead back to it: within 1 % of the ball's diameter when it is filled as usual."""
+    """Find each design from its computed ratings.
+
+    Within 1 % of the ball's diameter when it is filled as usual.
+    """
     pitch = ball / np.sin(np.radians(0.5 * filling / (count - 1)))
     design = (np.array([float(count)]), np.array([ball]), float(pitch))
     printed = Printed(
@@ -90,7 +101,10 @@ def test_a_design_is_found_from_its_own_ratings(count: int, ball: float, filling
 
 @given(bore=st.floats(5.0, 200.0), ratio=st.floats(1.2, 2.6), static=st.floats(0.1, 500.0))
 def test_candidates_can_be_built(bore: float, ratio: float, static: float) -> None:
-    """Whatever the rating says: standard balls, between the rings, filled within 200 degrees, ranked, weights to 1."""
+    """Check that candidates can be built.
+
+    Standard balls between the rings, filled within 200 degrees, ranked, weights to 1.
+    """
     printed = Printed(bore_diameter=bore, outside_diameter=ratio * bore, static_rating=static * 1e3)
     ranked = candidates(printed)
     for design in ranked:
@@ -103,7 +117,10 @@ def test_candidates_can_be_built(bore: float, ratio: float, static: float) -> No
 
 
 def test_shoulders_decide_between_near_ties() -> None:
-    """SKF 6209: 9 x 13.0 and 10 x 12.303 fit alike; shoulders printed for 12.303 (1.21 D_w apart) decide."""
+    """Choose 10 x 12.303 for SKF 6209 by shoulders.
+
+    9 x 13.0 fits alike; the printed shoulders are 1.21 D_w apart for 12.303.
+    """
     ratings = {"static_rating": 21.6e3, "dynamic_rating": 35.1e3, "uprated": True}
     apart = {(c.ball_count, c.ball_diameter): c.weight for c in candidates(Printed(45.0, 85.0, **ratings))}  # type: ignore[arg-type]
     assert 0.2 < apart[10, 12.303] < 0.8
@@ -114,7 +131,10 @@ def test_shoulders_decide_between_near_ties() -> None:
 
 
 def test_filling_angle_of_the_papers_bearing() -> None:
-    """6208, 9 x 11.91 on 60 mm: 2 * 8 * asin(0.1985) = 183.2 deg."""
+    """Compare with 183.2 degrees of the paper's bearing.
+
+    6208, 9 x 11.91 on 60 mm: 2 * 8 * asin(0.1985).
+    """
     assert filling_angle(9, 11.91, 60.0) == pytest.approx(183.2, abs=0.05)
 
 

@@ -121,7 +121,10 @@ RINGS = fits.Rings(0.040, 0.080, 0.048083, 0.071917, 0.01191)
 
 
 def test_same_material_gives_the_printed_short_form() -> None:
-    """NSK: inner ring on a hollow steel shaft, I k (1 - k0^2)/(1 - k^2 k0^2), k = d/D_i, k0 = d0/d; an identity."""
+    """Compare fits with NSK's short form.
+
+    Inner ring on a hollow steel shaft, I k (1 - k0^2)/(1 - k^2 k0^2), k = d/D_i, k0 = d0/d; an identity.
+    """
     interference, k, k0 = 10e-6, 0.040 / 0.048083, 0.5
     expected = interference * k * (1 - k0**2) / (1 - k**2 * k0**2)
     steel = fits.STEEL
@@ -213,7 +216,10 @@ def test_impossible_diameters_are_refused() -> None:
 
 
 def test_rigid_housing_hands_on_the_complete_interference() -> None:
-    """A rigid housing leaves the ring alone to yield: u = I (2 h)/[(1 + h^2) - nu (1 - h^2)], h = d_race/D."""
+    """Compare a rigid housing with the closed form.
+
+    Only the ring yields: u = I (2 h)/[(1 + h^2) - nu (1 - h^2)], h = d_race/D.
+    """
     h, nu = 0.071917 / 0.080, 0.3
     rigid = fits.Solid(math.inf, 0.3, 12e-6)
     found = fits.outer_ring_contraction(10e-6, 0.080, 0.071917, fits.STEEL, rigid, math.inf)
@@ -228,7 +234,10 @@ def test_reference_temperature_moves_with_the_parts() -> None:
 
 
 def test_a_case_without_housing_diameter_has_endless_steel() -> None:
-    """The limit of ever larger housings of steel; a thin one leaves more of the clearance."""
+    """Compare with ever larger housings of steel.
+
+    A thin housing leaves more of the clearance.
+    """
 
     def clearance(*changes: str) -> float:
         return api.check("6208-axial-700", ["bearing.fits.housing=20 um", *changes]).geometry.clearance

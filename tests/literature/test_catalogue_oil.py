@@ -84,7 +84,10 @@ def test_bode_alpha_is_the_tangent(bode: Bode) -> None:
 
 @pytest.mark.parametrize(("t", "pole"), [(40, 2.35e9), (60, 2.86e9)])
 def test_bode_pole(bode: Bode, t: float, pole: float) -> None:
-    """The viscosity is infinite where the density reaches rho_g: inside a loaded bearing's range."""
+    """Find the pole where the density reaches rho_g.
+
+    It is inside a loaded bearing's range.
+    """
     kelvin = t + 273.15
     glass = bode.c["visc_a3"] * (1 + bode.c["visc_a4"] * kelvin)
     assert bode.density(0.995 * pole / BAR, kelvin) < glass < bode.density(1.005 * pole / BAR, kelvin)
@@ -99,7 +102,10 @@ def test_seed_properties_of_bode_follow_from_its_constants(bode: Bode, catalogue
 
 
 def test_fva3_is_vg_100(catalogue: SqlCatalogue) -> None:
-    """Wingertszahn et al. 2023, Table A1: Vogel and Dicke constants of FVA3 give an ISO VG 100 oil."""
+    """Compare FVA3 with ISO VG 100.
+
+    Wingertszahn et al. 2023, Table A1: Vogel and Dicke constants.
+    """
     c = constants(catalogue.lubricant("FVA3"), "rheology", "vogel-dicke")
     eta = c["vogel_k"] * math.exp(c["vogel_b"] / (c["vogel_c"] + 40.0))
     nu = eta / (c["density_15"] + c["density_slope"] * 25.0) * 1e3
@@ -129,7 +135,10 @@ def test_every_oil_has_a_law_and_the_thermal_data(catalogue: SqlCatalogue) -> No
 
 
 def test_gold_reproduces_the_seeds(catalogue: SqlCatalogue) -> None:
-    """alpha_p at 40 degC of the generic oils is s nu^t; printed to two decimals."""
+    """Compute alpha_p at 40 degC as s nu^t.
+
+    The generic oils, printed to two decimals.
+    """
     checked = 0
     for row in catalogue.lubricants(limit=1000):
         if "gold_s" not in row.properties:
@@ -150,7 +159,9 @@ def test_generic_grades_are_iso_3448_midpoints(catalogue: SqlCatalogue) -> None:
 
 
 def test_stachowiak_viscosities_follow_from_the_two_derived_ones(catalogue: SqlCatalogue) -> None:
-    """Table 2.3 prints eta at 30, 60, 100 degC; ASTM D341 through 40 and 100 degC must come back to them.
+    """Compare Table 2.3 with ASTM D341.
+
+    The table prints eta at 30, 60, 100 degC; the curve goes through 40 and 100 degC.
 
     Tolerance 12 %: the table's two-digit viscosities, and a different form of the curve (Vogel).
     """
@@ -169,7 +180,9 @@ def test_stachowiak_viscosities_follow_from_the_two_derived_ones(catalogue: SqlC
 
 
 def test_walther_viscosity_index_oil() -> None:
-    """ISO 3448/ASTM D341 chart: an oil of 100 mm2/s at 40 and 11.2 at 100 degC has about 35 mm2/s at 63 degC.
+    """Compare the oil with the chart at 63 degC.
+
+    ISO 3448/ASTM D341 chart: at 40 and 100 degC these give about 35 mm2/s at 63 degC.
 
     Interpolation on the same chart by hand, 2 %.
     """

@@ -10,7 +10,10 @@ from lambda_core.formulas.ratings import dynamic_factor, dynamic_rating, static_
 
 
 def test_fc_table_is_reproduced() -> None:
-    """ISO 281, table of f_c for single row radial contact ball bearings, printed to 0.1: within 0.05 and rounding."""
+    """Compare f_c with ISO 281 to 0.05 and rounding.
+
+    The table of single row radial contact ball bearings, printed to 0.1.
+    """
     gammas, factors = iso281_fc()
     assert len(gammas) == 21
     for gamma, printed in zip(gammas, factors, strict=True):
@@ -18,7 +21,10 @@ def test_fc_table_is_reproduced() -> None:
 
 
 def test_f0_table_is_reproduced() -> None:
-    """ISO 76, table of f_0, printed to 0.1: Hertz at 4200 MPa, E 207 GPa, 0.52/0.53 is within 0.053 (0.05 rounding)."""
+    """Compare f_0 with ISO 76 to 0.053.
+
+    Printed to 0.1: Hertz at 4200 MPa, E 207 GPa, 0.52/0.53 (0.05 rounding).
+    """
     gammas, factors = iso76_f0()
     assert len(gammas) == 41
     for gamma, printed in zip(gammas[1:], factors[1:], strict=True):
@@ -26,14 +32,20 @@ def test_f0_table_is_reproduced() -> None:
 
 
 def test_f0_for_equal_conformities_is_what_the_core_computes() -> None:
-    """The column for 0.52/0.52 is a recomputation, stored to 0.01 so that the build needs no elliptic integrals."""
+    """Recompute the stored f_0 of equal conformities.
+
+    The column for 0.52/0.52 is stored to 0.01, so that the build needs no elliptic integrals.
+    """
     gammas, factors = iso76_f0(both_052=True)
     for gamma, stored in zip(gammas[1:], factors[1:], strict=True):
         assert static_factor(gamma, 0.52, 0.52) == pytest.approx(stored, abs=0.006), gamma
 
 
 def test_iso_281_gives_nsks_printed_ratings(catalogue: SqlCatalogue) -> None:
-    """Rows with inner geometry of grade A or B: C within 1 % of NSK's catalogue (plain ISO 281), at every angle."""
+    """Compare C with NSK's catalogue to 1 %.
+
+    Rows with inner geometry of grade A or B (plain ISO 281), at every angle.
+    """
     checked = 0
     for row in catalogue.bearings("maker=NSK", 1000):
         if row.ball_count is None or row.ball_count.grade not in ("A", "A-", "B"):
@@ -50,10 +62,12 @@ def test_iso_281_gives_nsks_printed_ratings(catalogue: SqlCatalogue) -> None:
 
 
 def test_thin_sections_are_rated_with_equal_conformities(catalogue: SqlCatalogue) -> None:
-    """NSK's C_0 of series 618 below gamma 0.09: f_0 of 0.52/0.52 agrees within 1.5 %, the table misses by 2 to 8 %.
+    """Compare NSK's C_0 of series 618 to 1.5 %.
 
-    The rows are estimates, so this shows that one convention explains the whole series, not what NSK writes down;
-    picks whose ball is a near tie scatter by 1.5 %.
+    Below gamma 0.09: f_0 of 0.52/0.52 agrees, the table misses by 2 to 8 %.
+
+    The rows are estimates, so this shows that one convention explains the whole series, not what NSK writes down; picks
+    whose ball is a near tie scatter by 1.5 %.
     """
     agree, table = [], []
     for row in catalogue.bearings("maker=NSK series=618", 1000):
@@ -71,7 +85,9 @@ def test_thin_sections_are_rated_with_equal_conformities(catalogue: SqlCatalogue
 
 
 def test_the_papers_6208_is_rated_like_nsks(catalogue: SqlCatalogue) -> None:
-    """9 x 11.906 on 60 mm gives NSK's 29.1 and 17.9 kN (0.5 %); SKF's 32.5/1.05 and 19.0 kN need other balls.
+    """Compare 9 x 11.906 on 60 mm with catalogues.
+
+    NSK's 29.1 and 17.9 kN (0.5 %); SKF's 32.5/1.05 and 19.0 kN need other balls.
 
     SKF rounds C_0 to half a kN here: 1 %.
     """

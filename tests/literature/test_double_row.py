@@ -59,7 +59,10 @@ def equilibrium(**what: Any) -> Equilibrium:
 
 @pytest.mark.parametrize(("arrangement", "axial", "row"), [("O", 3000.0, 0), ("O", -3000.0, 1), ("X", 3000.0, 1)])
 def test_thrust_is_carried_by_one_row(arrangement: str, axial: float, row: int) -> None:
-    """With play one row carries, as a bearing of one row does (1e-4): back to back the left one a thrust to +x."""
+    """Compare with a bearing of one row to 1e-4.
+
+    With play one row carries: back to back the left one a thrust to +x.
+    """
     one, two = equilibrium(play=None, axial=3000.0), equilibrium(play=20e-6, axial=axial, arrangement=arrangement)
     carrying = slice(row * BALLS, (row + 1) * BALLS)
     other = slice((1 - row) * BALLS, (2 - row) * BALLS)
@@ -72,7 +75,9 @@ def test_thrust_is_carried_by_one_row(arrangement: str, axial: float, row: int) 
 
 
 def test_preload_in_closed_form() -> None:
-    """An axial clearance of -20 um: both rows carry K delta^1.5 with the length of A that is left, 0.1 %.
+    """Compare both rows with K delta^1.5 to 0.1 %.
+
+    An axial clearance of -20 um; the length of A that is left.
 
     Groove centres are A sin(alpha_0) + 10 um apart along the shaft and A cos(alpha_0) across it.
     """
@@ -91,11 +96,13 @@ def test_preload_in_closed_form() -> None:
 
 
 def test_back_to_back_is_stiff_against_tilt() -> None:
-    """Tilting stiffness of both arrangements from the springs between groove centres, their ratio within 1 %.
+    """Compare tilting stiffness of both arrangements to 1 %.
+
+    From the springs between groove centres, their ratio.
 
     Under preload a spring of length L = A + delta carries Q: along itself it has k = 1.5 Q/delta, across Q/L. A centre
-    at x, r from the bearing's middle meets the first with the lever r sin(alpha) +- x cos(alpha), the second with
-    r cos(alpha) -+ x sin(alpha), upper signs back to back.
+    at x, r from the bearing's middle meets the first with the lever r sin(alpha) +- x cos(alpha), the second with r
+    cos(alpha) -+ x sin(alpha), upper signs back to back.
     """
     stiff, soft = (stiffness_matrix(equilibrium(play=-20e-6, arrangement=a)) for a in "OX")
     along, across = DISTANCE * math.sin(FREE) + 10e-6, DISTANCE * math.cos(FREE)
@@ -110,7 +117,10 @@ def test_back_to_back_is_stiff_against_tilt() -> None:
 
 
 def test_ratings_are_those_of_two_rows() -> None:
-    """C with 2^0.7 and C_0 with 2 of one row's (ISO 281, ISO 76; exact)."""
+    """Compare with 2^0.7 and 2 of one row (exact).
+
+    C of ISO 281 and C_0 of ISO 76.
+    """
     size = BALLS, BALL, PITCH
     assert dynamic_rating(*size, contact_angle=FREE, rows=2) == pytest.approx(
         2.0**0.7 * dynamic_rating(*size, contact_angle=FREE)
@@ -143,7 +153,10 @@ def test_what_is_no_bearing_of_two_rows_is_refused(change: dict[str, Any], words
 
 
 def test_a_run_with_a_cage_for_both_rows(tmp_path: Path) -> None:
-    """2 ms under both loads: balls of both rows, energy closes to 1e-3."""
+    """Balance energy to 1e-3 in a run of 2 ms.
+
+    Both loads act; the cage has balls of both rows.
+    """
     start = case(play=10e-6, axial=500.0) | {"operation": {"speed": "3000 rpm"}, "solver": {"duration": "2 ms"}}
     start["loads"]["radial"] = "2 kN"
     result = api.result(api.run(start, out=tmp_path / "rows.h5"))

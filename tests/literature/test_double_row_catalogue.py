@@ -44,7 +44,9 @@ def case(name: str, **bearing: str) -> dict[str, object]:
 
 
 def test_ratings_of_every_row(catalogue: SqlCatalogue) -> None:
-    """Whole standard balls give C_0 of all 42 within 1.7 %, C within 3.6 %, medians 0.7 and 0.6 %.
+    """Compare C and C_0 of all 42 rows.
+
+    Whole standard balls: C_0 within 1.7 %, C within 3.6 %, medians 0.7 and 0.6 %.
 
     Shoulders of the inner ring, which were not used, stand 0.17 to 0.28 D_w over the raceways.
     """
@@ -72,14 +74,20 @@ def test_ratings_of_every_row(catalogue: SqlCatalogue) -> None:
 
 @pytest.mark.parametrize(("name", "printed"), PRESSURE_CENTRES.items())
 def test_distance_of_the_rows(catalogue: SqlCatalogue, name: str, printed: float) -> None:
-    """Lines of contact meet the axis a apart: row distance + d_m tan(30 deg), within the rounding of a, 0.5 mm."""
+    """Compare row distance + d_m tan(30 deg) with a.
+
+    Lines of contact meet the axis a apart, within the rounding of a, 0.5 mm.
+    """
     _, _, pitch, angle, apart = design(catalogue.bearing(name, "SKF"))
     assert 1e3 * (apart + pitch * math.tan(angle)) == pytest.approx(printed, abs=0.01)
     assert catalogue.bearing(name, "SKF").row_distance is not None
 
 
 def test_rows_have_their_place(catalogue: SqlCatalogue) -> None:
-    """Rows are about a ball apart (0.86 to 1.14 D_w), balls of both clear each other, grooves lie within the width."""
+    """Keep rows inside the bearing and clear of balls.
+
+    Rows are about a ball apart (0.86 to 1.14 D_w), and grooves lie within the width.
+    """
     for row in rows_of(catalogue):
         count, ball, pitch, _, apart = design(row)
         assert 0.86 < apart / ball < 1.14
@@ -88,7 +96,10 @@ def test_rows_have_their_place(catalogue: SqlCatalogue) -> None:
 
 
 def test_factors_as_printed() -> None:
-    """Page 440, table 3: e 0.8, X 0.63, Y_1 0.78, Y_2 1.24, Y_0 0.66; exact."""
+    """Compare with page 440, table 3, exactly.
+
+    e 0.8, X 0.63, Y_1 0.78, Y_2 1.24, Y_0 0.66.
+    """
     angle = math.radians(30.0)
     below = dynamic_equivalent_load(1000.0, 100.0, 1e4, 14.0, angle, 2)
     above = dynamic_equivalent_load(1000.0, 900.0, 1e4, 14.0, angle, 2)
@@ -98,7 +109,10 @@ def test_factors_as_printed() -> None:
 
 
 def test_clearance(catalogue: SqlCatalogue) -> None:
-    """Bore 40 mm: CN 9 to 29, C3 21 to 40 um along the shaft (page 438); values and preload are taken, too."""
+    """Compare clearances of a 40 mm bore, page 438.
+
+    CN 9 to 29, C3 21 to 40 um along the shaft; values and preload are accepted too.
+    """
     limits = DOUBLE_ROW.limits(0.04, "CN")
     assert (limits.minimum, limits.maximum) == pytest.approx((9e-6, 29e-6))
 
@@ -121,7 +135,10 @@ def test_designations(catalogue: SqlCatalogue, written: str) -> None:
 
 
 def test_masses(catalogue: SqlCatalogue) -> None:
-    """Rings, balls and cage weigh what SKF prints, which was not used: the median of ten within 7 %."""
+    """Compare masses with SKF to 7 %.
+
+    Rings, balls and cage; the printed mass was not used. The median of ten counts.
+    """
     found = []
     for name in ("3200A", "3203A", "3206A", "3208A", "3210A", "3212A", "3305A", "3308A", "3312A", "3214A"):
         model = api.check(case(name))

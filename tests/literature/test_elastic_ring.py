@@ -20,7 +20,9 @@ UNIT = RING.radius**3 / (RING.youngs_modulus * RING.second_moment)
 
 
 def test_a_ring_pinched_by_two_forces() -> None:
-    """Closing (pi/4 - 2/pi) F R^3/(E I), widening (2/pi - 1/2) (Timoshenko, Strength of Materials), exact.
+    """Compare widening and closing with Timoshenko, exactly.
+
+    Closing (pi/4 - 2/pi) F R^3/(E I), widening (2/pi - 1/2) (Strength of Materials).
 
     With ten orders 0.11 % and 0.2 % are missing.
     """
@@ -33,7 +35,10 @@ def test_a_ring_pinched_by_two_forces() -> None:
 
 
 def test_ratios_of_natural_frequencies() -> None:
-    """f_3/f_2 = 2.8284, f_4/f_2 = 5.4233 of any free thin ring (Love 1927, art. 293): exact."""
+    """Compare frequencies with Love 1927, art. 293.
+
+    f_3/f_2 = 2.8284, f_4/f_2 = 5.4233 of any free thin ring, exact.
+    """
     two, three, four = (RING.frequency(n) for n in (2, 3, 4))
     assert three / two == pytest.approx(2.8284, abs=1e-4)
     assert four / two == pytest.approx(5.4233, abs=1e-4)
@@ -44,7 +49,9 @@ def test_ratios_of_natural_frequencies() -> None:
 
 @pytest.mark.parametrize(("order", "lag"), [(2, 0.400), (3, 0.200)])
 def test_the_pattern_of_a_turning_ring_lags(order: int, lag: float) -> None:
-    """Bryan 1890: a standing pattern turns back by 2/(n^2 + 1) of the ring's spin, seen from the ring (1 %).
+    """Compare the lag with Bryan 1890 to 1 %.
+
+    A standing pattern turns back by 2/(n^2 + 1) of the ring's spin, seen from the ring.
 
     The motion of both amplitudes is integrated with their Coriolis coupling, and the pattern's place is followed.
     """
@@ -69,7 +76,10 @@ def test_the_pattern_of_a_turning_ring_lags(order: int, lag: float) -> None:
 
 
 def test_a_stiff_bedding_is_a_rigid_ring() -> None:
-    """In a bedding of 1e6 times its own stiffness the ring keeps its shape to 1e-6."""
+    """Keep a ring's shape in a stiff bedding.
+
+    The bedding has 1e6 times the ring's stiffness; the shape stays to 1e-6.
+    """
     stiff = dataclasses.replace(RING, bedding=1e6 * RING.stiffness(2) / (math.pi * RING.radius))
     places = np.array([0.0, 1.0])
     assert np.abs(stiff.flexibility(places)).max() * RING.stiffness(2) < 1e-5

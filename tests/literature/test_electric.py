@@ -34,7 +34,9 @@ RADIAL = ["loads.axial=0 N"]
     ],
 )
 def test_regression_6208(changes: list[str], capacitance: float, share: float) -> None:
-    """6208, 2750 1/min where nothing else stands, one ball lowest: own values of version 0.1, so that a change is seen.
+    """Compare a 6208 with values of version 0.1.
+
+    2750 1/min, one ball lowest; the test shows a change.
 
     Axial 1300 N: nine balls of 26.7 pF. Radial: the share is that of the six balls that the inner ring does not press
     on. Surfaces of 0.1 um, so that every film is thick enough to insulate. Not compared with a measurement: Puchtler et
@@ -84,13 +86,15 @@ def first_breakdown(model: BearingModel, seeds: int = 15) -> float:
 
 
 def test_first_breakdown() -> None:
-    """First breakdown voltages of run-in deep groove ball bearings at one temperature: not met, and by how much.
+    """Compare first breakdown voltages at one temperature.
 
-    Lubricants 2024, 12(1), 1, table A1; its text could not be read: type, oil and temperature are unknown. The
-    Hertzian areas printed there (5.0 to 5.7 mm2) are near those of a 6205 (4.6 to 6.5 mm2 here, both raceways), so
-    this is a 6205 with the oil of the built-in case at 40 degC, 0.1 um and the law's defaults; nothing is fitted. It
-    gives 1.3 V at 2000 1/min (published median 3.0 V) and 21 V at 7000 1/min (2.75 V): the published voltages hardly
-    depend on speed, the computed film of 0.43 and 0.79 um at one temperature does.
+    Run-in deep groove ball bearings: the published voltages are not met, and the test shows by how much.
+
+    Lubricants 2024, 12(1), 1, table A1; its text could not be read: type, oil and temperature are unknown. The Hertzian
+    areas printed there (5.0 to 5.7 mm2) are near those of a 6205 (4.6 to 6.5 mm2 here, both raceways), so this is a
+    6205 with the oil of the built-in case at 40 degC, 0.1 um and the law's defaults; nothing is fitted. It gives 1.3 V
+    at 2000 1/min (published median 3.0 V) and 21 V at 7000 1/min (2.75 V): the published voltages hardly depend on
+    speed, the computed film of 0.43 and 0.79 um at one temperature does.
     """
     slow, fast = first_breakdown(rig(2000)), first_breakdown(rig(7000))
     assert slow == pytest.approx(1.3, rel=0.25)
@@ -103,15 +107,17 @@ def test_first_breakdown() -> None:
 
 @pytest.mark.slow
 def test_first_breakdown_at_own_temperatures() -> None:
-    """The same bearing as warm as its losses make it: it does not rise with speed, the level follows the roughness.
+    """Compare voltages at temperatures of the bearing's losses.
+
+    The voltage does not rise with speed; its level follows the roughness.
 
     Thermal network of the program with its defaults (pillow block in still air of 20 degC): oil at 48 to 55 degC at
     2000, 83 to 95 degC at 7000 1/min. The median films are then 0.30 to 0.40 and 0.23 to 0.31 um. With the defaults of
     the law and a composite roughness of 0.1 um all points are at the floor of 0.5 V per film: 1.0 V, a third of the
     published medians of 3.0 and 2.75 V. With 0.05 um, of which no measurement is known here, and the lower of the two
-    published strengths, 15 V/um for slow changes, the medians are 3.7 V at 2000 and 1.5 V at 7000 1/min, factors of
-    1.2 and 1.9. This shows that the law can be right, not that it is: a roughness of 0.03 or 0.1 um or 30 V/um are as
-    good a guess, and give 1 to 10 V.
+    published strengths, 15 V/um for slow changes, the medians are 3.7 V at 2000 and 1.5 V at 7000 1/min, factors of 1.2
+    and 1.9. This shows that the law can be right, not that it is: a roughness of 0.03 or 0.1 um or 30 V/um are as good
+    a guess, and give 1 to 10 V.
     """
     plain: dict[int, list[float]] = {2000: [], 7000: []}
     smooth: dict[int, list[float]] = {2000: [], 7000: []}
@@ -130,6 +136,9 @@ def test_first_breakdown_at_own_temperatures() -> None:
 
 
 def test_film_that_the_published_voltages_stand_for() -> None:
-    """Turned round: the mean film whose lowest spot stands 3 V is 0.5 um, between those computed at the two speeds."""
+    """Find the film whose lowest spot holds 3 V.
+
+    The mean film is 0.5 um, between those computed at the two speeds.
+    """
     one = float(breakdown_voltage(0.5, 0.5e-6, 0.1e-6, 30e6, 5.5e-6 / 2 / 1e-10))
     assert one == pytest.approx(2.9, rel=0.05)

@@ -122,7 +122,10 @@ def test_every_built_in_law_is_on_the_list() -> None:
 
 @pytest.mark.parametrize("label", CHECKED)
 def test_the_test_exists_and_names_the_law(label: str) -> None:
-    """The test, with the tables and helpers that it uses in its module, says the law's role and its name."""
+    """Find role and name of each law in its test.
+
+    Tables and helpers of the module count.
+    """
     module, test = CHECKED[label]
     text = (FOLDER / f"{module}.py").read_text(encoding="utf-8")
     defined = {name: node for node in ast.parse(text).body for name in _names(node)}

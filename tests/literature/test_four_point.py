@@ -139,7 +139,9 @@ class Reference:
 
 @pytest.mark.parametrize(("axial", "radial"), [(4000.0, 0.0), (0.0, 4000.0), (3000.0, 3000.0)])
 def test_displacement_and_loads_by_a_second_derivation(axial: float, radial: float) -> None:
-    """Thrust, radial load, both: displacements and the loads of all arcs within 0.1 % of the largest.
+    """Compare displacements and arcs with a second derivation.
+
+    Thrust, radial load, both; loads of all arcs to 0.1 % of the largest.
 
     Radii along rolling are frozen at one angle in both.
     """
@@ -159,7 +161,10 @@ def test_displacement_and_loads_by_a_second_derivation(axial: float, radial: flo
 
 
 def test_thrust_is_angular_contact_of_the_same_angle() -> None:
-    """One side carries: loads and angles of a single row angular contact bearing, 1e-4; less travel by A sin(shim)."""
+    """Compare with a single row of the same angle.
+
+    One side carries: loads and angles to 1e-4; less travel by A sin(shim).
+    """
     four, one = equilibrium(axial=4000.0), equilibrium(axial=4000.0, four_point=False)
     assert four.arcs[:, [1, 3], LOAD].max() == 0.0
     assert four.contacts[:, :, LOAD] == pytest.approx(one.contacts[:, :, LOAD], rel=1e-4)
@@ -169,7 +174,10 @@ def test_thrust_is_angular_contact_of_the_same_angle() -> None:
 
 
 def test_thrust_either_way() -> None:
-    """Mirrored loads press the other pair of arcs: mirrored displacement and angles."""
+    """Mirror the load, displacement and angles.
+
+    Mirrored loads press the other pair of arcs.
+    """
     one, other = equilibrium(axial=4000.0), equilibrium(axial=-4000.0)
     assert other.displacement[0] == pytest.approx(-one.displacement[0], rel=1e-5)
     assert other.contacts[:, :, LOAD] == pytest.approx(one.contacts[:, :, LOAD], rel=1e-4)
@@ -182,7 +190,10 @@ def model_of(name: str, **bearing: Any) -> BearingModel:
 
 
 def test_without_a_shim_the_arcs_are_one_groove() -> None:
-    """Shims of nothing: the arcs' centres lie where those of a deep groove with the same clearance do (exact)."""
+    """Compare shims of zero with a deep groove.
+
+    The arcs' centres coincide with those of the same clearance (exact).
+    """
     arcs = model_of("QJ208").geometry
     bare = type(arcs)(**{**vars(arcs), "resting_angle": 1e-12})
     groove = type(arcs)(**{**vars(arcs), "resting_angle": 0.0})
@@ -194,7 +205,10 @@ def test_without_a_shim_the_arcs_are_one_groove() -> None:
 
 
 def test_play_of_a_row_of_the_catalogue() -> None:
-    """QJ208: rings that are moved until balls touch have the axial clearance of the class and 35 degrees, 0.5 %."""
+    """Compare play and angle of a QJ208.
+
+    Rings move until balls touch: axial clearance of the class and 35 degrees, 0.5 %.
+    """
     for name, least, largest in (("C2", 26, 66), ("CN", 56, 106), ("C3", 96, 146)):
         limits = FOUR_POINT.limits(0.04, name)
         assert (1e6 * limits.minimum, 1e6 * limits.maximum) == pytest.approx((least, largest))
@@ -213,7 +227,9 @@ def four_point_rows(catalogue: SqlCatalogue) -> list[Any]:
 
 
 def test_ratings_of_every_row_as_two_rows(catalogue: SqlCatalogue) -> None:
-    """C and C_0 of 46 bearings by ISO 281 and 76 with i = 2 at 35 degrees and whole standard balls.
+    """Compare C and C_0 of 46 bearings.
+
+    ISO 281 and 76 with i = 2 at 35 degrees and whole standard balls.
 
     C_0 within 3.5 %, median 0.5 %; C within 2 % of plain ISO ratings and 5 % of the uprated ones after 1.05. As one row
     C would be 38 % lower.
@@ -234,7 +250,10 @@ def test_ratings_of_every_row_as_two_rows(catalogue: SqlCatalogue) -> None:
 
 
 def test_shoulders_lie_over_the_derived_raceways(catalogue: SqlCatalogue) -> None:
-    """Printed shoulders, which the balls were not found from, stand 0.21 to 0.28 D_w over them in all but one size."""
+    """Compare shoulders with 0.21 to 0.28 D_w.
+
+    The printed shoulders were not used to find the balls; one size is outside.
+    """
     for ring in ("inner", "outer"):
         heights = []
         for row in four_point_rows(catalogue):
@@ -246,7 +265,10 @@ def test_shoulders_lie_over_the_derived_raceways(catalogue: SqlCatalogue) -> Non
 
 
 def test_equivalent_loads_as_skf_prints_them() -> None:
-    """SKF, general catalogue 6000, page 455: P = F_r + 0.66 F_a to 0.95, then 0.6 F_r + 1.07 F_a; P_0: 1 and 0.58."""
+    """Compare P and P_0 with SKF's catalogue.
+
+    General catalogue 6000, page 455: P = F_r + 0.66 F_a to 0.95, then 0.6 F_r + 1.07 F_a; P_0: 1 and 0.58.
+    """
     low = dynamic_equivalent_load(2000.0, 1500.0, 49e3, 14.0, FREE, 2)
     high = dynamic_equivalent_load(2000.0, 3000.0, 49e3, 14.0, FREE, 2)
     assert low.load == pytest.approx(2000.0 + 0.66 * 1500.0)
@@ -257,7 +279,10 @@ def test_equivalent_loads_as_skf_prints_them() -> None:
 
 @pytest.mark.parametrize("angle", [5, 15, 20, 25, 30, 35, 40, 45])
 def test_factors_of_two_rows_follow_from_one(angle: int) -> None:
-    """ISO/TR 1281-1: X and Y above e are 1.625 of one row's, Y below 0.625/e; the table rounds them."""
+    """Derive factors of two rows from one.
+
+    ISO/TR 1281-1: X and Y above e are 1.625 of one row's, Y below 0.625/e; the table rounds them.
+    """
     alpha = math.radians(angle)
     one, two = (dynamic_equivalent_load(0.0, 3000.0, 10e3, 14.0, alpha, rows) for rows in (1, 2))
     assert two.radial_factor == pytest.approx(1.625 * one.radial_factor, abs=0.006)
@@ -267,7 +292,10 @@ def test_factors_of_two_rows_follow_from_one(angle: int) -> None:
 
 
 def test_life_of_two_rows_is_that_of_the_rating() -> None:
-    """ISO/TS 16281 of two rows with half of the load each, half the ring loaded: L_10r is (C/P)^3 within 2 %."""
+    """Compare L_10r with (C/P)^3 to 2 %.
+
+    ISO/TS 16281 of two rows with half of the load each, half the ring loaded.
+    """
     count, force, angle = 60, 4000.0, math.radians(30.0)
     gamma, psi = 0.16 * math.cos(angle), 2.0 * math.pi * np.arange(count) / count
     shape = np.maximum(np.cos(psi), 0.0) ** 1.5
@@ -284,7 +312,10 @@ def test_life_of_two_rows_is_that_of_the_rating() -> None:
 
 
 def test_skf_friction_by_hand() -> None:
-    """SKF, tables 2a and 3, by hand: d_m 60 mm, 1.5 and 5 kN, 3000 1/min."""
+    """Compare friction with SKF by hand.
+
+    Tables 2a and 3: d_m 60 mm, 1.5 and 5 kN, 3000 1/min.
+    """
     pressed = 1.4e-12 * 60.0**4 * 3000.0**2
     rolling = 4.78e-7 * 60.0**1.97 * (1500.0 + pressed + 2.42 * 5000.0) ** 0.54
     sliding = 1.2e-2 * 60.0**0.26 * ((1500.0 + pressed) ** (4.0 / 3.0) + 0.9 * 5000.0 ** (4.0 / 3.0))
@@ -308,7 +339,10 @@ def test_what_is_no_four_point_contact_is_refused(bearing: dict[str, Any], words
 
 
 def test_a_run_shows_both_arcs(tmp_path: Any) -> None:
-    """4 ms with channels by arc; of a ring the arc that carries more, with the loss of both; energy closes."""
+    """Run 4 ms with channels by arc.
+
+    A ring shows the arc that carries more, with the loss of both; energy closes.
+    """
     start = case(axial=500.0, radial=3000.0) | {"operation": {"speed": "3000 rpm"}, "solver": {"duration": "4 ms"}}
     result = api.result(api.run(start, out=tmp_path / "arcs.h5"))
     load, arcs = result["load"], result["arc_load"]

@@ -42,7 +42,9 @@ def design(row: BearingRow) -> tuple[int, float, float, float]:
 
 
 def test_ratings_of_every_row_by_the_standards(catalogue: SqlCatalogue) -> None:
-    """ISO 281 and ISO 76 with the contact angle from whole balls of standard sizes: C and C_0 within 0.75 %.
+    """Compare C and C_0 with NSK to 0.75 %.
+
+    ISO 281 and ISO 76 with the contact angle, from whole balls of standard sizes.
 
     NSK rounds to three digits, 0.5 % of the smallest; one ball more or less is 5 to 10 %.
     """
@@ -59,7 +61,10 @@ def test_ratings_of_every_row_by_the_standards(catalogue: SqlCatalogue) -> None:
 
 
 def test_harris_218_comes_out(catalogue: SqlCatalogue) -> None:
-    """Rolling Bearing Analysis: the 218 of 40 degrees has 16 balls of 22.225 mm on 125.26 mm; it was not used."""
+    """Find 16 balls of 22.225 mm on 125.26 mm.
+
+    The 218 of 40 degrees in Rolling Bearing Analysis; it was not used.
+    """
     count, ball, pitch, angle = design(catalogue.bearing("7218B", "NSK"))
     assert (count, ball) == (16, 22.225e-3)
     assert pitch == pytest.approx(125.26e-3, rel=0.003)
@@ -71,13 +76,18 @@ def test_harris_218_comes_out(catalogue: SqlCatalogue) -> None:
     [("7001C", 13.2), ("7208C", 14.1), ("7209C", 14.2), ("7009C", 15.4), ("7010C", 15.7), ("7203C", 13.3)],
 )
 def test_f0_that_nsk_prints(catalogue: SqlCatalogue, designation: str, printed: float) -> None:
-    """f_0 of the derived balls at 15 degrees, pages B50 to B55: within 0.1, the table's step in gamma."""
+    """Compare f_0 with NSK at 15 degrees.
+
+    Pages B50 to B55: within 0.1, the table's step in gamma.
+    """
     _, ball, pitch, angle = design(catalogue.bearing(designation, "NSK"))
     assert static_factor(ball * math.cos(angle) / pitch, outer_conformity=0.52) == pytest.approx(printed, abs=0.1)
 
 
 def test_skf_ratings_and_shoulders(catalogue: SqlCatalogue) -> None:
-    """SKF's 72 BE and 73 BE with the inner raceway at the printed low shoulder: C and C_0 within 2 %, medians 0.6 %.
+    """Compare SKF's C and C_0 to 2 %.
+
+    72 BE and 73 BE with the inner raceway at the printed low shoulder; medians 0.6 %.
 
     Their printed high shoulders over the raceways of these balls have the mean heights that other rows are given.
     """
@@ -110,7 +120,10 @@ def test_designations(catalogue: SqlCatalogue, written: str) -> None:
 
 
 def test_masses(catalogue: SqlCatalogue) -> None:
-    """Rings with a low shoulder each, balls and cage weigh what NSK prints: the median of a dozen within 4 %."""
+    """Compare masses with NSK to 4 %.
+
+    Rings with a low shoulder each, balls and cage; the median of a dozen.
+    """
     found = []
     for name in ("7004A", "7008A", "7205B", "7206A", "7208B", "7210B", "7212C", "7305A", "7308B", "7310B", "7015A"):
         row = catalogue.bearing(name, "NSK")
@@ -129,7 +142,7 @@ def test_masses(catalogue: SqlCatalogue) -> None:
 
 @pytest.mark.parametrize(("relative", "limit", "axial_factor"), [(k, *v) for k, v in AT_15.items()])
 def test_factors_at_15_degrees(relative: float, limit: float, axial_factor: float) -> None:
-    """e, X and Y as NSK prints them, exact."""
+    """Compare e, X and Y with NSK exactly."""
     static, f0 = 10e3, 14.0
     axial = relative * static / f0
     found = dynamic_equivalent_load(0.5 * axial, axial, static, f0, math.radians(15.0))
@@ -138,7 +151,10 @@ def test_factors_at_15_degrees(relative: float, limit: float, axial_factor: floa
 
 @pytest.mark.parametrize("angle", STEEP)
 def test_factors_of_steep_angles(angle: int) -> None:
-    """The same; at F_a/F_r = e the two branches meet within 2 % (the standard rounds to two digits)."""
+    """Compare factors and join their branches.
+
+    At F_a/F_r = e the two branches meet within 2 % (the standard rounds to two digits).
+    """
     limit, radial_factor, axial_factor = STEEP[angle]
     alpha = math.radians(angle)
     found = dynamic_equivalent_load(1000.0, 3000.0, 10e3, 14.0, alpha)
@@ -149,7 +165,9 @@ def test_factors_of_steep_angles(angle: int) -> None:
 
 @pytest.mark.parametrize("angle", [20, 25, 30, 35, 40, 45])
 def test_factors_by_the_standards_own_derivation(angle: int) -> None:
-    """ISO/TR 1281-1:2021, 7.2.1: xi = 1.25 and eta = 1 - sin(alpha)/2.75 from 20 to 45 degrees; X = 1 - 0.4 xi/eta.
+    """Compare factors with ISO/TR 1281-1:2021, 7.2.1.
+
+    xi = 1.25 and eta = 1 - sin(alpha)/2.75 from 20 to 45 degrees; X = 1 - 0.4 xi/eta.
 
     The two branches meet: X + e Y = 1. Both within the rounding to two digits; 20, 35 and 45 degrees were not seen in a
     printed table.
@@ -169,7 +187,9 @@ def test_static_factors(angle: int) -> None:
 
 
 def test_skf_friction_of_angular_contact() -> None:
-    """SKF general catalogue 6000, tables 2a and 3, by hand: d_m 60 mm, 3.2 and 3.59 kN, 1500 1/min; 0.02 %.
+    """Compare friction with SKF by hand to 0.02 %.
+
+    General catalogue 6000, tables 2a and 3: d_m 60 mm, 3.2 and 3.59 kN, 1500 1/min.
 
     F_g = 55.4 and 55.7 N; G_rr = 5.03e-7 60^1.97 10327.7^0.54, G_sl = 1.30e-2 60^0.26 (3255.7^(4/3) + 0.68 3590^(4/3)).
     """

@@ -55,7 +55,9 @@ def light(load: float, film: float) -> dict[str, Any]:
 
 @pytest.mark.parametrize("name", ["schneider", "constant-factor", "gap-integral"])
 def test_a_contact_under_centrifugal_force_alone_has_the_capacitance_of_its_gap(name: str) -> None:
-    """Outer contact of an unloaded ball, 3.6 N, film 1.41 um: area and gap around it, integrated by quadrature.
+    """Compare with area and gap by quadrature.
+
+    Outer contact of an unloaded ball, 3.6 N, film 1.41 um.
 
     The gap without load is 12 % less: the surfaces are flattened. The power of the load alone gave 6.5 pF.
     """
@@ -72,7 +74,10 @@ def test_a_contact_under_centrifugal_force_alone_has_the_capacitance_of_its_gap(
 
 @pytest.mark.parametrize("name", ["schneider", "constant-factor", "gap-integral"])
 def test_capacitance_is_continuous_from_no_load_to_full_load(name: str) -> None:
-    """The film of Hamrock and Dowson falls with load^-0.067; a thousandth of a decade changes C by less than 1 %."""
+    """Keep capacitance continuous down to no load.
+
+    The film of Hamrock and Dowson falls with load^-0.067; a thousandth of a decade changes C by less than 1 %.
+    """
     loads = np.logspace(-6.0, 4.0, 10001)
     found = np.array(
         [
@@ -108,14 +113,17 @@ def touching_outer_ring(distances: FloatArray, *changes: str) -> tuple[FloatArra
 
 
 def test_capacitance_does_not_jump_where_ball_and_raceway_touch() -> None:
-    """Through the touching point in steps of 5 nm: no step in capacitance above 2 % of it."""
+    """Step through the touching point by 5 nm.
+
+    No step in capacitance is above 2 % of it.
+    """
     load, capacitance = touching_outer_ring(np.arange(-0.5e-6, 0.5e-6, 5e-9))
     assert load.min() == 0.0 < load.max()
     assert np.abs(np.diff(np.log(capacitance))).max() < 0.02
 
 
 def test_a_wide_gap_has_the_capacitance_of_its_distance() -> None:
-    """Where the distance is more than the film counts the distance alone."""
+    """Count the distance where it exceeds the film."""
     _, (near, far) = touching_outer_ring(np.array([-10e-6, -20e-6]))
     assert far < near
     radii = groove_6208(inner=False)[:3]

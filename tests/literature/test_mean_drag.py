@@ -24,7 +24,10 @@ def fast_thrust(*changes: str) -> Equilibrium:
 
 
 def test_the_ball_in_the_oil_bath_carries_as_much_as_the_others() -> None:
-    """Under pure thrust nothing tells the balls apart, and the ring stays in the middle."""
+    """Load all balls alike under pure thrust.
+
+    The ring stays in the middle, and the ball in the oil bath carries as much.
+    """
     found = fast_thrust()
     loads = found.contacts[:, 0, 0]
     assert np.ptp(loads) < 1e-6 * loads.mean()
@@ -35,7 +38,10 @@ def test_the_ball_in_the_oil_bath_carries_as_much_as_the_others() -> None:
 
 
 def test_drag_slows_the_balls_of_a_quasi_static_solution() -> None:
-    """The mean of the drag over a revolution acts: more oil, slower balls."""
+    """Slow the balls by more oil.
+
+    The mean of the drag over a revolution acts.
+    """
     free, usual, full = (
         fast_thrust(*change).orbit for change in (["models.fluid_drag=none"], [], ["lubricant.oil_level=60 mm"])
     )
@@ -43,12 +49,18 @@ def test_drag_slows_the_balls_of_a_quasi_static_solution() -> None:
 
 
 def test_the_friction_of_a_quasi_static_solution_does_not_depend_on_where_the_balls_stand() -> None:
-    """Under pure thrust half a pitch of the balls changes nothing, neither do the losses of the drag."""
+    """Turn the balls by half a pitch.
+
+    Under pure thrust this changes neither friction nor losses of the drag.
+    """
     model = api.check(CASE, ["operation.speed=3000 rpm", "gravity.z=0 m/s2"])
     losses = [float(solve(model, phase=phase).losses.sum()) for phase in (0.0, 0.5)]
     assert losses[0] == losses[1] or abs(losses[0] / losses[1] - 1.0) < 1e-5
 
 
 def test_in_motion_drag_is_that_at_the_azimuth_of_the_ball() -> None:
-    """The mean is for solutions without time: after the equilibrium the tables ask for drag at each ball again."""
+    """Compute drag at each ball in motion.
+
+    The mean is for solutions without time; after the equilibrium the tables ask for drag at each ball again.
+    """
     assert fast_thrust().context.bundle.system[0]["drag_azimuths"] == 1

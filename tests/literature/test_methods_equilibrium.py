@@ -41,7 +41,10 @@ def solved() -> Solver:
 
 @pytest.mark.parametrize("load", [700, 1300, 2000])
 def test_axially_loaded_6208(solved: Solver, load: int) -> None:
-    """Angles and loads with centrifugal force: a scalar force balance of one ball, solved by root finding."""
+    """Compare with a scalar force balance.
+
+    Angles and loads with centrifugal force of one ball, solved by root finding.
+    """
     state = equilibrium_state(solved(f"6208-axial-{load}", ()))
     expected = axial_6208(load, running=True)
     source = "force balance of one ball with centrifugal force (Jones 1960)"
@@ -94,7 +97,10 @@ def _spring_constant(equilibrium: Equilibrium) -> float:
     ],
 )
 def test_loads_after_the_specification(solved: Solver, case: str, overrides: tuple[str, ...]) -> None:
-    """Ball loads and displacement under radial and combined load: ISO/TS 16281 with the same Hertz constants."""
+    """Compare loads and displacement with ISO/TS 16281.
+
+    Radial and combined load, the same Hertz constants.
+    """
     equilibrium = solved(case, overrides)
     g = equilibrium.context.model.geometry
     state = equilibrium_state(equilibrium)
@@ -165,7 +171,10 @@ def test_commercial_program(solved: Solver, name: str) -> None:
 
 
 def test_methods_stand_side_by_side(solved: Solver) -> None:
-    """Every method answers for the 6319, and the independent ones agree with ours as far as they should."""
+    """Compare all methods for the 6319.
+
+    Independent methods agree with the program as far as they should.
+    """
     inputs = comparison_inputs(solved("6319-cp10-500", ()))
     tables = {answer.method.name: answer.table for answer in evaluate_methods(registry().methods.values(), inputs)}
     ours, skf, life, reference = (tables[n] for n in ("quasi-static", "skf", "iso-281", "iso-ts-16281"))

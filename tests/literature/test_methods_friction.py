@@ -68,7 +68,10 @@ def test_skf_row_of_table_4(ratio: float, speed: float, value: float) -> None:
 
 
 def test_temperature_that_explains_the_skf_row() -> None:
-    """Least squares over the six points: between 60 and 63 degC for every V_M that is not excluded."""
+    """Find 60 to 63 degC by least squares.
+
+    Six points, for every V_M that is not excluded.
+    """
     for volume_factor in (0.0, 2.25e-5, 4.5e-5):
         temperatures = [50.0 + 0.25 * step for step in range(101)]
         best = min(
@@ -92,7 +95,10 @@ def test_constant_coefficient_estimate() -> None:
 @pytest.mark.parametrize("series", SERIES)
 @pytest.mark.parametrize(("radial", "axial"), [(3000.0, 0.0), (3000.0, 900.0), (0.0, 900.0)])
 def test_second_evaluation_of_the_skf_model(series: str, radial: float, axial: float) -> None:
-    """The catalogue's formulas typed a second time, in logarithms, in mm, N, 1/min and mm2/s."""
+    """Type the catalogue's formulas a second time.
+
+    In logarithms, in mm, N, 1/min and mm2/s.
+    """
     d, outer, c0, n, nu = 40.0, 80.0, 19000.0, 2400.0, 23.0
     dm = (d + outer) / 2.0
     r1, r2, s1, s2 = {
@@ -125,7 +131,10 @@ def test_second_evaluation_of_the_skf_model(series: str, radial: float, axial: f
 
 
 def test_wetted_area_of_the_drag_formula() -> None:
-    """R_s holds the segment of a circle of radius 0.6 d_m below the oil: 0.36 d_m^2 (t - sin t) is twice its area."""
+    """Compare R_s with a segment of a circle.
+
+    Radius 0.6 d_m, below the oil: 0.36 d_m^2 (t - sin t) is twice its area.
+    """
     dm, height = 60.0, 21.0
     radius = 0.6 * dm
     steps = 200_000
@@ -160,7 +169,10 @@ def test_load_variables_grow_with_load(series: str, radial: float, axial: float,
 
 
 def test_axial_load_that_is_only_noise() -> None:
-    """The catalogue's sliding variable jumps by d_m^0.115 where F_a leaves zero: rounding errors must not do it."""
+    """Ignore axial loads of rounding errors.
+
+    The catalogue's sliding variable jumps by d_m^0.115 where F_a leaves zero.
+    """
     none, noise, some = (load_variables(SERIES["62"], 0.06, 3000.0, axial, 19e3) for axial in (0.0, 1e-6, 3.001))
     assert noise == none
     assert some[1] / none[1] == pytest.approx(60.0**0.115, rel=1e-3)
@@ -190,7 +202,10 @@ def test_schaeffler_load_torque() -> None:
 
 
 def test_catalogues_agree_in_order_of_magnitude() -> None:
-    """Schaeffler's M_0 + M_1 of the 6319 lies above SKF's, by less than a factor of two (both printed tables)."""
+    """Compare Schaeffler's torque with SKF's.
+
+    M_0 + M_1 of the 6319 lies above SKF's, by less than a factor of two (both printed tables).
+    """
     for ratio, speed, _ in TABLE_4:
         load = 160e3 / ratio
         schaeffler = idle_torque(2.3, 0.1475, speed * RPM, fva3(62.5))
@@ -258,7 +273,10 @@ def test_a_sealed_bearing_turns_harder_in_the_catalogue() -> None:
 
 
 def test_the_companion_of_the_sliding_variable_has_no_step() -> None:
-    """A 6208 (d_m 60 mm, C_0 19 kN): the print steps by 60^0.115 = 1.60 at F_a = 0; the companion does not."""
+    """Compare the step of SKF's sliding variable.
+
+    A 6208 (d_m 60 mm, C_0 19 kN): the print steps by 60^0.115 = 1.60 at F_a = 0; the companion does not.
+    """
     constants, diameter, rating = series_constants("62"), 60e-3, 19e3
     radial = 3000.0
     _, alone = load_variables(constants, diameter, radial)

@@ -116,7 +116,10 @@ def test_pressure_integral_and_load_are_the_same(radius_x: float, radius_y: floa
 
 
 def test_surface_deflection_meets_the_undeformed_shape() -> None:
-    """Boussinesq: the deflection at the centre and at the ends of the axes closes the gap of the two bodies."""
+    """Compare deflection with the gap by Boussinesq.
+
+    The deflection at the centre and at the ends of the axes closes the gap of the two bodies.
+    """
     radius_x, radius_y, load = 5e-3, 90e-3, 400.0
     contact = hertz_contact(load, radius_x, radius_y, STEEL)
 
@@ -172,7 +175,10 @@ def test_conforming_surfaces_are_refused(bad: tuple[float, float]) -> None:
 @pytest.mark.parametrize("angle", [0.0, 10.0, 25.0])
 @pytest.mark.parametrize("inner", [True, False])
 def test_radii_from_the_curvature_of_the_torus(angle: float, inner: bool) -> None:
-    """Numerical principal curvatures of the groove, with no bearing formula, against the closed form."""
+    """Compare radii with curvatures of the torus.
+
+    Numerical principal curvatures of the groove, with no bearing formula, against the closed form.
+    """
     ball, pitch, groove, alpha = 11.91e-3, 60e-3, 6.19e-3 if inner else 6.31e-3, math.radians(angle)
     sign = -1.0 if inner else 1.0
     # ball centre on the pitch circle, contact at the angle; groove centre on the line through both

@@ -49,7 +49,10 @@ def test_fault_orders_of_the_paderborn_bearing() -> None:
 
 @given(st.integers(5, 20), st.floats(0.05, 0.4), st.floats(0.0, 0.7))
 def test_ball_passes_add_up(count: int, ratio: float, angle: float) -> None:
-    """Every ball meets both rings: BPFO + BPFI = Z, and BPFO = Z FTF (exact)."""
+    """Compare BPFO + BPFI with Z exactly.
+
+    Every ball meets both rings, and BPFO = Z FTF.
+    """
     orders = frequency_orders(count, ratio, 1.0, angle)
     assert orders.outer_pass + orders.inner_pass == pytest.approx(count)
     assert orders.outer_pass == pytest.approx(count * orders.cage)
@@ -62,7 +65,10 @@ def test_ball_passes_add_up(count: int, ratio: float, angle: float) -> None:
     st.floats(0.0, 0.7),
 )
 def test_rolling_without_sliding(inner: float, outer: float, ratio: float, angle: float) -> None:
-    """The speeds make both contacts stick: velocities of ball and ring by cross products, no bearing formula."""
+    """Compare velocities by cross products.
+
+    The speeds make both contacts stick; no bearing formula is used.
+    """
     pitch, ball = 0.06, 0.06 * ratio
     gamma = diameter_ratio(ball, pitch, angle)
     orbit = cage_speed(inner, outer, gamma)
@@ -86,7 +92,9 @@ def test_rolling_without_sliding(inner: float, outer: float, ratio: float, angle
 
 
 def test_outer_raceway_control() -> None:
-    """The pitch angle tan(beta) = sin(alpha)/(cos(alpha) + D_w/d_m) stops the spin at the outer ring.
+    """Stop the spin at the outer ring.
+
+    The pitch angle is tan(beta) = sin(alpha)/(cos(alpha) + D_w/d_m).
 
     Jones 1959; Harris and Kotzalas, vol. 2, ch. 2. The rest follows here by vectors from that angle alone, with the
     orbit and spin found from rolling without sliding at the middle of both contacts.
@@ -136,7 +144,10 @@ def test_outer_raceway_control() -> None:
 
 
 def test_gyroscopic_moment() -> None:
-    """I omega_spin omega_orbit sin(beta), tangential: by differentiating the angular momentum in time."""
+    """Differentiate the angular momentum in time.
+
+    I omega_spin omega_orbit sin(beta), tangential.
+    """
     inertia, spin, orbit, pitch = 2.3e-7, 800.0, 120.0, math.radians(17.0)
     moment = numerical_gyroscopic_moment(inertia, spin, orbit, pitch)
     assert float(np.linalg.norm(moment)) == pytest.approx(inertia * spin * orbit * math.sin(pitch), rel=1e-6)

@@ -60,7 +60,10 @@ def test_catalogue_program() -> None:
     ],
 )
 def test_equivalent_load_nearly_joins_at_the_limit(relative: float, limit: float, axial: float) -> None:
-    """At F_a/F_r = e the two branches of P differ by less than the table's rounding: a check of every typed entry."""
+    """Join the branches of P at F_a/F_r = e.
+
+    They differ by less than the table's rounding, which checks every typed entry.
+    """
     static, factor = 20e3, 14.0
     axial_load = relative * static / factor
     below = dynamic_equivalent_load(axial_load / limit * 1.0001, axial_load, static, factor)
@@ -78,7 +81,10 @@ def test_static_equivalent_load() -> None:
 
 
 def test_capacity_constants_are_load_integrals() -> None:
-    """0.407 and 0.389 of ISO/TS 16281 are J_r/J_1 and J_r/J_2 with half the raceway loaded: by quadrature."""
+    """Compare 0.407 and 0.389 with load integrals.
+
+    ISO/TS 16281: J_r/J_1 and J_r/J_2 with half the raceway loaded, by quadrature.
+    """
     radial = sjovall_integrals(0.5)[0]
     source, reason = "ISO/TS 16281:2008, eq. 19-20", "last printed digit"
     Published(0.407, source, reason, abs=0.0005).check(radial / fatigue_integral(0.5, 3.0))
@@ -89,7 +95,10 @@ def test_capacity_constants_are_load_integrals() -> None:
 @pytest.mark.parametrize("angle", [0.0, 15.0, 40.0])
 @pytest.mark.parametrize("gamma", [0.1, 0.2, 0.3])
 def test_reference_life_of_the_standard_case_is_the_basic_life(gamma: float, angle: float) -> None:
-    """Many balls, half the raceway loaded: L_10r has to be (C/F_r)^3, which defines the capacities at every angle."""
+    """Compare L_10r with (C/F_r)^3.
+
+    Many balls, half the raceway loaded: this defines the capacities at every angle.
+    """
     count, rating, load, alpha = 360, 30e3, 4e3, math.radians(angle)
     angles = 2.0 * math.pi * np.arange(count) / count
     relative = np.maximum(np.cos(angles), 0.0) ** 1.5
@@ -109,7 +118,10 @@ def test_reference_life_of_the_standard_case_is_the_basic_life(gamma: float, ang
 
 
 def test_capacities_combine_to_the_rating() -> None:
-    """Lundberg and Palmgren: (Q_ci J_r/J_1 Z)^(-10/3) + (Q_ce J_r/J_2 Z)^(-10/3) = C^(-10/3)."""
+    """Compare capacities with Lundberg and Palmgren.
+
+    (Q_ci J_r/J_1 Z)^(-10/3) + (Q_ce J_r/J_2 Z)^(-10/3) = C^(-10/3).
+    """
     rating, count = 29.1e3, 9
     inner, outer = ball_capacities(rating, count, 0.1985, 0.52, 0.53)
     total = (0.407 * count * inner) ** (-10 / 3) + (0.389 * count * outer) ** (-10 / 3)

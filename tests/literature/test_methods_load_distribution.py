@@ -130,7 +130,10 @@ def test_commercial_program(name: str) -> None:
 
 
 def test_specification_reduces_to_many_balls() -> None:
-    """With 400 balls and no clearance the discrete sum is Sjoevall's integral: Q_max = F_r/(Z J_r)."""
+    """Compare 400 balls with Sjoevall's integral.
+
+    Without clearance: Q_max = F_r/(Z J_r).
+    """
     result = specification_equilibrium(
         ball_count=400,
         groove_centre_distance=0.6e-3,

@@ -66,7 +66,10 @@ LGMT_2 = (
 def test_skf_friction_of_the_30306(
     radial: float, axial: float, rpm: float, viscosity: float, rolling: float, sliding: float
 ) -> None:
-    """29 to 54 % above the retyped rolling, 23 to 65 % above the sliding torque, whose oil and factor Y are unknown."""
+    """Compare torque of the 30306 with SKF.
+
+    29 to 54 % above the retyped rolling, 23 to 65 % above the sliding torque, whose oil and factor Y are unknown.
+    """
     oil = OilState(viscosity * 870e-6, 870.0, 20e-9, 0.04, 0.13)
     given = replace(inputs(BEARING_30306, radial, axial, rpm, oil), lubrication="grease")
     found = skf_roller_friction(given)

@@ -80,7 +80,10 @@ def test_capacitance_of_the_hertzian_area(axial: int, inner: bool) -> None:
 
 
 def test_permittivity_of_the_cells_lowers_it_by_three_percent() -> None:
-    """Over the ellipse the mean of eps_r(p) is 2..4 % below its value at the largest pressure (two conventions)."""
+    """Compare two conventions of the permittivity.
+
+    Over the ellipse the mean of eps_r(p) is 2..4 % below its value at the largest pressure.
+    """
     s = (np.arange(2000) + 0.5) / 2000
     pressure = 1.6e9 * np.sqrt(1.0 - s)  # s = (r/R)^2 divides the ellipse into rings of equal area
     eps = evaluate("permittivity/bode", BODE_PERMITTIVITY, p=np.append(pressure, 1.6e9), T=T, rho=870.0)
@@ -88,7 +91,10 @@ def test_permittivity_of_the_cells_lowers_it_by_three_percent() -> None:
 
 
 def test_trends_of_figure_7() -> None:
-    """Area +78.9 % from 700 to 2000 N (paper 78 %), film outer/inner +19.8 % (about 20 %), C_outer -9.7 % (10-14 %)."""
+    """Compare trends with Figure 7.
+
+    Area +78.9 % from 700 to 2000 N (paper 78 %), film outer/inner +19.8 % (about 20 %), C_outer -9.7 % (10-14 %).
+    """
     light, heavy = contact(700, True), contact(2000, True)
     area = heavy["semi_a"] * heavy["semi_b"] / (light["semi_a"] * light["semi_b"]) - 1.0
     Published(0.789, HAND, "digits; paper 0.78", abs=0.01).check(area)
@@ -118,7 +124,9 @@ def test_constant_factor() -> None:
 
 @pytest.mark.parametrize(("axial", "inner"), HERTZ)
 def test_gap_integral_against_schneider(axial: int, inner: bool) -> None:
-    """Two independent routes to the surroundings: the plain gap lies 8 to 20 % below Schneider's fit to full solutions.
+    """Compare the plain gap with Schneider's fit.
+
+    The gap lies 8 to 20 % below the fit to full solutions.
 
     The difference is the oil's constriction and the outer edge: taken at 1.2 instead of 1 ball radius it is 5 to 17 %.
     """
@@ -132,7 +140,10 @@ def test_gap_integral_against_schneider(axial: int, inner: bool) -> None:
 
 
 def test_capacitance_of_two_spheres_without_contact_pressure() -> None:
-    """Sphere on flat, no ellipse to speak of: 2 pi eps R ln(1 + r^2/(2 R h)) of the paraboloid; 2 % at r = R."""
+    """Compare a sphere on a flat with a logarithm.
+
+    No ellipse to speak of: 2 pi eps R ln(1 + r^2/(2 R h)) of the paraboloid; 2 % at r = R.
+    """
     R, h = 6e-3, 2e-6
     ellipse = hertz_contact(1e-3, R, R, STEEL)
     area = EPS_0 * 2.2 * ellipse.area / h
@@ -174,7 +185,10 @@ def groove_6208(inner: bool) -> tuple[float, float, float, float, float]:
 
 @pytest.mark.parametrize("gap", [0.3e-6, 10e-6, 50e-6])
 def test_gap_of_an_open_contact_is_the_integral_over_the_balls_projection(gap: float) -> None:
-    """dA/(h + x^2/(2 R_x) + y^2/(2 R_y)) over a disc, by quadrature in r^2 and the angle; closed form, 1e-6."""
+    """Integrate the gap over the ball's projection.
+
+    dA/(h + x^2/(2 R_x) + y^2/(2 R_y)) over a disc, by quadrature in r^2 and the angle; closed form, 1e-6.
+    """
     R_x, R_y, radius, _, _ = groove_6208(inner=True)
     nodes, weights = roots_legendre(200)
     reach = math.log1p(radius**2 / (2.0 * R_x * gap))
@@ -226,7 +240,10 @@ def plates(inner: bool, gap: float) -> tuple[float, float]:
 @pytest.mark.parametrize("gap", [0.3e-6, 1e-6, 10e-6, 50e-6])
 @pytest.mark.parametrize("inner", [True, False])
 def test_open_contact_lies_between_two_readings_of_the_exact_gap(inner: bool, gap: float) -> None:
-    """Exact sphere in exact groove: 3 to 7 % below by projection, 10 to 39 % above by the ball's surface."""
+    """Compare with the exact sphere in its groove.
+
+    3 to 7 % below by projection, 10 to 39 % above by the ball's surface.
+    """
     R_x, R_y, radius, _, _ = groove_6208(inner)
     found = open_contact(R_x, R_y, radius, gap)
     surface, projected = plates(inner, gap)
@@ -239,7 +256,9 @@ SPHERE_PLANE = [(1e-4, 69.4814, 0.24), (1e-3, 55.0311, 0.30), (1e-2, 40.6929, 0.
 
 @pytest.mark.parametrize(("ratio", "exact", "below"), SPHERE_PLANE)
 def test_open_contact_against_the_exact_sphere_before_a_plane(ratio: float, exact: float, below: float) -> None:
-    """4 pi R sinh a sum 1/sinh(n a), cosh a = 1 + h/R (Boyer et al. 1994), and their 4 pi R [1 + ln(1 + R/h)/2].
+    """Compare with Boyer et al. 1994.
+
+    4 pi R sinh a sum 1/sinh(n a), cosh a = 1 + h/R, and their 4 pi R [1 + ln(1 + R/h)/2].
 
     Ours leaves out the half of the sphere that faces away: in a bearing it faces the other ring.
     """
@@ -255,7 +274,10 @@ def test_open_contact_against_the_exact_sphere_before_a_plane(ratio: float, exac
 
 
 def test_open_contact_meets_the_gap_integral_of_a_contact_without_load() -> None:
-    """Contact of 1 mN on the inner ring, its film as the gap: 1 % for the flattened ellipse."""
+    """Compare with a contact of 1 mN.
+
+    Inner ring, its film as the gap: 1 % for the flattened ellipse.
+    """
     R_x, R_y, radius, _, _ = groove_6208(inner=True)
     ellipse, film = hertz_contact(1e-3, R_x, R_y, STEEL), 1e-6
     context = dataclasses.replace(trial_context("ball_inner"), ball_diameter=2.0 * radius)

@@ -23,7 +23,10 @@ EXACT = "rounding"
 
 
 def test_cubic_damping() -> None:
-    """Syla et al. 2026, eq. 12-13: half of d_max at half of delta_max; work of a slow approach d_max v delta_max/2."""
+    """Compare damping with Syla et al. 2026, eq. 12-13.
+
+    Half of d_max at half of delta_max; work of a slow approach d_max v delta_max/2.
+    """
     options = {"coefficient": "2000 N s/m", "full_penetration": "4 um"}
     source = "Teutsch 2005 as Syla et al. 2026, eq. 12-13"
 
@@ -38,7 +41,10 @@ def test_cubic_damping() -> None:
 
 
 def test_a_blow_rebounds_as_hunt_and_crossley_say() -> None:
-    """A mass of 0.1 kg on k delta^1.5, struck at 0.1 and 0.2 m/s; what is of second order in alpha v is left out."""
+    """Compare the rebound with Hunt and Crossley.
+
+    A mass of 0.1 kg on k delta^1.5, struck at 0.1 and 0.2 m/s; terms of second order in alpha v are neglected.
+    """
     mass, stiffness, options = 0.1, 1e10, {"alpha": 0.1}
     for speed in (0.1, 0.2):
         delta, velocity, step = 0.0, speed, 5e-7
@@ -52,7 +58,10 @@ def test_a_blow_rebounds_as_hunt_and_crossley_say() -> None:
 
 
 def test_damping_by_default_is_a_time_times_the_slope_of_hertz() -> None:
-    """dQ/d(delta) = (3/2) Q/delta of any Hertzian contact; 4 % for the fit of Hamrock and Brewe."""
+    """Compare damping with the slope of Hertz.
+
+    dQ/d(delta) = (3/2) Q/delta of any Hertzian contact; 4 % for the fit of Hamrock and Brewe.
+    """
     context = trial_context("ball_inner")
     contact = hertz_contact(context.mean_load, context.radius_x, context.radius_y, context.e_eff)
     found = evaluate("damping/cubic", {"time_constant": "10 us"}, context, delta=1e-3, delta_dot=1.0, load=1e9)[0]
@@ -71,7 +80,10 @@ ZHU_CHENG = [
 
 @pytest.mark.parametrize(("L", "S", "stress", "factor"), ZHU_CHENG)
 def test_zhu_and_chengs_factor(L: float, S: float, stress: float, factor: float) -> None:
-    """[1 - 13.2 (p_0/E') L^0.42]/[1 + 0.213 (1 + 2.23 S^0.83) L^0.64]."""
+    """Compare with Zhu and Cheng's formula.
+
+    [1 - 13.2 (p_0/E') L^0.42]/[1 + 0.213 (1 + 2.23 S^0.83) L^0.64].
+    """
     u_mean = math.sqrt(L * 0.1 / (0.1 * 0.05))
     given = {"u_mean": u_mean, "u_slide": S * u_mean, "p_max": stress * STEEL, "E_eff": STEEL}
     found = evaluate("thermal_correction/zhu-cheng", **given, eta0=0.1, beta=0.05, k_oil=0.1)[0]
@@ -92,7 +104,10 @@ def test_bair_and_winers_flow_curve(rate: float, stress: float) -> None:
 
 
 def test_newtonian_film_is_couette_flow() -> None:
-    """tau = eta v/h, up to 0.9 of the limiting stress; the limit itself far beyond."""
+    """Compare with tau = eta v/h.
+
+    Up to 0.9 of the limiting stress; the limit itself is far beyond.
+    """
     given = {"p": 1e9, "T": 330.0, "ln_eta": math.log(2.0), "h": 0.5e-6}
     tau = evaluate("traction/newtonian", {"limit_ratio": 0.05}, slip=np.array([0.0, 1e-3, 10.0, 1e3]), **given)
     assert tau == pytest.approx([0.0, 4e3, 40e6, 50e6], rel=1e-12)
@@ -105,7 +120,10 @@ def test_isothermal_film_has_the_inlets_temperature() -> None:
 
 @pytest.mark.parametrize(("coefficient", "exponent"), [(2.3e-7, 1.4), (1e-6, 1.0)])
 def test_scheuermanns_power(coefficient: float, exponent: float) -> None:
-    """M = c_r Q^e_r at 1 N and 1 kN (Wingertszahn et al. 2023, eq. 19, which prints no constants)."""
+    """Compare M = c_r Q^e_r at two loads.
+
+    1 N and 1 kN (Wingertszahn et al. 2023, eq. 19, which prints no constants).
+    """
     solid = {"semi_a": 1e-3, "semi_b": 1e-4, "R_x": 5e-3, "R_y": 0.1, "R_ball": 6e-3}
     options = {"coefficient": coefficient, "exponent": exponent}
     for load in (1.0, 1000.0):
@@ -119,7 +137,10 @@ TEUTSCH = [(0.0, 0.0), (0.005, 0.0825), (0.01, 0.12), (0.055, 0.105), (0.1, 0.09
 
 @pytest.mark.parametrize(("slip", "mu"), TEUTSCH)
 def test_teutschs_cubic_coefficient(slip: float, mu: float) -> None:
-    """mu = h + a d^2 (3 - 2 d) with mu_s 0.12 at 0.01 m/s and mu_d 0.09 at 0.1 m/s: 11/16 mu_s at v_s/2."""
+    """Compare friction with Teutsch's polynomial.
+
+    mu = h + a d^2 (3 - 2 d). mu_s 0.12 at 0.01 m/s and mu_d 0.09 at 0.1 m/s: 11/16 mu_s at v_s/2.
+    """
     found = evaluate("boundary_friction/cubic", slip=slip, p=1e9, u_mean=1.0)[0]
     Published(mu, "Wingertszahn et al. 2023, Lubricants 11, 369, eq. 21", EXACT, rel=1e-12).check(float(found))
 
@@ -143,7 +164,10 @@ GUIDES = {
 
 @pytest.mark.parametrize("name", GUIDES)
 def test_a_blow_against_a_guide_lasts_half_a_period(name: str) -> None:
-    """A mass on a spring of 5e6 N/m leaves after pi sqrt(m/k) as fast as it came; leapfrog, 4000 steps per blow."""
+    """Compare the blow with pi sqrt(m/k).
+
+    A mass on a spring of 5e6 N/m leaves as fast as it came; leapfrog, 4000 steps per blow.
+    """
     element, direction = GUIDES[name]
     context, n = trial_context(element), np.array(direction)
     mass, stiffness, speed = 0.01, 5e6, 0.3
@@ -173,7 +197,10 @@ def test_constant_permittivity_is_what_was_given() -> None:
 
 
 def test_bushing_is_hooke_and_newton_along_each_axis() -> None:
-    """F = F_0 - k r - c v and M = -k_t phi - c_t omega, axis by axis; exact."""
+    """Compare force and moment exactly, axis by axis.
+
+    F = F_0 - k r - c v and M = -k_t phi - c_t omega.
+    """
     options = {
         "stiffness_x": "2 N/um", "stiffness_y": "3 N/um", "damping_z": "40 N s/m", "preload_x": "5 N",
         "tilt_stiffness": "6 N m/mrad", "tilt_damping": "0.7 N m s/rad", "spin_damping": "0.01 N m s/rad",
@@ -213,7 +240,10 @@ def test_no_thermal_correction_leaves_the_film() -> None:
 
 
 def test_zeros_of_a_chirp() -> None:
-    """A linear sweep from f_0 to f_1 in T has turned f_0 t + (f_1 - f_0) t^2/(2 T) times; after it, f_1 per second."""
+    """Compare the turns of a linear sweep.
+
+    From f_0 to f_1 in T it has turned f_0 t + (f_1 - f_0) t^2/(2 T) times; after it, f_1 per second.
+    """
     sweep = {"start": "20 Hz", "end": "80 Hz", "duration": "2 s"}
     for turns in (0.0, 0.5, 7.0, 63.5, 100.0):
         t = (math.sqrt(20.0**2 + 2.0 * 30.0 * turns) - 20.0) / 30.0

@@ -44,7 +44,10 @@ HARRIS = [
 def test_exact_hertz_meets_the_table_of_dimensionless_numbers(
     F_rho: float, a_star: float, b_star: float, delta_star: float
 ) -> None:
-    """a = a* (3 Q/(2 S E))^(1/3) etc. for two equal bodies, S the sum of curvatures; 0.2 % for the table's digits."""
+    """Compare Hertz with a table to 0.2 %.
+
+    a = a* (3 Q/(2 S E))^(1/3) etc. for two equal bodies, S the sum of curvatures; 0.2 % is the table's digits.
+    """
     total = 200.0
     R_x, R_y = 2.0 / (total * (1.0 + F_rho)), 2.0 / (total * (1.0 - F_rho))
     load, a, b, _ = evaluate("normal_contact/hertz-exact", delta=5e-6, R_x=R_x, R_y=R_y, E_eff=STEEL)
@@ -55,7 +58,10 @@ def test_exact_hertz_meets_the_table_of_dimensionless_numbers(
 
 
 def test_error_of_the_hamrock_brewe_fit_is_the_stated_one() -> None:
-    """Ratios of radii 12..60, equal load: pressure -0.2..+1.4 %, a -2.5..+0.5 % (Hamrock and Brewe: within 3 %)."""
+    """Compare the fit's error with the published one.
+
+    Ratios of radii 12..60, equal load: pressure -0.2..+1.4 %, a -2.5..+0.5 % (Hamrock and Brewe: within 3 %).
+    """
     pressure, major = [], []
     for ratio in np.geomspace(12.0, 60.0, 12):
         fit = evaluate("normal_contact/hamrock-brewe", delta=5e-6, R_x=5e-3, R_y=5e-3 * ratio, E_eff=STEEL)
@@ -86,7 +92,10 @@ def test_film_of_the_6208(name: str, expected: Published) -> None:
 
 
 def test_misprinted_exponent_and_sum_velocity_would_nearly_double_the_film() -> None:
-    """Syla et al. 2026 print U^0.67 (eq. 25) and the sum velocity (Table 2): 1.9 times the film; 3 % for the regime."""
+    """Compute the film with the misprinted exponent.
+
+    Syla et al. 2026 print U^0.67 (eq. 25) and the sum velocity (Table 2): 1.9 times the film; 3 % for the regime.
+    """
     R_x, R_y = B6208.radii(True)
     u_mean = B6208.mean_velocity(2750.0 * math.pi / 30.0)
     given = {"cos2": 1.0, "load": 600.0, "R_x": R_x, "R_y": R_y, "E_eff": STEEL, "eta0": 0.0976, "alpha_p": 20.4e-9}
@@ -97,7 +106,10 @@ def test_misprinted_exponent_and_sum_velocity_would_nearly_double_the_film() -> 
 
 
 def test_circular_film_coefficient_of_chittenden() -> None:
-    """R_s = R_e: 4.31 {1 - exp(-1.23)} = 3.051 in the centre, 3.68 {1 - exp(-0.67)} = 1.797 at the minimum."""
+    """Compare coefficients for R_s = R_e.
+
+    4.31 {1 - exp(-1.23)} = 3.051 in the centre, 3.68 {1 - exp(-0.67)} = 1.797 at the minimum.
+    """
     given = {
         "cos2": math.cos(0.3) ** 2,
         "load": 500.0,
@@ -116,14 +128,20 @@ def test_circular_film_coefficient_of_chittenden() -> None:
 
 @pytest.mark.parametrize(("L", "factor"), [(1.0, 0.797565), (10.0, 0.485898), (0.1, 0.942619)])
 def test_murch_wilson_closed_form(L: float, factor: float) -> None:
-    """3.94/(3.94 + L^0.62) by hand for three thermal parameters (Murch and Wilson 1975; Syla et al. 2026, eq. 23)."""
+    """Compute 3.94/(3.94 + L^0.62) by hand.
+
+    Three thermal parameters (Murch and Wilson 1975; Syla et al. 2026, eq. 23).
+    """
     given = {"u_slide": 0.0, "p_max": 1e9, "E_eff": STEEL, "eta0": 0.1, "beta": 0.05, "k_oil": 0.1}
     u_mean = math.sqrt(L * 0.1 / (0.1 * 0.05))
     assert evaluate("thermal_correction/murch-wilson", u_mean=u_mean, **given)[0] == pytest.approx(factor, rel=1e-5)
 
 
 def test_zhu_cheng_agrees_with_murch_wilson_in_pure_rolling() -> None:
-    """Two independent fits of the same effect: within 12 % up to L = 5 at 1 GPa without sliding."""
+    """Compare two fits in pure rolling.
+
+    Within 12 % up to L = 5 at 1 GPa without sliding.
+    """
     for L in (0.1, 0.5, 1.0, 2.0, 5.0):
         given = {"u_slide": 0.0, "p_max": 1e9, "E_eff": STEEL, "eta0": 0.1, "beta": 0.05, "k_oil": 0.1}
         u_mean = math.sqrt(L * 0.1 / (0.1 * 0.05))

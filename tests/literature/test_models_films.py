@@ -23,7 +23,10 @@ def test_field_of_a_smooth_film() -> None:
 
 @pytest.mark.parametrize("u", [0.01, 0.3, 0.5, 0.9, 0.999])
 def test_statistics_of_the_lowest_spot(u: float) -> None:
-    """breakdown/statistical against the weakest link of N spots by scipy: not broken down with probability u."""
+    """Compare the weakest of N spots with scipy.
+
+    breakdown/statistical: not broken down with probability u.
+    """
     changes = {"strength": "30 V/um", "correlation_length": "10 um"}
     found = evaluate("breakdown/statistical", changes, u_1=u, u_2=0.5, **FILM)
     expected = breakdown_voltage(1.0 - u, FILM["h"], FILM["sigma"], 30e6, FILM["area"] / 1e-10)
@@ -31,7 +34,10 @@ def test_statistics_of_the_lowest_spot(u: float) -> None:
 
 
 def test_particles_bridge_the_film_as_often_as_poisson_says() -> None:
-    """breakdown/particles: below u_2 = 1 - exp(-n A h) one of 0.7 um leaves E_b (h - d), else there is none."""
+    """Compare bridges with a Poisson law.
+
+    breakdown/particles: below u_2 = 1 - exp(-n A h) one of 0.7 um leaves E_b (h - d), else there is none.
+    """
     changes = {"strength": "30 V/um", "particle_size": "0.7 um", "particle_density": "100 1/mm3"}
     chance = -math.expm1(-1e11 * FILM["area"] * FILM["h"])
     without = evaluate("breakdown/statistical", {"strength": "30 V/um"}, u_1=0.9, u_2=0.5, **FILM)
@@ -41,7 +47,10 @@ def test_particles_bridge_the_film_as_often_as_poisson_says() -> None:
 
 
 def test_arcs_after_ohm() -> None:
-    """discharge/resistance and discharge/arc-voltage hand over what they are given: i = (V - U)/R down to a least."""
+    """Compare arcs with i = (V - U)/R.
+
+    discharge/resistance and discharge/arc-voltage return their given values, down to a least.
+    """
     given = {"V": 12.0, "h": 0.8e-6, "area": 2.75e-6}
     channel = {"resistance": "4 Ohm", "least_current": "20 mA"}
     assert tuple(evaluate("discharge/resistance", channel, **given)) == (4.0, 0.0, 0.02)

@@ -86,7 +86,10 @@ def contact_6208(**change: float) -> dict[str, Any]:
 
 
 def test_two_laws_of_rolling_resistance_differ_by_a_known_amount() -> None:
-    """Biboulet-Houpert lies 0..56 % above Goksem-Hargreaves over speeds and loads of bearings: a model uncertainty."""
+    """Compare two laws of rolling resistance.
+
+    Biboulet-Houpert lies 0..56 % above Goksem-Hargreaves over speeds and loads of bearings: a model uncertainty.
+    """
     excess = []
     for u in (0.5, 2.0, 8.0, 20.0):
         for eta in (0.01, 0.03, 0.1):
@@ -100,7 +103,10 @@ def test_two_laws_of_rolling_resistance_differ_by_a_known_amount() -> None:
 
 
 def test_strips_agree_with_the_point_contact_formula() -> None:
-    """Point: 7.5826 E' R_x^2 (R_y/R_x)^0.4055 W^(1/3) U^0.75 (Houpert, common form); two routes, 20 %."""
+    """Compare strips with Houpert's formula of points.
+
+    7.5826 E' R_x^2 (R_y/R_x)^0.4055 W^(1/3) U^0.75 (common form); two routes, 20 %.
+    """
     given = contact_6208()
     U = given["eta0"] * given["u_mean"] / (STEEL * given["R_x"])
     W = given["load"] / (STEEL * given["R_x"] ** 2)
@@ -145,7 +151,10 @@ def inlet_integral(U: float, W: float, G: float) -> float:
 
 @pytest.mark.parametrize("G_U", [1e-7, 1e-6, 1e-5])
 def test_goksem_hargreaves_is_the_inlet_integral(G_U: float) -> None:
-    """F/l = 1/2 int (h - h_c) dp of Grubin's inlet, solved here; 25 % for a fit to full solutions."""
+    """Compare with Grubin's inlet integral, solved here.
+
+    F/l = 1/2 int (h - h_c) dp; 25 % for a fit to full solutions.
+    """
     W, G = 1e-4, 4700.0
     U = G_U / G
     fitted = 4.318 * G_U**0.658 * W**0.0126
@@ -164,7 +173,10 @@ HYSTERESIS = [
 
 @pytest.mark.parametrize(("name", "force", "torque"), HYSTERESIS)
 def test_hysteresis_torque_of_the_6319(name: str, force: float, torque: float) -> None:
-    """Power M u_m/R_x per contact over the speed [N mm], alpha_h = 0.01."""
+    """Compare hysteresis torque of the 6319.
+
+    Power M u_m/R_x per contact over the speed [N mm], alpha_h = 0.01.
+    """
     u_over_speed = B6319.mean_velocity(1.0)
     sums = []
     for turn in B6319.positions():
@@ -179,7 +191,10 @@ def test_hysteresis_torque_of_the_6319(name: str, force: float, torque: float) -
 
 
 def test_loss_factor_is_the_work_on_the_front_half_of_the_contact() -> None:
-    """Johnson 1985, section 9.2: M = alpha_h int p x dA over the front half = alpha_h (3/16) Q b, by quadrature."""
+    """Compare with Johnson 1985, section 9.2.
+
+    M = alpha_h int p x dA over the front half = alpha_h (3/16) Q b, by quadrature.
+    """
     x = (np.arange(2000) + 0.5) / 2000
     y = (np.arange(4000) + 0.5) / 2000 - 1.0
     X, Y = np.meshgrid(x, y)
@@ -192,7 +207,10 @@ def test_loss_factor_is_the_work_on_the_front_half_of_the_contact() -> None:
 
 
 def test_houpert_corresponds_to_published_loss_factors() -> None:
-    """6319 at C/P = 10, most loaded ball: alpha_h 0.047 on the inner and 0.033 on the outer ring; 8 %."""
+    """Compare Houpert with published loss factors.
+
+    6319 at C/P = 10, most loaded ball: alpha_h 0.047 on the inner and 0.033 on the outer ring; 8 %.
+    """
     contacts = B6319.contacts(16.0e3, CLEARANCE, 0.0)
     for each, expected in zip(contacts[:2], (0.047, 0.033), strict=True):
         solid = {"semi_a": each.contact.semi_a, "semi_b": each.contact.semi_b, "R_x": each.R_x, "R_y": each.R_y}
@@ -202,21 +220,30 @@ def test_houpert_corresponds_to_published_loss_factors() -> None:
 
 
 def test_load_share_of_the_sister_model() -> None:
-    """Wingertszahn et al. 2023: B 2.32, C 0.97 (sigma 0.16 um) and B 2.1, C 0.85 (0.10 um) at Lambda = 1."""
+    """Compare load shares with Wingertszahn et al. 2023.
+
+    B 2.32, C 0.97 (sigma 0.16 um) and B 2.1, C 0.85 (0.10 um) at Lambda = 1.
+    """
     label = "asperity_load/zhou-hoeprich"
     assert evaluate(label, Lambda=1.0)[0] == pytest.approx(0.09827, rel=1e-3)
     assert evaluate(label, {"B": 2.1, "C": 0.85}, Lambda=1.0)[0] == pytest.approx(0.12246, rel=1e-3)
 
 
 def test_mean_shear_stress_of_a_typical_traction_curve() -> None:
-    """Johnson and Tevaarwerk 1977: the Eyring branch grows by tau_e ln 10 per decade of the rate of shear."""
+    """Compare with Johnson and Tevaarwerk 1977.
+
+    The Eyring branch grows by tau_e ln 10 per decade of the rate of shear.
+    """
     slip = np.array([0.01, 0.1])
     tau = evaluate("traction/ree-eyring", {"limit_ratio": 0.3}, slip=slip, p=1e9, T=330.0, ln_eta=math.log(1e6), h=5e-7)
     assert np.diff(tau)[0] == pytest.approx(8e6 * math.log(10.0), rel=1e-3)
 
 
 def test_flash_temperature_of_a_band_source() -> None:
-    """Surface of a half-space under a moving band, solved by the exact kernel K_0 (Jaeger 1942); up to 7 % low."""
+    """Compare with Jaeger's kernel K_0 (1942).
+
+    Surface of a half-space under a moving band; up to 7 % low.
+    """
     from scipy.integrate import quad
     from scipy.special import k0e
 

@@ -43,7 +43,7 @@ def test_the_pressure_across_carries_the_load(name: str) -> None:
 
 
 def test_two_raceways_in_series_are_iso_16281() -> None:
-    """normal_contact, iso-line."""
+    """Compare `normal_contact`, `iso-line` with two raceways."""
     out = outputs()
     line_contact.iso_line(4e-6, RADIUS, LENGTH, MODULUS, None, out)
     both = float(theory.iso_load(8e-6, LENGTH))
@@ -52,7 +52,7 @@ def test_two_raceways_in_series_are_iso_16281() -> None:
 
 @pytest.mark.parametrize("load", [50.0, 2e3, 5e4])
 def test_the_logarithm_is_lundbergs(load: float) -> None:
-    """normal_contact, hertz-line."""
+    """Compare `normal_contact`, `hertz-line` with Lundberg."""
     out = outputs()
     approach = theory.finite_line_approach(load, LENGTH, RADIUS, MODULUS)
     line_contact.hertz_line_contact(approach, RADIUS, LENGTH, MODULUS, None, out)
@@ -71,9 +71,10 @@ def test_open_lines_carry_nothing_and_loads_grow(name: str) -> None:
 
 
 def test_films_of_lines() -> None:
-    """film_thickness, moes-line and dowson-toyoda.
+    """Compare `film_thickness`, `moes-line` and `dowson-toyoda`, by hand.
 
-    A roller of the 32216: 70 N/mm, 5.5 m/s, 0.05 Pa s; Dowson and Toyoda by hand."""
+    A roller of the 32216: 70 N/mm, 5.5 m/s, 0.05 Pa s; Dowson and Toyoda by hand.
+    """
     moes, toyoda = outputs(2), outputs(2)
     given = (5.5, 1.0, 70e3 * LENGTH, RADIUS, LENGTH, MODULUS, 0.05, 20e-9)
     line_contact.moes_line(*given, FLOORS, moes)
@@ -91,7 +92,7 @@ def test_films_of_lines() -> None:
 
 
 def test_rolling_resistance_of_a_light_line_is_dowson_and_higginsons() -> None:
-    """rolling_resistance, biboulet-houpert-line."""
+    """Compare `rolling_resistance`, `biboulet-houpert-line` with Dowson and Higginson."""
     # 4.58 eta u sqrt(R/h) on each surface with Martin's h = 4.9 eta u R/w (Dowson and Higginson 1966)
     out, load, speed, eta = outputs(1), 5.0, 3.0, 0.05
     line_contact.biboulet_houpert_line(
@@ -103,7 +104,7 @@ def test_rolling_resistance_of_a_light_line_is_dowson_and_higginsons() -> None:
 
 
 def test_hysteresis_is_the_work_on_the_front_half() -> None:
-    """elastic_hysteresis, johnson-line."""
+    """Compare `elastic_hysteresis`, `johnson-line` with its work."""
     # the pressure of the front half about the middle: int_0^b x p dx
     out, width = outputs(1), 1e-4
     line_contact.johnson_line(1e3, 0.5 * LENGTH, width, RADIUS, LENGTH, 8e-3, LossFactor(loss_factor=0.02), out)
@@ -113,7 +114,7 @@ def test_hysteresis_is_the_work_on_the_front_half() -> None:
 
 
 def test_squeezed_film_of_a_cylinder() -> None:
-    """damping, squeeze-line."""
+    """Compare `damping`, `squeeze-line` with a cylinder's film."""
     context = replace(trial_context("ball_inner"), radius_x=RADIUS, radius_y=LENGTH)
     par = line_contact.prepare_line_film(SqueezeFilm(), context)
     out, eta, speed, gap = outputs(1), 0.05, 1e-3, 3e-6
@@ -132,7 +133,10 @@ def test_squeezed_film_of_a_cylinder() -> None:
 
 
 def test_bars_and_ends_of_a_pocket() -> None:
-    """cage_contact, roller-pocket: k (e - e_0/2) beyond the play, at the roller's radius; ends at its axis."""
+    """Compare `cage_contact`, `roller-pocket` at bars and ends.
+
+    k (e - e_0/2) beyond the play, at the roller's radius; ends at its axis.
+    """
     context = trial_context("ball_cage")
     par = roller_pocket.prepare_roller(
         RollerPocket(film_width=0.0, end_clearance="0.4 mm", mu_s=0.0, mu_d=0.0), context
@@ -175,7 +179,10 @@ def test_a_bar_squeezes_oil_as_a_cylinder_does() -> None:
 
 
 def test_two_rollers_push_rub_and_squeeze() -> None:
-    """cage_contact, roller-roller: k (e - e_0/2) once the axes are a diameter apart, mu times it, a film before."""
+    """Compare `cage_contact`, `roller-roller` by hand.
+
+    k (e - e_0/2) once the axes are a diameter apart, mu times it, and a film before.
+    """
     context = replace(trial_context("ball_ball"), radius_y=LENGTH)
     par = roller_pocket.prepare_pair(Neighbours(mu_s=0.08, mu_d=0.05), context)
     diameter, over, still, out = context.ball_diameter, 3e-6, np.zeros(3), outputs(6)
@@ -201,7 +208,7 @@ def test_two_rollers_push_rub_and_squeeze() -> None:
 
 @pytest.mark.parametrize("width", [0.0, 5e-5, 2e-4])
 def test_capacitance_of_the_gap(width: float) -> None:
-    """capacitance, line-gap."""
+    """Compare `capacitance`, `line-gap` with the gap."""
     out, film, vacuum = outputs(1), 0.5e-6, 8.8541878128e-12
     line_contact.line_gap(1e-10, film, 0.5 * LENGTH, width, RADIUS, LENGTH, 0.0, 0.0, 0.0, 2.2, None, out)
     side = quad(
@@ -216,7 +223,9 @@ def test_capacitance_of_the_gap(width: float) -> None:
 
 @pytest.mark.parametrize(("rpm", "level"), [(500.0, 0.0), (3000.0, 4e-3), (6000.0, -2e-3)])
 def test_drag_of_rollers_is_that_of_the_catalogue(rpm: float, level: float) -> None:
-    """fluid_drag, skf-rollers: at kinematic speeds the rollers lose SKF's torque times the speed, on average.
+    """Compare `fluid_drag`, `skf-rollers` with the catalogue.
+
+    At kinematic speeds the rollers lose SKF's torque times the speed, on average.
 
     The torque by hand for H = level + D/2 of an NU 208, d 40, D 80, B 18 mm; the catalogue's V_M from the chart.
     """

@@ -50,20 +50,28 @@ def torque(name: str, rpm: float, **parameters: float | str) -> float:
 
 @pytest.mark.parametrize(("rpm", "expected"), [(500.0, 6.841), (1500.0, 61.57), (3000.0, 246.3)])
 def test_skf_drag_of_the_6319(rpm: float, expected: float) -> None:
-    """V_M 4.5e-5, K_ball = 3.1 x 295/105 x 1e-12, d_m 147.5 mm; by hand."""
+    """Compute drag of the 6319 by hand.
+
+    V_M 4.5e-5, K_ball = 3.1 x 295/105 x 1e-12, d_m 147.5 mm.
+    """
     source = "SKF 2008; Syla et al. 2026, eq. 40"
     Published(expected, source, "digits", rel=1e-3).check(torque("skf-catalogue", rpm, v_m=4.5e-5, edition="2008"))
 
 
 @pytest.mark.parametrize(("rpm", "expected"), [(500.0, 512.6), (1500.0, 1066.1), (3000.0, 1692.4)])
 def test_schaeffler_idle_torque_of_the_6319(rpm: float, expected: float) -> None:
-    """M0 = f0 1e-7 d_m^3 (nu n)^(2/3) with f0 2.3 (oil bath, series 63), 36.6 mm2/s; by hand, whole M0."""
+    """Compute Schaeffler's M0 of the 6319 by hand.
+
+    M0 = f0 1e-7 d_m^3 (nu n)^(2/3) with f0 2.3 (oil bath, series 63), 36.6 mm2/s.
+    """
     source = "Schaeffler; Syla et al. 2026, eq. 38"
     Published(expected, source, "digits", rel=5e-4).check(torque("schaeffler-catalogue", rpm, fluid_share=1.0))
 
 
 def test_two_catalogues_agree_on_the_order_of_the_fluid_loss() -> None:
-    """At 3000 1/min the fluid share of Schaeffler's M0 (f0 bath less mist) is 1..5 times SKF's drag with V_M 4.5e-5.
+    """Compare fluid losses of two catalogues.
+
+    At 3000 1/min the fluid share of Schaeffler's M0 (f0 bath less mist) is 1..5 times SKF's drag with V_M 4.5e-5.
 
     Table 4 of Syla et al. 2026 has 1380 N mm for everything at C/P = 10: a drag above half of it would be absurd.
     """
@@ -78,7 +86,10 @@ def sphere(v: float, omega: float, nu: float) -> np.ndarray[tuple[int], np.dtype
 
 
 def test_stokes_and_kirchhoff_at_small_reynolds_numbers() -> None:
-    """F = 6 pi mu R v (Stokes 1851) and M = 8 pi mu R^3 omega (Kirchhoff 1876); 0.5 % at Re = 6e-4 and 2e-4."""
+    """Compare with Stokes 1851 and Kirchhoff 1876.
+
+    F = 6 pi mu R v and M = 8 pi mu R^3 omega; 0.5 % at Re = 6e-4 and 2e-4.
+    """
     nu, R = 1e-2, 15e-3
     force, moment = sphere(2e-4, 1e-2, nu)
     assert force == pytest.approx(6.0 * math.pi * RHO * nu * R * 2e-4, rel=5e-3)
@@ -100,7 +111,10 @@ def test_standard_drag_curve(Re: float, C_D: float) -> None:
 
 @pytest.mark.parametrize(("Re", "C_D"), DRAG)
 def test_standard_drag_curve_in_a_mixture(Re: float, C_D: float) -> None:
-    """Oil in 2 % of the cavity, the rest air: the curve holds with density and viscosity of the mixture."""
+    """Compare drag in 2 % of oil, rest air.
+
+    The curve holds with density and viscosity of the mixture.
+    """
     context, nu, share, air, R = flooded_6319(), 1e-5, 0.02, 1.2, 15e-3
     density = share * RHO + (1.0 - share) * air
     v = Re * (share * RHO * nu + (1.0 - share) * 1.8e-5) / density / (2.0 * R)
@@ -123,7 +137,10 @@ def test_moment_of_a_spinning_sphere(Re: float, C_M: float) -> None:
 
 
 def test_share_of_drag_is_that_of_a_free_sphere() -> None:
-    """Default drag_share 0.8, a little below: powers of a free sphere at the speeds of a 6319, 500 to 3000 1/min."""
+    """Compare the default share with a free sphere.
+
+    0.8 is a little below: powers of a free sphere at the speeds of a 6319, 500 to 3000 1/min.
+    """
     for rpm in (500.0, 1500.0, 3000.0):
         v, omega = kinematic_speeds(flooded_6319(), rpm * math.pi / 30.0)
         force, moment = sphere(v, omega, NU)
@@ -133,7 +150,9 @@ def test_share_of_drag_is_that_of_a_free_sphere() -> None:
 
 
 def test_kinematic_speeds_of_the_6319() -> None:
-    """Harris and Kotzalas 2006, eq. 10.12 and 10.14: cage 0.3983, ball 2.3566 of the ring's speed against the cage.
+    """Compare speeds of the 6319 with Harris.
+
+    Harris and Kotzalas 2006, eq. 10.12 and 10.14: cage 0.3983, ball 2.3566 of the ring's speed against the cage.
 
     Against the oil, which is at rest, the ball turns slower by the cage's own speed: it rolls on the outer ring.
     """

@@ -78,13 +78,16 @@ def test_fva3_viscosity(celsius: float, expected: Published) -> None:
 
 
 def test_fva3_is_an_iso_vg_100_oil() -> None:
-    """ISO 3448: VG 100 has 90..110 mm2/s at 40 degC."""
+    """Compare FVA3 with 90..110 mm2/s (ISO 3448)."""
     ln_eta, rho = evaluate("rheology/vogel-dicke", FVA3, p=0.0, T=313.15)
     assert 90.0 < 1e6 * math.exp(ln_eta[0]) / rho[0] < 110.0
 
 
 def test_fva3_under_pressure_by_hand() -> None:
-    """0.5 GPa = 5000 bar at 80 degC: exponent p/[a1 + a2 t + (b1 + b2 t) p]."""
+    """Compute viscosity at 0.5 GPa and 80 degC.
+
+    0.5 GPa = 5000 bar: exponent p/[a1 + a2 t + (b1 + b2 t) p].
+    """
     exponent = 5000.0 / (327.7918 + 2.9862 * 80.0 + (4.419e-3 + 3.0115e-4 * 80.0) * 5000.0)
     expected = math.log(0.062e-3) + 1021.7 / (101.5517 + 80.0) + exponent
     ln_eta, _ = evaluate("rheology/vogel-dicke", FVA3, p=0.5e9, T=353.15)
@@ -92,14 +95,20 @@ def test_fva3_under_pressure_by_hand() -> None:
 
 
 def test_generic_oil_passes_its_two_points() -> None:
-    """ASTM D341 through nu40 and nu100; 1e-4 for the polynomial."""
+    """Compare the oil with its two given viscosities.
+
+    ASTM D341 through nu40 and nu100; 1e-4 for the polynomial.
+    """
     for name in ("roelands", "barus-limited"):
         ln_eta, rho = evaluate(f"rheology/{name}", VG100, p=0.0, T=np.array([313.15, 373.15]))
         assert 1e6 * np.exp(ln_eta) / rho == pytest.approx([100.0, 11.2], rel=1e-4)
 
 
 def test_roelands_meets_its_pole_pressure_and_viscosity() -> None:
-    """ln(ln eta - ln 6.31e-5) is linear in ln(1 + 5.1e-9 p) with the slope Z: the law's two constants."""
+    """Compare Roelands' two constants.
+
+    ln(ln eta - ln 6.31e-5) is linear in ln(1 + 5.1e-9 p) with the slope Z.
+    """
     p = np.linspace(0.0, 1e8, 5)
     ln_eta, _ = evaluate("rheology/roelands", VG100, p=p, T=313.15)
     level = np.log(ln_eta - math.log(6.31e-5))
@@ -109,7 +118,10 @@ def test_roelands_meets_its_pole_pressure_and_viscosity() -> None:
 
 
 def test_compression_after_dowson_and_higginson() -> None:
-    """1 GPa compresses a mineral oil by 22 % in density, at most 35 % at any pressure (Dowson and Higginson 1966)."""
+    """Compare density with Dowson and Higginson 1966.
+
+    1 GPa compresses a mineral oil by 22 % in density, any pressure by at most 35 %.
+    """
     _, rho = evaluate("rheology/roelands", VG100, p=np.array([0.0, 1e9, 1e12]), T=313.15)
     assert rho[1] / rho[0] == pytest.approx(1.2222, rel=1e-4)
     assert rho[2] / rho[0] == pytest.approx(1.353, rel=1e-3)
@@ -117,7 +129,10 @@ def test_compression_after_dowson_and_higginson() -> None:
 
 @pytest.mark.parametrize("label", ["rheology/roelands", "rheology/vogel-dicke", "rheology/bode"])
 def test_mineral_oils_of_one_grade_stiffen_alike_at_moderate_pressure(label: str) -> None:
-    """Two measured oils and one by Gold's alpha_p, all about VG 100: 30..80 times as viscous at 0.2 GPa and 40 degC."""
+    """Compare three oils of VG 100 at 0.2 GPa.
+
+    Two measured and one by Gold's alpha_p: 30..80 times as viscous at 40 degC.
+    """
     given = {"rheology/roelands": VG100, "rheology/vogel-dicke": FVA3, "rheology/bode": BODE_VISCOSITY}[label]
     ln_eta, _ = evaluate(label, given, p=np.array([0.0, 2e8]), T=313.15)
     assert 30.0 < math.exp(ln_eta[1] - ln_eta[0]) < 80.0

@@ -31,7 +31,10 @@ def carter(stuck: float) -> float:
 
 @pytest.mark.parametrize("stuck", [0.95, 0.8, 0.5, 0.2, 0.0])
 def test_carters_creep_curve(stuck: float) -> None:
-    """Force of the law at the creep mu b/R (1 - c/b) that leaves the share c/b of the strip stuck."""
+    """Compare force with Carter's stuck share.
+
+    At the creep mu b/R (1 - c/b) the share c/b of the strip sticks.
+    """
     context = trial_context("ball_inner")
     half_width_over_radius = 0.03
     largest = 0.25 * context.e_eff * half_width_over_radius  # p_0 = E' b/(4 R), E' = 2 E*
@@ -44,7 +47,10 @@ def test_carters_creep_curve(stuck: float) -> None:
 
 
 def test_micro_slip_scales_with_the_rolling_speed() -> None:
-    """The same creep gives the same friction at any speed: nothing is smoothed away when a bearing turns slowly."""
+    """Scale creep with the rolling speed.
+
+    The same creep gives the same friction at any speed, so that nothing is smoothed away in a slow bearing.
+    """
     slow, fast = (
         evaluate("boundary_friction/micro-slip", {"v_rest": "1e-9 mm/s"}, slip=1e-3 * u, p=1e9, u_mean=u)[0]
         for u in (1e-3, 10.0)
@@ -62,7 +68,10 @@ def test_transition_of_spikes_and_olver(film: float, share: float) -> None:
 
 @pytest.mark.parametrize("share", [0.0, 0.25, 1.0])
 def test_friction_by_shares_of_the_load(share: float) -> None:
-    """The transition that Spikes and Olver fitted: friction of the film and of the boundary, each with its share."""
+    """Share friction between film and boundary.
+
+    The transition is the one that Spikes and Olver fitted.
+    """
     film, solid = evaluate("mixing/load-share", **_press(200.0), psi=share, Lambda=1.0)
     source = "Spikes and Olver 2003, Lubr. Sci. 16(1), 3: mu = mu_film + (mu_bl - mu_film) psi; mu 0.04 and 0.12"
     Published(0.04 + 0.08 * share, source, "rounding", rel=1e-12).check(0.04 * float(film) + 0.12 * float(solid))
@@ -70,7 +79,10 @@ def test_friction_by_shares_of_the_load(share: float) -> None:
 
 @pytest.mark.parametrize(("load", "ratio"), [(500.0, 400.0), (100.0, 2000.0), (20.0, 10_000.0), (5.0, 40_000.0)])
 def test_real_area_of_plates_of_steel(load: float, ratio: float) -> None:
-    """Nominal over real area of steel plates, 20 cm2, that yield at 100 kgf/mm2, under loads in kgf."""
+    """Compare real areas of steel plates.
+
+    Nominal over real area, 20 cm2, yield at 100 kgf/mm2, under loads in kgf.
+    """
     side = math.sqrt(20e-4 / math.pi)
     press = {"load": load * 9.80665, "p_max": 1e6, "semi_a": side, "semi_b": side}
     film, solid = evaluate("mixing/contact-area", {"hardness": "980.665 MPa"}, **press, psi=1.0, Lambda=0.0)

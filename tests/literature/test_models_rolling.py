@@ -40,7 +40,9 @@ SOLVED = {1.0: 0.0623, 3.0: 0.1455, 10.0: 0.3172, 60.0: 0.8781, 100.0: 1.1290}
 
 
 def test_zhou_and_hoeprichs_solved_contacts() -> None:
-    """Their fit against their solutions of line contacts over two decades of speed; radius and oil are not printed.
+    """Compare the shape of Zhou and Hoeprich's solutions.
+
+    Their fit against their solutions of line contacts over two decades of speed; radius and oil are not printed.
 
     So only the shape is compared: both over their geometric means. The fit is 13 % off at the ends.
     """
@@ -52,7 +54,10 @@ def test_zhou_and_hoeprichs_solved_contacts() -> None:
 
 
 def test_matsuyamas_fit() -> None:
-    """7.1 U^0.75 G^-0.04 W^0.08, by hand; within 5 % of Biboulet and Houpert's line law, found on another way."""
+    """Compute Matsuyama's fit by hand.
+
+    7.1 U^0.75 G^-0.04 W^0.08; within 5 % of Biboulet and Houpert's line law, which has another origin.
+    """
     expected = 7.1 * 1e-10**0.75 * (ALPHA * STEEL) ** -0.04 * 1e-4**0.08
     source = "Matsuyama, in Manjunath et al. 2023, Machines 11, 801, table 1, by hand"
     Published(expected, source, "digits", rel=1e-3).check(strip("matsuyama", 1e-10, 1e-4, exponent=0.08))
@@ -62,7 +67,10 @@ def test_matsuyamas_fit() -> None:
 
 
 def test_aiharas_moment() -> None:
-    """88/G (G U)^0.658 W^0.31 by hand; above Goksem and Hargreaves, from which he set out, by the load."""
+    """Compute Aihara's moment by hand.
+
+    88/G (G U)^0.658 W^0.31; above Goksem and Hargreaves, from which he set out, by the load.
+    """
     G = ALPHA * STEEL
     expected = 88.0 / G * (G * 1e-10) ** 0.658 * 1e-4**0.31
     source = "Aihara 1987, J. Tribol. 109, 471, as transcribed by others, by hand"
@@ -90,7 +98,10 @@ def hertz(shape: float, load: float) -> dict[str, Any]:
 
 @pytest.mark.parametrize("shape", [1.0, 10.0])
 def test_point_contacts_end_in_houperts_forms(shape: float) -> None:
-    """Rigid: 2.9766 k^0.3316 W^(1/3) U^(2/3); elastic: 7.5826 k^0.4055 W^(1/3) U^0.75, k = R_y/R_x (Houpert)."""
+    """Compare point contacts with Houpert's limits.
+
+    Rigid: 2.9766 k^0.3316 W^(1/3) U^(2/3); elastic: 7.5826 k^0.4055 W^(1/3) U^0.75, k = R_y/R_x.
+    """
     for load, eta, factor, power, order in ((1e-4, 1e3, 2.9766, 0.3316, 2.0 / 3.0), (1e3, 0.01, 7.5826, 0.4055, 0.75)):
         U, W = eta * 1.0 / (STEEL * R), load / (STEEL * R * R)
         expected = factor * STEEL * R * R * shape**power * W ** (1.0 / 3.0) * U**order
@@ -100,7 +111,10 @@ def test_point_contacts_end_in_houperts_forms(shape: float) -> None:
 
 
 def test_a_long_ellipse_under_load_is_a_line_with_oil_next_to_it() -> None:
-    """1.8 (4/pi)^(-1/4) U2^0.75 E' R_x on the width 2 a, against 1.47 of the line law: 1.15 times."""
+    """Compare a long ellipse with the line law.
+
+    1.8 (4/pi)^(-1/4) U2^0.75 E' R_x on the width 2 a, against 1.47 of the line law: 1.15 times.
+    """
     given = contact_6208(load=5e3, eta0=0.01)
     given |= {"R_y": 500.0 * given["R_x"], "semi_b": 1e-2 * given["semi_a"]}
     point, line = (float(evaluate(f"rolling_resistance/biboulet-houpert{kind}", **given)[0]) for kind in ("-point", ""))
@@ -108,7 +122,10 @@ def test_a_long_ellipse_under_load_is_a_line_with_oil_next_to_it() -> None:
 
 
 def test_point_law_on_the_6319() -> None:
-    """18 to 23 % above strips on the loaded balls of the 6319, more at high speed."""
+    """Compare the law of points with strips.
+
+    18 to 23 % above strips on the loaded balls of the 6319, more at high speed.
+    """
     assert CLEARANCE > 0.0
     excess = [
         rolling_torque("biboulet-houpert-point", 16e3, rpm) / rolling_torque("biboulet-houpert", 16e3, rpm) - 1.0

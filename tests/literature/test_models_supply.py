@@ -21,7 +21,10 @@ DIGITS = "digits of the table"
 
 @pytest.mark.parametrize("film", [1e-8, 1e-6, 1e-5])
 def test_a_flooded_contact_loses_nothing(film: float) -> None:
-    """Exactly 1 for film and rolling resistance: no starvation, an endless layer, an endless inlet, no speed."""
+    """Keep a factor of 1 without starvation.
+
+    Film and rolling resistance, exactly: no starvation, an endless layer, an endless inlet, no speed.
+    """
     given = FILM | {"h_cen": film, "h_min": 0.8 * film}
     for label, parameters in (
         ("supply/constant", {"film_factor": 1.0}),
@@ -67,7 +70,10 @@ def test_film_of_a_near_inlet(distance: float, film: float) -> None:
 
 @pytest.mark.parametrize(("thickness", "share"), [(0.0, 0.0), (1.0, 0.112880), (10.0, 0.525547), (100.0, 0.859751)])
 def test_starved_rolling_resistance(thickness: float, share: float) -> None:
-    """F/F* at inlet films of 1, 10 and 100 times the minimum film, by hand from the printed ratio of polynomials."""
+    """Compute F/F* at three inlet films by hand.
+
+    1, 10 and 100 times the minimum film, from the printed ratio of polynomials.
+    """
     from lambda_plugins.starved_inlet import starved_rolling
 
     source = "Biboulet and Houpert 2010, Proc. IMechE J 224, Part 1, eq. 44"
@@ -75,7 +81,9 @@ def test_starved_rolling_resistance(thickness: float, share: float) -> None:
 
 
 def test_half_the_film_costs_rolling_resistance_too() -> None:
-    """lubricant.starvation = 0.5: the inlet of half the flooded film has much less than half the resistance.
+    """Lower rolling resistance with half the film.
+
+    lubricant.starvation = 0.5: the inlet of half the flooded film has much less than half the resistance.
 
     Every law has the same rolling resistance at the same film, by whatever it is starved; a slow contact with SKF's
     replenishment has that of the prescribed film.
@@ -90,7 +98,10 @@ def test_half_the_film_costs_rolling_resistance_too() -> None:
 
 
 def test_meniscus_of_a_starved_film() -> None:
-    """Grubin's inlet integral by quadrature, from a film of a thousandth to one of 0.9999, and both ends."""
+    """Integrate Grubin's inlet of a starved film.
+
+    By quadrature, from a film of a thousandth to one of 0.9999, and both ends.
+    """
     from lambda_plugins.starved_inlet import meniscus
     from scipy.special import betaincinv
 
@@ -105,7 +116,10 @@ def test_meniscus_of_a_starved_film() -> None:
 
 @pytest.mark.parametrize("distance", [1.5, 2.0])
 def test_meniscus_against_hamrock_and_dowson(distance: float) -> None:
-    """The film that Grubin's inlet leaves at a meniscus against the fit to solved point contacts."""
+    """Compare a meniscus with Hamrock and Dowson.
+
+    The film that Grubin's inlet leaves at a meniscus, against the fit to solved point contacts.
+    """
     from lambda_plugins.starved_inlet import meniscus
 
     film = evaluate("supply/inlet-distance", {"distance": distance}, u_mean=3.0, **FILM)[0]
@@ -121,7 +135,9 @@ def test_meniscus_against_hamrock_and_dowson(distance: float) -> None:
 
 
 def test_decay_on_a_measured_track() -> None:
-    """Ball on disc, tracks of 40 and 9.53 mm radius, lithium grease of 0.38 Pa s and 30 1/GPa, 0.48 GPa, 141 um.
+    """Compare the decay with a measured track.
+
+    Ball on disc, tracks of 40 and 9.53 mm radius, lithium grease of 0.38 Pa s and 30 1/GPa, 0.48 GPa, 141 um.
 
     From 90 nm to 0.04 of the 500 nm of a flooded contact in 17 minutes; the sharpest passage, as the model has none.
     """
@@ -142,7 +158,9 @@ def test_decay_on_a_measured_track() -> None:
 
 
 def test_side_flow_derived_again() -> None:
-    """The printed bracket against the integral of exp(-alpha p)/sqrt(1 - x^2) over the middle of Hertz's ellipse.
+    """Integrate the side flow a second time.
+
+    The printed bracket against the integral of exp(-alpha p)/sqrt(1 - x^2) over the middle of Hertz's ellipse.
 
     13 % short at alpha p of 1, next to nothing at those of bearings; the layer goes with the root of it.
     """
@@ -157,7 +175,10 @@ def test_side_flow_derived_again() -> None:
 
 
 def test_limits_of_a_layer_that_flows_aside() -> None:
-    """No time: the fresh layer; long ago: none; fed: an end that forgets the beginning, and the way to it."""
+    """Compare limits of a layer that flows aside.
+
+    No time gives the fresh layer, a long time none; a fed layer ends without memory of its beginning.
+    """
     from lambda_plugins.supply_layers import layer_after
     from scipy.integrate import solve_ivp
 
@@ -176,7 +197,9 @@ def test_limits_of_a_layer_that_flows_aside() -> None:
 @pytest.mark.parametrize("feed", [1e-200, 1e-24, 1e-16, 1e-13])
 @pytest.mark.parametrize("time", [0.0, 1.0, 3600.0])
 def test_layer_that_is_hardly_fed(feed: float, time: float) -> None:
-    """A fresh layer 1e3 to 1e65 times the one that is kept up: what little is added must not take the layer away.
+    """Keep a layer that is hardly fed.
+
+    It begins at 1e3 to 1e65 times the layer that is kept up; a small feed must not remove it.
 
     Below h the feed matters by (h_eq/h)^3; the exact layer lies between the one without feed and that plus 2 R t.
     """

@@ -135,7 +135,10 @@ def waves(ring: str, order: int) -> Vibration:
 
 @pytest.mark.parametrize("ring", ["inner", "outer"])
 def test_waves_as_many_as_balls_move_the_ring_along_its_axis(ring: str) -> None:
-    """Wardle 1988: k = Z, at Z f_c and Z (f_i - f_c). How far: every ball rises alike, at constant thrust.
+    """Find axial motion from as many waves.
+
+    Wardle 1988, k = Z, at Z f_c and Z (f_i - f_c): every ball rises alike, at constant thrust, which gives the
+    amplitude.
 
     Tolerance 3 %: 167 and 246 Hz are slow against the axial resonance at some 1.5 kHz (2 % of magnification), inner and
     outer contact angles differ by 0.1 degrees.
@@ -150,7 +153,9 @@ def test_waves_as_many_as_balls_move_the_ring_along_its_axis(ring: str) -> None:
 
 @one_of_each(8, 10)
 def test_one_wave_more_or_less_moves_the_ring_across_its_axis(ring: str, order: int) -> None:
-    """Wardle 1988: k = Z +- 1, at Z f_c and at Z (f_i - f_c) +- f_i, and by A: a displaced circle has one wave.
+    """Find radial motion of k = Z +- 1.
+
+    Wardle 1988: at Z f_c and at Z (f_i - f_c) +- f_i, and by A: a displaced circle has one wave.
 
     Tolerance 5 %: slow against the radial resonance at some 1 kHz, as above.
     """
@@ -165,7 +170,10 @@ def test_one_wave_more_or_less_moves_the_ring_across_its_axis(ring: str, order: 
 @pytest.mark.full
 @one_of_each(7, 12)
 def test_other_orders_move_nothing(ring: str, order: int) -> None:
-    """Forces of the balls cancel: what the ring does is below 5 % of the amplitude (rms)."""
+    """Find less than 5 % from other orders.
+
+    Forces of the balls cancel; the limit refers to the amplitude (rms).
+    """
     found = waves(ring, order)
     rms = np.std(found.position - np.polyval(np.polyfit(found.times, found.position, 1), found.times[:, None]), axis=0)
     assert rms.max() < 0.05 * AMPLITUDE
@@ -177,7 +185,9 @@ RICH = "[" + ", ".join(f'{{ waves = {k}, amplitude = "{AMPLITUDE} m" }}' for k i
 @pytest.mark.full
 @pytest.mark.parametrize("ring", ["inner", "outer"])
 def test_harmonics_act_side_by_side(ring: str) -> None:
-    """Wardle 1988: of a spectrum each order does what it does alone, as small waves do in a bearing under thrust.
+    """Add up orders 7, 9, 10 and 12.
+
+    Wardle 1988: small waves in a bearing under thrust do not disturb each other.
 
     Orders 7, 9, 10 and 12 of one ring at once: 9 = Z moves it along its axis, 10 = Z + 1 across it, 7 and 12 nothing.
     """
@@ -198,7 +208,10 @@ def test_harmonics_act_side_by_side(ring: str) -> None:
 
 @OUTER_FIRST
 def test_twice_as_many_waves_as_balls_move_the_ring_at_twice_the_frequency(ring: str) -> None:
-    """Wardle 1988: k = i Z at i Z f_c and i Z (f_i - f_c), here i = 2."""
+    """Find k = i Z at i Z f_c.
+
+    Wardle 1988: here i = 2, and i Z (f_i - f_c) of the other ring.
+    """
     found = waves(ring, 18)
     frequency = 2.0 * found.balls * (found.cage if ring == "outer" else found.inner - found.cage)
     assert found.strongest(0) == pytest.approx(frequency, abs=2.0)
@@ -209,7 +222,9 @@ def test_twice_as_many_waves_as_balls_move_the_ring_at_twice_the_frequency(ring:
 @pytest.mark.full
 @OUTER_FIRST
 def test_axial_waves_move_a_ring_along_its_axis_or_rock_it(ring: str) -> None:
-    """Wardle 1988: axial waves k = i Z move a ring along its axis, by A; k = i Z +- 1 rock it: a tilted circle has one.
+    """Find axial motion and rocking from axial waves.
+
+    Wardle 1988: k = i Z moves a ring along its axis, by A; k = i Z +- 1 rocks it: a tilted circle has one.
 
     The tilt of a circle that the balls follow is A over the pitch radius of 30 mm: within 12 % where the outer ring's
     waves pass, at 167 Hz, slow against the rocking resonance; the inner ring's at 292 Hz are not.
@@ -238,7 +253,10 @@ def test_work_of_the_waves_comes_from_the_drive(ring: str) -> None:
 @pytest.mark.full
 @OUTER_FIRST
 def test_a_defect_is_struck_at_the_ball_pass_frequency(ring: str) -> None:
-    """BPFO = Z f_c, BPFI = Z (f_i - f_c) (Harris and Kotzalas 2006, section 8.3): all lines of the axial vibration."""
+    """Find all lines at BPFO and BPFI.
+
+    Z f_c and Z (f_i - f_c) (Harris and Kotzalas 2006, section 8.3), of the axial vibration.
+    """
     found = vibration(
         ring, "models.surface=defect", "parameters.surface.width=0.6 mm", "parameters.surface.azimuth=30 deg",
         duration=0.2,
@@ -253,7 +271,10 @@ def test_a_defect_is_struck_at_the_ball_pass_frequency(ring: str) -> None:
 
 
 def test_a_ball_drops_into_a_gap_as_far_as_a_circle_on_two_edges() -> None:
-    """R - sqrt(R^2 - b^2/4) in the middle, R the reduced radius; parabola for circle 3e-3, without rounding."""
+    """Compare the drop with R - sqrt(R^2 - b^2/4).
+
+    In the middle, R the reduced radius; parabola for circle 3e-3, without rounding.
+    """
     context = trial_context("ball_outer")
     radius = context.radius_x
     exact = radius - math.sqrt(radius * radius - 0.5e-3**2)
@@ -278,7 +299,10 @@ def test_a_shallow_gap_has_a_floor() -> None:
 
 
 def test_harmonics_add_up() -> None:
-    """Each harmonic with its own amplitude, phase and direction; a crest on a trough is nothing."""
+    """Add up amplitudes, phases and directions.
+
+    A crest on a trough is nothing.
+    """
     alone = [
         {"waves": 9, "amplitude": "1 um", "phase": "10 deg"},
         {"waves": 17, "amplitude": "0.3 um", "phase": "40 deg", "axial_share": -1.0},
@@ -305,7 +329,10 @@ def test_harmonics_add_up() -> None:
     ],
 )
 def test_slopes_are_the_derivatives_of_the_height(law: str, options: dict[str, object]) -> None:
-    """What makes the contact conserve energy; differences of fourth order."""
+    """Compare slopes with differences of fourth order.
+
+    Correct slopes make the contact conserve energy.
+    """
     rng, h = np.random.default_rng(3), 1e-4
     for azimuth, angle in zip(rng.uniform(-0.04, 0.04, 40), rng.uniform(-0.3, 0.3, 40), strict=True):
         found = evaluate(law, options, azimuth=azimuth, contact_angle=angle)

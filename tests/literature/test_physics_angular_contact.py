@@ -128,7 +128,10 @@ def weak(ring: str, stress: str) -> tuple[str, ...]:
 
 
 def test_static_angle_and_load() -> None:
-    """Harris prints 41.6 degrees and 1676 N; his deflection constants are read off a chart (0.3 degrees, 0.5 %)."""
+    """Compare with 41.6 degrees and 1676 N (Harris).
+
+    His deflection constants are read off a chart (0.3 degrees, 0.5 %).
+    """
     one = ball("operation.speed=0 rpm", "solver.duration=1 s")
     Published(41.6, HARRIS, "constants from a chart", abs=0.3).check(math.degrees(float(one.angles[0])))
     Published(1676.0, HARRIS, "the angle's tolerance through Q = F_a/(Z sin(alpha))", rel=0.005).check(
@@ -188,7 +191,9 @@ def jones(speed: float, force: float, share: float) -> tuple[float, float]:
 
 @pytest.mark.parametrize("rpm", [3000, 6000])
 def test_angles_at_speed(rpm: int) -> None:
-    """22.25 kN of thrust: centrifugal force and gyroscopic moment part the angles as in Jones's balance of forces.
+    """Compare angles with Jones's balance of forces.
+
+    22.25 kN of thrust: centrifugal force and gyroscopic moment part the angles.
 
     How the rings share the gyroscopic moment is an assumption there and a result here: between all on the outer ring
     and all on the inner one, the bounds apart by up to 1.5 degrees, with 0.15 degrees for stiffnesses at fixed angles.
@@ -204,7 +209,9 @@ def test_angles_at_speed(rpm: int) -> None:
 
 @pytest.mark.parametrize("stress", ["0.6 MPa", "0.06 MPa"])
 def test_the_ring_with_friction_controls_the_axis(stress: str) -> None:
-    """Race control is the limit of friction at one ring alone: beta then is Jones's, and that ring sees no spin.
+    """Compare beta with Jones for friction at one ring.
+
+    Race control is the limit of friction at one ring alone: beta then is Jones's, and that ring has no spin.
 
     The weaker the other ring, the nearer: within 1 degree at a tenth of the friction, 0.15 degrees at a hundredth.
     """
@@ -217,7 +224,9 @@ def test_the_ring_with_friction_controls_the_axis(stress: str) -> None:
 
 
 def test_without_control_the_axis_lies_between() -> None:
-    """At low speed both rings grip alike: beta lies between inner and outer control, where both spin.
+    """Find beta between inner and outer control.
+
+    At low speed both rings have equal friction, and both contacts spin.
 
     Harris (ch. 8) on Jones's race control: real bearings lie between; at higher speed the outer ring gains, as
     centrifugal force loads it more.
@@ -236,7 +245,9 @@ def test_without_control_the_axis_lies_between() -> None:
 
 @pytest.mark.parametrize("rpm", [1000, 3000, 6000])
 def test_spin_and_rolling_by_vectors(rpm: int) -> None:
-    """Spin against both rings from orbit and axis of the ball by cross products, no bearing formula (exact).
+    """Compare spin with cross products exactly.
+
+    Orbit and axis of the ball give the spin against both rings, with no bearing formula.
 
     Angles of the two contacts differ, so each is looked at in its own frame.
     """
@@ -259,7 +270,9 @@ def test_spin_and_rolling_by_vectors(rpm: int) -> None:
 
 
 def test_the_gyroscopic_moment_turns_the_ball_when_friction_gives_way() -> None:
-    """M_g = J omega_R omega_m sin(beta) is resisted by friction alone (Harris, ch. 9): tangential spin stays creep.
+    """Resist the gyroscopic moment by friction.
+
+    M_g = J omega_R omega_m sin(beta) (Harris, ch. 9): tangential spin stays creep.
 
     At 6000 1/min the axis leans out of the radial plane by less than half a degree; it grows with the square of speed.
     """
@@ -273,12 +286,14 @@ def test_the_gyroscopic_moment_turns_the_ball_when_friction_gives_way() -> None:
 
 @pytest.mark.parametrize("rpm", [3000, 6000])
 def test_friction_carries_the_gyroscopic_moment_in_harris_size_and_newtons_direction(rpm: int) -> None:
-    """Harris (ch. 9): M_g = J omega_R omega_m sin(beta), J = rho pi D^5/60. Newton and Euler give the direction.
+    """Compare size and direction of the gyroscopic moment.
 
-    The traction T of each ring in the radial plane follows from the balance of forces on the ball alone. Its axis
-    keeps still in the turning frame, so their moment about the direction of travel is J Omega x omega there:
-    +J omega_m w_r. In the printed balance of forces, Q_i sin(a_i) - Q_o sin(a_o) - (M_g/D)(l_i cos(a_i) - l_o cos(a_o))
-    = 0, the tractions have the opposite direction.
+    Harris (ch. 9): M_g = J omega_R omega_m sin(beta), J = rho pi D^5/60. Newton and Euler give the direction.
+
+    The traction T of each ring in the radial plane follows from the balance of forces on the ball alone. Its axis keeps
+    still in the turning frame, so their moment about the direction of travel is J Omega x omega there: +J omega_m w_r.
+    In the printed balance of forces, Q_i sin(a_i) - Q_o sin(a_o) - (M_g/D)(l_i cos(a_i) - l_o cos(a_o)) = 0, the
+    tractions have the opposite direction.
     """
     one = ball(f"operation.speed={rpm} rpm", "loads.axial=22250 N")
     density = 7830.0
@@ -299,7 +314,10 @@ def test_friction_carries_the_gyroscopic_moment_in_harris_size_and_newtons_direc
 
 
 def test_the_axial_play_in_a_displacement_is_said() -> None:
-    """Without load the ring stands A sin(alpha_0) from the middle: 337 um of a 7208BE were read as deflection."""
+    """State the play in an axial displacement.
+
+    Without load the ring is A sin(alpha_0) from the middle: 337 um of a 7208BE were read as deflection.
+    """
     light = api.quasistatic(CASE, [*SYMMETRIC, "loads.axial=5 N", "operation.speed=0 rpm"])
     play = 1e6 * DISTANCE * math.sin(FREE)
     assert light.axial_play_um == pytest.approx(play, rel=1e-9)

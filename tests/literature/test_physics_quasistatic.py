@@ -53,7 +53,10 @@ def test_static_angles_and_loads(load: int) -> None:
 
 @pytest.mark.parametrize("load", RUNNING)
 def test_running_angles(load: int) -> None:
-    """2750 1/min: centrifugal force lowers the outer angle and raises the inner one."""
+    """Lower the outer angle, raise the inner one.
+
+    Centrifugal force does both at 2750 1/min.
+    """
     equilibrium = solve(api.check(f"6208-axial-{load}", SYMMETRIC))
     angles = np.degrees(channel(equilibrium, "contact_angle"))
     check_equal(angles)
@@ -63,7 +66,10 @@ def test_running_angles(load: int) -> None:
 
 
 def test_radial_deflection() -> None:
-    """6208, 2 kN, 14 um clearance, 2750 1/min: the ring sinks by half the clearance and the elastic approach."""
+    """Compare displacement with clearance and elastic approach.
+
+    6208, 2 kN, 14 um clearance, 2750 1/min: the ring sinks by half the clearance and the approach.
+    """
     equilibrium = solve(api.check("6208-axial-700", ("loads.axial=0 N", "loads.radial=2 kN")))
     deflection = math.hypot(*equilibrium.displacement[1:3]) * 1e6
     Published(28.5, "ball loads after ISO/TS 16281 with exact Hertz constants", "specification", rel=0.01).check(
@@ -73,7 +79,9 @@ def test_radial_deflection() -> None:
 
 @pytest.mark.parametrize("outer", [0.0, -200.0, 120.0])
 def test_epicyclic_speed_in_the_limit_of_small_contacts(outer: float) -> None:
-    """Balls that roll without any resistance: orbital speed by Harris's formula as the contacts shrink.
+    """Reach Harris's orbital speed as contacts shrink.
+
+    Balls roll without any resistance.
 
     A contact of finite width rolls truly in two bands only (Heathcote), which makes the balls faster by an amount
     proportional to the square of its width, a^2 ~ Q^(2/3): 4.64 times for ten times the load.
@@ -101,7 +109,10 @@ def test_epicyclic_speed_in_the_limit_of_small_contacts(outer: float) -> None:
 
 @pytest.mark.parametrize("cage", ["true", "false"])
 def test_the_dynamics_keep_the_epicyclic_speed(cage: str) -> None:
-    """Over half a turn of the inner ring, cage and balls turn as the light-load limit says."""
+    """Keep the light-load speed over half a turn.
+
+    Cage and balls turn with half a turn of the inner ring.
+    """
     overrides = (
         *SYMMETRIC, "models.rolling_resistance=none", "models.elastic_hysteresis=none", "loads.axial=20 N",
         "operation.speed=300 rpm", f"depth.cage={cage}",

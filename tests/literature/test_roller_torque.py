@@ -44,7 +44,9 @@ def mean_error(given: FrictionParameters) -> float:
 
 
 def test_torque_of_the_32216() -> None:
-    """15.2 % with the default parameters, 16.9 % with the drag of oil up to the lowest roller's middle.
+    """Compare torque of the 32216 with measurements.
+
+    15.2 % with the default parameters, 16.9 % with the drag of oil up to the lowest roller's middle.
 
     Extremes of the defaults: +31 % at 2000 1/min under radial load, -24 % at 4000 1/min and 42 degC.
     """
@@ -53,7 +55,10 @@ def test_torque_of_the_32216() -> None:
 
 
 def test_a_flooded_half_filled_bath_is_refuted() -> None:
-    """The set with a half-filled bath overshoots by two thirds: the bath of the tests cannot have churned so much."""
+    """Exclude a half-filled bath.
+
+    It overshoots by two thirds: the bath of the tests cannot have churned so much.
+    """
     assert mean_error(HALF_FILLED) > 0.5
     found = torque(TAPERED_32216, HALF_FILLED, oil_state("FVA3", 50.0), 4000.0, 6e3)[0]
     assert found.drag > 0.7 * 3.75
@@ -68,7 +73,10 @@ def test_raceways_make_most_of_the_torque() -> None:
 
 @pytest.mark.parametrize("rpm", [1000.0, 2000.0, 4000.0])
 def test_radial_load_lowers_the_torque(rpm: float) -> None:
-    """The measured torque falls (text of the paper [R]); catalogue formulas rise."""
+    """Lower the torque by radial load.
+
+    The measured torque falls (text of the paper [R]); catalogue formulas rise.
+    """
     oil = oil_state("FVA3", 50.0)
     values = [
         torque(TAPERED_32216, FrictionParameters(), oil, rpm, 6.5e3, radial)[0].total
@@ -86,7 +94,9 @@ SAE_75W = OilState(0.0055, 840.0, 15e-9, 0.03, 0.135)
 
 
 def test_rib_friction_of_the_lm12700_falls_with_speed() -> None:
-    """Zhou and Hoeprich 1991, Fig. 9 [R2], 3.6 kN: 0.45 N m at 200 1/min, minimum between 1200 and 2400 1/min.
+    """Compare with 0.45 N m at 200 1/min.
+
+    Zhou and Hoeprich 1991, Fig. 9 [R2], 3.6 kN; the minimum is between 1200 and 2400 1/min.
 
     Rib leads below the minimum, raceways above. Computed with the roughness of another bearing's rib, the minimum lies
     higher, at 3200 to 4000 1/min, and is flat.

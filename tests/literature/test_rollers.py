@@ -208,7 +208,9 @@ def test_lamina_ratings_of_the_hr30306j() -> None:
 
 @pytest.mark.parametrize(("drops", "light"), [(1.0, 0.075), (2.0, 0.05)], ids=["profile", "twice the profile"])
 def test_roller_loads_of_the_hr30306j(drops: float, light: float) -> None:
-    """The lightest load shows the profile: 7.4 % low with the standard's drop, 3.0 % with twice that.
+    """Compare the lightest load for two profiles.
+
+    7.4 % low with the standard's drop, 3.0 % with twice that.
 
     The design tolerance of the lightest two is 7 %: with the profile of ISO 16281 the lightest misses it by 0.4 points.
     """
@@ -221,7 +223,10 @@ def test_roller_loads_of_the_hr30306j(drops: float, light: float) -> None:
 
 
 def test_life_of_the_hr30306j_is_an_order_of_magnitude() -> None:
-    """25.4 Mrev with the standard's drop and the stress riser, 18.9 with twice the drop: printed 19.43."""
+    """Compare life with the printed 19.43 Mrev.
+
+    25.4 Mrev with the standard's drop and the stress riser, 18.9 with twice the drop.
+    """
     found = r5(1.0)[1].life
     reason = "40 laminae for 30, and the rib tilts the rollers"
     Published(26.0, "independent script with the stress riser [M]", reason, rel=0.03).check(found)
@@ -287,7 +292,10 @@ def rolling_of_32216(radial_load: float, scale: float = 0.0) -> tuple[float, Flo
 
 
 def test_rolling_torque_of_the_32216_falls_with_radial_load() -> None:
-    """The measured torque falls (text of Wingertszahn et al. 2023 [R]): rollers leave the contact."""
+    """Lower rolling torque by radial load.
+
+    Rollers leave the contact; the measured torque falls too (text of Wingertszahn et al. 2023 [R]).
+    """
     loads = (1e3, 2e3, 4e3, 6.5e3, 9e3, 12e3, 15e3)
     torques = np.array([rolling_of_32216(load)[0] for load in loads])
     assert np.all(np.diff(torques) < 0.0)

@@ -67,7 +67,10 @@ def own_geometry(**bearing: Any) -> dict[str, Any]:
 
 
 def test_a_bearing_of_own_geometry_takes_clearance_and_contact_angle() -> None:
-    """The angle places the balls on the sphere, the clearance is the inner ring's: they are independent."""
+    """Take clearance and contact angle independently.
+
+    The angle places the balls on the sphere, and the clearance places the inner ring.
+    """
     for angle, clearance in ((10.0, 20.0), (10.0, 40.0), (14.0, 20.0)):
         g = api.check(own_geometry(contact_angle=f"{angle} deg", clearance=f"{clearance} um")).geometry
         assert g.contact_angle == pytest.approx(math.radians(angle), rel=1e-12)
@@ -122,7 +125,10 @@ def reference(g: Geometry, azimuths: np.ndarray, axial: float, radial: float) ->
 
 @pytest.mark.parametrize(("radial", "axial"), [(3000.0, 0.0), (3000.0, 400.0), (0.0, 500.0)])
 def test_displacement_and_loads_by_a_second_derivation(radial: float, axial: float) -> None:
-    """Displacements and loads within 0.1 % (of the largest); radii along rolling are frozen at one angle in both."""
+    """Compare displacements and loads to 0.1 %.
+
+    Of the largest; radii along rolling are frozen at one angle in both derivations.
+    """
     found = equilibrium(radial=radial, axial=axial)
     balls = found.state[: 9 * 36].reshape(36, 9)
     x, z, loads = reference(found.context.model.geometry, balls[:, 2], axial, radial)
@@ -136,7 +142,9 @@ def test_displacement_and_loads_by_a_second_derivation(radial: float, axial: flo
 
 @pytest.mark.parametrize("tilt", [5e-3, 30e-3])
 def test_misalignment_changes_nothing(tilt: float) -> None:
-    """A ring that tilts with its load meets the same sphere: the loads of an upright one within 0.02 % per mrad.
+    """Compare loads of tilted and upright rings.
+
+    A ring that tilts with its load meets the same sphere: within 0.02 % per mrad.
 
     A tilt about +y leans the ring's -z to -x: a load along the ring's own radius has the axial part -F sin(tilt). Balls
     stand at the same azimuths about the line of the shaft, on the tilted ring at others by up to a seventh of it.
@@ -148,7 +156,9 @@ def test_misalignment_changes_nothing(tilt: float) -> None:
 
 
 def test_no_resistance_to_tilt() -> None:
-    """Tilting stiffness: the load acts at the lever by which the rings' centres are apart, and nothing else does.
+    """Find a tilting stiffness from the lever alone.
+
+    The load acts at the lever by which the rings' centres are apart.
 
     Less than 1e-4 of what the same rows back to back have, k_r (row distance/2)^2.
     """
@@ -161,7 +171,10 @@ def test_no_resistance_to_tilt() -> None:
 
 
 def test_its_tilt_is_what_it_is_given() -> None:
-    """Silent cases hold the tilts and say so; a free one is refused, with a stiffness it is taken."""
+    """Hold a tilt, or take its stiffness.
+
+    Silent cases hold the tilts and report this; a free tilt without stiffness is refused.
+    """
     model = api.check(case(radial=1000.0))
     assert model.inner_ring.dofs["tilt_y"].mode == model.inner_ring.dofs["tilt_z"].mode == "locked"
     assert any("takes any misalignment" in sentence for sentence in model.assumptions)
@@ -176,7 +189,10 @@ def test_its_tilt_is_what_it_is_given() -> None:
 
 
 def test_play_is_the_clearance() -> None:
-    """Across the shaft the ring goes G_r before balls touch, at the contact angle of the catalogue: 1 %."""
+    """Compare radial play with G_r to 1 %.
+
+    Balls touch at the contact angle of the catalogue.
+    """
     g = api.check(case(radial=1.0, clearance="40 um")).geometry
     assert g.clearance == pytest.approx(40e-6)
     assert equilibrium(radial=0.5, clearance="40 um").displacement[2] == pytest.approx(-20e-6, rel=0.02)
@@ -217,7 +233,9 @@ def design(row: BearingRow) -> tuple[int, float, float, float]:
 
 
 def test_ratings_of_every_row(catalogue: SqlCatalogue) -> None:
-    """Whole standard balls give C and C_0 of all 86 within 5.5 and 4 %, medians 1 and 0.5 %.
+    """Compare C and C_0 of all 86 rows.
+
+    Whole standard balls: within 5.5 and 4 %, medians 1 and 0.5 %.
 
     Inner shoulders, which were not used but to tell copies, stand 0.13 D_w over the raceways in the mean.
     """
@@ -242,7 +260,9 @@ def test_ratings_of_every_row(catalogue: SqlCatalogue) -> None:
 
 @pytest.mark.parametrize("gamma", [0.05, 0.1, 0.2, 0.3, 0.4])
 def test_factors_of_the_sphere_in_closed_form(gamma: float) -> None:
-    """f_0: two spheres press each other with 4600 MPa, Q = pi^3 R^2 p^3/(6 E*^2), R = D_w (1 + gamma)/2; exact.
+    """Compare f_0 with two spheres exactly.
+
+    They press each other with 4600 MPa, Q = pi^3 R^2 p^3/(6 E*^2), R = D_w (1 + gamma)/2.
 
     ISO 76 rounds these to 2.1, 2.4, 2.8, 3.3, 3.8; ISO 281 has 17.3, 23.4, 33.5, 40.3, 40.4 for f_c.
     """
@@ -264,7 +284,10 @@ PRINTED = {
 
 @pytest.mark.parametrize(("name", "printed"), PRINTED.items())
 def test_factors_of_loads_as_printed(catalogue: SqlCatalogue, name: str, printed: tuple[float, ...]) -> None:
-    """The angle is e/1.5 of the catalogue; Y_1, Y_2, Y_0 of it within 3.5, 3.5, 10 %: SKF rounds them in steps."""
+    """Compare Y_1, Y_2, Y_0 with the catalogue.
+
+    The angle is e/1.5; within 3.5, 3.5, 10 %: SKF rounds them in steps.
+    """
     _, _, _, angle = design(catalogue.bearing(name, "SKF"))
     below = dynamic_equivalent_load(1000.0, 100.0, 1e4, 2.5, angle, 2, on_sphere=True)
     above = dynamic_equivalent_load(1000.0, 900.0, 1e4, 2.5, angle, 2, on_sphere=True)
@@ -280,7 +303,9 @@ def test_factors_of_loads_as_printed(catalogue: SqlCatalogue, name: str, printed
 
 
 def test_reference_life_is_the_basic_one_with_half_the_raceway_loaded() -> None:
-    """Zero clearance and a radial load are what ISO 281 was made for: L_10r = L_10 within 4 %.
+    """Compare L_10r with L_10 to 4 %.
+
+    Zero clearance and a radial load are what ISO 281 was made for.
 
     C of the same geometry, all contacts elastic, friction at rest nothing.
     """
@@ -304,7 +329,10 @@ def test_reference_life_is_the_basic_one_with_half_the_raceway_loaded() -> None:
 
 
 def test_masses(catalogue: SqlCatalogue) -> None:
-    """Rings, balls and cage weigh what SKF prints, which was not used: the median of ten within 8 %."""
+    """Compare masses with SKF to 8 %.
+
+    Rings, balls and cage; the printed mass was not used. The median of ten counts.
+    """
     found = []
     for name in ("1204E", "1208E", "1212E", "1306E", "1310E", "2206E", "2210E", "2214", "2308E", "1218"):
         model = api.check(case(radial=1000.0) | {"bearing": {"designation": name}})
@@ -325,7 +353,10 @@ def test_designations(catalogue: SqlCatalogue, written: str) -> None:
 
 
 def test_clearance_classes() -> None:
-    """Bore 40 mm: CN 13 to 29 um, C3 23 to 40 um (SKF, page 477)."""
+    """Compare clearances of a 40 mm bore.
+
+    CN 13 to 29 um, C3 23 to 40 um (SKF, page 477).
+    """
     limits = SELF_ALIGNING.limits(0.04, "CN")
     assert (limits.minimum, limits.maximum) == pytest.approx((13e-6, 29e-6))
     assert api.check(case(radial=1000.0, clearance="C3")).geometry.clearance == pytest.approx(31.5e-6)
@@ -334,7 +365,9 @@ def test_clearance_classes() -> None:
 
 
 def test_skf_friction_by_hand() -> None:
-    """Tables 2a and 3b: series 12, d_m 60 mm, 3 and 0.5 kN, 3000 1/min; 0.02 %.
+    """Compare friction with SKF by hand to 0.02 %.
+
+    Tables 2a and 3b: series 12, d_m 60 mm, 3 and 0.5 kN, 3000 1/min.
 
     F_g = 2.43e-12 60^3.5 9e6 = 36.59 N; G_rr = 3.25e-7 60^2 (3036.59 + 3255)^0.54, G_sl = 4.36e-3 60^-0.12
     (3036.59^(4/3) + 9.33 500^(4/3)).
@@ -345,7 +378,10 @@ def test_skf_friction_by_hand() -> None:
 
 
 def test_a_run_closes_its_energy(tmp_path: Path) -> None:
-    """2 ms under both loads with a tilt of 10 mrad: balls of both rows, energy to 1e-3."""
+    """Balance energy to 1e-3 in 2 ms.
+
+    Both loads, a tilt of 10 mrad, balls of both rows.
+    """
     start = case(radial=2000.0, axial=200.0, tilt=10e-3)
     start |= {"operation": {"speed": "3000 rpm"}, "solver": {"duration": "2 ms"}}
     del start["models"]["normal_contact"]
@@ -357,7 +393,9 @@ def test_a_run_closes_its_energy(tmp_path: Path) -> None:
 
 
 def test_friction_is_that_of_a_run_without_cage() -> None:
-    """1302E under 2 kN at 300 1/min, from the second turn of the cage to the third: torque within 2 %.
+    """Compare friction with a run without cage.
+
+    1302E under 2 kN at 300 1/min, from the second turn of the cage to the third: torque within 2 %.
 
     Balls that were made to follow the places that friction alone gives them made it 30 % too large.
     """
@@ -381,7 +419,10 @@ def test_friction_is_that_of_a_run_without_cage() -> None:
 
 
 def test_factors_for_the_catalogue_are_those_of_the_contacts() -> None:
-    """Between two that are solved they are interpolated: 1e-5, where the fit to a rating scatters by 1e-2."""
+    """Compare interpolated factors with solved contacts.
+
+    1e-5, where the fit to a rating scatters by 1e-2.
+    """
     one, gamma = np.ones(200), np.random.default_rng(3).uniform(0.01, 0.4, 200)
     solved = [static_factor(float(each), on_sphere=True) for each in gamma]
     found = [float(static_rating_of(one[:1], one[:1], 1.0 / each, on_sphere=True)[0]) for each in gamma]

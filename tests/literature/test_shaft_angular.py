@@ -139,7 +139,10 @@ def alone() -> BearingModel:
     ids=["axial", "combined", "with tilt"],
 )
 def test_loads_and_stiffness_of_one_bearing(pose: list[float]) -> None:
-    """Force, moment and the 5 x 5 stiffness at a pose; contact angles of the balls; all to 0.1 %."""
+    """Compare force, moment, stiffness and angles to 0.1 %.
+
+    The 5 x 5 stiffness at a pose, and the contact angles of the balls.
+    """
     ring = BearingReaction(alone(), FREE, 500.0, KERNELS.of(alone()))
     at = of_touching(pose[0]) + np.array([0.0, *pose[1:]])
     found = ring.reaction(at)
@@ -159,13 +162,19 @@ def test_loads_and_stiffness_of_one_bearing(pose: list[float]) -> None:
 
 
 def test_a_rigid_preload() -> None:
-    """Two equal bearings in X pressed together by 8 um each carry the force of that displacement."""
+    """Press two bearings in X by 8 um.
+
+    Equal bearings; each carries the force of that displacement.
+    """
     _, state = solved(pair(preload=8e-6, arrangement="X"))
     assert state.reactions[:, 0] == pytest.approx([thrust(8e-6), -thrust(8e-6)], rel=1e-3)
 
 
 def test_displacement_of_a_preloaded_pair() -> None:
-    """An axial force closes one bearing and opens the other: F = F(d + x) - F(d - x), for x and both loads."""
+    """Close one bearing and open the other.
+
+    F = F(d + x) - F(d - x), for x and both loads.
+    """
     preload, force = 8e-6, 1000.0
     x = brentq(lambda x: thrust(preload + x) - thrust(preload - x) - force, 0.0, preload)
     model, state = solved(pair(force, preload))
@@ -174,7 +183,10 @@ def test_displacement_of_a_preloaded_pair() -> None:
 
 
 def test_the_unloading_point_of_a_pair() -> None:
-    """The other bearing is free at F(2 d): 2^1.5 of the preload and a little more, as the angle grows."""
+    """Unload one bearing of a pair at F(2 d).
+
+    2^1.5 of the preload and a little more, as the angle grows.
+    """
     preload = 5e-6
     free = thrust(2.0 * preload)
     assert 2.83 < free / thrust(preload) < 3.1
@@ -193,7 +205,10 @@ def test_tandem_shares_the_force() -> None:
 
 @pytest.mark.parametrize("arrangement", ["O", "X"])
 def test_preload_changes_with_temperature(arrangement: str) -> None:
-    """A shaft 20 K warmer than the housing takes preload from O and gives it to X: half of its growth each."""
+    """Warm the shaft by 20 K against its housing.
+
+    O loses preload and X gains: half of the growth each.
+    """
     growth = GROWTH * 20.0 * 0.02
     closed = 8e-6 + (-0.5 if arrangement == "O" else 0.5) * growth
     _, state = solved(pair(preload=8e-6, arrangement=arrangement, temperature="40 degC"))
@@ -201,7 +216,10 @@ def test_preload_changes_with_temperature(arrangement: str) -> None:
 
 
 def test_a_spring_keeps_the_preload() -> None:
-    """An outer ring on a spring of 300 N that slides: both carry 300 N, with 20 K between shaft and housing too."""
+    """Keep 300 N by a spring on a sliding ring.
+
+    Both bearings carry it, with 20 K between shaft and housing too.
+    """
     case = pair(temperature="40 degC")
     case["bearings"]["right"]["preload_force"] = "300 N"
     _, state = solved(case)
@@ -209,6 +227,9 @@ def test_a_spring_keeps_the_preload() -> None:
 
 
 def test_the_wrong_side_is_said() -> None:
-    """A tandem pair that takes +x is pushed along -x."""
+    """Push a tandem pair along -x.
+
+    It takes +x only.
+    """
     with pytest.raises(SolverError):
         solved(pair(-500.0, arrangement="T"))

@@ -64,7 +64,9 @@ def overhung() -> tuple[MachineModel, ShaftState]:
 
 
 def test_reactions_of_a_statically_determinate_shaft() -> None:
-    """Levers alone: F l/a on the far bearing, F (l + a)/a on the near one, weight by its pieces; 1e-6 of the load.
+    """Compare reactions with levers to 1e-6.
+
+    F l/a on the far bearing, F (l + a)/a on the near one, weight by its pieces, of the load.
 
     Each bearing carries its own inner ring.
     """
@@ -84,7 +86,10 @@ def test_reactions_of_a_statically_determinate_shaft() -> None:
 
 
 def test_the_overhung_gear_without_weight() -> None:
-    """F l/a on the far bearing, F (a + l)/a on the near one (1e-6)."""
+    """Compare an overhung gear with levers to 1e-6.
+
+    F l/a on the far bearing, F (a + l)/a on the near one.
+    """
     _, state = solved(
         {
             "shaft": {"sections": [{"length": "210 mm", "diameter": "30 mm"}]},
@@ -99,12 +104,14 @@ def test_the_overhung_gear_without_weight() -> None:
 
 @pytest.mark.parametrize("axial", [0.0, 150.0])
 def test_self_aligning_bearings_bear_no_moment(axial: float) -> None:
-    """Two 1208 E on locked seats: levers alone (1e-6); their forces go through the centres of the outer rings' spheres.
+    """Compare two 1208 E with levers to 1e-6.
+
+    Locked seats; their forces go through the centres of the outer rings' spheres.
 
     Under thrust an inner ring stands 0.1 mm off its sphere's centre, by which its force has a lever that no beam on
-    points has (6e-5 of the load); about the centre nothing is left.
-    Tilts differ by what a beam on two points has, F a l/(6 E I) at the far bearing and -F a l/(3 E I) at the near one
-    (Timoshenko, Strength of Materials); shear takes one percent of a shaft this slender.
+    points has (6e-5 of the load); about the centre nothing is left. Tilts differ by what a beam on two points has, F a
+    l/(6 E I) at the far bearing and -F a l/(3 E I) at the near one (Timoshenko, Strength of Materials); shear takes one
+    percent of a shaft this slender.
     """
     model, state = solved(
         {
@@ -136,7 +143,9 @@ def test_self_aligning_bearings_bear_no_moment(axial: float) -> None:
 
 
 def test_three_bearings_with_loads_at_midspan() -> None:
-    """5/16, 22/16, 5/16 of each load (Roark, continuous beam of two equal spans, stiff supports).
+    """Compare with 5/16, 22/16, 5/16 of each load.
+
+    Roark, continuous beam of two equal spans, stiff supports.
 
     The bearings have no clearance and are a thousand times as stiff as the spans of a metre (0.2 %); shear of a bar 50
     diameters long moves the numbers by less.
@@ -165,7 +174,10 @@ def test_three_bearings_with_loads_at_midspan() -> None:
 
 
 def test_six_bearings() -> None:
-    """Six bearings on one shaft carry its loads together, mirrored as the loads are (1e-6)."""
+    """Share loads of one shaft between six bearings.
+
+    Mirrored as the loads are (1e-6).
+    """
     places = (10, 60, 110, 190, 240, 290)
     _, state = solved(
         {
@@ -186,7 +198,9 @@ def test_six_bearings() -> None:
 
 
 def test_the_limit_of_a_rigid_shaft() -> None:
-    """A ten million times stiffer shaft has the reactions of a rigid one, solved here in five unknowns (1e-6).
+    """Compare reactions with a rigid shaft to 1e-6.
+
+    The shaft is ten million times stiffer; the rigid one is solved here in five unknowns.
 
     Both tilt in their bearings; forces differ by the steel shaft's deflection over that ratio.
     """
@@ -232,7 +246,10 @@ def test_the_limit_of_a_rigid_shaft() -> None:
 
 
 def test_what_nothing_holds_is_said() -> None:
-    """Both outer rings float: the axial force goes nowhere."""
+    """Report an axial force that nothing holds.
+
+    Both outer rings float.
+    """
     with pytest.raises(SolverError, match="nothing holds it along x"):
         solved(
             {
@@ -247,7 +264,10 @@ def test_what_nothing_holds_is_said() -> None:
 
 
 def test_housing_in_series() -> None:
-    """An outer ring on springs moves by its reaction and its weight over their stiffness (exact)."""
+    """Compare an outer ring on springs exactly.
+
+    It moves by its reaction and its weight over their stiffness.
+    """
     model, state = solved(
         {
             "shaft": {"sections": [{"length": "200 mm", "diameter": "30 mm"}]},
@@ -263,7 +283,9 @@ def test_housing_in_series() -> None:
 
 
 def test_an_elastic_housing_from_a_file(tmp_path: Path) -> None:
-    """A beam that joins both seats, on two springs to the ground, as a reduced model: the seats move as the beam does.
+    """Move the seats as a beam of a file.
+
+    The beam joins both seats, on two springs to the ground, as a reduced model.
 
     Against the beam's own flexibility under reactions and the weight of rings (1e-6); a housing that floats is refused.
     """
@@ -303,7 +325,9 @@ def test_an_elastic_housing_from_a_file(tmp_path: Path) -> None:
 
 
 def test_helical_gear_forces() -> None:
-    """Budynas and Nisbett, Shigley, example 13-9: 18-tooth pinion, P_n = 12, 20 degrees, helix 30, 1 hp at 1750 1/min.
+    """Compare with Shigley, example 13-9.
+
+    Budynas and Nisbett: 18-tooth pinion, P_n = 12, 20 degrees, helix 30, 1 hp at 1750 1/min.
 
     d = 18/(12 cos(30)) = 1.732 in, V = 793.5 ft/min, W_t = 41.6 lbf, W_r = 17.5 lbf, W_a = 24.0 lbf (last digit).
     """
@@ -319,7 +343,10 @@ def test_helical_gear_forces() -> None:
 
 
 def test_directions_of_gear_forces() -> None:
-    """Mesh on top, spin about +x: a driven gear is pushed to -y; a right-hand driving pinion is thrust along +x."""
+    """Compare directions of gear forces.
+
+    Mesh on top, spin about +x: a driven gear is pushed to -y; a right-hand driving pinion is thrust along +x.
+    """
     angles = {"pressure_angle": math.radians(20.0), "helix_angle": math.radians(15.0), "hand": "right"}
     driven = gear_forces(100.0, 0.1, mesh=0.5 * math.pi, role="driven", spin=100.0, **angles)
     assert driven.force[1] == pytest.approx(-2000.0)
@@ -341,7 +368,10 @@ def test_directions_of_gear_forces() -> None:
     ],
 )
 def test_factors_of_angular_contact(angle: int, limit: float, x: float, y: float, y_0: float) -> None:
-    """ISO 281:2007, table 3 (15 degrees: f_0 F_a/C_0r = 0.178), ISO 76:2006, table 2; at and near the limit e."""
+    """Compare factors at and near the limit e.
+
+    ISO 281:2007, table 3 (15 degrees: f_0 F_a/C_0r = 0.178), ISO 76:2006, table 2.
+    """
     radians, static = math.radians(angle), 10e3
     axial = 0.178 * static / 14.0
     found = dynamic_equivalent_load(0.1 * axial, axial, static, 14.0, radians)
@@ -351,13 +381,18 @@ def test_factors_of_angular_contact(angle: int, limit: float, x: float, y: float
 
 
 def test_life_of_a_system() -> None:
-    """Two equal bearings live 2^(-0.9) as long as one (Weibull slope 10/9), a much longer life does not count."""
+    """Compare life of two bearings with 2^(-0.9).
+
+    Weibull slope 10/9; a much longer life does not count.
+    """
     assert system_life([1000.0, 1000.0]) == pytest.approx(1000.0 * 2.0**-0.9)
     assert system_life([1000.0, 1e9]) == pytest.approx(1000.0, rel=1e-5)
 
 
 def test_warm_rings_in_the_equilibrium_of_the_machine() -> None:
-    """An inner ring 30 K warmer takes alpha dT d of the clearance; the machine equals one with such clearance.
+    """Warm an inner ring by 30 K.
+
+    It takes alpha dT d of the clearance; the machine equals one with such clearance.
 
     Growth at the raceway, 12e-6/K times the raceway's diameter (docs/theory); reactions and poses to 1e-9.
     """
@@ -386,7 +421,10 @@ def test_warm_rings_in_the_equilibrium_of_the_machine() -> None:
 
 
 def test_misalignment_of_the_rings() -> None:
-    """The slope of the shaft against the outer ring: all of it where the seat is locked."""
+    """Compare misalignment with the shaft's slope.
+
+    Against the outer ring: all of it where the seat is locked.
+    """
     _, overhung_state = overhung()
     model = overhung()[0]
     slope = overhung_state.displacement[model.body.rows(0.15)][4:]

@@ -72,13 +72,19 @@ def reynolds(h0: float, edge: float, r_x: float, r_y: float) -> float:
 
 @pytest.mark.parametrize("gap", [0.0, 2e-6])
 def test_film_of_a_raceway_against_reynolds_equation(gap: float) -> None:
-    """3 %: a grid of 160 x 160 on an ellipse whose edge goes through its cells."""
+    """Compare a film with Reynolds' equation to 3 %.
+
+    A grid of 160 x 160 on an ellipse whose edge goes through its cells.
+    """
     expected = reynolds(TOUCH + gap, TOUCH + LAYER, R_X, R_Y)
     Published(expected, "Reynolds 1886, finite volumes", "grid", rel=0.03).check(raceway_force(gap))
 
 
 def test_a_sphere_near_a_flooded_plane() -> None:
-    """6 pi eta R^2 v/h where the oil reaches far (Taylor; Cox and Brenner 1967); the edge takes 2 h/H = 2e-3."""
+    """Compare with 6 pi eta R^2 v/h.
+
+    The oil reaches far (Taylor; Cox and Brenner 1967); the edge takes 2 h/H = 2e-3.
+    """
     found = raceway_force(0.0, layer="1 mm", radii=(R_X, R_X))
     expected = 6.0 * math.pi * ETA * R_X**2 * SPEED / TOUCH
     Published(expected, "Cox and Brenner 1967, Chem. Eng. Sci. 22, 1753, leading term", "edge", rel=3e-3).check(found)
@@ -111,7 +117,10 @@ def pocket_force(gap: float, width: float, name: str = "spherical-pocket", conte
 
 @pytest.mark.parametrize("rpm", [100.0, 500.0, 1000.0, 2750.0])
 def test_a_film_follows_the_oils_temperature_without_a_bend(rpm: float) -> None:
-    """From a thick film to one below the roughness, oil of ISO VG 68 by Vogel: curves of an FMU reach 1e-8."""
+    """Follow the oil's temperature without a bend.
+
+    From a thick film to one below the roughness, ISO VG 68 by Vogel: curves of an FMU reach 1e-8.
+    """
     oil = Varied("lubricant.temperature", "temperature", 293.15, 313.15, 363.15)
     context = dataclasses.replace(trial_context("ball_inner"), speed=rpm * math.pi / 30.0, mean_load=550.0)
 
@@ -153,7 +162,9 @@ def pocket_reynolds(ball: float, play: float, h0: float, half_wall: float) -> fl
 
 @pytest.mark.parametrize(("play", "gap", "most"), [(100e-6, 0.0, 1.05), (100e-6, 2e-6, 1.10), (200e-6, 20e-6, 1.20)])
 def test_film_of_a_cylindrical_pocket_against_reynolds_equation(play: float, gap: float, most: float) -> None:
-    """Above by 4, 9 and 18 %: the bore closes round the ball by play (1 - cos), less than the parabola opens it.
+    """Compare a cylindrical pocket with Reynolds' equation.
+
+    Above by 4, 9 and 18 %: the bore closes round the ball by play (1 - cos), less than the parabola opens it.
 
     The paraboloid's force comes from further round the ball the wider the gap, where the bore meets it obliquely. With
     the sphere's radius along the axis the law would be 200, 140 and 20 times as much.
@@ -164,7 +175,10 @@ def test_film_of_a_cylindrical_pocket_against_reynolds_equation(play: float, gap
 
 
 def test_film_of_a_spherical_pocket_against_its_pressure() -> None:
-    """Integral of p = 3 eta v R (1/h^2 - 1/h_e^2) over the film's width, 2000 rings."""
+    """Integrate the pressure of a spherical pocket.
+
+    p = 3 eta v R (1/h^2 - 1/h_e^2) over the film's width, 2000 rings.
+    """
     context, gap, width = trial_context("ball_cage"), 3e-6, 0.2
     ball, play = 0.5 * context.ball_diameter, 0.5 * context.pocket_clearance
     radius, edge = ball * (ball + play) / play, width * context.ball_diameter
@@ -178,7 +192,10 @@ def test_film_of_a_spherical_pocket_against_its_pressure() -> None:
 
 
 def test_a_narrow_film_is_that_of_parallel_discs() -> None:
-    """3 pi eta v b^4/(2 h^3); the gap grows by 1 % up to the film's edge."""
+    """Compare with discs: 3 pi eta v b^4/(2 h^3).
+
+    The gap grows by 1 % up to the film's edge.
+    """
     context = trial_context("ball_cage")
     ball, play = 0.5 * context.ball_diameter, 0.5 * context.pocket_clearance
     radius, h = ball * (ball + play) / play, 11e-6
@@ -190,7 +207,9 @@ def test_a_narrow_film_is_that_of_parallel_discs() -> None:
 
 @pytest.mark.parametrize(("law", "least", "most"), [("squeeze-film", -0.05, 0.05), ("cubic", 0.8, 1.0)])
 def test_an_oiled_ball_does_not_rebound(law: str, least: float, most: float) -> None:
-    """Balls rebound from a wetted wall above a Stokes number of 10 (Gondret et al. 2002), a dry one at any speed.
+    """Compare rebounds with Gondret et al. 2002.
+
+    Balls rebound from a wetted wall above a Stokes number of 10, from a dry one at any speed.
 
     A ball of 0.7 g meets a raceway at 20 mm/s from 5 um: m v/(6 pi eta R^2) is 3 of a plane, 0.3 of the groove.
     """

@@ -31,7 +31,10 @@ def test_the_formula_for_six_bearings(name: str) -> None:
 
 @pytest.mark.parametrize("name", RATINGS)
 def test_the_rating_balances_loss_and_emitted_heat(name: str) -> None:
-    """Written in the standard's units: mm, N, 1/min, mm2/s, W."""
+    """Compare the rating in the standard's units.
+
+    mm, N, 1/min, mm2/s, W.
+    """
     bore, outside, width, rating, _ = RATINGS[name]
     f_0r, f_1r = iso15312.COEFFICIENTS[name[:2]]
     n = iso15312.speed_rating(bore * 1e-3, outside * 1e-3, width * 1e-3, rating, f_0r, f_1r) * 30.0 / math.pi
@@ -47,7 +50,10 @@ def test_a_large_bearing_has_the_smaller_heat_flow_density() -> None:
 
 
 def test_the_set_takes_the_reference_heat_at_fifty_kelvin() -> None:
-    """A bearing of one temperature at 70 degC gives up q_r A_r to surroundings of 20 degC."""
+    """Compare the heat at 70 degC with q_r A_r.
+
+    A bearing of one temperature, surroundings of 20 degC.
+    """
     case = {
         "name": "iso",
         "bearing": {"designation": "6208", "maker": "SKF"},

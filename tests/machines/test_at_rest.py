@@ -13,7 +13,10 @@ DASH = (" - ", " -\n", "0.00..0.00 um")
 
 
 def test_a_machine_at_rest_has_no_torque_of_all_bearings() -> None:
-    """It printed "friction torque  - N mm of all bearings"."""
+    """Print no torque for a machine at rest.
+
+    It printed "friction torque  - N mm of all bearings".
+    """
     case: dict[str, Any] = tomllib.loads(geared_shaft("box"))
     case["operation"]["speed"] = "0 rpm"
     del case["gears"]["wheel"]["power"]

@@ -19,7 +19,10 @@ from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 
 @pytest.mark.parametrize("number", [0, 1])
 def test_a_bearing_alone_is_that_of_the_machine(number: int) -> None:
-    """Free under the load where it is held in the machine: loads to 2 N of 236, friction and position to 2 %."""
+    """Compare a bearing alone with its machine.
+
+    It is free under the load where the machine holds it: loads to 2 N of 236, friction and position to 2 %.
+    """
     machine = api.check(tomllib.loads(geared_shaft("box")))
     state = solve_shaft(machine)
     held = state.rings[number].equilibrium()
@@ -32,7 +35,10 @@ def test_a_bearing_alone_is_that_of_the_machine(number: int) -> None:
 
 
 def test_a_bearing_alone_turns_at_another_speed() -> None:
-    """The torque of the Stribeck curve at the machine's own speed is that of its equilibrium, over ball positions."""
+    """Compare the Stribeck curve at the machine's speed.
+
+    The torque is that of its equilibrium, over ball positions.
+    """
     tables = tomllib.loads(geared_shaft("box"))
     curve = api.stribeck(tables, bearing="left", speeds_rpm=[1500.0, 3000.0])
     torque = api.quasistatic(tables).bearing("left").friction_torque_Nmm
@@ -43,7 +49,10 @@ def test_a_bearing_alone_turns_at_another_speed() -> None:
 
 
 def test_a_bearing_taken_out_keeps_its_surroundings() -> None:
-    """Every part is warmer in warmer air, by less than the air is: warmer oil is thinner and makes less heat."""
+    """Warm the air around a bearing taken out.
+
+    Every part warms by less than the air: warmer oil is thinner and makes less heat.
+    """
     found = []
     for ambient in ("20 degC", "50 degC"):
         machine = api.check(tomllib.loads(geared_shaft("box")) | {"thermal": {"ambient": ambient}})

@@ -33,7 +33,10 @@ def tables(**changes: Any) -> dict[str, Any]:
 
 
 def test_a_disc_by_its_shape() -> None:
-    """Hollow cylinder: m = rho pi/4 (D^2 - d^2) b, J_p = m (D^2 + d^2)/8, J_t = J_p/2 + m b^2/12."""
+    """Compare a disc with a hollow cylinder.
+
+    m = rho pi/4 (D^2 - d^2) b, J_p = m (D^2 + d^2)/8, J_t = J_p/2 + m b^2/12.
+    """
     shape = {"at": "85 mm", "diameter": "120 mm", "width": "25 mm", "bore": "48 mm"}
     model = resolve_machine(tables(discs={"wheel": shape}))
     (disc,) = model.body.discs
@@ -45,7 +48,10 @@ def test_a_disc_by_its_shape() -> None:
 
 
 def test_a_spring_takes_its_part() -> None:
-    """Force of the spring is its stiffness times the deflection there; all forces on the shaft add up to 1e-6."""
+    """Compare a spring's force with its deflection.
+
+    Stiffness times deflection there; all forces on the shaft add up to 1e-6.
+    """
     model = resolve_machine(tables())
     state = solve_shaft(model)
     (spring,) = model.springs
@@ -63,7 +69,10 @@ def test_a_spring_takes_its_part() -> None:
 
 
 def test_a_damper_in_motion() -> None:
-    """Motion begins in the equilibrium with the spring; what the damper takes is in the balance of energy (1e-3)."""
+    """Start a damper from the equilibrium.
+
+    The equilibrium has the spring; the energy that the damper takes is in the balance (1e-3).
+    """
     damped_by = {dof: {"stiffness": k, "damping": "5000 N s/m"} for dof, k in (("y", "10 N/um"), ("z", "20 N/um"))}
     changed = tables(connections={"seal": {**SEAL, "at": "85 mm", **damped_by}})
     changed["discs"]["wheel"]["unbalance"] = "500 g mm"

@@ -33,7 +33,10 @@ def engine() -> MachineEngine:
 
 
 def test_what_a_resting_bearing_did_last_stands(engine: MachineEngine) -> None:
-    """Where only balls of the other one move, forces and powers are the bits of a whole evaluation."""
+    """Keep the last forces of a resting bearing.
+
+    Where only balls of the other one move, forces and powers are the bits of a complete evaluation.
+    """
     bundle, y, t = engine.context.bundle, engine._memory.y.copy(), engine.time
     one, other = (bearing.span for bearing in engine.bearings)
     moved = y.copy()
@@ -60,7 +63,10 @@ def test_what_a_resting_bearing_did_last_stands(engine: MachineEngine) -> None:
 
 
 def test_a_jacobian_in_parts_is_the_complete_one(engine: MachineEngine) -> None:
-    """Renewed for one ball at the same state; and where that ball has moved, for all others it stays."""
+    """Compare a partly renewed Jacobian.
+
+    The blocks of one ball are renewed: at the same state, and after this ball has moved.
+    """
     bundle, blocks, y, t = engine.context.bundle, engine.context.blocks, engine._memory.y.copy(), engine.time
     dydt, powers = np.zeros(y.size), np.zeros(L.power_count(bundle))
 
@@ -83,7 +89,10 @@ def test_a_jacobian_in_parts_is_the_complete_one(engine: MachineEngine) -> None:
 
 
 def test_factors_of_single_balls_are_those_of_the_complete_row() -> None:
-    """After partial renewals inverses belong to their blocks, and a row's part of the Schur complement is the sum."""
+    """Compare factors of single balls with complete rows.
+
+    After partial renewals inverses belong to their blocks, and a row's part of the Schur complement is the sum.
+    """
     engine = machine_engine(resolve_machine(tables()))
     assert engine.advance(END).ok
     assert engine.statistics()["ball_jacobians"] > 20.0
@@ -103,7 +112,10 @@ def test_factors_of_single_balls_are_those_of_the_complete_row() -> None:
 
 
 def test_energy_is_balanced_as_well_as_without_it(engine: MachineEngine) -> None:
-    """The same motion with every bearing evaluated every time: the balance closes, ends of iterations are as small."""
+    """Compare the motion with every bearing evaluated.
+
+    The balance closes, and residuals of the iterations are as small.
+    """
     awake = machine_engine(resolve_machine(tables()))
     context = awake.context
     context.bundle.rows["bearing"], context.bundle.bodies["bearing"] = 0, 0

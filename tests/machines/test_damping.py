@@ -37,7 +37,9 @@ def solved() -> Solved:
 
 
 def test_a_ring_that_vibrates(solved: Solved) -> None:
-    """An inner ring made 200 times as heavy, free along y or z: the whole Jacobian's frequency to 2 %, damping to 4 %.
+    """Compare a heavy ring's frequency and damping.
+
+    200 times as heavy, free along y or z: the complete Jacobian's frequency to 2 %, damping to 4 %.
 
     Its eigenvalue near sqrt(k/m), all balls moving, against k and c of the matrices at that frequency.
     """
@@ -67,7 +69,10 @@ def test_a_ring_that_vibrates(solved: Solved) -> None:
 
 
 def test_contacts_damp_by_their_time_constant(solved: Solved) -> None:
-    """With no friction to speak of, c = tau k of every contact, so c over k of the bearing lies near tau (10 us)."""
+    """Compare c with tau k of every contact.
+
+    Without friction to speak of, c over k of the bearing lies near tau (10 us).
+    """
     model, state, equilibria = solved
     found = bearing_damping(model, equilibria)
     assert found.shape == (2, 6, 6)
@@ -78,7 +83,10 @@ def test_contacts_damp_by_their_time_constant(solved: Solved) -> None:
 
 
 def test_housing_in_series(solved: Solved) -> None:
-    """Dynamic stiffness of bearing and housing in series; modes damped by it are stable."""
+    """Compare bearing and housing in series.
+
+    The dynamic stiffness is that of both; modes damped by it are stable.
+    """
     model, state, equilibria = solved
     own = bearing_damping(model, equilibria)
     housed = housed_damping(model, state, own)

@@ -30,7 +30,10 @@ def pair(**left: str) -> dict[str, Any]:
 
 
 def test_the_rows_angle_counts() -> None:
-    """40 degrees for ratings, and the play to touching rings, A sin(alpha_0) with A = 0.04 D_w, before the preload."""
+    """Use 40 degrees for ratings and play.
+
+    Play to touching rings is A sin(alpha_0) with A = 0.04 D_w, before the preload.
+    """
     left, right = resolve_machine(pair(takes="+x")).bearings
     assert math.degrees(left.nominal_angle) == pytest.approx(40.0)
     assert (left.dynamic_rating, right.dynamic_rating) == (32.0e3, 34.5e3)

@@ -63,7 +63,10 @@ def complete() -> MachineEngine:
 
 
 def test_equilibrium_of_one_bearing(complete: MachineEngine) -> None:
-    """Pose as in a case of that bearing alone, whose balls' friction moves it by 6e-5, elastic or rigid: 1e-4."""
+    """Compare the pose with one bearing to 1e-4.
+
+    The friction of that bearing's balls moves it by 6e-5, elastic or rigid.
+    """
     found: QuasiStatic = api.quasistatic(alone(outer_ring=SOFT))
     pose = complete.start.state.pose(complete.machine, 0)
     assert 1e6 * pose[2] == pytest.approx(found.inner_ring_displacement_um[2], rel=1e-4)
@@ -75,7 +78,10 @@ def test_equilibrium_of_one_bearing(complete: MachineEngine) -> None:
 
 
 def test_motion_of_one_bearing(complete: MachineEngine) -> None:
-    """For 2 ms balls and waves are where those of the bearing alone are, 1 % of the largest: their starts differ."""
+    """Compare 2 ms of motion with one bearing.
+
+    Balls and waves to 1 % of the largest: the starts differ.
+    """
     one = BearingEngine(alone(outer_ring=SOFT, cage=CAGE))
     engine = machine_engine(complete.machine)
     assert one.advance(2e-3).ok
@@ -112,7 +118,10 @@ def feels_the_same(engine: MachineEngine) -> FloatArray:
 
 
 def test_a_bearing_of_the_machine_moves_as_it_does_alone(complete: MachineEngine) -> None:
-    """Balls and waves of both rings and the cage feel the same bits as in a model of that bearing alone."""
+    """Compare forces with one bearing bit by bit.
+
+    Balls, waves of both rings, and the cage.
+    """
     changed = copy.deepcopy(ONE)
     parts = {"inner_ring": SOFT, "outer_ring": SOFT, "cage": CAGE}
     changed["shaft"] = {"sections": [{"length": "300 mm", "diameter": "95 mm"}]}
@@ -130,7 +139,10 @@ def test_a_bearing_of_the_machine_moves_as_it_does_alone(complete: MachineEngine
 
 
 def test_kinds_of_bearings_in_a_machine() -> None:
-    """Two rows, four-point contact and one row: rows, raceways and laws of each stand in their places."""
+    """Place rows, raceways and laws of three kinds.
+
+    Two rows, four-point contact and one row.
+    """
     changed = copy.deepcopy(ONE)
     changed["shaft"] = {"sections": [{"length": "300 mm", "diameter": "40 mm"}]}
     floats = {"support": {"x": "free"}, "elastic": {"outer_ring": SOFT, "cage": {"orders": 2}}}
@@ -146,11 +158,13 @@ def test_kinds_of_bearings_in_a_machine() -> None:
 
 
 def test_damping_lets_waves_follow(complete: MachineEngine) -> None:
-    """An inner ring made 200 times as heavy, free along z: the whole Jacobian's damping to 4 %, with its waves.
+    """Compare damping of a ring with waves.
+
+    200 times as heavy, free along z: the complete Jacobian's damping to 4 %.
 
     As in test_damping.test_a_ring_that_vibrates, where rings are rigid: the eigenvalue near sqrt(k/m), balls and the
-    outer ring's waves moving, against k and c of the matrices at that frequency. With waves at
-    rest the damping is another one by a tenth and more.
+    outer ring's waves moving, against k and c of the matrices at that frequency. With waves at rest the damping is
+    another one by a tenth and more.
     """
     (found,) = complete.start.equilibria
     context = freed(found.context)
@@ -183,7 +197,10 @@ def test_damping_lets_waves_follow(complete: MachineEngine) -> None:
 
 
 def test_balance_of_a_run() -> None:
-    """What is put in is dissipated or stored to 1e-3; the waves' dampers count to their bearing."""
+    """Balance energy to 1e-3.
+
+    The dampers of the waves count to their bearing.
+    """
     engine = machine_engine(resolve_machine(ONE))
     assert engine.advance(6e-3).ok
     (row,) = engine.integrals()

@@ -79,7 +79,9 @@ def spoil(file: h5py.File, name: str, key: str) -> None:
 def test_no_text_of_a_machine_s_result_drives_the_terminal(
     made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Each text in turn is shown or refused, and written out; then all that are shown, by every command.
+    """Show or refuse control characters in each text.
+
+    Every command then writes all texts that are shown.
 
     The second bearing has the texts of the first.
     """

@@ -101,7 +101,10 @@ def test_no_stage_hides_another_one() -> None:
     ],
 )
 def test_what_follows_is_not_said(changes: dict[str, Any], paths: list[str]) -> None:
-    """A stand-in takes the place of what is wrong; messages about it, or about references to it, are no mistakes."""
+    """Skip messages about stand-ins of wrong items.
+
+    Messages about a stand-in, or about references to it, are no mistakes.
+    """
     found = mistakes(changes)
     assert sorted(found) == sorted(paths), found
 
@@ -111,7 +114,10 @@ def test_too_few_are_said_in_words() -> None:
 
 
 def test_nothing_in_a_table_is_nothing_said(tmp_path: Path) -> None:
-    """None in plain tables takes an option back, as in the case of one bearing."""
+    """Take an option back by None.
+
+    This holds for plain tables, as in the case of one bearing.
+    """
     tables = tomllib.loads(geared_shaft("box"))
     tables["life"]["contamination"] = None
     machine = api.check(tables, folder=tmp_path)

@@ -321,7 +321,10 @@ def test_a_machine_of_two_bearings(row: str, box: Path, capsys: pytest.CaptureFi
 def test_a_question_about_one_bearing_names_those_there_are(
     question: str, box: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Without --bearing, with a wrong one, and with one where there is only one."""
+    """Name the bearings when `--bearing` is wrong or missing.
+
+    The same holds where there is only one.
+    """
     commands: list[Any] = [step[0] for steps in ROWS.values() for step in steps if not callable(step)]
     arguments = next(command for command in commands if command[0] == question)
     at = arguments.index("--bearing")

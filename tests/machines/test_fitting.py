@@ -77,7 +77,10 @@ def test_what_cannot_stand_there(changes: dict[str, Any], said: tuple[str, ...])
 
 
 def test_an_undercut_takes_no_seat() -> None:
-    """A groove of 3 mm below a ring of 18 mm is usual, 6 mm are a third of the seat."""
+    """Compare grooves of 3 and 6 mm.
+
+    3 mm below a ring of 18 mm are usual, 6 mm are a third of the seat.
+    """
     for width, count in ((3.0, 0), (6.0, 1)):
         sections = tables()["shaft"]["sections"]
         first = [{"length": f"{30.0 - width} mm", "diameter": "40 mm"}, {"length": f"{width} mm", "diameter": "38 mm"}]
@@ -86,7 +89,10 @@ def test_an_undercut_takes_no_seat() -> None:
 
 
 def test_it_is_said_everywhere(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """In `check`, its `--json`, and the builder; no loads are reported before they are known."""
+    """Report it in `check`, `--json` and the builder.
+
+    No loads are reported before they are known.
+    """
     changed = tables(bearings={"left": {"designation": "SKF 6319", "at": "25 mm"}})
     case = tmp_path / "box.toml"
     case.write_text(tables_toml(changed))
@@ -101,7 +107,7 @@ def test_it_is_said_everywhere(tmp_path: Path, capsys: pytest.CaptureFixture[str
 
 
 def test_it_is_said_of_a_run(tmp_path: Path) -> None:
-    """The file of a run keeps the sentences."""
+    """Keep the sentences in the file of a run."""
     model = replace(resolve_machine(tables()), warnings=("one", "two"))
     found = api.run(model, out=tmp_path / "r.h5")
     assert found.summary().warnings[:2] == ["one", "two"]
@@ -110,7 +116,10 @@ def test_it_is_said_of_a_run(tmp_path: Path) -> None:
 def test_laws_are_tried_out(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """As `check` does of one bearing: an error of a plugin's law is reported once for all bearings."""
+    """Report a failing plugin law once for all bearings.
+
+    `check` does the same for one bearing.
+    """
     monkeypatch.setattr(api, "law_problems", lambda model: (Problem("models.traction", "gives no number"),))
     (tmp_path / "box.toml").write_text(geared_shaft("box"))
     assert main(["check", str(tmp_path / "box.toml")]) == 3
@@ -120,7 +129,10 @@ def test_laws_are_tried_out(
 
 
 def test_far_beyond_limits() -> None:
-    """A 6208 and a 6206 under a meshing force of 106 kN: each limit by its name."""
+    """Name each limit of a 6208 and 6206.
+
+    The meshing force is 106 kN.
+    """
     found = api.quasistatic(resolve_machine(tables(gears={"wheel": {"power": "2000 kW"}})))
     for bearing, static in zip(found.bearings, (19.0, 11.2), strict=True):
         told = " ".join(bearing.warnings)
@@ -140,14 +152,17 @@ def test_far_beyond_limits() -> None:
 
 
 def test_pressure_of_self_aligning_bearings() -> None:
-    """ISO 76: C_0 goes by 4600 MPa of self-aligning ball bearings and 4200 MPa of all others."""
+    """Use 4600 MPa for self-aligning bearings.
+
+    ISO 76: all other ball bearings have 4200 MPa.
+    """
     assert warnings(4.5e9, [], 0.0, "self-aligning") == []
     assert len(warnings(4.7e9, [], 0.0, "self-aligning")) == 1
     assert len(warnings(4.3e9, [], 0.0)) == 1
 
 
 def test_tilt_on_a_shaft() -> None:
-    """The sentence names no option of the case of one bearing."""
+    """Name no option of a single bearing."""
     (said,) = warnings(1e9, [], 4e-3, on_shaft=True)
     assert said.startswith("the inner ring tilts by 4 mrad: deep-groove ball bearings take up to 2.9 mrad")
     assert "bodies." not in said

@@ -163,7 +163,10 @@ def test_modes_do_not_hide_a_shaft_that_is_stiffer_along_z(tmp_path: Path) -> No
 
 
 def test_the_sign_of_gyroscopic_terms_is_that_of_the_page(body: ElasticBody, tmp_path: Path) -> None:
-    """G[tilt_y, tilt_z] = +I_p, of the program's own shafts and where a file has none: polar inertia of a round bar."""
+    """Compare G[tilt_y, tilt_z] with +I_p.
+
+    The program's own shafts, and the polar inertia of a round bar where a file has none.
+    """
     write_reduced(replace(body, gyroscopic=np.zeros_like(body.mass)), tmp_path / "a.npz")
     added = reduced_shaft(tmp_path / "a.npz", Ledger())
     assert added is not None

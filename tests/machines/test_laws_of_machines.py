@@ -42,7 +42,10 @@ def machine(**changes: Any) -> MachineModel:
 
 @pytest.mark.parametrize("to", ["ground", "box"])
 def test_a_bushing_by_its_law_is_springs_and_dampers(to: str) -> None:
-    """Equilibrium to 1e-9, stiffness and damping of modes to 1e-6, force in the report to 1e-6."""
+    """Compare a bushing with springs and dampers.
+
+    Equilibrium to 1e-9, stiffness and damping of modes to 1e-6, force in the report to 1e-6.
+    """
     springs = machine(connections={"seal": {"at": "110 mm", "to": to, **SPRINGS}})
     law = machine(connections={"seal": {"at": "110 mm", "to": to, "parameters": PARAMETERS}})
     assert law.links
@@ -60,7 +63,10 @@ def test_a_bushing_by_its_law_is_springs_and_dampers(to: str) -> None:
 
 
 def test_a_law_moves_as_springs_do() -> None:
-    """From the same equilibrium, under the same force over time: where the shaft is after 3 ms, to 1 % of its swing."""
+    """Compare motion with springs to 1 %.
+
+    Same equilibrium, same force over time: where the shaft is after 3 ms, of its swing.
+    """
     push = {"push": {"at": "110 mm", "force_y": {"kind": "harmonic", "amplitude": "500 N", "frequency": "80 Hz"}}}
     found = []
     for connection in (SPRINGS, {"parameters": PARAMETERS}):
@@ -72,7 +78,10 @@ def test_a_law_moves_as_springs_do() -> None:
 
 
 def test_a_load_by_a_law_is_that_over_time() -> None:
-    """A chirp that stays at 60 Hz is a harmonic: the same force at every time, and motion to 1 % of its swing."""
+    """Compare a chirp at 60 Hz with a harmonic.
+
+    The same force at every time, and motion to 1 % of its swing.
+    """
     law = {"kind": "law", "law": "chirp", "amplitude": "500 N", "parameters": {"start": "60 Hz", "end": "60 Hz"}}
     found = []
     for force in ({"kind": "harmonic", "amplitude": "500 N", "frequency": "60 Hz"}, law):
@@ -103,7 +112,10 @@ def test_mistakes_of_laws() -> None:
 
 
 def test_each_bearing_has_laws_and_surfaces_of_its_own() -> None:
-    """The one bearing has its own, the other those of the machine; a wrong value is named with its place."""
+    """Give one bearing its own laws and surfaces.
+
+    The other has those of the machine; a message names a wrong value with its place.
+    """
     own = {"surface": {"roughness": "0.3 um"}, "materials": {"balls": "Si3N4"}, "models": {"cage_contact": "none"}}
     tables = tomllib.loads(geared_shaft("box"))
     tables["bearings"]["left"] |= own

@@ -42,7 +42,10 @@ def short(windows: list[Window]) -> list[bool]:
 
 
 def test_a_bearing_with_a_thousandth_of_the_torque_need_not_be_known_to_a_hundredth_of_it() -> None:
-    """Half-widths of a thousandth of all torque are let pass, larger ones are not."""
+    """Accept half-widths of a thousandth of all torque.
+
+    Larger ones are not accepted.
+    """
     heavy = known(1.0, 5e-3)
     assert short([heavy, known(1e-3, 9e-4)]) == [False, False]
     assert short([heavy, known(1e-3, 1.1e-3)]) == [False, True]
@@ -59,7 +62,10 @@ def test_alone_a_bearing_has_to_be_known_to_a_hundredth_of_its_own_torque() -> N
 
 
 def test_all_together_are_known_to_a_hundredth() -> None:
-    """Each may miss by what it is let pass, all of them must not."""
+    """Limit the sum of all errors to a hundredth.
+
+    Each bearing may have its accepted error, but all together must not.
+    """
     small = [known(1e-3, 9.9e-4) for _ in range(3)]
     assert shortfalls_together([known(1.0, 9.5e-3)]) == []
     (said,) = shortfalls_together([known(1.0, 9.5e-3), *small])
@@ -68,14 +74,20 @@ def test_all_together_are_known_to_a_hundredth() -> None:
 
 
 def test_without_an_estimate_the_bearing_says_what_is_short() -> None:
-    """Before the first whole revolutions there is no half-width, and nothing to add up."""
+    """Name the reason when no estimate exists.
+
+    Before the first complete revolutions there is no half-width, and nothing to add up.
+    """
     unknown = known(1.0, math.nan, revolutions=2)
     assert shortfalls_together([unknown, known(1.0, 1e-3)]) == []
     assert short([unknown, known(1.0, 1e-3)]) == [True, False]
 
 
 def test_the_run_is_planned_for_what_is_wanted() -> None:
-    """A bearing of little torque does not make the planned run a thousand times longer."""
+    """Keep the planned run short.
+
+    A bearing of little torque does not make it a thousand times longer.
+    """
     little = known(1e-3, 5e-4)
     assert revolutions_wanted(SOLVER, little) > 1000
     assert revolutions_wanted(SOLVER, little, together=1.0) == 1 + 4

@@ -52,7 +52,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """One solution: JSON, pictures and both exports say the same; equilibrium about the left end to 1e-6."""
+    """Compare JSON, pictures and both exports.
+
+    They come from one solution; the equilibrium holds about the left end to 1e-6.
+    """
     case, stiffness = str(folder / "box.toml"), folder / "k.json"
     capsys.readouterr()
     arguments = ["--json", "--quiet", "--draw", str(folder / "pictures")]
@@ -128,7 +131,10 @@ def test_a_missing_designation_names_the_section_of_that_bearing(
 def test_pictures_and_report_of_a_short_run(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Views of one bearing are left out of those of the machine; the report of a bearing draws every picture."""
+    """Draw every picture of a bearing's report.
+
+    A machine leaves out the views of one bearing.
+    """
     monkeypatch.chdir(folder)
     assert (
         main(["run", "box.toml", "--set", "solver.duration=1 ms", "--out", "short.h5", "--band", "none", "--quiet"])
@@ -172,7 +178,10 @@ def test_every_mistake_at_once(folder: Path, capsys: pytest.CaptureFixture[str])
 
 
 def test_results_of_the_machine_alone(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A place off the shaft, two bearings in one, a power at rest."""
+    """Refuse three wrong questions about a machine.
+
+    A place off the shaft, two bearings in one, a power at rest.
+    """
     changes = ["gears.wheel.at=300 mm", "bearings.right.at=21 mm", "operation.speed=0 rpm"]
     arguments = [part for change in changes for part in ("--set", change)]
     assert main(["check", str(folder / "box.toml"), *arguments]) == 3
@@ -184,7 +193,10 @@ def test_results_of_the_machine_alone(folder: Path, capsys: pytest.CaptureFixtur
 
 
 def test_a_bearing_has_the_cage_of_its_own_case(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """What [bodies.cage] says of one bearing stands in its table of the shaft; mistakes with their path."""
+    """Read a cage from its bearing's table.
+
+    `[bodies.cage]` is for the case of one bearing; mistakes have their path.
+    """
     case, said = str(folder / "box.toml"), "bearings.right.cage"
     changes = ['bearings.left.cage.type="brass-machined"', "bearings.left.cage.mass=0.2 kg"]
     assert main(["check", case, *(part for change in changes for part in ("--set", change))]) == 0
@@ -200,7 +212,7 @@ def test_a_bearing_has_the_cage_of_its_own_case(folder: Path, capsys: pytest.Cap
 
 
 def test_a_machine_is_not_one_bearing(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Questions about the other kind are refused with what to do."""
+    """Refuse questions about the other kind with advice."""
     (folder / "one.toml").write_text('name = "one"\n[bearing]\ndesignation = "SKF 6206"\n')
     assert main(["modes", str(folder / "one.toml")]) == 2
     assert "--template geared-shaft" in capsys.readouterr().err

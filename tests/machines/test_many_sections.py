@@ -36,7 +36,10 @@ def cut(pieces: int, step: float) -> dict[str, Any]:
 
 
 def test_a_thousand_short_sections_are_merged() -> None:
-    """Before: 1 000 sections took 7.6 GiB in `check`."""
+    """Merge 1 000 sections in `check`.
+
+    They took 7.6 GiB before.
+    """
     model = api.check(cut(333, 0.0))
     assert isinstance(model, api.MachineModel)
     assert model.body.positions.size < 400
@@ -45,7 +48,10 @@ def test_a_thousand_short_sections_are_merged() -> None:
 
 
 def test_merged_pieces_bend_and_weigh_like_their_parts() -> None:
-    """A cone of 120 slices under a force at its end, against the closed form of its compliance; its mass to 1e-4."""
+    """Compare a cone of 120 slices with its compliance.
+
+    A force at its end, against the closed form; its mass to 1e-4.
+    """
     length, count, thick, thin = 0.12, 240, 0.05, 0.04
     middles = (np.arange(count) + 0.5) / count
     diameters = thick + (thin - thick) * middles

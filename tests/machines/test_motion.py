@@ -75,7 +75,10 @@ def frequencies(model: MachineModel, shaft: LumpedShaft) -> tuple[FloatArray, Fl
 
 @pytest.mark.parametrize("changes", [{}, LONG], ids=["gearbox", "ten diameters"])
 def test_lumps_keep_mass_centre_inertia_and_low_frequencies(changes: dict[str, Any]) -> None:
-    """The gearbox shaft's first five to 0.3 %, ten diameters between bearings: the first six to 1 %."""
+    """Compare mass, inertia and frequencies of lumps.
+
+    The gearbox shaft's first five to 0.3 %, ten diameters between bearings: the first six to 1 %.
+    """
     model = resolve_machine(tables(**changes))
     shaft = lump(model)
     assert shaft.mass.sum() == pytest.approx(model.body.total_mass, rel=1e-12)
@@ -112,7 +115,10 @@ def evaluated(engine: MachineEngine, y: FloatArray) -> tuple[FloatArray, FloatAr
 
 
 def test_the_motion_begins_in_equilibrium(engine: MachineEngine) -> None:
-    """What is left on the lumps is the weight of the inner rings, the first push of the unbalance, no more."""
+    """Start with only small forces on the lumps.
+
+    They are the weight of the inner rings and the first push of the unbalance.
+    """
     _, forces = evaluated(engine, engine._memory.y.copy())
     loads = engine.context.bundle.inputs["force"]["value"]
     weight = engine.context.bundle.bodies["mass"] * 9.80665
@@ -122,7 +128,10 @@ def test_the_motion_begins_in_equilibrium(engine: MachineEngine) -> None:
 
 
 def test_a_bearing_of_a_machine_moves_as_it_does_alone(engine: MachineEngine) -> None:
-    """The balls of each bearing feel the same bits as in a model of that bearing alone."""
+    """Compare forces on balls bit by bit.
+
+    Each bearing is compared with a model of that bearing alone.
+    """
     y = engine._memory.y
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(engine.context.bundle))
     assert core().evaluate(0.0, y, engine.context.bundle, dydt, rates, 1) == 1
@@ -138,7 +147,10 @@ def test_a_bearing_of_a_machine_moves_as_it_does_alone(engine: MachineEngine) ->
 
 
 def test_slopes_and_energy_of_the_ties(engine: MachineEngine) -> None:
-    """Columns of the Jacobian against differences, of a shaft that bends only."""
+    """Compare columns of the Jacobian with differences.
+
+    The shaft bends only.
+    """
     check_slopes(engine)
 
 
@@ -170,7 +182,10 @@ def check_slopes(engine: MachineEngine) -> None:
 
 
 def test_a_shaft_that_twists() -> None:
-    """Torque of the gear through the shaft to a coupling at its left end: twist of the equilibrium, energy to 1e-3."""
+    """Twist a shaft between gear and coupling.
+
+    The coupling is at its left end: twist of the equilibrium, energy to 1e-3.
+    """
     changed = tables(shaft={**tables()["shaft"], "twists": True})
     engine = machine_engine(resolve_machine(changed))
     check_slopes(engine)
@@ -221,7 +236,10 @@ def abandon(path: Path) -> None:
 
 
 def test_a_run_says_what_it_found(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Energy to 1e-3 (the bar of docs/convergence.md), forces in balance, every bearing seen by itself."""
+    """Report energy, forces and every bearing.
+
+    Energy to 1e-3 (the bar of docs/convergence.md), forces in balance.
+    """
     capsys.readouterr()
     assert main(["show", str(folder / "part.h5"), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
@@ -247,7 +265,10 @@ def test_a_run_says_what_it_found(folder: Path, capsys: pytest.CaptureFixture[st
 
 
 def test_a_run_goes_on_bit_for_bit(folder: Path) -> None:
-    """Interrupted at 6 ms or not: the same samples, of the machine and of every bearing."""
+    """Interrupt a run at 6 ms and continue it.
+
+    The samples of the machine and of every bearing are the same.
+    """
     other = folder / "whole.h5"
     changes = ["--set", 'discs.wheel.unbalance="50 g mm"', "--quiet", "--band", "none", "--duration", "9 ms"]
     assert main(["run", str(folder / "box.toml"), "--out", str(other), *changes]) == 5
@@ -264,7 +285,10 @@ def test_a_run_goes_on_bit_for_bit(folder: Path) -> None:
 
 @pytest.mark.full
 def test_a_gear_and_an_unbalance_until_converged(tmp_path: Path) -> None:
-    """6208 and 6206 of the template geared-shaft: torques known to 1 %, energy to 1e-3; as in their equilibrium."""
+    """Converge torques to 1 % with gear and unbalance.
+
+    6208 and 6206 of the template geared-shaft: energy to 1e-3; as in their equilibrium.
+    """
     (tmp_path / "box.toml").write_text(geared_shaft("box"))
     model = api.check(tmp_path / "box.toml", ['discs.wheel.unbalance="50 g mm"'])
     found = api.run(model, out=tmp_path / "run.h5").summary()
@@ -278,7 +302,10 @@ def test_a_gear_and_an_unbalance_until_converged(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_six_bearings_on_one_shaft_until_converged(tmp_path: Path) -> None:
-    """Loaded between all of them, so that every bearing bears a load."""
+    """Converge six bearings on one shaft.
+
+    Loads between all of them load every bearing.
+    """
     free = {"support": {"x": "free"}}
     case = {
         "name": "six",
@@ -309,7 +336,10 @@ def test_what_does_not_go_together(folder: Path, capsys: pytest.CaptureFixture[s
 
 
 def test_what_changes_over_time() -> None:
-    """A run-up from 500 to 3000 1/min in 4 ms: angle and speed are those of the ramp, energy is balanced to 1e-3."""
+    """Run up from 500 to 3000 1/min.
+
+    In 4 ms: angle and speed are those of the ramp, energy is balanced to 1e-3.
+    """
     ramp = {"kind": "ramp", "start": "500 rpm", "end": "3000 rpm", "end_time": "4 ms"}
     force = {"kind": "harmonic", "amplitude": "100 N", "frequency": "200 Hz"}
     changed = tables(operation={"speed": ramp}, loads={"push": {"at": "110 mm", "force_z": force}})
@@ -331,7 +361,10 @@ def test_what_changes_over_time() -> None:
 
 
 def test_signs_of_the_tied_states() -> None:
-    """Turning about y moves a_z towards -, about z a_y towards + (docs/frames.md)."""
+    """Compare signs with docs/frames.md.
+
+    Turning about y moves a_z towards -, about z a_y towards +.
+    """
     body = np.zeros(1, R.BODY_STATE)
     body.view(np.float64)[RING_STATES] = RING_SIGNS * [1.0, 2.0, 3.0, 0.1, 0.2]
     assert body["position"][0].tolist() == [1.0, 2.0, 3.0]
@@ -339,7 +372,10 @@ def test_signs_of_the_tied_states() -> None:
 
 
 def test_a_machine_without_cages_counts_the_turns_of_its_balls() -> None:
-    """The balls of the 6208 go round at 0.40 of the shaft's speed; without a cage they are what has turned."""
+    """Count turns by balls without a cage.
+
+    The balls of the 6208 go round at 0.40 of the shaft's speed.
+    """
     engine = machine_engine(resolve_machine(tables(), ["depth.cage=false"]))
     assert engine.advance(5e-3).ok
     for one, row in zip(engine.machine.bearings, engine.integrals(), strict=True):

@@ -31,7 +31,10 @@ def engine() -> MachineEngine:
 
 
 def test_laws_see_the_speed_of_the_shaft(engine: MachineEngine) -> None:
-    """In motion and about the equilibrium alike; the parameters that damping takes from it have the same bits."""
+    """Pass the shaft's speed to the laws.
+
+    In motion and about the equilibrium; parameters of damping that depend on it have the same bits.
+    """
     machine, bundle = engine.machine, engine.context.bundle
     for one, found in zip(engine.bearings, engine.start.equilibria, strict=True):
         assert max_speed(one.context.model) == machine.speed > 0.0
@@ -42,7 +45,10 @@ def test_laws_see_the_speed_of_the_shaft(engine: MachineEngine) -> None:
 
 
 def test_no_step_of_a_machine_leaps_over_a_defect(engine: MachineEngine) -> None:
-    """A ball passes 0.8 mm of the outer raceway in some steps: at 0.41 of 314 rad/s, 40 mm from the axis, 0.16 ms."""
+    """Cross a defect of 0.8 mm in four steps.
+
+    The ball passes it, on the outer raceway, at 0.41 of 314 rad/s, 40 mm from the axis, 0.16 ms.
+    """
     expected = longest_step(engine.start.equilibria[0].context)
     assert 1e-6 < expected < 0.16e-3 / 4.0
     assert float(engine._memory.control["longest_step"][0]) == expected

@@ -50,7 +50,10 @@ def test_preload_force_is_the_thrust_without_loads() -> None:
 
 
 def test_lift_off_thrust_unloads_the_opposite_bearing() -> None:
-    """Two equal springs F = k s^1.5 part at 2^1.5 times their preload (Harris and Kotzalas 2006, ch. 9)."""
+    """Compare with 2^1.5 times the preload.
+
+    Two equal springs F = k s^1.5 part there (Harris and Kotzalas 2006, ch. 9).
+    """
     found = _solved(_pair("100 rpm")).bearing("right")
     assert found.preload_force_N is not None
     assert found.lift_off_N is not None

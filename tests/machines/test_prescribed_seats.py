@@ -24,7 +24,10 @@ def tables(left: dict[str, Any], right: dict[str, Any], **changes: Any) -> dict[
 
 
 def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
-    """Both seats on one rigid carrier that moves by 20 um and turns by 0.2 mrad: the same reactions, second order."""
+    """Move both seats on one rigid carrier.
+
+    By 20 um and 0.2 mrad: the same reactions, second order.
+    """
     angle, y, z = 2e-4, 2e-5, -1e-5  # about z [rad], [m]
     model = resolve_machine(tomllib.loads(geared_shaft("box")))
     places = {bearing.name: bearing.position for bearing in model.bearings}
@@ -47,7 +50,10 @@ def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
 
 
 def test_a_seat_out_of_line_loads_its_bearing() -> None:
-    """Half a milliradian between both seats is what the rings are tilted by, less what the shaft bends."""
+    """Tilt a seat by half a milliradian.
+
+    The rings tilt by this, less the bending of the shaft.
+    """
     report = api.quasistatic(resolve_machine(tables({}, {"tilt_y": {"motion": "0.5 mrad"}})))
     at_rest = api.quasistatic(resolve_machine(tables({}, {})))
     (one,), (other,) = ([b for b in found.bearings if b.name == "right"] for found in (report, at_rest))
@@ -56,7 +62,10 @@ def test_a_seat_out_of_line_loads_its_bearing() -> None:
 
 
 def test_a_shaft_follows_seats_that_move() -> None:
-    """Both go up by 20 um in 4 ms while the right one is shaken along x at 250 Hz."""
+    """Move both seats up and shake one.
+
+    By 20 um in 4 ms; the right one is shaken along x at 250 Hz.
+    """
     up = {"kind": "ramp", "start": "0 um", "end": "20 um", "start_time": "0 s", "end_time": "4 ms"}
     shaken = {"kind": "harmonic", "amplitude": "2 um", "frequency": "250 Hz"}
     right = {"x": {"motion": shaken}, "z": {"motion": up}}
@@ -99,7 +108,10 @@ def boxed(hold: dict[str, Any]) -> dict[str, Any]:
 
 
 def test_a_body_with_prescribed_motion_carries_its_bearings() -> None:
-    """By 20 um and, about its centre, 0.2 mrad: reactions as before, the shaft where the body takes it."""
+    """Carry bearings by a body with prescribed motion.
+
+    By 20 um and, about its centre, 0.2 mrad: reactions as before, the shaft moves with the body.
+    """
     at_rest, model = (
         solve_shaft(resolve_machine(boxed({}))),
         resolve_machine(boxed({"x": {"motion": "3 um"}, "y": {"motion": "20 um"}, "tilt_z": {"motion": "0.2 mrad"}})),
@@ -113,7 +125,10 @@ def test_a_body_with_prescribed_motion_carries_its_bearings() -> None:
 
 
 def test_a_body_that_is_shaken_does_work() -> None:
-    """Body, rings and shaft go along with 10 um at 100 Hz, far below all modes; energy is balanced."""
+    """Shake a body at 100 Hz and balance energy.
+
+    10 um, far below all modes: body, rings and shaft go along.
+    """
     swing = {"kind": "harmonic", "amplitude": "10 um", "frequency": "100 Hz"}
     engine = machine_engine(resolve_machine(boxed({"y": {"motion": swing}, "x": {"motion": "3 um"}})))
     assert engine.advance(8e-3).ok
@@ -131,7 +146,10 @@ def test_a_body_that_is_shaken_does_work() -> None:
 
 
 def test_motions_that_cannot_be_prescribed() -> None:
-    """Each at its path: a ring that gives way, one in a body, one on a preload spring, a course by a law."""
+    """Refuse four motions at their paths.
+
+    An elastically supported ring, one in a body, one on a preload spring, a course by a law.
+    """
     box = {"x": "85 mm", "mass": "9 kg", "polar_inertia": "1 kg m2", "transverse_inertia": "1 kg m2"}
     for changes, where, said in (
         (tables({"y": {"mode": "free", "motion": "1 um"}}, {}), "support.y", 'needs mode = "prescribed", not "free"'),

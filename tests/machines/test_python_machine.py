@@ -81,7 +81,10 @@ def test_a_machine_shows_itself_in_one_line() -> None:
 
 
 def test_the_package_offers_what_users_ask_for() -> None:
-    """Each name has one meaning whatever was imported before; the list for type checkers is the list at run time."""
+    """Compare the package's names for types and run time.
+
+    Each name has one meaning whatever was imported before.
+    """
     import lambda_core.fitting
     import lambda_core.runs.api
     import lambda_core.studies.folders  # noqa: F401  # with submodules, their packages are known
@@ -98,7 +101,7 @@ def test_the_package_offers_what_users_ask_for() -> None:
 
 
 def test_functions_take_a_machine() -> None:
-    """A machine stands for the case that it writes."""
+    """Pass a machine in place of its case."""
     machine = gearbox()
     assert lb.quasistatic(machine) == machine.quasistatic()
     assert lb.check(machine).name == "gearbox"

@@ -71,7 +71,10 @@ def of_file(model: MachineModel, path: Path) -> MachineModel:
 
 
 def test_the_own_beam_from_a_file_stands_and_swings_as_itself(beam: MachineModel, tmp_path: Path) -> None:
-    """Statics, natural frequencies and critical speeds to 1e-9; section forces as far as nodes carry the weight."""
+    """Compare a beam of a file to 1e-9.
+
+    Statics, natural frequencies and critical speeds; section forces as far as nodes carry the weight.
+    """
     other = of_file(beam, tmp_path / "shaft.npz")
     one, two = solve_shaft(beam), solve_shaft(other)
     assert two.displacement == pytest.approx(one.displacement, rel=1e-9, abs=1e-9 * np.abs(one.displacement).max())
@@ -92,7 +95,10 @@ def test_the_own_beam_from_a_file_stands_and_swings_as_itself(beam: MachineModel
 
 
 def test_the_own_beam_from_a_file_runs_as_itself(beam: MachineModel, tmp_path: Path) -> None:
-    """Lumps, and a millisecond of the machine: forces and displacements to 1e-9 of the largest."""
+    """Run a beam of a file for a millisecond.
+
+    Lumps, forces and displacements to 1e-9 of the largest.
+    """
     other = of_file(beam, tmp_path / "shaft.json")
     for name in ("positions", "mass", "polar_inertia", "transverse_inertia", "stiffness"):
         one, two = getattr(lump(beam), name), getattr(lump(other), name)
@@ -109,7 +115,10 @@ def test_the_own_beam_from_a_file_runs_as_itself(beam: MachineModel, tmp_path: P
 
 
 def test_a_craig_bampton_reduction_of_the_shaft(beam: MachineModel, tmp_path: Path) -> None:
-    """Five nodes and twelve modes: the equilibrium of the whole beam to 1e-7, its first five frequencies to 1e-3."""
+    """Compare five nodes and twelve modes.
+
+    The equilibrium of the complete beam to 1e-7, its first five frequencies to 1e-3.
+    """
     kept = [0.0, 0.021, 0.085, 0.148, 0.17]
     write_reduced(craig_bampton(alone(beam), kept, 12), tmp_path / "shaft.json")
     other = resolve_machine(tables(shaft={"reduced": "shaft.json", "temperature": "50 degC"}), folder=tmp_path)
@@ -124,7 +133,10 @@ def test_a_craig_bampton_reduction_of_the_shaft(beam: MachineModel, tmp_path: Pa
 
 
 def test_every_kind_of_file_says_the_same(beam: MachineModel, tmp_path: Path) -> None:
-    """JSON, npz, HDF5, TOML with CSV; millimetres and tonnes."""
+    """Read JSON, npz, HDF5, and TOML with CSV.
+
+    Units are millimetres and tonnes.
+    """
     body = craig_bampton(alone(beam), [0.0, 0.085, 0.17], 2)
     data: dict[str, Any] = {"nodes": body.positions, "stiffness": body.stiffness, "mass": body.mass}
     write_reduced(body, tmp_path / "a.json")

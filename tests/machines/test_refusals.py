@@ -73,7 +73,10 @@ def test_ross_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_points_of_the_shaft_have_no_prescribed_motion() -> None:
-    """A motion over time stands under its name, the shaft has none, a body none about x; each said at its path."""
+    """Refuse prescribed motions that do not exist.
+
+    A motion over time has a name of its own; the shaft has none, a body none about x. Each has its path.
+    """
     prescribed = {"kind": "harmonic", "amplitude": "1 um", "frequency": "50 Hz"}
     body = {"x": "85 mm", "mass": "9 kg", "polar_inertia": "1 kg m2", "transverse_inertia": "1 kg m2"}
     body["support"] = {"z": prescribed, "tilt_x": {"motion": "1 mrad"}}
@@ -93,7 +96,10 @@ def test_points_of_the_shaft_have_no_prescribed_motion() -> None:
 
 
 def test_what_of_a_housing_is_left_out_is_said(tmp_path: Path) -> None:
-    """Damping of a housing counts; its mass, gyroscopic matrix and lumps are assumptions of the result."""
+    """State neglected parts of a housing.
+
+    Damping counts; mass, gyroscopic matrix and lumps are assumptions of the result.
+    """
     body = craig_bampton(alone(), [0.021, 0.148], 0)
     held = body.stiffness + np.diag(np.tile([1e8, 1e8, 1e8, 1e5, 1e5, 1e5], 2))
     turning = np.zeros_like(held)
@@ -131,7 +137,10 @@ def test_what_of_a_housing_is_left_out_is_said(tmp_path: Path) -> None:
     ],
 )
 def test_what_no_part_bears_is_refused_at_once(changes: dict[str, Any], where: str, said: str) -> None:
-    """Rounding ate the other parts of such a structure, and balls were pressed through rings for a minute."""
+    """Refuse a structure that rounding made singular.
+
+    Rounding removed its other parts, and the solver pressed balls through rings for a minute.
+    """
     with pytest.raises(api.CaseError) as found:
         resolve_machine(tables(**changes))
     (problem,) = found.value.problems

@@ -58,7 +58,10 @@ def model() -> MachineModel:
 
 
 def test_a_housing_on_mounts_in_equilibrium(model: MachineModel) -> None:
-    """Mounts carry what gear and weights push, in force and moment about the housing's centre (1e-6)."""
+    """Balance mounts with gear and weights to 1e-6.
+
+    In force and moment about the housing's centre.
+    """
     state, rows = solve_shaft(model, kernels=KERNELS), static_rows(model)
     (box,) = model.bodies
     assert box.mass == pytest.approx(model.body.elements[0].material.density * 0.16 * 0.12 * 0.08)
@@ -83,7 +86,10 @@ def test_a_housing_on_mounts_in_equilibrium(model: MachineModel) -> None:
 
 
 def test_a_stiff_housing_is_the_ground(model: MachineModel) -> None:
-    """On mounts 10^4 times as stiff, and held, the reactions are those of the ground, to 1e-3 of the seats' way."""
+    """Compare stiff mounts with the ground.
+
+    10^4 times as stiff, and held: reactions to 1e-3 of the seats' displacement.
+    """
     ground = tables()
     for bearing in ground["bearings"].values():
         bearing["outer"] = "ground"
@@ -98,7 +104,10 @@ def test_a_stiff_housing_is_the_ground(model: MachineModel) -> None:
 
 
 def test_no_body_turns_heavier_about_x_than_about_y_and_z_together() -> None:
-    """I_x <= I_y + I_z of any masses; a thin disc, where they are equal, is a body."""
+    """Require I_x <= I_y + I_z.
+
+    It holds for any masses; a thin disc, where both are equal, is a body.
+    """
     case = tables()
     case["bodies"]["box"] |= {"polar_inertia": "0.2 kg m2", "transverse_inertia": "0.1 kg m2"}
     assert resolve_machine(case).bodies[0].polar_inertia == 0.2
@@ -108,7 +117,9 @@ def test_no_body_turns_heavier_about_x_than_about_y_and_z_together() -> None:
 
 
 def test_modes_of_a_housing_on_its_mounts(model: MachineModel) -> None:
-    """A body on mounts with a shaft a thousand times lighter: six frequencies of the textbook's rigid body (1e-2).
+    """Compare six frequencies with a textbook's rigid body.
+
+    A body on mounts with a shaft a thousand times lighter (1e-2).
 
     K of the mounts about the centre of mass, M of the body; the shaft adds its mass, which is put into M.
     """
@@ -129,7 +140,10 @@ def test_modes_of_a_housing_on_its_mounts(model: MachineModel) -> None:
 
 
 def test_a_shaft_that_swings_with_its_housing_has_its_critical_speed(model: MachineModel) -> None:
-    """Mounts of 20 to 40 N/um under 16 kg: the shaft is shaken there, far below its own bending (m w^2 = k, 10 %)."""
+    """Find the critical speed of shaft and housing.
+
+    Mounts of 20 to 40 N/um under 16 kg shake the shaft far below its own bending (m w^2 = k, 10 %).
+    """
     box = model.bodies[0]
     found = criticals(model, supported(model, solve_shaft(model, kernels=KERNELS)))
     first = min(mode.frequency for mode in found if mode.bodies_share > 0.5)
@@ -139,7 +153,10 @@ def test_a_shaft_that_swings_with_its_housing_has_its_critical_speed(model: Mach
 
 
 def test_what_nothing_holds_is_said() -> None:
-    """A shaft whose bearings are free along x, and a box on one mount, which takes the shaft with it."""
+    """Report free bearings and a box on one mount.
+
+    The bearings are free along x; the box takes the shaft with it.
+    """
     case = tables(connections={}, bodies={}, markers={})
     for name in ("left", "right"):
         case["bearings"][name] |= {"outer": "ground", "support": {"x": "free"}}
@@ -151,7 +168,10 @@ def test_what_nothing_holds_is_said() -> None:
 
 
 def test_a_housing_in_motion(model: MachineModel) -> None:
-    """It begins in equilibrium, energy is balanced to 1e-3 with what mounts and seats take, columns are right."""
+    """Start a housing in equilibrium and balance energy.
+
+    To 1e-3 with the energy of mounts and seats; columns of the Jacobian are right.
+    """
     engine = machine_engine(model)
     bundle, y = engine.context.bundle, engine._memory.y
     number = int(member_numbers(model, engine.start.shaft).bodies[0])
@@ -195,7 +215,10 @@ def check_columns(engine: MachineEngine, number: int) -> None:
 
 
 def test_a_spring_along_turned_axes() -> None:
-    """At 30 degrees about x, k along y gives k cos^2, k sin cos, k sin^2 (exact); a load there turns, too."""
+    """Turn a spring by 30 degrees about x.
+
+    k along y gives k cos^2, k sin cos, k sin^2 (exact); a load there turns, too.
+    """
     case = tables(markers={"felt": {"x": "110 mm", "about_x": "30 deg"}}, bodies={})
     case["connections"] = {"felt": {"at": "felt", "y": "10 N/um"}}
     wave = {"kind": "harmonic", "amplitude": "100 N", "frequency": "50 Hz", "phase": "90 deg"}
@@ -212,7 +235,10 @@ def test_a_spring_along_turned_axes() -> None:
 
 
 def test_a_torque_over_time() -> None:
-    """moment_x over time: the coupling answers it at once where the shaft does not twist."""
+    """Answer moment_x at once by the coupling.
+
+    The shaft does not twist.
+    """
     wave = {"kind": "harmonic", "amplitude": "20 N m", "frequency": "100 Hz", "phase": "90 deg"}
     case = tomllib.loads(geared_shaft("box")) | {"loads": {"fan": {"at": "160 mm", "moment_x": wave}}}
     model = resolve_machine(case)
@@ -251,7 +277,7 @@ def test_mistakes_with_their_paths() -> None:
 
 
 def test_names_have_paths() -> None:
-    """A name that no file can have, and names that are there already."""
+    """Refuse impossible and existing names with their paths."""
     case = tables()
     case["bearings"]["shaft"] = case["bearings"].pop("left")
     case["discs"]["a b"] = case["discs"].pop("wheel")
@@ -262,7 +288,7 @@ def test_names_have_paths() -> None:
 
 
 def test_markers_in_the_report(model: MachineModel) -> None:
-    """A marker on the shaft moves as the shaft there, one on a body as the body carries it."""
+    """Move markers with the shaft and bodies."""
     from lambda_core.analysis.rotor.machine_equilibrium import _at
 
     case = tables()

@@ -39,7 +39,10 @@ def test_weight_and_load_reach_the_bearing() -> None:
 
 
 def test_friction_is_neglected_where_the_shaft_stands_and_not_in_its_loads() -> None:
-    """It was called neglected in the equilibrium, too, which counts it."""
+    """Name friction neglected for pose, not for loads.
+
+    The report called it neglected in the equilibrium too, which counts it.
+    """
     assert "bearing friction is neglected in the displacement of the shaft" in api.check(machine()).assumptions
     sections = {"sections": [{"length": "200 mm", "diameter": "40 mm"}]}
     pair = {"bearings": BEARINGS, "loads": {}, "discs": {}, "shaft": sections}
@@ -51,7 +54,10 @@ def test_one_bearing_is_no_plural() -> None:
 
 
 def test_a_disc_decides_the_natural_frequency() -> None:
-    """Four times the mass, half the frequency, as far as the inner ring's own mass lets it."""
+    """Halve the frequency by four times the mass.
+
+    As far as the inner ring's own mass allows.
+    """
     light = machine(discs={"rotor": {"at": "b", "mass": "2 kg"}}, gravity={"z": "0 m/s2"})
     heavy = machine(discs={"rotor": {"at": "b", "mass": "8 kg"}}, gravity={"z": "0 m/s2"})
     one, other = (

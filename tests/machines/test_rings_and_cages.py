@@ -37,7 +37,10 @@ def on_springs(**changes: Any) -> dict[str, Any]:
 
 
 def test_springs_at_an_outer_ring_are_those_of_its_support() -> None:
-    """A connection to the ground and an elastic support are the same matrices and the same equilibrium."""
+    """Compare a connection with an elastic support.
+
+    Both connect the ring to the ground: the same matrices and the same equilibrium.
+    """
     by_connection = resolve_machine(on_springs())
     by_support = resolve_machine(tables(bearings={"left": {"support": SEAT}}))
     rows = static_rows(by_support)
@@ -47,7 +50,10 @@ def test_springs_at_an_outer_ring_are_those_of_its_support() -> None:
 
 
 def test_a_load_on_an_outer_ring_is_carried_by_its_springs() -> None:
-    """The ring moves by F/k more; the bearing carries as much as before, as nothing else of the machine changes."""
+    """Carry a ring's load by its springs.
+
+    The ring moves by F/k more; the bearing carries as much as before, as nothing else changes.
+    """
     loaded = on_springs(loads={"pull": {"at": "left.outer_ring", "force_z": "-500 N"}})
     models = [resolve_machine(on_springs()), resolve_machine(loaded)]
     free, pulled = (solve_shaft(model, kernels=KERNELS) for model in models)

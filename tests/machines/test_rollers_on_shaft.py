@@ -92,7 +92,10 @@ def of(designation: str, takes: str | None = None) -> RollerReaction:
 
 
 def test_levers_share_the_load() -> None:
-    """F b/l and F a/l on both bearings where outer rings follow the shaft's tilt; the ball bearing has all thrust."""
+    """Compare loads with F b/l and F a/l.
+
+    Outer rings follow the shaft's tilt; the ball bearing has all thrust.
+    """
     _, state = solved(motor(support=PINNED))
     for axis, force in ((1, 800.0), (2, -3000.0)):
         wanted = [-force * 210.0 / 340.0, -force * 130.0 / 340.0]
@@ -102,7 +105,10 @@ def test_levers_share_the_load() -> None:
 
 
 def test_forces_and_moments_on_a_tilted_shaft_add_up() -> None:
-    """About the left end, with the moments that tilted rings put on the shaft; 1e-6 of the load."""
+    """Sum forces and moments about the left end.
+
+    With the moments of tilted rings on the shaft; 1e-6 of the load.
+    """
     model, state = solved(motor())
     place = np.array([bearing.position for bearing in model.bearings])
     assert state.reactions[:, :3].sum(axis=0) == pytest.approx([-250.0, -800.0, 3000.0], abs=3e-3)
@@ -114,7 +120,10 @@ def test_forces_and_moments_on_a_tilted_shaft_add_up() -> None:
 
 
 def test_one_bearing_on_a_short_shaft_is_the_bearing_alone() -> None:
-    """Loads, pressure, lives, film and friction within 0.1 %, under a load in any direction."""
+    """Compare one bearing with itself to 0.1 %.
+
+    Loads, pressure, lives, film and friction, under a load in any direction.
+    """
     case = {
         **SHARED,
         "shaft": {**THICK, "support": {"at": "30 mm", "x": "locked"}},
@@ -154,7 +163,10 @@ def test_one_bearing_on_a_short_shaft_is_the_bearing_alone() -> None:
 
 
 def test_unloaded_rollers_of_a_tilted_ring_stay_in_their_pockets() -> None:
-    """Friction moved them along and askew between their ribs, so that no equilibrium was found at low speed."""
+    """Keep unloaded rollers in their pockets.
+
+    Friction moved and skewed them between their ribs, so that no equilibrium was found at low speed.
+    """
     model = api.check(MOTOR, ("loads.belt.force_z=-12 kN",))
     assert isinstance(model, MachineModel)
     found = solve(at_speed(bearing_alone(model, "belt"), 300.0 * math.pi / 30.0))  # raises where there is none
@@ -175,7 +187,10 @@ def test_unloaded_rollers_of_a_tilted_ring_stay_in_their_pockets() -> None:
 def test_the_stiffness_is_the_slope_of_the_reaction(
     designation: str, takes: str | None, pose: tuple[float, ...]
 ) -> None:
-    """Central differences against the eliminated Hessian, relative to the largest entry of its kind; symmetric."""
+    """Compare stiffness with central differences.
+
+    Against the eliminated Hessian, relative to the largest entry of its kind; symmetric.
+    """
     ring, steps, at = of(designation, takes), (1e-9, 1e-9, 1e-9, 1e-8, 1e-8), np.array(pose)
     slope = np.zeros((5, 5))
     for i, step in enumerate(steps):
@@ -190,7 +205,10 @@ def test_the_stiffness_is_the_slope_of_the_reaction(
 
 
 def test_a_cone_that_faces_the_other_way_is_the_mirror_image() -> None:
-    """Seen in the plane x = 0: x and turns about y and z change sign, of poses and of reactions."""
+    """Mirror a cone in the plane x = 0.
+
+    x and turns about y and z change sign, of poses and of reactions.
+    """
     mirror = np.array([-1.0, 1.0, 1.0, -1.0, -1.0])
     pose = np.array([12e-6, 2e-6, -3e-6, 1e-4, -5e-5])
     right, left = of("32208", "+x").reaction(pose), of("32208", "-x").reaction(mirror * pose)
@@ -206,7 +224,10 @@ def test_a_cone_that_faces_the_other_way_is_the_mirror_image() -> None:
 
 
 def test_the_compiled_contacts_answer_the_same() -> None:
-    """Compiled rollers with the law iso-line: both follow ISO 16281, the law in proportion to E'; 0.5 % for slices."""
+    """Compare compiled contacts with `iso-line`.
+
+    Both follow ISO 16281, the law in proportion to E'; 0.5 % for slices.
+    """
     ring = of("SKF NU 208 ECP")
     kernels = BearingReaction(ring.model, 0.0, 1000.0, KERNELS.of(ring.model))
     softer = STEEL / build_context(ring.model, "ball_inner", ring.frame, ring.oil).e_eff
@@ -215,7 +236,10 @@ def test_the_compiled_contacts_answer_the_same() -> None:
 
 
 def test_a_preload_makes_the_force_that_presses_a_bearing_as_far() -> None:
-    """The force of a bearing alone whose cone moves by the preload, within 0.5 %: the shaft gives way a little."""
+    """Compare a preload with the bearing's force.
+
+    A bearing alone, whose cone moves by the preload: 0.5 %, as the shaft gives way a little.
+    """
     ring = of("32208", "+x")
     thrust = np.array([2000.0, 0.0, 0.0, 0.0, 0.0])
     alone = balance(ring.rollers, thrust, inertial=ring.motion.inertial(ring.rollers), first_angle=-0.5 * math.pi)
@@ -224,7 +248,10 @@ def test_a_preload_makes_the_force_that_presses_a_bearing_as_far() -> None:
 
 
 def test_thrust_goes_to_the_bearing_that_takes_it() -> None:
-    """Forces along x add up; the other bearing is relieved, by less than the thrust while it is preloaded."""
+    """Sum forces along x and relieve the other bearing.
+
+    By less than the thrust while it is preloaded.
+    """
     _, resting = solved(pair("8 um"))
     _, pushed = solved(pair("8 um", "1500 N"))
     assert float(pushed.reactions[:, 0].sum()) == pytest.approx(-1500.0, abs=1e-3)
@@ -233,7 +260,9 @@ def test_thrust_goes_to_the_bearing_that_takes_it() -> None:
 
 
 def test_radial_load_on_cones_in_play_makes_thrust() -> None:
-    """Two cones with play carry Y-like thrust: each F_a is about F_r/(2 Y) = F_r tan(alpha)/0.8, within 10 %.
+    """Compare F_a with F_r/(2 Y) to 10 %.
+
+    Two cones with play under a radial load: F_r/(2 Y) = F_r tan(alpha)/0.8.
 
     ISO 281: Y = 0.4 cot(alpha), half of the rollers loaded at F_a = F_r tan(alpha)/(2 x 0.4).
     """
@@ -283,7 +312,10 @@ def test_what_is_wrong_with_a_roller_bearing_is_said_where_it_stands(
 
 
 def test_rollers_between_ribs_take_thrust_one_way() -> None:
-    """An NJ 208 at either end with play: the one whose ribs face the thrust has it, the other none."""
+    """Put all thrust on ribs that face it.
+
+    An NJ 208 at either end with play; the other one has none.
+    """
     bearings = {
         "left": {"designation": "SKF NJ 208 ECP", "at": "20 mm", "takes": "-x", "preload": "-20 um"},
         "right": {"designation": "SKF NJ 208 ECP", "at": "360 mm", "takes": "+x", "preload": "-20 um"},

@@ -28,7 +28,9 @@ def tables(name: str) -> dict[str, Any]:
 
 @pytest.mark.parametrize("name", CASES)
 def test_a_shaft_with_rollers_runs(name: str) -> None:
-    """20 ms: energy closes to 3e-4, rollers carry the loads of the equilibrium to 5 %, and no roller turns aside.
+    """Run 20 ms and balance energy to 3e-4.
+
+    Rollers carry the loads of the equilibrium to 5 %, and no roller turns aside.
 
     Balls and skewed rollers share the workspace of contacts: nothing of a roller may stay behind in a ball's.
     """
@@ -55,7 +57,10 @@ def test_a_shaft_with_rollers_runs(name: str) -> None:
 @pytest.mark.full
 @pytest.mark.parametrize("name", ["motor", pytest.param("gearbox", marks=pytest.mark.slow)])
 def test_a_run_has_the_friction_of_its_equilibrium(name: str, tmp_path: Path) -> None:
-    """Torque to 15 %: another model of the raceways' films, a cage, rollers that pass."""
+    """Compare torque with the equilibrium to 15 %.
+
+    The run has another model of the raceways' films, a cage, and rollers that pass.
+    """
     found = api.run(tables(name), out=tmp_path / "shaft.h5").summary()
     still = api.quasistatic(tables(name))
     assert abs(found.energy_residual) < 1e-3

@@ -19,7 +19,9 @@ pytest.importorskip("ross")
 
 
 def test_natural_frequencies_and_critical_speeds_agree() -> None:
-    """The same matrices, discs and pieces: six natural frequencies and four critical speeds to 1 %, damping to 2 %.
+    """Compare frequencies and critical speeds with ROSS.
+
+    The same matrices, discs and pieces: six frequencies and four critical speeds to 1 %, damping to 2 %.
 
     ROSS has two-node elements and Hutchinson's shear coefficient.
     """

@@ -26,7 +26,10 @@ def machine(**support: Any) -> MachineModel:
 
 
 def test_a_held_place_stays_where_it_is_moved() -> None:
-    """Exactly; the rest of the shaft bends, and the torque of the coupling is that of the gear as before."""
+    """Keep a held place while the shaft bends.
+
+    The torque of the coupling is that of the gear as before.
+    """
     model = machine(at="85 mm", y="locked", z={"motion": "10 um"}, tilt_y="locked")
     state, free = solve_shaft(model), solve_shaft(machine())
     moved = state.displacement[model.body.rows(0.085)]
@@ -36,7 +39,10 @@ def test_a_held_place_stays_where_it_is_moved() -> None:
 
 
 def test_a_very_stiff_support_is_a_lock() -> None:
-    """1e15 N/m give way by a picometre; reactions of the bearings agree to 1e-5."""
+    """Compare 1e15 N/m with a lock.
+
+    The support gives way by a picometre; reactions of the bearings agree to 1e-5.
+    """
     locked = solve_shaft(machine(at="60 mm", y="locked", z="locked"))
     stiff = machine(at="60 mm", y="1000000000 N/um", z="1000000000 N/um")
     found = solve_shaft(stiff)
@@ -46,7 +52,10 @@ def test_a_very_stiff_support_is_a_lock() -> None:
 
 
 def test_a_shaken_shaft_keeps_its_balance_of_energy() -> None:
-    """What moves the shaft is counted among the inputs: 1e-3 of what goes in."""
+    """Balance energy of a shaken shaft.
+
+    The work of the prescribed motion counts as input, to 1e-3.
+    """
     shaken = {"motion": {"kind": "harmonic", "amplitude": "3 um", "frequency": "50 Hz"}}
     engine = machine_engine(machine(at="left", x=shaken, z=shaken))
     assert engine.advance(4e-3).ok
@@ -68,7 +77,10 @@ def test_mistakes_of_a_support() -> None:
 
 
 def test_a_torque_drives_the_shaft() -> None:
-    """Its work is torque times angle, 1 % for the change of speed; the balance of energy closes to 1e-3."""
+    """Compare work with torque times angle.
+
+    1 % for the change of speed; the balance of energy closes to 1e-3.
+    """
     works = []
     for torque in (0.0, 2.0):
         tables = tomllib.loads(geared_shaft("box")) | {"gears": {}}

@@ -30,7 +30,10 @@ def test_hold_and_motion_of_a_bearing_name_its_support() -> None:
 
 
 def test_lives_are_written_in_one_form() -> None:
-    """Two digits, groups of three, "above" beyond a million hours: in the table, in its sum, in the duty cycle."""
+    """Write lives in one form everywhere.
+
+    Two digits, groups of three, "above" beyond a million hours: in the table, in its sum, in the duty cycle.
+    """
     found = api.quasistatic(box())
     text = found.text()
     cells = re.findall(r"^L_10rh h +(.*)$", text, re.MULTILINE)[0]

@@ -99,7 +99,10 @@ def test_a_call_computes_with_one_thread_and_gives_the_others_back(
 
 @pytest.mark.full
 def test_a_run_begun_from_python_is_gone_on_with_on_the_command_line(tmp_path: Path) -> None:
-    """Whatever number of threads there are: what a run begins with has the same bits."""
+    """Continue a Python run on the command line.
+
+    Whatever the number of threads: a run begins with the same bits.
+    """
     api.run(tomllib.loads(geared_shaft("box")), ["solver.duration=0.1 ms"], out=tmp_path / "run.h5")
     with threadpool_limits(1, user_api="blas"):
         assert main(["resume", str(tmp_path / "run.h5"), "--quiet", "--duration", "0.5 ms"]) == 5

@@ -72,7 +72,10 @@ def ringing(solver: dict[str, Any]) -> Callable[[FloatArray], FloatArray]:
 
 @pytest.mark.full
 def test_a_kick_rings_as_in_a_run_a_hundred_times_tighter() -> None:
-    """1.1 kHz with 1 % of damping and 0.1 um: to 1 % after eight swings, of which averages leave next to nothing."""
+    """Compare a kick with a run at tight tolerance.
+
+    1.1 kHz with 1 % of damping and 0.1 um: to 1 % after eight swings, which the averages hardly show.
+    """
     at = np.linspace(6e-3, 10e-3, 1000)
     true, followed, averages = (ringing(solver)(at) for solver in (TIGHT, VIBRATION, {}))
     size = float(np.std(true))
@@ -83,13 +86,18 @@ def test_a_kick_rings_as_in_a_run_a_hundred_times_tighter() -> None:
 
 
 def test_another_course_of_a_load_is_another_run() -> None:
-    """A run goes on with the fingerprint that it began with: the points of a table belong to it."""
+    """Count points of a table in the fingerprint.
+
+    A run continues only with the fingerprint that it began with.
+    """
     found = {machine_engine(resolve_machine(kicked(force, VIBRATION))).fingerprint() for force in (30.0, 31.0)}
     assert len(found) == 2
 
 
 def test_modes_in_motion_are_those_of_the_rotor() -> None:
-    """Eigenvalues of all balls, rings and lumps against those of the beam on the bearings' matrices.
+    """Compare eigenvalues of a run with the rotor.
+
+    All balls, rings and lumps, against the beam on the bearings' matrices.
 
     To 8 %: the beam has no rings and balls (0.4 kg against 4 kg), and balls that stand still.
     """
@@ -106,7 +114,10 @@ def test_modes_in_motion_are_those_of_the_rotor() -> None:
 
 @pytest.mark.parametrize("is_shaken", [True, False])
 def test_vibrations_choose_themselves(is_shaken: bool) -> None:
-    """A defect in one bearing, or a load that swings faster than the shaft turns."""
+    """Choose vibrations for a defect or fast load.
+
+    The defect is in one bearing; the load swings faster than the shaft turns.
+    """
     found = box()
     assert resolve_machine(found).solver.resolve == 0.0
     if is_shaken:
@@ -131,7 +142,10 @@ def test_vibrations_choose_themselves(is_shaken: bool) -> None:
 
 
 def test_what_shakes_with_every_turn_is_not_faster() -> None:
-    """11 Hz at 660 1/min, whatever the last bit of their quotient is."""
+    """Compare 11 Hz with 660 1/min.
+
+    The last bit of their quotient does not count.
+    """
     shaking = {"kind": "harmonic", "amplitude": "10 N", "frequency": "11 Hz"}
     load = {"shaker": {"at": "85 mm", "force_z": shaking}}
     assert resolve_machine(box(operation={"speed": "660 rpm"}, loads=load)).solver.resolve == 0.0
@@ -190,7 +204,10 @@ def test_a_mistake_in_a_force_element_of_one_bearing_has_its_place() -> None:
 
 @pytest.mark.full
 def test_a_run_with_a_defect_balances_and_goes_on_bit_for_bit(tmp_path: Path) -> None:
-    """Every ball that crosses it strikes: one run to the end, and one that stopped halfway."""
+    """Compare a stopped run with an undisturbed one.
+
+    Every ball that crosses the defect strikes.
+    """
     found = box()
     found["bearings"]["right"]["forces"] = DEFECT
     complete = api.run(found, ["solver.duration=6 ms"], out=tmp_path / "whole.h5").summary()
@@ -252,7 +269,10 @@ def lines(solver: dict[str, Any]) -> tuple[FloatArray, FloatArray]:
 
 @pytest.mark.slow
 def test_lines_of_a_defect_against_far_shorter_steps() -> None:
-    """The six largest between 0.1 and 2 kHz in either direction: 0.8 % measured; 3 % is what a spectrum has to hold."""
+    """Compare lines with far shorter steps.
+
+    The six largest between 0.1 and 2 kHz in either direction: 0.8 % measured; a spectrum has to hold 3 %.
+    """
     frequency, true = lines({"accuracy": "vibration", "tolerance": 1e-5, "max_step": "5 us"})
     _, followed = lines({})
     inside = (frequency > 100.0) & (frequency < 2000.0)

@@ -25,7 +25,10 @@ MOTOR: dict[str, Any] = {
 
 
 def test_friction_of_tilted_rollers_changes_smoothly_with_the_clearance() -> None:
-    """A micrometre of clearance moves the load zone, and the loss by a per cent or two; no place is without one."""
+    """Change the clearance by single micrometres.
+
+    Each moves the load zone, and the loss by a per cent or two; no place is without a loss.
+    """
     machine = api.check(MOTOR)
     assert isinstance(machine, api.MachineModel)
     loop = MachineLoop(without_temperatures(machine))

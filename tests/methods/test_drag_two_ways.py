@@ -59,7 +59,9 @@ def test_schaeffler_factors(series: str) -> None:
 @pytest.mark.parametrize("level", [-0.004, 0.0, 0.015, 0.3])
 @pytest.mark.parametrize("law", ["skf 2008", "skf 2018", "schaeffler"])
 def test_all_balls_together_lose_the_catalogues_number(law: str, level: float) -> None:
-    """The catalogues' d_m is (d + D)/2; here the pitch circle is 3 mm larger, as in many real bearings.
+    """Compare the mean over 48 positions to 1e-4.
+
+    The catalogues' d_m is (d + D)/2; here the pitch circle is 3 mm larger, as in many real bearings.
 
     Mean over 48 positions of the balls of the power of every ball over the speed, 1e-4 for the mean.
     """

@@ -111,7 +111,10 @@ def test_loads_are_applied_along_free_axes_and_carried_along_held_ones(resolved:
 
 
 def test_the_load_of_catalogue_methods_does_not_change_with_speed() -> None:
-    """A 6206 under 2000 and 600 N: P of the contact forces alone fell by 1 % from 100 to 15 000 1/min."""
+    """Compare P from 100 to 15 000 1/min.
+
+    A 6206 under 2000 and 600 N: P of the contact forces alone fell by 1 %.
+    """
     from lambda_core import api
 
     case = ("bearing.designation=6206", "bearing.maker=SKF", "loads.radial=2 kN", "loads.axial=600 N")

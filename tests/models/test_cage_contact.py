@@ -69,7 +69,10 @@ def test_cylindrical_pocket_is_free_along_the_radius() -> None:
 
 @pytest.mark.parametrize(("element", "side"), [("cage_outer", 1.0), ("cage_inner", -1.0)])
 def test_land_touches_on_the_side_of_the_ring_that_guides(element: str, side: float) -> None:
-    """Both rings push the cage back; the outer ring's land is touched ahead of the motion, the inner ring's behind."""
+    """Push the cage back from both rings.
+
+    Its motion touches the outer ring's land ahead, the inner ring's behind.
+    """
     context = trial_context(element)
     r = np.array([1e-4, 0.0, 0.5 * context.land_clearance + 3e-6])
     force, point = contact("land-guidance", r, element=element)
@@ -83,7 +86,10 @@ def test_land_touches_on_the_side_of_the_ring_that_guides(element: str, side: fl
 @settings(max_examples=40, deadline=None)
 @given(v=vectors, omega=vectors, closing=st.floats(-1.0, 1.0))
 def test_never_pulls_and_never_drives(name: str, v: Any, omega: Any, closing: float) -> None:
-    """Power of normal damping and friction together is never positive; the normal force never attracts."""
+    """Find no positive power and no attraction.
+
+    Normal damping and friction together never drive, and the normal force never pulls.
+    """
     element = "cage_inner" if name == "land-guidance" else "ball_cage"
     context = trial_context(element)
     play = 0.5 * (context.land_clearance if name == "land-guidance" else context.pocket_clearance)
@@ -167,7 +173,10 @@ def test_balls_apart_do_not_feel_each_other(apart: float) -> None:
 @settings(max_examples=40, deadline=None)
 @given(vectors, vectors, vectors, st.floats(1e-7, 1e-5))
 def test_two_balls_push_each_other_apart(direction: Any, v: Any, omega: Any, depth: float) -> None:
-    """Along the line of centres, at the point halfway; damping and friction never drive."""
+    """Push along the line of centres, halfway.
+
+    Damping and friction never drive.
+    """
     if np.linalg.norm(direction) < 0.1:
         return
     n = direction / np.linalg.norm(direction)

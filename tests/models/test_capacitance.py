@@ -58,7 +58,10 @@ class TestEveryLaw:
 @pytest.mark.parametrize("load", [5.0, 500.0, 5000.0])
 @pytest.mark.parametrize("ratio", [1.0, 1.5, 30.0, 120.0])
 def test_gap_integral_against_two_dimensional_quadrature(load: float, ratio: float) -> None:
-    """Independent route: the gap by adaptive quadrature of the elastic potential, the area by Gauss points; 1e-3."""
+    """Compare the gap integral by another route.
+
+    The gap by adaptive quadrature of the elastic potential, the area by Gauss points; 1e-3.
+    """
     given = arguments(load, 1e-6, 5e-3, 5e-3 * ratio)
     found = evaluate("capacitance/gap-integral", **given)[0] - given["C_hertz"]
     contact = hertz_contact(load, 5e-3, 5e-3 * ratio, CONTEXT.e_eff)
@@ -73,7 +76,10 @@ def test_gap_integral_does_not_care_which_axis_is_longer() -> None:
 
 
 def test_gap_integral_grows_with_its_extent_by_the_logarithm() -> None:
-    """Far out the gap is r^2/(2 R) in every direction: dC/d ln(extent) = 2 pi eps sqrt(R_x R_y) for a circle."""
+    """Compare growth with 2 pi eps sqrt(R_x R_y).
+
+    Far out the gap is r^2/(2 R) in every direction: dC/d ln(extent) for a circle.
+    """
     given = arguments(5.0, 1e-7, 5e-3, 5e-3)
     near, far = (evaluate("capacitance/gap-integral", {"extent": e}, **given)[0] for e in (0.8, 1.0))
     expected = EPS_0 * 2.2 * 2.0 * math.pi * 5e-3 * math.log(1.0 / 0.8)

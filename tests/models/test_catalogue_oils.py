@@ -24,7 +24,10 @@ def test_every_oil_feeds_its_laws(catalogue: SqlCatalogue) -> None:
 
 
 def test_rheology_laws_of_one_oil_agree_at_ambient_pressure(catalogue: SqlCatalogue) -> None:
-    """Within 5 %: the laws share two viscosities. FVA3A within 12 %: its Vogel constants and nu100 have two sources."""
+    """Compare laws at ambient pressure to 5 %.
+
+    The laws share two viscosities. FVA3A within 12 %: its Vogel constants and nu100 have two sources.
+    """
     for row in catalogue.lubricants(limit=1000):
         found = []
         for name, values in row.parameters["rheology"].items():

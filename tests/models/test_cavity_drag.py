@@ -30,7 +30,10 @@ def mixture(v: float = 20.0, omega: float = 3000.0, **parameters: Any) -> Any:
 
 
 def test_share_of_oil_by_parkers_correlation() -> None:
-    """6 l/min through a bearing of 155 mm at 20 000 1/min: 10^5 6000^0.37/(20 000 155^1.7) = 2.4 %."""
+    """Compare the share with Parker's 2.4 %.
+
+    6 l/min through a bearing of 155 mm at 20 000 1/min: 10^5 6000^0.37/(20 000 155^1.7).
+    """
     share = 1e5 * 6000.0**0.37 / (20000.0 * 155.0**1.7)
     assert cavity_share(1e-4, 20000.0, 0.155) == pytest.approx(share, rel=1e-12)
     assert 0.023 < share < 0.025
@@ -52,7 +55,10 @@ def test_a_cavity_full_of_oil_is_a_flooded_bearing() -> None:
 
 
 def test_air_alone_drags_by_its_density() -> None:
-    """At Re of 10^4 to 10^5 C_D of a sphere is 0.41 to 0.49 (Clift, Grace and Weber 1978, table 5.1)."""
+    """Compare C_D with 0.41 to 0.49.
+
+    At Re of 10^4 to 10^5 (Clift, Grace and Weber 1978, table 5.1), of a sphere.
+    """
     force, _ = mixture(60.0, oil_share=1e-9)
     area = 0.25 * math.pi * CONTEXT.ball_diameter**2
     assert 0.41 < force / (0.5 * 1.2 * 60.0**2 * area) < 0.49

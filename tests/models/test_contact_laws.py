@@ -65,7 +65,10 @@ class TestNormalContact:
 @settings(max_examples=40, deadline=None)
 @given(st.floats(0.0, math.log(1.9e4)), st.floats(1e-8, 5e-5))
 def test_exact_model_is_exact_for_every_ratio(log_ratio: float, delta: float) -> None:
-    """Against the solution by Carlson's integrals; 1e-7 is the error of the Chebyshev series."""
+    """Compare with Carlson's integrals to 1e-7.
+
+    This is the error of the Chebyshev series.
+    """
     R_x, R_y = 5e-3, 5e-3 * math.exp(log_ratio)
     load, a, b, p = evaluate("normal_contact/hertz-exact", delta=delta, R_x=R_x, R_y=R_y, E_eff=2.3e11)
     exact = hertz_contact(load, R_x, R_y, 2.3e11)
@@ -91,7 +94,10 @@ class TestDamping:
         assert evaluate("damping/cubic", delta_dot=-0.01, load=100.0, **given)[0] == pytest.approx(-30.0)
 
     def test_coefficient_from_the_stiffness_at_the_mean_load(self) -> None:
-        """Against the slope of the exact contact; 2 % for the fit of Hamrock and Brewe."""
+        """Compare with the slope of the exact contact.
+
+        2 % for the fit of Hamrock and Brewe.
+        """
         law = registry().model("damping", "cubic")
         d_max, _ = make_par(law, law.parameters(), CONTACT)
         low, high = (hertz_contact(CONTACT.mean_load * f, *list(RADII.values())) for f in (0.999, 1.001))

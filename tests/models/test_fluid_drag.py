@@ -95,7 +95,10 @@ class TestEveryLaw:
 @pytest.mark.parametrize("level", [-0.003, 0.0, 0.02, 0.1])
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
 def test_power_of_the_balls_is_the_catalogues(level: float, share: float) -> None:
-    """SKF 2008: V_M K_ball d_m^5 n^2 in N mm; averaged over 24 positions of the balls, 1e-4 for the average."""
+    """Compare power with SKF 2008 to 1e-4.
+
+    V_M K_ball d_m^5 n^2 in N mm; averaged over 24 positions of the balls.
+    """
     context = dataclasses.replace(CONTEXT, oil_level=level)
     n = 3000.0
     expected = 3e-5 * 3.1 * (80.0 + 40.0) / (80.0 - 40.0) * 1e-12 * 60.0**5 * n**2 * 1e-3
@@ -111,7 +114,10 @@ def test_split_between_force_and_moment() -> None:
 
 
 def test_viscous_term_of_the_later_edition() -> None:
-    """By hand for the 6208 of the trial context, oil to the centre of the lowest ball, all in mm, 1/min, mm2/s."""
+    """Compute the viscous term by hand.
+
+    The 6208 of the trial context, oil to the centre of the lowest ball, all in mm, 1/min, mm2/s.
+    """
     n, d_m, H = 3000.0, 60.0, 0.5 * 11.906
     ratio = 3.1 * (80.0 + 40.0) / (80.0 - 40.0)
     t = 2.0 * math.acos((0.6 * d_m - H) / (0.6 * d_m))
@@ -125,7 +131,10 @@ def test_viscous_term_of_the_later_edition() -> None:
 # Oil level over mean diameter: V_M of the chart's two digitised parts, and the 6319 of Syla et al. 2026.
 @pytest.mark.parametrize(("level", "factor"), [(0.0, 0.0), (0.1017, 7.55e-5), (0.1087, 7.97e-5), (1.3, 1.25e-3)])
 def test_drag_loss_factor_of_the_chart(level: float, factor: float) -> None:
-    """Read from SKF's diagram; the two parts of the chart, 7.35e-5 and 8.58e-5 at 0.1087, are 15 % apart."""
+    """Compare V_M with readings of SKF's diagram.
+
+    The two parts of the chart, 7.35e-5 and 8.58e-5 at 0.1087, are 15 % apart.
+    """
     assert drag_loss_factor(level) == pytest.approx(factor, rel=0.08)
 
 
@@ -141,7 +150,10 @@ def test_edition_is_a_year_as_number_or_text(edition: Any) -> None:
 
 @pytest.mark.parametrize("n", [20.0, 3000.0])
 def test_schaeffler_torque_and_its_share(n: float) -> None:
-    """Series 62: f0 = 2; below nu n = 2000 the constant 160, above (nu n)^(2/3)."""
+    """Compare Schaeffler's torque below and above 2000.
+
+    Series 62: f0 = 2; below nu n = 2000 the constant 160, above (nu n)^(2/3).
+    """
     number = max(160.0, (40.0 * n) ** (2.0 / 3.0))
     expected = 0.35 * 2.0 * 1e-7 * 60.0**3 * number * 1e-3
     assert torque("schaeffler-catalogue", CONTEXT, n * math.pi / 30.0) == pytest.approx(expected, rel=0.002)

@@ -67,7 +67,10 @@ def test_eyring_is_its_closed_form_below_the_limit(ln_eta: float, slip: float, t
 
 
 def test_bair_winer_solves_its_own_equation() -> None:
-    """gamma_dot = -(tau_L/eta) ln(1 - tau/tau_L), solved back from the stress."""
+    """Solve the law back from its stress.
+
+    gamma_dot = -(tau_L/eta) ln(1 - tau/tau_L).
+    """
     slip = np.geomspace(1e-4, 10.0, 30)
     tau = evaluate("traction/bair-winer", slip=slip, p=1e9, **CELL)
     limit = 0.065e9
@@ -79,7 +82,10 @@ HEAT: dict[str, Any] = {"T_in": 330.0, "u_mean": 8.0, "h": 1e-6, "semi_b": 2e-4}
 
 class TestShearHeating:
     def test_film_and_flash_add_up(self) -> None:
-        """Equal bodies: q h/(12 lambda) + 0.376 q sqrt(2 b/(u k rho c)), at high Peclet number."""
+        """Add up temperatures of film and flash.
+
+        Equal bodies: q h/(12 lambda) + 0.376 q sqrt(2 b/(u k rho c)), at high Peclet number.
+        """
         context = trial_context("ball_inner")
         steel, oil = context.ball, context.oil
         tau, slip = 50e6, 0.4
@@ -90,7 +96,10 @@ class TestShearHeating:
         assert rise == pytest.approx(film + 0.3761 * q * math.sqrt(band), rel=1e-4)
 
     def test_heat_is_shared_by_conduction_through_the_film(self) -> None:
-        """A film that conducts perfectly levels both surfaces; one that insulates splits the heat in halves."""
+        """Compare a conducting with an insulating film.
+
+        Perfect conduction makes both surfaces equal; insulation splits the heat in halves.
+        """
         steel = trial_context("ball_inner")
         ceramic = dataclasses.replace(
             steel.ball, density=3200.0, thermal_conductivity=25.0, specific_heat=720.0, name="Si3N4"
@@ -225,7 +234,10 @@ class TestRollingResistance:
 
 
 def test_strips_sum_up_to_the_integral_over_the_ellipse() -> None:
-    """Biboulet-Houpert with eight points against adaptive quadrature of the strip formula; 1.2e-3 for the rule."""
+    """Compare eight points with adaptive quadrature.
+
+    The strip formula of Biboulet-Houpert; 1.2e-3 for the rule.
+    """
     from scipy.integrate import quad
 
     E, R_x, a = ROLLING["E_eff"], ROLLING["R_x"], ROLLING["semi_a"]

@@ -49,7 +49,10 @@ class TestEveryLaw:
             assert np.all(np.diff(rho) < 0.0)
 
     def test_no_kinks(self, label: str) -> None:
-        """A fourth of the step leaves 1/16 of the second difference where the slope is continuous, 1/4 at a kink."""
+        """Compare second differences at a fourth of the step.
+
+        1/16 is left where the slope is continuous, 1/4 at a kink.
+        """
         largest = []
         for step in (4e4, 1e4):
             ln_eta, _ = evaluate(label, REQUIRED[label], p=np.arange(0.0, 4e9, step), T=313.15)
@@ -71,7 +74,10 @@ def test_cap_is_reached_by_the_published_bode_oil_before_its_pole() -> None:
 @settings(max_examples=60, deadline=None)
 @given(st.floats(5.0, 700.0), st.floats(2.5, 4.2), st.floats(236.0, 570.0))
 def test_polynomial_follows_walther(nu_40: float, slope: float, T: float) -> None:
-    """Walther's slope is 3.3..3.9 for mineral oils, down to 2.7 for polyglycols; 1e-5 of the viscosity."""
+    """Compare the polynomial with Walther to 1e-5.
+
+    Of the viscosity; the slope is 3.3..3.9 for mineral oils, down to 2.7 for polyglycols.
+    """
     level = math.log10(math.log10(nu_40 + 0.7)) - slope * math.log10(373.15 / 313.15)
     nu_100 = 10.0 ** (10.0**level) - 0.7
     given = {"kinematic_viscosity_40": f"{nu_40} mm2/s", "kinematic_viscosity_100": f"{nu_100} mm2/s"}

@@ -60,7 +60,10 @@ def test_the_wheel_holds_our_packages_and_nothing_else(wheel: Path) -> None:
 
 
 def test_the_wheel_holds_every_data_file_of_the_packages(wheel: Path) -> None:
-    """Seeds and cases are text files; one that an ignore rule swallows would be missing."""
+    """Find seeds and cases in the wheel.
+
+    They are text files, and an ignore rule could hide one.
+    """
     names = set(zipfile.ZipFile(wheel).namelist())
     homes = {"lambda_core": ROOT, **{f"lambda_{part}": ROOT / part for part in ("plugins", "db", "gui", "cli")}}
     for package, home in homes.items():
@@ -132,7 +135,10 @@ def test_help_loads_nothing_heavy(arguments: list[str], tmp_path: Path) -> None:
 
 @pytest.mark.clock
 def test_help_answers_within_half_a_second(tmp_path: Path) -> None:
-    """Fastest of several tries: other work on the machine only ever slows it down."""
+    """Time help and take the fastest try.
+
+    Other work on the machine only ever slows it down.
+    """
     import time
 
     best = 9.9

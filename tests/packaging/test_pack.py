@@ -69,7 +69,10 @@ class Numbers(NamedTuple):
 
 
 def test_values_are_handed_over_word_by_word() -> None:
-    """Numbers, an array as its seven words, a tuple field by field or by its address, a pointer as three words."""
+    """Pass numbers, arrays, tuples and pointers.
+
+    An array as its seven words, a tuple field by field or by its address, a pointer as three words.
+    """
     seen: list[Any] = []
     numbers, line, rows = Numbers(np.zeros(3)), np.arange(4.0), np.zeros((2, 3), dtype=np.int64)
     kinds = [kind_from(each) for each in ("float", "int", ["float64", 1], {"tuple": [["int64", 2], "float"]})]
@@ -107,7 +110,10 @@ def test_where_there_is_no_pack_nobody_gets_one_by_asking(tmp_path: Path) -> Non
 
 
 def test_a_run_does_not_go_on_under_other_code(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """It says which code began it, and how to choose that; before anything is compiled."""
+    """Refuse other code before anything is compiled.
+
+    The message names the code that began the run, and how to choose it.
+    """
     path = tmp_path / "run.h5"
     assert api.run(CASE, ["solver.duration=0.2 ms"], out=path).kernel_keys["code"] == "native"
     monkeypatch.setattr("lambda_core.laws.pack.code", lambda: "pack linux x86-64-v3 numba 0.0")
@@ -133,7 +139,10 @@ def test_neither_an_sdist_nor_an_editable_install_compiles(kind: str, tmp_path: 
 
 
 def test_a_wheel_with_a_pack_needs_what_the_program_needs(tmp_path: Path) -> None:
-    """For the build alone; without a pack nothing but hatchling."""
+    """Require only hatchling without a pack.
+
+    The build alone needs it.
+    """
     code = "import hatch_build; print(*hatch_build.get_requires_for_build_wheel())"
     asked = [call("-c", code, cwd=ROOT, LAMBDA_BEARING_PACK=wanted).stdout.split() for wanted in ("1", "0")]
     assert [name.split(">=")[0] for name in asked[0][:3]] == ["numpy", "scipy", "numba"]
@@ -178,7 +187,10 @@ def edited(installed: Path, tmp_path: Path) -> Path:
 @pytest.mark.slow
 @pytest.mark.timeout(1800)
 def test_a_wheel_runs_without_the_compiler_to_the_numbers_of_native_code(installed: Path, tmp_path: Path) -> None:
-    """Equal to a part in a million after a millisecond; nothing is compiled into an empty cache."""
+    """Run a wheel without the compiler.
+
+    Equal to a part in a million after a millisecond; nothing is compiled into an empty cache.
+    """
     cache, found = tmp_path / "cache", {}
     run = ["run", CASE, "--duration", "1 ms", "--progress", "none", "--out"]
     done = call("-c", RUN, *run, "pack.h5", cwd=tmp_path, PYTHONPATH=str(installed), LAMBDA_BEARING_CACHE=str(cache))
@@ -198,7 +210,7 @@ def test_a_wheel_runs_without_the_compiler_to_the_numbers_of_native_code(install
 @pytest.mark.slow
 @pytest.mark.timeout(1800)
 def test_a_damaged_pack_is_refused_aloud(installed: Path, tmp_path: Path) -> None:
-    """One bit of the library, then one of the manifest."""
+    """Change one bit of library and manifest."""
     for name in ("linux.so", "manifest.json"):
         copy = edited(installed, tmp_path / name)
         file = copy / "lambda_core" / "pack" / name

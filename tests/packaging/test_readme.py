@@ -59,7 +59,10 @@ def test_ci_runs_what_the_second_command_leaves_out_for_its_cost() -> None:
 @pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")
 @pytest.mark.parametrize("failing", ["nothing", "-m tests$", "smoke", "full and", "anchors"])
 def test_ci_fails_when_one_part_fails_and_runs_the_others(failing: str, tmp_path: Path) -> None:
-    """Stand-ins for Python and pip say how they were called; one of them fails."""
+    """Run CI with stand-ins for Python and pip.
+
+    They print how they were called; one of them fails.
+    """
     stand_in = f'#!/bin/sh\necho "$0 $@" >> {tmp_path}/calls\nif echo "$@" | grep -q -e "{failing}"; then exit 3; fi\n'
     for place in ("python3", ".venv/bin/python", ".venv/bin/pip", ".ci/run"):
         path = tmp_path / place
@@ -84,7 +87,10 @@ def test_c2_5_ci_tries_the_pythons_that_are_promised() -> None:
 
 
 def test_what_other_pythons_compute_is_computed_here_too(tmp_path: Path) -> None:
-    """The script puts the solver together by itself: it has to follow the solver."""
+    """Compare the script with the solver.
+
+    It puts the solver together by itself and has to follow it.
+    """
     from smoke import FORCES
 
     done = subprocess.run([sys.executable, "-c", FORCES], cwd=tmp_path, capture_output=True, text=True, check=False)
@@ -111,7 +117,10 @@ def test_linked_pages_exist() -> None:
 def test_the_output_shown_is_what_a_run_prints(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Compare lines and numbers as on a page, but for those of a chaotic motion: they depend on the machine."""
+    """Compare lines and numbers with a run.
+
+    Numbers of a chaotic motion are left out because they depend on the machine.
+    """
     shown = blocks()[1]
     assert {"friction torque", "rating life", "film", "energy residual"} <= set(_labels(shown))
     monkeypatch.chdir(tmp_path)

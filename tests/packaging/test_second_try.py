@@ -96,7 +96,10 @@ def test_what_passes_alone_is_flaky_and_no_failure(tmp_path: Path) -> None:
 
 
 def test_nothing_that_is_wrong_is_lost(tmp_path: Path) -> None:
-    """What fails twice, what cannot be collected, and what ends its process, each next to a flaky test."""
+    """Report double failures, collection errors and lost processes.
+
+    Each is next to a flaky test.
+    """
     code, output = run(tmp_path, "test_flaky.py", "test_wrong.py", "test_broken.py", "test_x_ends.py", "test_right.py")
     assert code == 1, output
     assert "FAILED test_wrong.py::test_fails_always[a b] (alone too)" in output

@@ -54,7 +54,10 @@ def test_roles_are_declared_once() -> None:
 
 
 def test_processes_are_started_in_few_places() -> None:
-    """The batch engine, the compile step, and the check of plugins apart."""
+    """Start processes in the engine, compiler and check.
+
+    The batch engine, the compile step, and the separate check of plugins.
+    """
     places = {place.split(":")[0] for place in found(r"ProcessPoolExecutor|subprocess\.Popen", OURS)}
     assert places == {
         "lambda_core/studies/pool.py",
@@ -71,7 +74,10 @@ def test_what_numba_does_not_promise_stands_in_one_room() -> None:
 
 
 def test_packages_have_other_names_than_functions() -> None:
-    """The import of a package sets its name in the package above: ``lb.run`` would be a module from then on."""
+    """Give packages and functions different names.
+
+    The import of a package sets its name in the package above: ``lb.run`` would be a module from then on.
+    """
     import lambda_core as lb
 
     packages = {path.stem for path in (ROOT / "lambda_core").iterdir() if path.is_dir() or path.suffix == ".py"}

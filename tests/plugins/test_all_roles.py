@@ -75,7 +75,9 @@ def test_the_torque_is_the_closed_form_and_no_built_in_law_was_imported(site: In
 @pytest.mark.full
 @pytest.mark.timeout(300)
 def test_rollers_have_the_same_closed_form(site: Installation) -> None:
-    """All laws of rollers on raceways are foreign ones at once: of lines, of slices, of pockets and of the oil.
+    """Run all foreign laws of rollers at once.
+
+    They are laws of lines, of slices, of pockets and of the oil.
 
     Every roller is pressed on both rings by a negative clearance. Ribs, which a NU without thrust leaves alone, have
     the foreign laws of the roles that lines and points share, and built-in ones of points.
@@ -104,7 +106,9 @@ print(json.dumps({"voltage": abs(events.contact_voltage[first]), "peak": events.
 
 @pytest.mark.full
 def test_films_break_down_and_burn_by_foreign_laws(site: Installation) -> None:
-    """The first film under a rising voltage breaks down at the 4 V of the package, with a current of 4 V over 28 Ohm.
+    """Break a film down at 4 V by foreign laws.
+
+    The current is 4 V over 28 Ohm; the voltage rises.
 
     The ball's other film breaks down in the same discharge, and its current comes on top.
     """

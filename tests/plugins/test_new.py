@@ -70,7 +70,10 @@ def test_names_that_are_taken(tmp_path: Path) -> None:
 
 
 def test_the_name_of_a_built_in_law_is_taken(tmp_path: Path) -> None:
-    """Its cases would not know which of the two is meant."""
+    """Refuse the name of a built-in law.
+
+    Cases could not choose between the two.
+    """
     with pytest.raises(UsageError, match='"ree-eyring" is the name of the law traction/ree-eyring: choose another'):
         new_plugin("ree-eyring", tmp_path)
     assert not (tmp_path / "ree-eyring").exists()

@@ -158,7 +158,10 @@ def test_a_law_is_handed_over_as_the_function_itself() -> None:
 
 @pytest.mark.full
 def test_a_pickled_case_brings_its_laws(tmp_path: Path) -> None:
-    """Another process, which knows neither this file nor its law, resolves the case to the same law."""
+    """Resolve a pickled case in another process.
+
+    The process knows neither this file nor its law, and finds the same law.
+    """
     code = (
         "import pickle, sys; from lambda_core import api; from lambda_core.model.resolve import case_hash; "
         "print(case_hash(api.check(pickle.load(open(sys.argv[1], 'rb')))))"
@@ -178,7 +181,10 @@ def test_a_pickled_case_brings_its_laws(tmp_path: Path) -> None:
 
 
 def test_workers_get_the_files_and_laws_of_the_director(file: Path) -> None:
-    """What a task carries makes the registry of another process the same, also when the file is gone by then."""
+    """Send files and laws to workers in each task.
+
+    They make the registry of another process the same, even when the file is gone by then.
+    """
     api.use_plugin(file)
     case = api.case("6319-cp10-1500").with_(models={"traction": by_hand})
     guests = local_files.guests()
@@ -206,7 +212,10 @@ def test_a_study_works_with_a_file_and_its_law(file: Path, tmp_path: Path) -> No
 
 @pytest.mark.timeout(900)
 def test_a_result_names_the_file_that_its_law_came_from(file: Path, tmp_path: Path) -> None:
-    """``resume`` without the file says which it was, with another text that it has changed; ``cite`` has it, too."""
+    """Name a law's file in `resume` and `cite`.
+
+    Without the file ``resume`` names it; with another text it reports the change.
+    """
     api.use_plugin(file)
     out = tmp_path / "r.h5"
     result = api.run("6208-axial-1300", [*CHOICE, "solver.duration=0.2 ms"], out=out)
@@ -225,7 +234,10 @@ def test_a_result_names_the_file_that_its_law_came_from(file: Path, tmp_path: Pa
 
 @pytest.mark.timeout(900)
 def test_from_saved_file_to_result(file: Path, tmp_path: Path, warm: Warm) -> None:
-    """The commands take the file, --json stays one object, and the result says where its law came from."""
+    """Pass a file of laws to the commands.
+
+    `--json` stays one object, and the result names the law's file.
+    """
 
     def program(*arguments: str) -> tuple[int | None, str, str]:
         process = warm.start(PROGRAM, *arguments, cwd=tmp_path, env={ON_VARIABLE: ""})

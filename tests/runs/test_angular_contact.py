@@ -22,7 +22,10 @@ CASE: dict[str, Any] = {
 
 
 def test_the_row_makes_the_contact_angle() -> None:
-    """Free angle 40 degrees: clearance 2 A (1 - cos(alpha_0)) with A = 0.04 D_w; the case's own angle comes first."""
+    """Compare clearance with 2 A (1 - cos(alpha_0)).
+
+    Free angle 40 degrees, A = 0.04 D_w; the case's own angle comes first.
+    """
     g = api.check(CASE).geometry
     assert math.degrees(g.contact_angle) == pytest.approx(40.0)
     assert g.clearance == pytest.approx(0.08 * 11.906e-3 * (1.0 - math.cos(math.radians(40.0))), rel=3e-4)
@@ -38,7 +41,10 @@ def test_a_class_of_radial_contact_is_refused(change: str) -> None:
 
 
 def test_a_run(tmp_path: Path) -> None:
-    """Balls stay at about 40 degrees, forces carry the load, the energy balance closes to 1e-3."""
+    """Balance forces and energy at 40 degrees.
+
+    Balls stay near this angle; the energy balance closes to 1e-3.
+    """
     path = tmp_path / "angular.h5"
     api.run(CASE, ["solver.duration=2 ms", "depth.strips=15"], out=path)
     summary = Result(path).summary()

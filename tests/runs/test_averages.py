@@ -66,7 +66,10 @@ def test_interval_knows_torque_residual_and_rest() -> None:
 
 
 def test_dampers_to_the_ground_are_no_friction_of_the_bearing() -> None:
-    """A brake of the shaft counts in the energy balance, and not in the friction torque."""
+    """Count a brake in energy, not in friction.
+
+    It brakes the shaft and has no part in the friction torque.
+    """
     lost = {f"loss.{name}": 2.0 for name in LOSSES}
     braked = Interval(rows_at(0.0), rows_at(2.0, relative_angle=10.0, input=40.0, input_abs=40.0, support=8.0, **lost))
     assert braked.torque() == pytest.approx(2.0 * len(LOSSES) / 10.0)
@@ -76,10 +79,12 @@ def test_dampers_to_the_ground_are_no_friction_of_the_bearing() -> None:
 
 @pytest.mark.parametrize(("count", "correlation", "least"), [(4, 0.0, 0.94), (12, 0.0, 0.94), (40, 0.5, 0.90)])
 def test_confidence_interval_covers_the_true_mean(count: int, correlation: float, least: float) -> None:
-    """95 % of intervals should hold the mean; measured over 4000 series (standard error 0.35 %).
+    """Count 95 % intervals that hold the mean.
 
-    A first-order autoregressive series with r = 0.5 is covered by a plain Student interval
-    in 74 % of cases only; the correction brings more than 90 %.
+    Measured over 4000 series (standard error 0.35 %).
+
+    A first-order autoregressive series with r = 0.5 is covered by a plain Student interval in 74 % of cases only; the
+    correction brings more than 90 %.
     """
     random = np.random.default_rng(7)
     inside = plain = 0
@@ -104,6 +109,9 @@ def test_confidence_of_nothing_one_and_equal_values() -> None:
 
 
 def test_confidence_of_four_values_by_hand() -> None:
-    """Values +-1 about 10: s = 2/sqrt(3), t(3, 0.975) = 3.1824, negative correlation does not narrow."""
+    """Compute an interval of four values by hand.
+
+    Values +-1 about 10: s = 2/sqrt(3), t(3, 0.975) = 3.1824; negative correlation does not narrow it.
+    """
     found = estimate(np.array([9.0, 11.0, 9.0, 11.0]))
     assert found.half_width == pytest.approx(3.18244630528 * math.sqrt(4.0 / 3.0) / 2.0)

@@ -169,7 +169,10 @@ def test_a_title_stands_where_it_is_known_for_certain(reference: str, kind: str,
 
 
 def test_every_title_is_of_a_reference_of_some_law() -> None:
-    """No line of the table is dead: misspelt, or of a source that no law names any more."""
+    """Find a reference of a law for every title.
+
+    A title is wrong if it is misspelt, or if no law names its source any more.
+    """
     found = {TITLES.get(key) for law in LAWS for part in law.reference.split("; ") for key in _keys(part)}
     assert set(TITLES.values()) <= found
 

@@ -140,7 +140,10 @@ def test_a_killed_run_is_readable_and_not_alive(warm: Warm, tmp_path: Path) -> N
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="the states of processes stand in /proc")
 def test_a_writer_that_was_killed_is_not_alive_before_its_parent_has_waited_for_it() -> None:
-    """Orphans are waited for by the first process of the system, in a container maybe never."""
+    """Treat a killed writer as dead before its parent waits.
+
+    The first process of the system waits for orphans, in a container perhaps never.
+    """
     process = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
     status = Status(process=process_identity(process.pid))
     assert status.alive()
@@ -244,7 +247,10 @@ def test_the_newer_complete_slot_counts() -> None:
 
 @pytest.mark.parametrize("cut", [0, 10, 28, 100, -1])
 def test_a_torn_slot_is_passed_over(cut: int) -> None:
-    """The newer one was being written over an older one when the process died."""
+    """Skip a slot that a dying process left.
+
+    The process was writing it over an older one.
+    """
     new, old = checkpoint(6), checkpoint(4)
     torn = new[:cut] + old[cut:]
     if cut == -1:

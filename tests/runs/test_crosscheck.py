@@ -27,7 +27,9 @@ def sundials() -> None:
     ("case", "tolerance"), [("6208-axial-1300", 1e-3), ("6319-cp10-1500", 5e-4), ("6319-cp6.5-1500", 5e-4)]
 )
 def test_same_trajectory_with_a_locked_cage(case: str, tolerance: float) -> None:
-    """Specification: dissipated power within 0.02 %, trajectories within 10 tolerances.
+    """Compare trajectories within 10 tolerances.
+
+    Dissipated power within 0.02 % (requirement).
 
     Unloaded balls have a neutral azimuth, in which errors of either integrator add up.
     """
@@ -42,7 +44,7 @@ def test_same_trajectory_with_a_locked_cage(case: str, tolerance: float) -> None
 @pytest.mark.usefixtures("sundials")
 @pytest.mark.parametrize("case", ["6319-cp10-3000", "6319-cp6.5-500"])
 def test_trajectories_at_the_default_tolerance(case: str) -> None:
-    """Where the rings' vibrations and creep are hardest to follow.
+    """Compare trajectories where vibrations and creep are hard.
 
     Nothing damps the inner ring of the 6319 at 3000 1/min along the load: 11 tolerances in its speed, 5.5 in the
     shorter steps that dry contacts of unloaded balls take; power is 4e-5 off.
@@ -59,7 +61,10 @@ def test_trajectories_at_the_default_tolerance(case: str) -> None:
 @pytest.mark.usefixtures("sundials")
 @pytest.mark.parametrize("case", ["6319-cp10-3000", "6319-cp6.5-500"])
 def test_powers_meet_as_the_tolerance_shrinks(case: str) -> None:
-    """The bound of 0.02 %, for CVODE at our tolerance too."""
+    """Compare powers at shrinking tolerance, for CVODE too.
+
+    The bound is 0.02 %.
+    """
     found = api.cross_check(case, ["solver.tolerance=1e-4", "solver.duration=20 ms"])
     assert found.reference is not None
     assert abs(found.power_deviation) < 2e-4
@@ -68,7 +73,10 @@ def test_powers_meet_as_the_tolerance_shrinks(case: str) -> None:
 
 @pytest.mark.usefixtures("sundials")
 def test_the_bound_of_the_power_is_no_narrower_than_the_tolerances() -> None:
-    """6208, 100 N radial: our power is 0.06 % off, CVODE's 0.03 %; both agree at a hundredth of the tolerance."""
+    """Compare powers with errors of the tolerances.
+
+    6208, 100 N radial: the program is 0.06 % off, CVODE 0.03 %; both agree at a hundredth of the tolerance.
+    """
     case = "6208-axial-1300", ["loads.axial=0 N", "loads.radial=100 N"]
     found = api.cross_check(case[0], [*case[1], "solver.duration=2 ms"])
     assert found.power_bound is not None
@@ -89,7 +97,9 @@ def test_the_bound_of_the_power_is_no_narrower_than_the_tolerances() -> None:
     ],
 )
 def test_mean_powers_meet_with_a_free_cage(case: str, options: list[str]) -> None:
-    """Within the joint 95 % interval, which is below 1 % of the power: a wide one would show nothing.
+    """Compare mean powers within their joint interval.
+
+    The 95 % interval is below 1 % of the power: a wide one would show nothing.
 
     Over dozens of turns of the cage: its wandering is slow, and the interval of the shortest run is wide or too narrow.
     """
@@ -103,7 +113,10 @@ def test_mean_powers_meet_with_a_free_cage(case: str, options: list[str]) -> Non
 
 @pytest.mark.usefixtures("sundials")
 def test_a_wrong_equation_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A hundredth more viscosity for one of the two alone and they no longer agree: the check can fail."""
+    """Change the viscosity of one side by a hundredth.
+
+    The trajectories no longer agree, so that the check can fail.
+    """
     from lambda_core.runs import crosscheck
 
     def elsewhere(start: object, times: object, tolerance: float) -> object:
@@ -119,7 +132,10 @@ def test_a_wrong_equation_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("sundials")
 def test_cvode_finds_the_same_with_its_own_jacobian() -> None:
-    """Nothing hangs on our Jacobian: Newton's method only needs it to converge."""
+    """Use CVODE's own Jacobian.
+
+    The result does not depend on ours, which Newton's method needs only to converge.
+    """
     model = api.check("6319-cp10-1500")
     start = bearing_start(solve(model), model)
     times = np.array([0.0, 5e-3])
@@ -153,7 +169,10 @@ def test_the_prescribed_cage_turns_with_the_balls() -> None:
 
 @pytest.mark.usefixtures("sundials")
 def test_a_shaft_in_two_bearings_moves_as_cvode_moves_it(tmp_path: Path) -> None:
-    """Both bearings with the shaft between them: one integrator's trajectory is the other's."""
+    """Compare a shaft in two bearings with CVODE.
+
+    Both bearings and the shaft between them have one trajectory.
+    """
     box = api.init_case("box", template="geared-shaft", path=tmp_path / "box.toml")
     found = api.cross_check(box, ["solver.duration=4 ms"])
     assert found.agree

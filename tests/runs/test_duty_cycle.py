@@ -79,7 +79,10 @@ def phase(share: float, speed: float, load: float) -> PhaseResult:
 
 
 def test_the_mean_load_has_the_life_of_the_sum() -> None:
-    """SKF's mean load is Miner's rule for L = (C/P)^3: both give one life."""
+    """Compare SKF's mean load with Miner's rule.
+
+    For L = (C/P)^3 both give one life.
+    """
     phases = [phase(0.3, 500.0, 4000.0), phase(0.5, 1500.0, 1000.0), phase(0.2, 0.0, 9000.0)]
     speed = 0.3 * 500.0 + 0.5 * 1500.0
     mean = _mean_load(phases, speed)

@@ -15,7 +15,10 @@ from lambda_core.solver.drivers.machine_motion import machine_engine
 
 
 def test_an_estimate_of_a_machine_is_about_what_its_run_takes() -> None:
-    """To a factor of three: the trial is 2.5 ms of 100 ms."""
+    """Compare the estimate with a run's time.
+
+    To a factor of three: the trial is 2.5 ms of 100 ms.
+    """
     tables = tomllib.loads(geared_shaft("box"))
     found = api.estimate(tables, ["solver.duration=0.1 s"])
     assert found.simulated_s == 0.1
@@ -30,7 +33,10 @@ def test_an_estimate_of_a_machine_is_about_what_its_run_takes() -> None:
 
 
 def test_without_a_duration_a_run_is_the_shortest_that_can_converge() -> None:
-    """Five turns of the slowest cage, unless solver.max_duration ends it."""
+    """Plan five turns of the slowest cage.
+
+    `solver.max_duration` may end the run earlier.
+    """
     tables = tomllib.loads(geared_shaft("box"))
     found = api.estimate(tables)
     assert 5.0 / 50.0 / 0.45 < found.simulated_s < 5.0 / 50.0 / 0.35  # cages turn at 0.35 to 0.45 of 50 1/s

@@ -207,7 +207,10 @@ def test_a_continuation_killed_at_any_moment_goes_on_as_the_undisturbed_one(
 def test_a_process_killed_before_its_last_word_goes_on_as_the_undisturbed_one(
     warm: Warm, kind: Kind, undisturbed: Content, tmp_path: Path
 ) -> None:
-    """It is killed while it looks for the modes at the end, between its last checkpoint and its last word."""
+    """Kill a process between checkpoint and last message.
+
+    It looks for the modes at the end at that moment.
+    """
     source = SINGLE
     if kind.name == "two":
         source = str(tmp_path / "box.toml")
@@ -219,7 +222,7 @@ def test_a_process_killed_before_its_last_word_goes_on_as_the_undisturbed_one(
 
 
 def test_the_stored_case_runs_again_bit_for_bit(kind: Kind, undisturbed: Content, tmp_path: Path) -> None:
-    """The case in a result is the one that was run, complete."""
+    """Run the complete case of a result again."""
     api.run(kind.source, [f"solver.duration={kind.duration}"], out=tmp_path / "one.h5")
     (tmp_path / "again.toml").write_text(api.result(tmp_path / "one.h5").case_toml)
     api.run(tmp_path / "again.toml", out=tmp_path / "two.h5")
@@ -227,7 +230,10 @@ def test_the_stored_case_runs_again_bit_for_bit(kind: Kind, undisturbed: Content
 
 
 def test_a_duration_is_kept(kind: Kind, tmp_path: Path) -> None:
-    """What a run was begun with holds when it goes on without a word about it."""
+    """Keep the duration of a resumed run.
+
+    It holds when the command does not name another.
+    """
     path = tmp_path / "run.h5"
     api.run(kind.source, ["solver.duration=3 ms", "solver.max_wall=1e-6 s"], out=path)
     assert api.result(path).status().state == "stopped"
@@ -255,7 +261,10 @@ def summed(path: Path, bearing: str) -> None:
 
 @pytest.mark.parametrize("what", ["texts for numbers", "an empty text"])
 def test_a_part_of_another_kind_is_damage(what: str, short: Path) -> None:
-    """An empty array in place of a text made HDF5 crash when the run went on."""
+    """Report an empty array in place of a text.
+
+    It made HDF5 crash when the run went on.
+    """
     with h5py.File(short, "r+") as file:
         first = next(iter(file["bearings"]))
         if what == "an empty text":

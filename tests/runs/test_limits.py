@@ -17,7 +17,10 @@ AXIAL = "6208-axial-1300"
 
 
 def test_edge_of_a_shoulder_that_is_known() -> None:
-    """A groove of radius 10 mm whose shoulder is 5 mm high ends at 60 degrees, one of 10 mm at 90 degrees."""
+    """Compare edges of shoulders with 60 and 90 degrees.
+
+    A groove of radius 10 mm, shoulders 5 mm and 10 mm high.
+    """
     geometry = {
         "groove_radius_inner": 0.01,
         "race_diameter_inner": 0.08,
@@ -39,7 +42,10 @@ def test_edge_of_a_shoulder_that_is_known() -> None:
 
 
 def test_the_low_shoulder_of_angular_contact() -> None:
-    """One at -2 degrees, 0.05 rad wide, lies beyond the bottom of its groove by 2 deg + 0.05; one at 20 does not."""
+    """Compare angles past a low shoulder.
+
+    One at -2 degrees, 0.05 rad wide, lies beyond the bottom of its groove by 2 deg + 0.05; one at 20 does not.
+    """
     grooves = Grooves(np.array([0.01, 0.01]), np.radians([60.0, 60.0]), one_sided=True)
     load, half = np.array([[100.0, 100.0], [50.0, 0.5]]), np.full((2, 2), 0.0005)
     angle = np.radians([[20.0, 20.0], [-2.0, -2.0]])
@@ -78,7 +84,10 @@ def test_what_lies_beyond_is_said(change: str, words: str) -> None:
 
 
 def test_a_run_says_it_in_text_and_as_data(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    """Over the whole run, also where the load has long gone down again."""
+    """Report limits over the complete run.
+
+    A load that has long fallen again counts too.
+    """
     ramp = [
         "loads.axial.kind=ramp", "loads.axial.start=30 kN", "loads.axial.end=1 kN", "loads.axial.end_time=3 ms",
     ]  # fmt: skip

@@ -33,7 +33,10 @@ def cycle(**tables: Any) -> dict[str, Any]:
 
 
 def test_damages_of_every_bearing_add_and_their_lives_join(box: Path) -> None:
-    """Miner's rule and the system life, 10/9, by hand from the equilibria of the phases; losses from theirs."""
+    """Add up damages and join lives by hand.
+
+    Miner's rule and the system life, 10/9, from the equilibria of the phases; losses from theirs.
+    """
     changes = {"operation.speed": "1500 rpm", "gears.wheel.power": "20 kW"}
     found = api.duty(cycle(phases=[{"name": "a", "time": "1 h", "changes": changes}, {"name": "b", "time": "3 h"}]))
     first = api.quasistatic(box, [f"{path}={value}" for path, value in changes.items()])
@@ -52,7 +55,10 @@ def test_damages_of_every_bearing_add_and_their_lives_join(box: Path) -> None:
 
 
 def test_a_spectrum_is_its_phases(box: Path) -> None:
-    """Speed, power of a gear and a load, line by line; an empty cell leaves what the case says."""
+    """Read speed, gear power and load by line.
+
+    An empty cell keeps the value of the case.
+    """
     Path("loads.csv").write_text(SPECTRUM)
     belt = {"loads.belt.at": "5 mm"}
     climb = {"operation.speed": "1500 rpm", "gears.wheel.power": "20 kW", "loads.belt.force_z": "-800 N"}

@@ -100,7 +100,10 @@ def test_an_equilibrium_shows_and_draws_itself_and_answers_for_a_changed_case() 
 
 
 def test_other_answers_answer_for_a_changed_case() -> None:
-    """Temperatures in warmer air; friction over speed under more load."""
+    """Change temperature and load in a notebook.
+
+    Temperatures in warmer air; friction over speed under more load.
+    """
     warm = api.thermal("6208-axial-1300")
     warmer = warm.with_(thermal={"ambient": "40 degC"}).temperatures_degC
     assert all(warmer[part] > value for part, value in warm.temperatures_degC.items())
@@ -111,7 +114,10 @@ def test_other_answers_answer_for_a_changed_case() -> None:
 
 
 def test_an_answer_goes_to_another_process() -> None:
-    """The builder's helper process sends answers that were asked with a local function for progress."""
+    """Pickle an answer with a local progress function.
+
+    The builder's helper process sends such answers.
+    """
     found = api.estimate(api.check("6208-axial-1300"), announce=lambda _: None)
     assert pickle.loads(pickle.dumps(found)) == found
 

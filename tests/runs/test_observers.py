@@ -172,7 +172,7 @@ FAILING: dict[str, tuple[Callable[..., Any], str]] = {
 
 
 def test_observers_that_fail_stay_alone(complete: Result, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    """Neither the run nor another observer knows of them."""
+    """Isolate failing observers from run and observers."""
     chosen = {name: ChosenObserver(losing(name, answer), Factor()) for name, (answer, _) in FAILING.items()}
     result = launch(model(observers=chosen | with_observer(observer())["observers"]), tmp_path / "failed.h5")
     assert capfd.readouterr().out == ""

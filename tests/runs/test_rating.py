@@ -48,7 +48,10 @@ def test_a_tilted_ring_lives_shorter_and_the_catalogue_does_not_know(ratings: tu
 
 
 def test_static_safety_is_that_of_the_loads(ratings: tuple[Rating, Rating]) -> None:
-    """P_0 = max(0.6 F_r + 0.5 F_a, F_r) = 2.5 kN and a little weight; C_0 = 24 kN (SKF)."""
+    """Compare static safety by hand.
+
+    P_0 = max(0.6 F_r + 0.5 F_a, F_r) = 2.5 kN and a little weight; C_0 = 24 kN (SKF).
+    """
     assert ratings[0].static_safety == pytest.approx(24.0 / 2.5, rel=2e-3)
     assert ratings[0].notes == []
 
@@ -83,7 +86,10 @@ def test_a_run_says_it_first(combined_run: api.Result) -> None:
 
 
 def test_the_answer_says_why_skf_lies_above_others_under_combined_load(ratings: tuple[Rating, Rating]) -> None:
-    """The step of its sliding torque where an axial load begins, which a pure radial load does not have."""
+    """Name the step of SKF's sliding torque.
+
+    It begins with an axial load, which a pure radial load does not have.
+    """
     locked, _ = ratings
     without = locked.skf_torque_without_step_Nmm
     assert locked.skf_torque_Nmm is not None

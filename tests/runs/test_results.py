@@ -109,7 +109,10 @@ def test_unknown_channel_names_the_nearest(result: Result) -> None:
 
 
 def test_a_growing_result_is_read_by_another_process(provenance: MakeProvenance, tmp_path: Path) -> None:
-    """A viewer in another process reads between two flushes of the run."""
+    """Read a result between two flushes.
+
+    The viewer has a process of its own.
+    """
     path = tmp_path / "live.h5"
     seen: list[str] = []
     code = (
@@ -150,7 +153,10 @@ def test_an_hdf5_file_of_another_program(tmp_path: Path) -> None:
 
 
 def test_a_file_without_the_energy_of_dampers_to_the_ground_is_read(result: Result) -> None:
-    """Files from before that integral existed were called damaged."""
+    """Read files from before an energy integral existed.
+
+    They were called damaged.
+    """
     before = result.summary()
     with h5py.File(result.path, "r+") as file:
         for group in ("integrals", "revolutions"):
@@ -178,7 +184,10 @@ def test_a_truncated_file_says_so_wherever_it_is_cut(share: float, result: Resul
 
 @pytest.mark.parametrize("seed", range(20))
 def test_a_garbled_file_gives_values_or_a_message(seed: int, result: Result) -> None:
-    """Four kilobytes of noise anywhere: HDF5 finds it or it lies in the samples; no other exception."""
+    """Garble a file by four kilobytes of noise.
+
+    HDF5 finds it or it lies in the samples; there is no other exception.
+    """
     import random
 
     chance = random.Random(seed)

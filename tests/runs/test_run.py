@@ -27,7 +27,10 @@ TURN = FakeEngine().turn
 
 
 def test_a_run_without_duration_ends_when_converged(provenance: MakeProvenance, tmp_path: Path) -> None:
-    """Mean torque 1.2 N m: the wave of nine periods per cage turn averages out over whole turns."""
+    """Average a wave over complete turns.
+
+    Mean torque 1.2 N m; nine periods per cage turn.
+    """
     seen: list[Progress] = []
     result = run(FakeEngine(), provenance(), tmp_path / "r.h5", report=seen.append)
     summary = result.summary()
@@ -212,7 +215,10 @@ def test_the_window_is_what_extremes_are_taken_over(provenance: MakeProvenance, 
 def test_memory_is_flat_over_a_long_run(
     provenance: MakeProvenance, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Everything is flushed after each record here: what Python holds must not grow with what is written."""
+    """Limit the memory of a long run.
+
+    Each record is flushed here: the memory of Python must not grow with the samples.
+    """
     import gc
     import tracemalloc
 
@@ -236,7 +242,10 @@ def test_memory_is_flat_over_a_long_run(
 
 
 def test_a_braked_ring_that_a_torque_drives(tmp_path: Path) -> None:
-    """The brake is no friction of the bearing, and the torque no drive that the program prescribes."""
+    """Drive a braked ring by a torque.
+
+    The brake is no friction of the bearing, and the torque no drive that the program prescribes.
+    """
     spin = 'bodies.inner_ring.spin={mode="free",damping="0.002 N m s/rad"}'
     changes = [spin, "operation.torque=0.5 N m", "solver.duration=1 ms"]
     found = api.run("6208-axial-1300", changes, out=tmp_path / "braked.h5").summary()

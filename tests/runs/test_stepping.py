@@ -49,7 +49,10 @@ def test_a_step_has_every_channel_of_a_result(radial_run: Result) -> None:
 
 
 def test_a_load_from_outside_acts_like_one_of_the_case() -> None:
-    """14 kN in the case and 2 kN from outside hold the ring where 16 kN of the case do."""
+    """Compare 14 and 2 kN with 16 kN.
+
+    14 kN in the case and 2 kN from outside hold the ring in the same place.
+    """
     stepping = api.iterate(CASE, ["solver.duration=30 ms", "loads.radial=14 kN"], interval=0.2e-3)
     place = []
     for step in stepping:
@@ -62,7 +65,10 @@ def test_a_load_from_outside_acts_like_one_of_the_case() -> None:
 
 
 def test_a_spring_that_another_program_is_shares_the_load() -> None:
-    """Co-simulation: a support of 100 N/um under the inner ring takes the share that its stiffness gives it."""
+    """Share a load with a spring of another program.
+
+    Co-simulation: a support of 100 N/um under the inner ring takes the share of its stiffness.
+    """
     stiffness = 1e8  # [N/m], explicit coupling: far softer than the bearing
     stepping = api.iterate(CASE, ["solver.duration=40 ms"], interval=20e-6)
     start = next(stepping)["body_position"][0, 2]
@@ -106,7 +112,10 @@ def test_loads_without_sense_are_refused() -> None:
 
 
 def test_steps_end_exactly_where_they_are_asked_to() -> None:
-    """Cutting steps to end at given times changes the motion by less than the integration error."""
+    """End steps at given times.
+
+    This changes the motion by less than the integration error.
+    """
     changes = ["solver.duration=3 ms"]
     free, exact = (list(api.iterate(CASE, changes, interval=0.1e-3, exact=exact)) for exact in (False, True))
     assert [step.time_s for step in exact[:-1]] == [0.1e-3 * (i + 1) for i in range(len(exact) - 1)]
@@ -136,7 +145,10 @@ def test_going_back_and_on_gives_the_same_bits() -> None:
 
 @pytest.mark.parametrize("exact", [True, False])
 def test_what_no_bearing_takes_ends_and_changes_nothing(exact: bool) -> None:
-    """A force in other units: steps of picoseconds lead nowhere. A shock that a bearing may get passes."""
+    """Refuse a force in other units.
+
+    Steps of picoseconds lead nowhere; a shock that a bearing may get passes.
+    """
     changes = ["solver.duration=5 ms"]
     stepping, other = (api.iterate(CASE, changes, interval=1e-4, exact=exact) for _ in range(2))
     assert next(stepping).time_s == next(other).time_s
@@ -157,7 +169,10 @@ def test_what_no_bearing_takes_ends_and_changes_nothing(exact: bool) -> None:
 
 
 def test_a_prescribed_ring_answers_with_the_load_of_its_place() -> None:
-    """Moved from the place of 14 kN to that of 16 kN, the ring is pushed back with 16 kN."""
+    """Move a ring and find a load of 16 kN.
+
+    It moves from the place of 14 kN to that of 16 kN.
+    """
     at = {load: api.quasistatic(CASE, [f"loads.radial={load} kN"]).inner_ring_displacement_um[2] for load in (14, 16)}
     stepping = api.iterate(CASE, ["solver.duration=12 ms", "loads.radial=14 kN"], interval=0.1e-3, couple="motion")
     begin, down = 1e-6 * at[14], 1e-6 * (at[16] - at[14])

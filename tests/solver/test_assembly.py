@@ -54,7 +54,10 @@ def parameters(tables: Tables, table: str, field: str) -> list[np.ndarray]:
 
 
 def test_each_bearing_has_the_entries_that_it_has_alone(alone: list[Assembly]) -> None:
-    """Numbers of balls, raceways, rows and bodies go on behind those of the first; parameters have the same bits."""
+    """Compare entries with those of one bearing.
+
+    Numbers of balls, raceways, rows and bodies go on behind those of the first; parameters have the same bits.
+    """
     ones, both = [build(one) for one in alone], build(together(alone))
     first, second = ones
     balls = int(first.system[0]["balls"])
@@ -77,7 +80,10 @@ def test_each_bearing_has_the_entries_that_it_has_alone(alone: list[Assembly]) -
 
 
 def test_other_cells_in_another_bearing_are_refused(alone: list[Assembly]) -> None:
-    """Compiled code has one grid of cells: bearings that divide their contacts otherwise are named."""
+    """Name bearings that divide their contacts otherwise.
+
+    Compiled code has one grid of cells.
+    """
     both = together(alone)
     other: AssembledBearing = both.bearings[1]
     depth = replace(other.model.depth, strips=other.model.depth.strips + 2)
@@ -97,7 +103,10 @@ FAULTS = {  # role, ball and place as compiled code leaves them -> the message
 
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_law_that_refuses_is_named_with_its_bearing(alone: list[Assembly], name: str) -> None:
-    """A land is no ball: which ball was in hand last does not count."""
+    """Name the bearing of a land, not a ball.
+
+    The last ball in work does not count.
+    """
     role, ball, place, expected = FAULTS[name]
     context = context_of(together(alone))
     fault = context.bundle.scratch[0].fault

@@ -53,7 +53,10 @@ def test_a_steady_acceleration_loses_nothing(w: float) -> None:
 @pytest.mark.usefixtures("in_python")
 @pytest.mark.parametrize("steps", [20, 40, 80])
 def test_an_oscillator_loses_what_the_estimate_says(steps: int) -> None:
-    """x'' = -x by BDF2 with equal steps: half of the loss is the kinetic estimate's, half the spring's."""
+    """Compare the loss of an oscillator with its estimate.
+
+    x'' = -x by BDF2 with equal steps: half of the loss is the kinetic estimate's, half the spring's.
+    """
     h = 2.0 * np.pi / steps
     gamma, count = 2.0 * h / 3.0, 5 * steps
     points = [np.array([np.cos(t), -np.sin(t)]) for t in (-h, 0.0)]
@@ -70,7 +73,10 @@ def test_an_oscillator_loses_what_the_estimate_says(steps: int) -> None:
 
 
 def test_the_corner_of_a_ramp_costs_no_energy() -> None:
-    """The spin-up ends at full power: 740 kW stop within one step, and the kinetic energy is what the drive gave."""
+    """Balance energy at the corner of a ramp.
+
+    The spin-up ends at full power: 740 kW stop within one step, and the kinetic energy equals the drive's work.
+    """
     ramp = {"kind": "ramp", "start": "0 rpm", "end": "1500 rpm", "start_time": "1 ms", "end_time": "2 ms"}
     engine = BearingEngine(api.check(RIM, [f"operation.speed.{key}={value}" for key, value in ramp.items()]))
     assert engine.advance(2.5e-3).ok

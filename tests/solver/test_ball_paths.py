@@ -18,7 +18,10 @@ COMBINED = ["loads.radial=1 kN", "operation.speed=1000 rpm", "models.fluid_drag=
 
 
 def test_velocity_along_a_known_path() -> None:
-    """x = x0 + a cos(psi) + b sin(2 psi) has dx/dt = omega (-a sin(psi) + 2 b cos(2 psi)), for even and odd rows."""
+    """Compare velocity along a path by hand.
+
+    x = x0 + a cos(psi) + b sin(2 psi) has dx/dt = omega (-a sin(psi) + 2 b cos(2 psi)), for even and odd rows.
+    """
     for count in (7, 8):
         balls = np.zeros(count, R.BALL)
         psi = 2.0 * np.pi * np.arange(count) / count - 0.3
@@ -31,7 +34,9 @@ def test_velocity_along_a_known_path() -> None:
 
 
 def test_tilt_under_combined_load_is_that_of_a_run() -> None:
-    """6208, 1 kN radial and 0.7 kN axial, free to tilt, 1000 1/min: lateral shift and tilt within 5 %.
+    """Compare shift and tilt with a run to 5 %.
+
+    6208, 1 kN radial and 0.7 kN axial, free to tilt, 1000 1/min.
 
     Balls that stood on their paths dragged the ring aside twice as far.
     """
@@ -50,14 +55,17 @@ def test_tilt_under_combined_load_is_that_of_a_run() -> None:
 
 
 def test_one_load_alone_has_no_path() -> None:
-    """Radial load: no axial motion at all, and nothing is done."""
+    """Find no axial motion under radial load."""
     model = api.check("6319-cp10-500")
     balls = solve(model).state[: L.NB * model.geometry.ball_count].view(R.BALL)
     assert not balls["velocity"][:, :2].any()
 
 
 def test_paths_are_found_at_low_speed_where_few_balls_carry(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    """Left bearing of the shaft that `init` writes: steps of a fixed share diverged around 70 1/min, with a warning."""
+    """Find paths near 70 1/min.
+
+    Left bearing of the shaft that `init` writes: steps of a fixed share diverged there, with a warning.
+    """
     box = api.init_case("box", template="geared-shaft", path=tmp_path / "box.toml")
     api.stribeck(box, bearing="left", speeds_rpm=[37.0, 68.0])
     assert not [record for record in caplog.records if "deviate from their paths" in record.getMessage()]

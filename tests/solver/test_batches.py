@@ -69,7 +69,10 @@ def together(role: Any, drawn: list[list[Any]]) -> list[Any]:
 
 @pytest.mark.parametrize("name", BATCHED)
 def test_contacts_do_not_depend_on_each_other(name: str) -> None:
-    """Within rounding: a compiler fuses other products where it takes eight contacts at once."""
+    """Compare contacts in batches within rounding.
+
+    A compiler fuses other products where it takes eight contacts at once.
+    """
     role, its = ROLES[name], registry().model(name, DEFAULT_MODELS[name])
     par = make_par(its, parameters_of(its, None), trial_context(role.elements[0]))
     generator = np.random.default_rng(5)
@@ -109,7 +112,10 @@ def test_a_status_of_one_contact_is_the_status_of_all() -> None:
 
 
 def test_a_fault_names_the_ball_whose_contact_has_it() -> None:
-    """One contact of nine for which laws are called together has a load that the law refuses."""
+    """Name the ball of a refused load.
+
+    Laws are called for nine contacts together, one of which has a load that the law refuses.
+    """
     nominal = api.check("6208-axial-1300")
     most = 3.0 * float(solve(nominal).contacts[:, :, 0].max())
 
@@ -135,7 +141,10 @@ def test_fine_grids_take_few_contacts_at_once(strips: int, rows: int, most: int)
 
 
 def test_cosine_and_sine() -> None:
-    """Within two units of the last place; of a million turns the spacing of such numbers."""
+    """Compare sine and cosine to two last places.
+
+    For a million turns the bound is the spacing of such numbers.
+    """
     for angle in np.concatenate([np.linspace(-7.0, 7.0, 4001), np.random.default_rng(1).uniform(-1e6, 1e6, 2000)]):
         found = cosine_sine.py_func(float(angle))
         allowed = 2.5e-16 + 2.0**-53 * abs(angle)

@@ -83,7 +83,10 @@ def test_each_bearing_is_loaded_as_if_it_were_alone(name: str, count: int) -> No
 
 
 def test_third_law_across_two_bearings_apart() -> None:
-    """The forces on all balls and bodies cancel, and so do their moments about one point."""
+    """Cancel forces and moments on balls and bodies.
+
+    The moments refer to one point.
+    """
     m = machine(*MODELS["every body free"], "models.fluid_drag=none", "gravity.z=0 m/s2")
     two = shaft(m, (-0.05, 0.05))
     y = two.states(random_state(m, 1, "rolling"), random_state(m, 2, "sliding"))
@@ -97,7 +100,10 @@ def test_third_law_across_two_bearings_apart() -> None:
 
 @pytest.mark.parametrize("places", [(0.0, 0.0), (-0.02, 0.02), (-0.2, -0.1, -0.05, 0.05, 0.1, 0.2)], ids=len)
 def test_the_jacobian_of_several_bearings(places: tuple[float, ...]) -> None:
-    """Without friction nothing is left out: differences to 0.3 %, as for one bearing (test_jacobian)."""
+    """Compare the Jacobian with differences to 0.3 %.
+
+    Without friction no term is left out, as for one bearing (test_jacobian).
+    """
     m = machine(*MODELS["every body free"], "models.cage_contact=none")
     several = shaft(m, places)
     bundle, blocks, scale = several.context.bundle, several.context.blocks, several.context.scale
@@ -117,7 +123,10 @@ def test_the_jacobian_of_several_bearings(places: tuple[float, ...]) -> None:
 
 
 def test_the_blocks_of_a_ball_hold_its_own_bodies_alone() -> None:
-    """Six bearings take six times the room of one; only the matrix of the shared states grows faster."""
+    """Compare the memory of six bearings and one.
+
+    It is six times as much; only the matrix of the shared states grows faster.
+    """
     m = machine(*MODELS["default"])
     one, six = m.context.blocks, shaft(m, [0.0] * 6).context.blocks
     for name in ("a", "b", "c", "parts"):
@@ -130,7 +139,10 @@ def test_the_blocks_of_a_ball_hold_its_own_bodies_alone() -> None:
 
 @pytest.mark.parametrize("count", [2, 6])
 def test_bearings_side_by_side_move_as_one_does(count: int) -> None:
-    """With a shaft of their mass under their load together, every ball moves as in one bearing, to the tolerance."""
+    """Compare balls of parallel bearings with one.
+
+    The shaft has their mass and their load together; to the tolerance.
+    """
     m = machine(*MODELS["default"])
     several, y, tolerance, end, n = shaft(m, [0.0] * count), random_state(m, 0, "rolling"), 1e-4, 2e-4, L.NB * m.count
     alone = integrate(m, y, end, tolerance, 1).states[-1, :n]

@@ -61,7 +61,10 @@ for matrix in ([[0.0, 1.0], [1.0, 1.0]], [[1.0, 1.0], [1.0, 1.0]]):
 
 
 def test_positions_and_speeds() -> None:
-    """Condensed and dense solutions agree to 1e-10; a singular matrix is seen."""
+    """Compare condensed and dense solutions to 1e-10.
+
+    A singular matrix is found.
+    """
     done = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", PLAIN],
         env=os.environ | {"NUMBA_DISABLE_JIT": "1"},

@@ -98,14 +98,20 @@ def spiral_error(step: float, duration: float = 1e-3) -> float:
 
 
 def test_second_order() -> None:
-    """The states are part of the BDF of order 2: half the step, a quarter of the error, to 10 % at such steps."""
+    """Halve the step and quarter the error.
+
+    The states are part of the BDF of order 2; to 10 % at such steps.
+    """
     coarse, fine = (spiral_error(step) for step in (20e-6, 10e-6))
     assert coarse / fine == pytest.approx(4.0, rel=0.1)
     assert fine < 5e-4
 
 
 def test_stiff_rates_neither_ring_nor_cost_steps() -> None:
-    """L-stable: rates ten thousand times faster than the steps are followed to their rest at once."""
+    """Follow rates ten thousand times faster than steps.
+
+    L-stable: the states reach their rest at once.
+    """
     fast = engine({"contact_state": spiral}, parameters={"contact_state": {"tau": 1e-9}})
     fast.advance(2e-3)
     assert np.abs(fast.samples()["rest"][1:]).max() < 1e-9
@@ -113,7 +119,10 @@ def test_stiff_rates_neither_ring_nor_cost_steps() -> None:
 
 
 def test_losses_and_states_find_each_other() -> None:
-    """After eight time constants: G (T - T_oil) is the power of the contact, in each of them."""
+    """Balance heat and power of each contact.
+
+    After eight time constants G (T - T_oil) is the power of the contact.
+    """
     run = engine({"contact_state": warmth, "traction": thinner})
     run.advance(8e-3)
     now = run.now()
@@ -135,7 +144,10 @@ def test_resumed_and_paused_runs_are_the_same_bits() -> None:
 
 
 def test_slopes_of_the_rates() -> None:
-    """The block of a contact in the Newton matrix is the derivative of its rates: linear, so exact but for rounding."""
+    """Compare the block of a contact with derivatives.
+
+    Its rates are linear, so that it is exact but for rounding.
+    """
     context = engine({"contact_state": spiral}).context
     y, rates = np.zeros(context.size), np.zeros(L.power_count(context.bundle))
     start = first_state(context)
@@ -249,7 +261,10 @@ def rough(slip, p, T, ln_eta, h, par, tau):  # type: ignore[no-untyped-def]
 
 
 def test_a_state_stays_within_its_bounds_where_laws_read_it() -> None:
-    """The rate points below the lower bound for half a millisecond; the root of the state stays a number."""
+    """Keep a state above its lower bound.
+
+    The rate points below it for half a millisecond; the root of the state stays a number.
+    """
     run = engine({"contact_state": worn, "traction": rough})
     ended = run.advance(1e-3)
     assert ended.ok, ended.message

@@ -13,7 +13,10 @@ from lambda_core import api
 
 @pytest.mark.parametrize("case", ["6319-cp10-3000", "6208-axial-1300"])
 def test_grid(case: str) -> None:
-    """The default grid is within 1 % of one of five thousand cells; refining both ways comes closer."""
+    """Compare the default grid with five thousand cells.
+
+    It is within 1 %; refining both ways comes closer.
+    """
     exact = grid_power(case, 61, 31)
     default, fine = (abs(grid_power(case, *grid) / exact - 1.0) for grid in ((31, 1), (41, 21)))
     assert default < 0.01
@@ -22,7 +25,10 @@ def test_grid(case: str) -> None:
 
 
 def test_tolerance() -> None:
-    """The default tolerance costs 0.1 % of the power at most, a tenth of it a tenth of that; steps grow with it."""
+    """Compare power and steps at a tenth tolerance.
+
+    The default costs 0.1 % of the power at most, a tenth of it a tenth of that; steps grow with it.
+    """
     loose, default, tight, exact = (
         tolerance_power("6319-cp10-3000", tolerance, settled=0.01, span=0.02) for tolerance in (1e-2, 1e-3, 1e-5, 1e-6)
     )

@@ -94,7 +94,10 @@ def test_an_edited_constant_of_the_core(tmp_path: Path) -> None:
 
 
 def test_every_module_of_the_core_counts(tmp_path: Path) -> None:
-    """What is kept on disk is looked up by a hash of all modules; each of them changes it."""
+    """Change each module and compare the hash.
+
+    The cache on disk has a hash of all modules as its key.
+    """
     solver = tmp_path / "solver"
     shutil.copytree(Path(entry.__file__).parent, solver, ignore=shutil.ignore_patterns("__pyc*"))
     sources = [solver / path.name for path in entry.SOURCES]
@@ -129,7 +132,10 @@ print(*asked)
 @pytest.mark.full
 @pytest.mark.parametrize(("accuracy", "needs"), [("averages", False), ("vibration", True)])
 def test_the_one_step_formula_is_compiled_for_vibrations_alone(accuracy: str, needs: bool, tmp_path: Path) -> None:
-    """A run for averages neither compiles nor loads it."""
+    """Compile the one-step formula for vibrations only.
+
+    A run for averages neither compiles nor loads it.
+    """
     command = [sys.executable, "-W", "ignore", "-c", PLAIN_RUN, accuracy, str(tmp_path / "run.h5")]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -140,7 +146,10 @@ def test_the_one_step_formula_is_compiled_for_vibrations_alone(accuracy: str, ne
 @pytest.mark.slow
 @pytest.mark.timeout(1800)
 def test_an_edited_solver_finds_another_equilibrium(tmp_path: Path) -> None:
-    """Contacts moved from the middle of the penetration to the ball's own surface: the balls orbit at another speed."""
+    """Move contacts to the ball's own surface.
+
+    They are in the middle of the penetration otherwise; the balls orbit at another speed.
+    """
     copy = Copy(tmp_path)
     before = copy.ask(SOLVE)["value"]
     copy.edit("dist = system.ball_radius - 0.5 * delta", "dist = system.ball_radius - 0.0 * delta")

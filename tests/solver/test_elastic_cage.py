@@ -43,7 +43,10 @@ def thin_ring(waves: int) -> float:
 
 
 def test_natural_frequencies() -> None:
-    """Of a free cage from a run of the compiled core: 0.1 % from the exact ones of a thin ring."""
+    """Compare a free cage's frequencies to 0.1 %.
+
+    From a run of the compiled core, against the exact ones of a thin ring.
+    """
     m = machine(*THIN, *ALONE, "operation.speed=100 rpm", case=CASE)
     start, shortest = m.at_rest(), 2.0 * math.pi / thin_ring(4)
     start.shared[FIRST : FIRST + 3, L.SY] = 20e-6
@@ -58,7 +61,9 @@ def test_natural_frequencies() -> None:
 
 
 def test_pinched_by_two_pockets() -> None:
-    """Two balls pull opposite pockets apart: (pi/4 - 2/pi) F R^3/(E I) wider (Timoshenko), 0.1 % with 12 waves.
+    """Pull opposite pockets and compare with Timoshenko.
+
+    (pi/4 - 2/pi) F R^3/(E I) wider, 0.1 % with 12 waves.
 
     Across, it becomes narrower by (2/pi - 1/2) F R^3/(E I). The force is the one that the balls feel.
     """
@@ -96,7 +101,9 @@ def test_pinched_by_two_pockets() -> None:
 
 
 def test_pushed_round_by_four_pockets() -> None:
-    """Balls that push the cage to and fro along its circumference bend it as a ring of straight beams: 1 %.
+    """Compare bending by four pockets to 1 %.
+
+    Balls push the cage to and fro along its circumference, which bends it as a ring of straight beams.
 
     At 0, 90, 180 and 270 degrees, forwards and backwards in turn: in balance, and two waves of it.
     """
@@ -127,7 +134,10 @@ def test_pushed_round_by_four_pockets() -> None:
 
 
 def test_the_pattern_of_a_turning_cage_lags() -> None:
-    """Bryan 1890: two waves fall back by 0.400 of the cage's speed, 1 % from a run."""
+    """Compare the lag with Bryan 1890 to 1 %.
+
+    Two waves fall back by 0.400 of the cage's speed, from a run.
+    """
     m = machine(*THIN, *ALONE, "operation.speed=100 rpm", "elastic.cage.orders=2", case=CASE)
     spin, period = 5e-3 * thin_ring(2), 2.0 * math.pi / thin_ring(2)
     start = m.at_rest()
@@ -144,7 +154,10 @@ def test_the_pattern_of_a_turning_cage_lags() -> None:
 
 
 def test_a_stiff_cage_is_the_rigid_one() -> None:
-    """A cage 1e9 times as wide: where balls, rings and cage are after 2 ms of the same steps, to 1e-6."""
+    """Compare a stiff with a rigid cage to 1e-6.
+
+    The cage is 1e9 times as wide; balls, rings and cage after 2 ms of the same steps.
+    """
     ends = []
     for changes in ((), (THIN[0], "elastic.cage.section_width=8e6 m", "elastic.cage.damping_ratio=0.5")):
         engine = BearingEngine(api.check(CASE, (*changes, "solver.max_step=2 us", "solver.tolerance=1e-2")))
@@ -158,7 +171,7 @@ def test_a_stiff_cage_is_the_rigid_one() -> None:
 
 
 def test_energy_and_waves_of_a_run() -> None:
-    """Balls bend the cage; what is put in is dissipated or stored to 1e-3."""
+    """Balance energy to 1e-3 with a bending cage."""
     engine = BearingEngine(api.check(CASE, THIN))
     assert engine.advance(0.02).ok
     integrals = engine.integrals()

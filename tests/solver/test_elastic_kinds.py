@@ -34,7 +34,10 @@ def elastic(housing: str) -> dict[str, Any]:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_rigid_limit_and_load_sharing(kind: str) -> None:
-    """In a rigid housing the rigid equilibrium, 1e-6; in a soft one the most loaded ball carries less."""
+    """Compare rigid and soft housings.
+
+    The rigid one gives the rigid equilibrium, 1e-6; in the soft one the most loaded ball carries less.
+    """
     case = {**COMMON, "bearing": KINDS[kind]}
     rigid, stiff, soft = (
         api.quasistatic(api.check({**case, "elastic": parts}))
@@ -49,7 +52,7 @@ def test_rigid_limit_and_load_sharing(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_balance_of_a_run(kind: str) -> None:
-    """What is put in is dissipated or stored to 1e-3; every part bends."""
+    """Balance energy to 1e-3 while every part bends."""
     engine = BearingEngine(api.check({**COMMON, "bearing": KINDS[kind], "elastic": elastic("100 N/um")}))
     assert engine.advance(8e-3).ok
     integrals = engine.integrals()

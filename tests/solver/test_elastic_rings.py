@@ -30,7 +30,10 @@ def soft(stiffness: str, orders: int = 6, ring: str = "outer_ring") -> tuple[str
 
 @pytest.mark.parametrize("ring", ["outer_ring", "inner_ring"])
 def test_in_a_rigid_housing_a_ring_is_rigid(ring: str) -> None:
-    """Loads, displacement and torque are those of rigid rings: 1e-6."""
+    """Compare with rigid rings to 1e-6.
+
+    Loads, displacement and torque.
+    """
     rigid, stiff = api.quasistatic(CASE), api.quasistatic(CASE, soft("1e15 N/m", ring=ring))
     assert stiff.max_load_N == pytest.approx(rigid.max_load_N, rel=1e-6)
     assert stiff.friction_torque_Nmm == pytest.approx(rigid.friction_torque_Nmm, rel=1e-6)
@@ -52,7 +55,10 @@ def beam_ring(loads: FloatArray, azimuths: FloatArray, waves: int) -> FloatArray
 
 
 def test_the_shape_is_that_of_a_ring_of_beams() -> None:
-    """Amplitudes of 2 to 4 waves under the equilibrium's own loads: 1 % of the largest."""
+    """Compare amplitudes of 2 to 4 waves.
+
+    Under the equilibrium's own loads: 1 % of the largest.
+    """
     found = api.quasistatic(CASE, soft("100 N/um"))
     (bent,) = found.ring_shapes
     outer = [contact for contact in found.contacts if contact.ring == "outer"]
@@ -65,7 +71,10 @@ def test_the_shape_is_that_of_a_ring_of_beams() -> None:
 
 
 def test_a_soft_housing_spreads_the_load() -> None:
-    """The softer the housing, the more balls carry and the less the most loaded one; the bearing gives way more."""
+    """Soften the housing and spread the load.
+
+    More balls carry, the most loaded one carries less, and the bearing gives way more.
+    """
     rigid, firm, soft_one = (api.quasistatic(CASE, o) for o in ((), soft("1000 N/um"), soft("100 N/um")))
     assert rigid.max_load_N > 1.05 * firm.max_load_N > 1.05**2 * soft_one.max_load_N
     assert rigid.loaded_balls <= firm.loaded_balls <= soft_one.loaded_balls
@@ -78,7 +87,9 @@ def test_a_soft_housing_spreads_the_load() -> None:
 
 @pytest.mark.parametrize(("waves", "lag"), [(2, 0.400), pytest.param(3, 0.200, marks=pytest.mark.slow)])
 def test_the_pattern_of_a_turning_ring_lags(waves: int, lag: float) -> None:
-    """Bryan 1890, Proc. Camb. Phil. Soc. 7, 101: seen from the ring a pattern turns back by 2/(n^2 + 1): 1 %.
+    """Compare the lag with 2/(n^2 + 1) to 1 %.
+
+    Bryan 1890, Proc. Camb. Phil. Soc. 7, 101: a pattern turns back, seen from the ring.
 
     From a run of the compiled core: the outer ring turns, no ball touches it, nothing damps its waves.
     """
@@ -104,7 +115,10 @@ def test_the_pattern_of_a_turning_ring_lags(waves: int, lag: float) -> None:
 
 
 def test_energy_and_waves_of_a_run() -> None:
-    """Waves settle about those of the equilibrium; what is put in is dissipated or stored to 1e-3."""
+    """Compare waves with the equilibrium, balance energy.
+
+    Waves settle about those of the equilibrium; energy closes to 1e-3.
+    """
     model = api.check("6319-cp10-3000", soft("100 N/um"))
     engine = BearingEngine(model)
     assert engine.advance(0.02).ok
@@ -148,7 +162,9 @@ def test_mistakes(changes: dict[str, object], said: str) -> None:
 
 
 def test_numbers_of_a_thin_housing(tmp_path: Path) -> None:
-    """The case that `init --template thin-housing` writes: waves of its 6208's outer ring by ring theory and by hand.
+    """Compare waves of the thin housing by hand.
+
+    The case that `init --template thin-housing` writes: its 6208's outer ring by ring theory.
 
     c_n = sum of Q cos(alpha) cos(n psi)/k_n with k_n = pi E I (n^2 - 1)^2/R^3 + 300 N/um, the case's housing stiffness
     (Timoshenko, Vibration Problems in Engineering, art. 74, on a Winkler bedding); E = 210 GPa of 100Cr6. The friction

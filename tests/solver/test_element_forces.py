@@ -32,7 +32,10 @@ parameters = { stiffness_z = "1 N/um", spin_damping = "0.001 N m s/rad" }
 
 
 def test_power_and_force_are_those_of_the_right_hand_side() -> None:
-    """Without their parameters the bushings push nothing: what is missing then is what they do, to rounding."""
+    """Compare with the right-hand side to rounding.
+
+    Without their parameters the bushings have no force: the difference is the bushings' action.
+    """
     m = machine(*MODELS["force elements"])
     y, bundle = random_state(m, 3, "rolling"), m.context.bundle
     found, power = element_forces(m.context, np.zeros(1), m.shared_state(y, 0.0).reshape(1, -1))

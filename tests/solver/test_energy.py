@@ -17,7 +17,9 @@ from .test_power import HARMONIC_OUTER_RING
 
 
 def test_a_ball_without_friction_keeps_its_energy() -> None:
-    """Nine balls orbit in the outer groove, pressed by centrifugal force, and oscillate across and along it.
+    """Keep the energy of nine frictionless balls.
+
+    They orbit in the outer groove, pressed by centrifugal force, and oscillate across and along it.
 
     BDF of order 2 takes pi (omega h)^3 of the energy of an oscillation per period: 0.16 % in 48 periods of 280 steps.
     Bound: 0.4 % of the energy of vibration, 4e-8 of all energy. Angular momentum is not touched by it.
@@ -64,7 +66,10 @@ TURN = 0.0502  # of the cage of the 6319 at 3000 1/min [s]
 @pytest.mark.parametrize("cage", ["true", "false"])
 @pytest.mark.parametrize("case", ["6319-cp10-3000", "6208-axial-700"])
 def test_residual_at_default_tolerance(case: str, cage: str) -> None:
-    """The bound of 1e-3 of the input over two turns of the cage, start included."""
+    """Bound the residual by 1e-3 of the input.
+
+    Over two turns of the cage, start included.
+    """
     assert abs(residual(2.0 * TURN, f"depth.cage={cage}", case=case)) < 1e-3
 
 
@@ -84,5 +89,5 @@ def test_residual_falls_with_the_tolerance() -> None:
 
 
 def test_residual_with_a_shaken_outer_ring() -> None:
-    """Work of prescribed motions is part of the input."""
+    """Count work of prescribed motions as input."""
     assert abs(residual(0.3 * TURN, "solver.tolerance=1e-5", "depth.cage=false", *HARMONIC_OUTER_RING)) < 1e-4

@@ -109,7 +109,10 @@ def test_balls_that_stall_the_search_are_started_anew(point: tuple[Any, ...]) ->
 
 @pytest.mark.parametrize("tilt", ["locked", "free"])
 def test_unloaded_balls_that_creep_are_held_by_friction(tilt: str) -> None:
-    """Without friction they slide nanometres an iteration along their grooves at 1 1/min, for ever."""
+    """Hold creeping unloaded balls by friction.
+
+    Without friction they slide nanometres an iteration along their grooves at 1 1/min, for ever.
+    """
     changes = [f"bodies.inner_ring.tilt_{axis}={tilt}" for axis in "yz"]
     assert solve(api.check(_point("3200A", "SKF", 1.0, 380.0, 0.0, "mineral-vg68", 40.0), changes)).converged
 
@@ -191,7 +194,10 @@ def test_a_thousand_points_drawn_from_the_catalogue() -> None:
 
 
 def test_what_is_beyond_a_limit_is_said_where_nothing_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whether one is found at -55 degC hangs on last digits: the search with friction fails here by itself."""
+    """Name a limit where no equilibrium is found.
+
+    Whether one is found at -55 degC depends on last digits: here the search with friction is made to fail.
+    """
 
     def search(*arguments: Any, friction: bool, **options: Any) -> Any:
         if friction:

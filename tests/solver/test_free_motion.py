@@ -29,7 +29,10 @@ EMPTY = (
 
 
 def test_balls_fly_on_parabolas() -> None:
-    """Oblique gravity, orbital and other velocities: a parabola and a constant spin in the inertial frame."""
+    """Compare flying balls with parabolas.
+
+    Oblique gravity, orbital and other velocities: a parabola and a constant spin in the inertial frame.
+    """
     m = machine(*EMPTY, "gravity.x=7 m/s2", "gravity.y=-20 m/s2", "gravity.z=-30 m/s2")
     rng = np.random.default_rng(5)
     start = m.at_rest()
@@ -63,7 +66,9 @@ def attitude(body: FloatArray) -> FloatArray:
 
 @pytest.mark.parametrize(("b", "tilt"), [(0, 0.001), (2, 0.6)], ids=["inner ring", "cage"])
 def test_a_spinning_body_left_alone_precesses(b: int, tilt: float) -> None:
-    """Euler's equations of a symmetric top: omega = H/I_t + (1 - I_p/I_t) sigma a; its axis goes round H at |H|/I_t.
+    """Compare precession with Euler's equations.
+
+    A symmetric top: omega = H/I_t + (1 - I_p/I_t) sigma a; its axis goes round H at |H|/I_t.
 
     The attitude is exp([H/I_t] t) exp([(1 - I_p/I_t) sigma a_0] t): it also checks that the spin angle is counted from
     the frame of least rotation, whatever the way of the axis (holonomy). Goldstein, Classical Mechanics, section 5.6.

@@ -51,11 +51,12 @@ def neighbours(m: Machine) -> np.ndarray:
 @pytest.mark.parametrize(("mode", "seed"), [("rolling", 0), ("sliding", 1)])
 @pytest.mark.parametrize("name", MODELS)
 def test_jacobian(name: str, mode: str, seed: int) -> None:
-    """Left out by design: how slip changes the thermal film factor, the smaller component of entrainment (tangent.py).
+    """Compare the Jacobian with differences.
 
-    Both reach the columns of the axial velocity and of spins and cost below 1 % of the largest entry of a row (in
-    mixed friction 5 %, on steep waves 2 %); the entire matrix is within 0.03 % (0.2 %). Newton needs two to three
-    steps.
+    It leaves out how slip changes the thermal film factor, and the smaller component of entrainment (tangent.py).
+
+    Both reach the columns of the axial velocity and of spins and cost below 1 % of the largest entry of a row (in mixed
+    friction 5 %, on steep waves 2 %); the entire matrix is within 0.03 % (0.2 %). Newton needs two to three steps.
     """
     m = machine(*MODELS[name])
     y = random_state(m, seed, mode)
@@ -70,7 +71,10 @@ def test_jacobian(name: str, mode: str, seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_without_friction_nothing_is_left_out(seed: int) -> None:
-    """Frames, kinematics, Hertz, damping, Coriolis and gyroscopic terms alone: one-sided differences, 0.3 %."""
+    """Compare a frictionless Jacobian to 0.3 %.
+
+    Frames, kinematics, Hertz, damping, Coriolis and gyroscopic terms alone: one-sided differences.
+    """
     m = machine(*MODELS["every body free"], "models.cage_contact=none")
     y = random_state(m, seed, "rolling")
     with m.frictionless():
@@ -80,7 +84,10 @@ def test_without_friction_nothing_is_left_out(seed: int) -> None:
 
 
 def test_balls_that_touch_nothing_have_their_weight_and_inertia() -> None:
-    """No stiffness of a contact hides what is small: gravity, Coriolis and gyroscopic terms."""
+    """Compare terms of balls without a contact.
+
+    No stiffness hides the small ones: gravity, Coriolis and gyroscopic terms.
+    """
     m = machine("bearing.clearance=200 um", *ALL_FREE, "models.cage_contact=none", "models.fluid_drag=none")
     y = m.vector(jostle(m, rolling(m, 150.0), np.random.default_rng(0)))
     assert not np.any(m.evaluate(y).ball_forces[:, 3:])

@@ -105,7 +105,10 @@ SCALES = {"contact_angle": 1.0, "slip": 5.0, "entrainment": 5.0, "spin_velocity"
 
 @pytest.mark.parametrize("seed", range(6))
 def test_sphere_in_torus(seed: int) -> None:
-    """Displaced, tilted and moving rings: angles and velocities of every contact by differences of moving points."""
+    """Compare contacts with differences of moving points.
+
+    Displaced, tilted and moving rings: angles and velocities of every contact.
+    """
     m = machine(*MODEL)
     state = jostle(m, rolling(m, 150.0), np.random.default_rng(seed), shift=1.5)
     channels = m.observe(m.vector(state))
@@ -149,7 +152,10 @@ def angular_contact(m: Machine, inner: float, depth: float = 5e-6) -> tuple[Stat
 
 
 def test_angular_contact_after_harris() -> None:
-    """Contact angle, no slip, entrainment (d_m/4)(1 - gamma^2) omega_i, spin to roll of the inner raceway."""
+    """Compare kinematics with Harris.
+
+    Contact angle, no slip, entrainment (d_m/4)(1 - gamma^2) omega_i, spin to roll of the inner raceway.
+    """
     m = machine(*MODEL, "bearing.clearance=60 um")
     inner = 300.0
     state, alpha, ratio = angular_contact(m, inner)
@@ -168,7 +174,9 @@ def test_angular_contact_after_harris() -> None:
 
 
 def test_gyroscopic_moment() -> None:
-    """The torque that turns a ball's axis with its orbit: M = I omega_orbit omega_R sin(beta) about the tangent.
+    """Compare M = I omega_orbit omega_R sin(beta).
+
+    The torque that turns a ball's axis with its orbit, about the tangent.
 
     Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 2, eq. 2.70: what a ball's angular acceleration lacks
     when nothing touches it.
@@ -188,7 +196,10 @@ def test_gyroscopic_moment() -> None:
 
 @pytest.mark.parametrize(("strips", "rows"), [(3, 1), (15, 1), (31, 1), (11, 7), (40, 21)])
 def test_unit_grid(strips: int, rows: int) -> None:
-    """Area pi and Hertzian load 2 pi/3 of the unit ellipse are met exactly, second moments to second order."""
+    """Integrate area pi and load 2 pi/3 exactly.
+
+    The unit ellipse; second moments to second order.
+    """
     grid = unit_grid(strips, rows)
     place, along, pressure, area = grid[:4]
     cells = strips * rows
@@ -207,7 +218,9 @@ def test_unit_grid(strips: int, rows: int) -> None:
 
 @pytest.mark.parametrize("inner", [True, False])
 def test_contact_radii(inner: bool) -> None:
-    """Principal curvatures of ball and raceway from the surfaces themselves, 6208 at 15.09 degrees.
+    """Compare curvatures of ball and raceway.
+
+    From the surfaces themselves, 6208 at 15.09 degrees.
 
     Along rolling a raceway is curved by the distance of the contact from the shaft's axis along the normal (Meusnier).
     """

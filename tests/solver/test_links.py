@@ -28,7 +28,10 @@ def axial(found: Any) -> float:
 
 
 def test_a_spring_to_the_ground_takes_its_share_of_the_thrust() -> None:
-    """1.3 kN = thrust on the balls + k x; friction at the contacts, which is not counted here, carries 0.1 % of it."""
+    """Share thrust with a spring to the ground.
+
+    1.3 kN = thrust on the balls + k x; friction at the contacts, which is not counted here, carries 0.1 % of it.
+    """
     bare, found = api.quasistatic("6208-axial-1300"), api.quasistatic("6208-axial-1300", SPRING)
     share = 2e6 * 1e-6 * found.inner_ring_displacement_um[0]
     assert 200.0 < share < 350.0
@@ -37,7 +40,10 @@ def test_a_spring_to_the_ground_takes_its_share_of_the_thrust() -> None:
 
 
 def test_a_preload_is_a_load() -> None:
-    """F_0 = 1 kN from the ground is a load of 1 kN: to the tolerance of the equilibrium."""
+    """Compare a preload with a load of 1 kN.
+
+    F_0 = 1 kN from the ground; to the tolerance of the equilibrium.
+    """
     loaded = api.quasistatic("6208-axial-1300", ["loads.axial=2.3 kN"])
     pressed = api.quasistatic(
         "6208-axial-1300", ["elements.press.second=inner_ring", "elements.press.parameters.preload_x=1 kN"]
@@ -63,7 +69,10 @@ def test_stiffness_is_the_bearings_own() -> None:
 
 
 def test_what_an_element_does_to_its_bodies_sums_to_nothing() -> None:
-    """Only internal forces: the element to the ground is left out; rounding of some hundred additions."""
+    """Sum internal forces to rounding.
+
+    The element to the ground is left out; rounding of some hundred additions.
+    """
     inside = [change for change in LINKS if "elements.spring" not in change]
     m = machine(TIGHT, *(f"bodies.outer_ring.{dof}=free" for dof in ("x", "y", "z")), *NO_FIELD, *inside)
     bare = machine(TIGHT, *(f"bodies.outer_ring.{dof}=free" for dof in ("x", "y", "z")), *NO_FIELD)

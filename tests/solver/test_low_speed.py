@@ -20,7 +20,9 @@ def torque(*changes: str) -> float:
 
 
 def test_friction_falls_from_rest_with_speed() -> None:
-    """Stribeck's curve where asperities creep; smoothed at 10 mm/s of slip it rises from next to nothing.
+    """Find friction falling from rest with speed.
+
+    Stribeck's curve where asperities creep; smoothed at 10 mm/s of slip it rises from next to nothing.
 
     Against 100 1/min: hysteresis, a fifth of the torque, does not fall with the speed.
     """
@@ -30,7 +32,10 @@ def test_friction_falls_from_rest_with_speed() -> None:
 
 
 def test_friction_of_rest_does_not_depend_on_the_slowness() -> None:
-    """At Lambda below 0.05 contacts are nearly dry: a fifth of the speed changes what creep and film change."""
+    """Compare friction at a fifth of the speed.
+
+    At Lambda below 0.05 contacts are nearly dry: only creep and film change.
+    """
     one, five = (torque(CREEP, f"operation.speed={rpm} rpm") for rpm in (1, 5))
     assert one == pytest.approx(five, rel=0.2)
 
@@ -43,7 +48,10 @@ def test_starvation_takes_film_and_rolling_resistance() -> None:
 
 
 def test_a_little_starvation_changes_little() -> None:
-    """No law is exchanged for another: what a film of 1 - e loses goes to nothing with e, in rolling and torque."""
+    """Compare films of 1 - e and 1.
+
+    No law replaces another: the change goes to nothing with e, in rolling and torque.
+    """
     full = api.quasistatic(CASE)
     for short, most in ((1e-3, 0.08), (1e-5, 0.003), (1e-12, 1e-6)):
         found = api.quasistatic(CASE, [f"lubricant.starvation={1.0 - short!r}"])
@@ -74,7 +82,10 @@ def test_a_film_is_prescribed_once(changes: list[str], sentence: str) -> None:
 
 
 def test_a_run_at_ten_rpm_has_the_torque_of_its_equilibrium() -> None:
-    """Micro-slip in the dynamics as in the statics, 6316 at 13.24 kN: 3 %; the cage, at rest at first, left out."""
+    """Compare torque with the equilibrium to 3 %.
+
+    Micro-slip in the dynamics as in the statics, 6316 at 13.24 kN; the cage, at rest at first, left out.
+    """
     changes = [
         "bearing.designation=6316", "bearing.maker=SKF", "loads.radial=13.24 kN", "operation.speed=10 rpm",
         "lubricant.name=mineral-vg68", "lubricant.temperature=60 degC", "models.fluid_drag=none",

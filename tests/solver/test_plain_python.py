@@ -128,7 +128,10 @@ def give(name: str, file: Path) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_right_hand_side(name: str, plain: Path) -> None:
-    """Rounding only: sums over cells are taken in another order when they are compiled."""
+    """Compare compiled and plain code to rounding.
+
+    Sums over cells are taken in another order when they are compiled.
+    """
     m, found = machine(*MODELS[name]), np.load(plain / f"{name}.npz")
     for y, dydt, rates in zip(states_of(m), found["dydt"], found["rates"], strict=True):
         ours = m.evaluate(y, TIME)

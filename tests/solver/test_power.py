@@ -155,7 +155,9 @@ def energy_rate(m: Machine, y: FloatArray, dydt: FloatArray, t: float) -> tuple[
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("name", MODELS)
 def test_power_balance(name: str, mode: str) -> None:
-    """Input = losses + rate of stored energy, at any state: an identity of the equations, whatever the laws.
+    """Balance powers in any state.
+
+    Input = losses + rate of stored energy: an identity of the equations, whatever the laws.
 
     A few 1e-9 of the powers remain from the difference, and what rounding of the stored energy leaves. The energy of a
     cage contact is a sum over points of its force, 1e-5 of it off where the law bends: seen where two balls collide.

@@ -75,14 +75,17 @@ def made(kind: Any = Outer, **changes: Any) -> Any:
 
 
 def test_compiled_code_reads_and_writes_what_python_has(total: Any) -> None:
-    """Arrays of several dimensions, a tuple within the tuple, a view."""
+    """Compare arrays, nested tuples and views."""
     outer = made()
     assert total(outer) == 276.0 * 32 + 10 + 3
     assert outer.line[0] == 276.0 * 32
 
 
 def test_a_replaced_field_has_an_address_of_its_own(total: Any) -> None:
-    """The words are those of the tuple at hand, not of the one that it was made from."""
+    """Give a replaced field its own address.
+
+    The words belong to the present tuple, not to the one that it was made from.
+    """
     outer = made()
     before = total(outer)
     assert total(outer._replace(inner=Inner(np.zeros(2, dtype=np.int64)))) == before - 10
@@ -91,7 +94,10 @@ def test_a_replaced_field_has_an_address_of_its_own(total: Any) -> None:
 
 @pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda outer: pickle.loads(pickle.dumps(outer))])
 def test_a_copy_has_addresses_of_its_own(copied: Any, total: Any) -> None:
-    """Words that came along would lead to the arrays of the original, or to freed memory."""
+    """Give a copy its own addresses.
+
+    Copied words would point to the arrays of the original, or to freed memory.
+    """
     outer = made()
     before = total(outer)
     other = copied(outer)
@@ -111,13 +117,19 @@ def test_a_copy_has_addresses_of_its_own(copied: Any, total: Any) -> None:
     ids=["another size", "another kind", "another shape", "another order"],
 )
 def test_an_array_of_another_type_is_refused(changes: dict[str, Any], total: Any) -> None:
-    """Compiled code would read past its end, or other numbers than there are."""
+    """Refuse an array of another type.
+
+    Compiled code would read past its end, or other numbers than there are.
+    """
     with pytest.raises(TypeError, match="where compiled code takes"):
         total(made(**changes))
 
 
 def test_another_tuple_is_refused(total: Any) -> None:
-    """With the same fields, and no tuple at all; by the way that runs take, which looks at no types before."""
+    """Refuse a tuple of another type.
+
+    It has the same fields; another case is no tuple at all. Runs look at no types before.
+    """
     entry = total.get_compile_result(types.float64(outer_t)).entry_point
     for wrong in (made(Other), (np.zeros(4), Inner(np.arange(5)), np.zeros((2, 3, 4))), None):
         with pytest.raises(AttributeError, match="address_Outer"):
@@ -130,13 +142,16 @@ def test_another_tuple_is_refused(total: Any) -> None:
     ids=["bundle", "handle", "memory"],
 )
 def test_words_are_laid_out_as_numba_lays_out_values(named: Any, kind: Any) -> None:
-    """Arrays and functions of an image are loaded as Numba's values; a field takes as many words."""
+    """Compare words with Numba's layout.
+
+    Arrays and functions of an image are loaded as Numba's values; a field takes as many words.
+    """
     for field, of_field in kind.fields.items():
         assert words_of(named.KINDS[field]) == words_of_abi(of_field), field
 
 
 def test_the_bundle_of_a_model_is_taken() -> None:
-    """Every array of a real model is of the type that compiled code takes."""
+    """Accept every array of a real model."""
     m = machine(*MODELS["default"])
     assert getattr(m.context.bundle, L.bundle_t.attribute) > 0
     assert m.context.blocks.address_Blocks > 0

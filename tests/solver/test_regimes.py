@@ -22,7 +22,10 @@ LONG = {"stop"}  # half a minute of one of them: run by name, and by the page of
     [pytest.param(regime, marks=[pytest.mark.slow] * (regime.name in LONG), id=regime.name) for regime in REGIMES],
 )
 def test_regime(regime: Regime) -> None:
-    """Specification: kinetic, elastic, dissipated and external energy close within 1e-3; each dissipator dissipates."""
+    """Balance energy within 1e-3 in every regime.
+
+    Kinetic, elastic, dissipated and external energy; each dissipator dissipates.
+    """
     found = run(regime)
     assert found.reached, found.message
     assert regime.seen(found.samples)
@@ -39,7 +42,9 @@ def test_what_has_no_answer_is_refused_with_the_reason(name: str) -> None:
 
 @pytest.mark.full
 def test_a_whirling_cage_is_no_error_of_integration() -> None:
-    """A coarse tolerance shakes the cage into a whirl; a fine one started there finds the same whirl and the same loss.
+    """Compare a whirling cage at two tolerances.
+
+    A coarse tolerance shakes the cage into a whirl; a fine one started there finds the same whirl and the same loss.
 
     From its equilibrium the same bearing stays quiet, with less than half the loss. In oiled pockets nothing whirls.
     """
@@ -65,7 +70,10 @@ def _loss(engine: BearingEngine, until: float) -> float:
 
 
 def test_rest_costs_no_more_steps_than_running() -> None:
-    """Friction at rest is nearly a sign function: a Newton iteration lost there takes 100 000 steps a second."""
+    """Count steps with friction at rest.
+
+    It is nearly a sign function: a Newton iteration without convergence takes 100 000 steps a second.
+    """
     engine = BearingEngine(api.check(RADIAL, ["operation.speed=0 rpm", "solver.duration=1 s", "solver.tolerance=1e-4"]))
     assert engine.advance(0.01).ok
     assert engine.statistics()["steps"] < 1000.0
@@ -76,7 +84,10 @@ def test_rest_costs_no_more_steps_than_running() -> None:
     [("6016", "minr-vg320", "25 degC", "5810 N"), ("6013", "FVA3A", "60 degC", "6 kN")],
 )
 def test_what_the_first_steps_leave_does_not_chatter(designation: str, oil: str, temperature: str, load: str) -> None:
-    """At the default tolerance the first steps' iterates, left at 0.3 of it, took 10 000 steps a millisecond here."""
+    """Count steps at the default tolerance.
+
+    The first steps' iterates, left at 0.3 of it, took 10 000 steps a millisecond here.
+    """
     case = {
         "name": "rest",
         "bearing": {"designation": designation, "maker": "SKF"},
@@ -92,7 +103,9 @@ def test_what_the_first_steps_leave_does_not_chatter(designation: str, oil: str,
 
 @pytest.mark.parametrize("case", [RADIAL, AXIAL])
 def test_equilibrium_down_to_one_rpm(case: str) -> None:
-    """Friction of full films, without asperities, rises with speed, and the balls' orbit hardly changes.
+    """Compare neighbours down to 1 1/min.
+
+    Friction of full films, without asperities, rises with speed, and the balls' orbit hardly changes.
 
     Newton's method alone runs astray at these speeds; where the continuation is wrong, neighbours do not fit together.
     """

@@ -104,7 +104,10 @@ def body(spin: float = 0.0) -> Any:
 @BEARINGS
 @pytest.mark.parametrize("ring", ["inner", "outer"])
 def test_slices_approach_as_the_quasi_static_springs(bearing: RollerBearing, ring: str) -> None:
-    """Derivatives of every slice's approach with the roller's place and tilt, by differences of compiled geometry."""
+    """Compare derivatives of approach with differences.
+
+    Every slice's approach with the roller's place and tilt, from the compiled geometry.
+    """
     count, row, raceway, kin = 40, row_of(bearing), raceway_of(bearing, ring), make(records.KINEMATICS)
     along = slice_positions(bearing.effective_length, count)
 
@@ -144,7 +147,10 @@ def test_rolling_cones_do_not_slide(bearing: RollerBearing) -> None:
 
 @pytest.mark.parametrize("ring", ["inner", "outer"])
 def test_a_tilted_roller_keeps_its_rolling_radius(ring: str) -> None:
-    """The material of a cylinder that leans on one end passes everywhere with the speed of its own generatrix."""
+    """Compare the speed of a leaning cylinder.
+
+    Its material passes everywhere with the speed of its own generatrix.
+    """
     moves, kin, tilt = rolling_motion(NU, 150.0), make(records.KINEMATICS), 1e-3
     roller = roller_of(NU, 150.0)
     roller.tilt[0, 0] = tilt
@@ -170,7 +176,10 @@ def test_the_rib_slides_with_its_height() -> None:
 
 @BEARINGS
 def test_forces_are_equal_and_opposite(bearing: RollerBearing) -> None:
-    """Force and moment on the roller and on the ring cancel about any point."""
+    """Cancel force and moment of roller and ring.
+
+    About any point.
+    """
     rng = np.random.default_rng(3)
     roller, ring, kin, wrench = roller_of(bearing), body(), make(records.KINEMATICS), make(records.WRENCH)
     roller.x, roller.tilt[0] = 1e-5, (1e-3, -2e-3)
@@ -192,7 +201,10 @@ def test_forces_are_equal_and_opposite(bearing: RollerBearing) -> None:
 @pytest.mark.parametrize("end", [-1, 1])
 @pytest.mark.parametrize("ring", ["inner", "outer"])
 def test_ribs_stand_where_the_quasi_static_answer_has_them(ring: str, end: int) -> None:
-    """Gap, place, lever and sliding speed of an end on a rib; its force does not turn the roller about its axis."""
+    """Compare ribs with the quasi-static answer.
+
+    Gap, place, lever and sliding speed of an end on a rib; its force does not turn the roller about its axis.
+    """
     bearing, number = replace(NU, kind="NUP"), ("inner", "outer").index(ring)
     one = next(rib for rib in bearing.ribs if (rib.ring, rib.end) == (ring, end))
     row, raceway, kin = row_of(bearing), make(records.RACEWAY), make(records.KINEMATICS)
@@ -246,7 +258,10 @@ def test_a_free_roller_keeps_energy_and_angular_momentum(bearing: RollerBearing)
 
 
 def test_the_gyroscopic_moment_is_the_quasi_static_one() -> None:
-    """The moment that keeps a cone on its raceways: without it the axis leaves them at once."""
+    """Compare the gyroscopic moment of a cone.
+
+    It keeps the cone on its raceways: without it the axis leaves them at once.
+    """
     row, wrench, rate = row_of(TAPERED), make(records.WRENCH), make(records.ROLLER)
     inertial = rolling_motion(TAPERED, 400.0).inertial(TAPERED)
     wrench.force[0, 1], wrench.moment[0, 2] = -inertial[1], inertial[2]  # a = -x turns the sense of the moment

@@ -129,7 +129,10 @@ for bearing in (tapered, straight):
 
 
 def test_plain_equations_of_rollers(tmp_path: Path) -> None:
-    """Momentum, energy and axis of a top; pure rolling of tapered and straight rollers; equal and opposite forces."""
+    """Compare rollers with plain equations.
+
+    Momentum, energy and axis of a top; pure rolling of tapered and straight rollers; equal and opposite forces.
+    """
     done = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", PLAIN],
         cwd=tmp_path,
@@ -147,7 +150,10 @@ def equilibrium() -> Equilibrium:
 
 
 def test_loads_are_those_of_independent_laminae() -> None:
-    """Slices in compiled code against the convex energy of all contacts; the ring's weight counts here alone."""
+    """Compare slices with independent laminae.
+
+    Compiled code against the convex energy of all contacts; only here the ring's weight counts.
+    """
     found = equilibrium()
     assert found.converged
     rollers = found.context.model.rollers
@@ -162,7 +168,10 @@ def test_loads_are_those_of_independent_laminae() -> None:
 
 
 def test_unloaded_rollers_turn_as_the_others_and_slower() -> None:
-    """The oil around a light contact drives a roller that its rolling resistance alone would turn backwards."""
+    """Turn unloaded rollers in the same sense, slower.
+
+    The oil around a light contact drives a roller that its rolling resistance alone would turn backwards.
+    """
     found = equilibrium()
     rollers = L.elements_in(found.context.bundle, found.state)
     own = rollers["spin"][:, 0] - rollers["velocity"][:, 2] / rollers["radius"]
@@ -183,7 +192,10 @@ def test_a_refusal_speaks_of_rollers() -> None:
 
 
 def test_jacobian_of_rollers() -> None:
-    """Compiled blocks of eleven states against differences of the right-hand side."""
+    """Compare compiled blocks with differences.
+
+    Eleven states, of the right-hand side.
+    """
     found = equilibrium()
     context, y = found.context, initial_state(found)
     y = y + np.random.default_rng(0).uniform(-1.0, 1.0, y.size) * 1e-3 * context.scale
@@ -203,7 +215,10 @@ def test_jacobian_of_rollers() -> None:
 
 
 def test_a_roller_bearing_runs() -> None:
-    """Energy is balanced, rollers neither skew nor tilt between parallel rings, and they go round with the cage."""
+    """Balance energy of a roller bearing.
+
+    Rollers neither skew nor tilt between parallel rings, and they go round with the cage.
+    """
     engine = BearingEngine(api.check(CASE), equilibrium=equilibrium())
     while engine.time < 0.01:
         engine.advance(0.01)
@@ -228,7 +243,10 @@ THRUST: dict[str, dict[str, Any]] = {
 
 
 def test_another_process_continues_a_run(tmp_path: Path) -> None:
-    """A checkpoint had the addresses of the rollers' code, which is elsewhere in another process: it crashed."""
+    """Continue a run in another process.
+
+    The checkpoint had addresses of code, which is elsewhere there: the process crashed.
+    """
     both, parted = tmp_path / "both.h5", tmp_path / "parted.h5"
     api.run(CASE, ["solver.duration=2 ms"], out=both)
     api.run(CASE, ["solver.duration=1 ms"], out=parted)
@@ -241,7 +259,10 @@ def test_another_process_continues_a_run(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", [*THRUST])
 def test_ribs_take_thrust_in_motion(name: str) -> None:
-    """Loads of ribs as in the quasi-static answer but for friction; energy is kept, and the skew stays small."""
+    """Compare loads of ribs in motion.
+
+    As in the quasi-static answer but for friction; energy is kept, and the skew stays small.
+    """
     model = api.check(CASE | THRUST[name] | {"bearing": {"designation": f"SKF {name}"}})
     found = solve(model)
     assert found.converged
@@ -264,7 +285,10 @@ def test_ribs_take_thrust_in_motion(name: str) -> None:
 
 
 def test_slow_ribs_resist_alike_in_both_answers() -> None:
-    """Ribs make most of the torque of a slow tapered bearing: 10 kN axial, 20 1/min. Skewed rollers add 4 %."""
+    """Compare the torque of slow ribs.
+
+    They make most of the torque of a tapered bearing: 10 kN axial, 20 1/min. Skewed rollers add 4 %.
+    """
     case = CASE | {"bearing": {"designation": "SKF 32216"}, "loads": {"axial": "10 kN"}}
     case = case | {"operation": {"speed": "20 rpm"}}
     found, rollers = solve(api.check(case)), roller_model(case)
@@ -276,7 +300,10 @@ def test_slow_ribs_resist_alike_in_both_answers() -> None:
 
 
 def test_ribs_have_laws_of_their_own() -> None:
-    """A section of the ribs chooses laws and parameters for them alone, as for any other contact."""
+    """Choose laws and parameters for ribs alone.
+
+    Their section of the case is that of any other contact.
+    """
     own = {"models": {"film_thickness": "hamrock-dowson"}, "parameters": {"boundary_friction": {"mu": 0.08}}}
     case = CASE | THRUST["32216"] | {"bearing": {"designation": "SKF 32216"}}
     before, after = api.check(case), api.check(case | {"forces": {"rib_inner": own}})
@@ -334,7 +361,10 @@ def slip_of_the_cage(load: str) -> float:
 
 @pytest.mark.full
 def test_a_cage_slips_the_more_the_lighter_the_load() -> None:
-    """A trend that every textbook has, without a number to hit."""
+    """Lower the load and find more slip.
+
+    Every textbook has this trend; the test has no number to hit.
+    """
     slips = [slip_of_the_cage(load) for load in ("1 kN", "300 N", "100 N", "50 N")]
     assert slips == sorted(slips)
     assert slips[0] < 0.02
@@ -344,7 +374,10 @@ def test_a_cage_slips_the_more_the_lighter_the_load() -> None:
 @pytest.mark.full
 @pytest.mark.parametrize("name", [pytest.param("NU 208", marks=pytest.mark.slow), "32216", "NJ 208"])
 def test_the_torque_converges(name: str, tmp_path: Path) -> None:
-    """The friction torque of a few revolutions of the cage is known to a percent, and energy is kept."""
+    """Converge the torque to a percent, balance energy.
+
+    A few revolutions of the cage.
+    """
     case = CASE | THRUST.get(name, {}) | {"bearing": {"designation": f"SKF {name}"}}
     found = api.run(case, out=tmp_path / "rollers.h5").summary()
     assert found.converged, found.reasons
@@ -354,7 +387,10 @@ def test_the_torque_converges(name: str, tmp_path: Path) -> None:
 
 
 def test_values_and_assumptions_are_those_of_rollers() -> None:
-    """No grooves or shoulders; laws of lines in the place of those of points, with SKF's constant of these rollers."""
+    """Report no grooves or shoulders for rollers.
+
+    Laws of lines replace those of points, with SKF's constant of these rollers.
+    """
     model = api.check(CASE)
     told, values = "\n".join(model.assumptions), {value.path: value for value in model.values}
     assert not any(word in told for word in ("groove radius", "shoulder", "spherical-pocket", "loss-factor:", "k_z"))

@@ -50,7 +50,10 @@ def off(lines_: FloatArray, reference: FloatArray) -> float:
 
 @pytest.mark.slow
 def test_lines_of_a_defect_hang_on_no_step(tmp_path: Path) -> None:
-    """Half the step moves none of the six largest lines along and across the shaft by 3 %."""
+    """Halve the step and compare six lines.
+
+    None of the largest along and across the shaft moves by 3 %.
+    """
     every = "output.interval=0.05 ms"
     times, chosen = velocity(tmp_path / "chosen.h5", every)
     again, half = velocity(tmp_path / "half.h5", every, f"solver.max_step={1.0 / (12.0 * RESOLVE)} s")
@@ -61,7 +64,9 @@ def test_lines_of_a_defect_hang_on_no_step(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_what_is_faster_hardly_falls_into_a_spectrum(tmp_path: Path) -> None:
-    """The default's samples against eight times as many behind a filter: 1.5 % of the lines along the shaft.
+    """Compare lines with eight times the samples.
+
+    Behind a filter: 1.5 % of the lines along the shaft.
 
     Across it lines are smaller and much stands above: 6 % (130 % with half the samples). The filter itself and the ends
     of the window take up to 1 %.

@@ -79,7 +79,10 @@ def test_matrix_is_the_difference_quotient_of_the_loads(case: str, changes: tupl
 
 
 def test_radial_stiffness_grows_like_hertz() -> None:
-    """Without clearance all displacements are proportional to F^(2/3), so stiffness to F^(1/3)."""
+    """Compare stiffness with F^(1/3).
+
+    Without clearance all displacements are proportional to F^(2/3).
+    """
     changes = ("bearing.clearance=0 um", "gravity.z=0 m/s2", "operation.speed=10 rpm")
     light, heavy = (
         stiffness_matrix(solve(api.check("6319-cp10-500", (*changes, f"loads.radial={load}")), strict=False))[2][2]

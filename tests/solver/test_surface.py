@@ -39,7 +39,10 @@ def load(m: Machine, azimuth: float, angle: float, pressed: float = 10e-6) -> fl
 
 
 def test_the_raceway_turns_with_its_ring() -> None:
-    """Equal loads wherever ball and ring have the same angle between them; a crest presses more than a trough."""
+    """Turn balls and ring together.
+
+    Equal angles between them give equal loads; a crest presses more than a trough.
+    """
     m = machine(*STILL, *WAVES)
     crest, trough = load(m, 0.7, 0.7), load(m, 0.7, 0.7 + math.pi / 5.0)
     assert crest > 1.5 * trough > 0.0
@@ -48,7 +51,10 @@ def test_the_raceway_turns_with_its_ring() -> None:
 
 
 def test_the_penetration_grows_by_the_height() -> None:
-    """A node of the wave has the load of the nominal raceway; a crest of 2 um that of a ball 2 um nearer to it."""
+    """Compare loads at a node and a crest.
+
+    The node has the load of the nominal raceway; a crest of 2 um that of a ball 2 um nearer to it.
+    """
     wavy, nominal = machine(*STILL, *WAVES), machine(*STILL)
     assert load(wavy, 0.0, math.pi / 10.0) == pytest.approx(load(nominal, 0.0, 0.0), rel=1e-9)
     assert load(wavy, 0.0, 0.0) == pytest.approx(load(nominal, 0.0, 0.0, pressed=12e-6), rel=1e-6)
@@ -63,7 +69,10 @@ def test_the_quasi_static_solution_has_nominal_raceways() -> None:
 
 @pytest.mark.parametrize(("waves", "expected"), [(8, 1.0 / 8.0), (300, 1.0 / 300.0)])
 def test_steps_of_time_resolve_the_waves(waves: int, expected: float) -> None:
-    """A quarter of 1/k of a radian at the speed of the balls past the outer ring, (1 - D_w/d_m)/2 of the shaft's."""
+    """Compare steps with a quarter of 1/k rad.
+
+    At the speed of the balls past the outer ring, (1 - D_w/d_m)/2 of the shaft's.
+    """
     changes = ("forces.ball_outer.models.surface=waviness", f"forces.ball_outer.parameters.surface.waves={waves}")
     m = machine(*changes)
     speed = 1500.0 * math.pi / 30.0 * 0.5 * (1.0 - 30.0 / 147.5)
@@ -83,7 +92,10 @@ def test_steps_of_time_see_a_short_wave_on_a_long_one() -> None:
 
 
 def test_a_narrow_defect_is_not_stepped_over() -> None:
-    """0.2 mm long on a raceway of 177.5 mm: at least ten steps from edge to edge."""
+    """Cross a narrow defect in ten steps.
+
+    0.2 mm long on a raceway of 177.5 mm, from edge to edge.
+    """
     m = machine("forces.ball_outer.models.surface=defect", "forces.ball_outer.parameters.surface.width=0.2 mm")
     speed = 1500.0 * math.pi / 30.0 * 0.5 * (1.0 - 30.0 / 147.5)
     assert longest_step(m.context) < 0.1 * (0.2 / 88.75) / speed
@@ -109,7 +121,10 @@ def test_a_surface_that_refuses_is_named() -> None:
 
 
 def test_faults_name_the_role_that_refused() -> None:
-    """The numbers by which compiled code tells a role are those of the table of roles."""
+    """Compare role numbers with the table of roles.
+
+    Compiled code tells a role by its number.
+    """
     numbers = {name: number for name, number in vars(faults).items() if name.isupper() and isinstance(number, int)}
     assert numbers.pop("OUTSIDE") < 0  # a status, not a role
     assert [name.lower() for name in numbers] == list(faults.ROLES)
@@ -117,7 +132,10 @@ def test_faults_name_the_role_that_refused() -> None:
 
 
 def test_a_view_inside_the_contact_sees_the_same_surface() -> None:
-    """The field of one contact, looked up in plain Python, has the load that the run had."""
+    """Compare a contact's load in plain Python.
+
+    The view of the field has the load of the run.
+    """
     m = machine(*STILL, *WAVES)
     state = m.at_rest()
     state.balls[0, L.BR] -= 10e-6

@@ -66,7 +66,10 @@ def check_contacts(found: FloatArray, expected: FloatArray, tolerance: float) ->
 
 @pytest.mark.parametrize("angle", [40.0, 17.3, -123.0, 180.0])
 def test_azimuth_origin_quasi_static(angle: float) -> None:
-    """Loads, balls and gravity turned together; 40 degrees is one ball pitch."""
+    """Turn loads, balls and gravity together.
+
+    40 degrees is one ball pitch.
+    """
     base, other = equilibrium(turned(0.0)), equilibrium(turned(angle), phase=angle * BALLS / 360.0)
     check_contacts(other.contacts, base.contacts, 1e-8)
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))

@@ -70,7 +70,10 @@ def touched(found: Evaluation) -> tuple[set[int], set[int]]:
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("ring", [0, 1], ids=["inner", "outer"])
 def test_one_raceway_contact(ring: int, seed: int) -> None:
-    """One ball pressed into one raceway of a displaced, tilted, spinning ring; all others are free."""
+    """Press one ball into one raceway.
+
+    The ring is displaced, tilted and spinning; all other bodies are free.
+    """
     m, rng = machine(WIDE, *ALL_FREE, *NO_FIELD, "models.cage_contact=none"), np.random.default_rng(seed)
     state = jostle(m, rolling(m, 150.0), rng)
     state.balls[2, :2] += (rng.uniform(-30e-6, 30e-6), (-80e-6, 80e-6)[ring])
@@ -82,7 +85,7 @@ def test_one_raceway_contact(ring: int, seed: int) -> None:
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("pocket", ["spherical-pocket", "cylindrical-pocket"])
 def test_one_pocket(pocket: str, seed: int) -> None:
-    """The cage, displaced and tilted, pushes one ball."""
+    """Push one ball by a displaced, tilted cage."""
     m, rng = (
         machine(WIDE, *ALL_FREE, *NO_FIELD, f"forces.ball_cage.models.cage_contact={pocket}", DRY),
         np.random.default_rng(seed),
@@ -98,7 +101,10 @@ def test_one_pocket(pocket: str, seed: int) -> None:
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("guidance", ["inner ring", "outer ring"])
 def test_one_land(guidance: str, seed: int) -> None:
-    """The cage rests on the land of a ring, at one or both stations."""
+    """Rest the cage on one land.
+
+    At one or both stations.
+    """
     m = machine(
         WIDE, *ALL_FREE, *NO_FIELD, f"bodies.cage.guidance={guidance}", "bodies.cage.land_clearance=100 um",
         "bodies.cage.pocket_clearance=2 mm", DRY,
@@ -123,7 +129,7 @@ def test_two_balls_without_a_cage(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("cage", ["true", "false"])
 def test_everything_at_once(cage: str, seed: int) -> None:
-    """Random states with all kinds of contact together."""
+    """Combine all contacts in random states."""
     m, rng = machine("bearing.clearance=10 um", f"depth.cage={cage}", *ALL_FREE, *NO_FIELD), np.random.default_rng(seed)
     state = jostle(m, rolling(m, 150.0), rng, 1.0 + seed / 10.0, 1.0 + seed / 5.0)
     found = check(m, state)

@@ -122,7 +122,10 @@ DOFS = {
 
 @pytest.mark.parametrize("dof", DOFS)
 def test_a_prescribed_body_moves_as_told(dof: str) -> None:
-    """Position, velocity and, for tilts, the axis; velocities are the derivative of what the positions do."""
+    """Compare position, velocity and axis.
+
+    Velocities are the derivatives of the positions.
+    """
     amplitude = "0.2 mrad" if "tilt" in dof else "7 um"
     size, w = (2e-4 if "tilt" in dof else 7e-6), 2.0 * math.pi * 300.0
     m = machine(

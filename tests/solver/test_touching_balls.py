@@ -75,7 +75,10 @@ CHAINS = [(), (0,), (2, 3, 4), (7, 8), (0, 1, 3, 8), tuple(range(8)), tuple(rang
 
 
 def test_chains_of_balls_are_solved_as_one_matrix(tmp_path: Path) -> None:
-    """Random couplings of a size with the balls' own blocks; a ring of all is cut where its numbers begin."""
+    """Compare chains of balls with one matrix.
+
+    Random couplings of a size with the balls' own blocks; a ring of all balls is cut where its numbers begin.
+    """
     m, rng = machine("depth.cage=false", "bodies.inner_ring.y=free"), np.random.default_rng(1)
     m.jacobian(touching(m, ()))
     blocks = m.context.blocks

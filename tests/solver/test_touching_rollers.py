@@ -93,7 +93,10 @@ for gap, share in ((0.0, 0.8), (20e-6, -0.3)):
 
 
 def test_forces_of_neighbours_are_opposite_and_do_work(tmp_path: Path) -> None:
-    """Newton's third law for force and moment; power is force times slip; the distance changes as the velocity says."""
+    """Compare force, moment and power of neighbours.
+
+    Newton's third law; power is force times slip; the distance changes as the velocity requires.
+    """
     done = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", PLAIN],
         cwd=tmp_path,
@@ -152,7 +155,10 @@ def test_slopes_of_touching_rollers_are_those_of_differences() -> None:
 
 
 def test_a_full_complement_starts_with_the_loads_of_its_laminae() -> None:
-    """Rollers are pressed as in the quasi-static answer; gaps between them are even."""
+    """Start a full complement with its quasi-static loads.
+
+    Gaps between the rollers are even.
+    """
     found = equilibrium()
     assert found.converged
     rollers = found.context.model.rollers
@@ -173,7 +179,10 @@ def test_a_full_complement_is_not_exported(tmp_path: Path) -> None:
 
 
 def test_a_full_complement_runs() -> None:
-    """Rollers come to touch and rub, none passes through another, energy is balanced; a resumed run has these bits."""
+    """Let rollers of a full complement touch.
+
+    They rub, none passes through another, energy is balanced; a resumed run has these bits.
+    """
     model = api.check(CASE)
     # Each has an equilibrium of its own: two engines that start from one share its working memory.
     engine, resumed = (BearingEngine(model, equilibrium=solve(model)) for _ in range(2))

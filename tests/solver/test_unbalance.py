@@ -20,7 +20,10 @@ FIRST, LAST = 0.01, 0.02  # one turn of the ring, from rest of its first swing o
 
 
 def test_the_drive_pays_for_what_the_supports_dissipate() -> None:
-    """The drive's work is all that is lost and stored: the unbalance itself gives nothing."""
+    """Compare the drive's work with losses.
+
+    It equals all that is lost and stored: the unbalance itself gives nothing.
+    """
     engine = BearingEngine(api.check("6208-axial-700", SHAKEN))
     assert engine.advance(FIRST).ok
     before = engine.integrals()
@@ -33,7 +36,10 @@ def test_the_drive_pays_for_what_the_supports_dissipate() -> None:
 
 
 def test_a_free_spin_slows_down_for_the_supports() -> None:
-    """Without a torque the ring's own energy feeds the damper; the balance closes."""
+    """Slow a free spin by its supports.
+
+    Without a torque the ring's own energy feeds the damper; the balance closes.
+    """
     still, shaken = (
         BearingEngine(api.check("6208-axial-700", [*changes, "bodies.inner_ring.spin=free"]))
         for changes in (SHAKEN[3:], SHAKEN)

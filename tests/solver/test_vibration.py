@@ -65,7 +65,10 @@ def exact(motion: Motion, amplitude: float) -> FloatArray:
 
 
 def test_the_tableau_has_its_order() -> None:
-    """Order conditions to order 4, and 3 of the embedded formula (Hairer, Norsett and Wanner, II.2); L-stability."""
+    """Check order 4, embedded 3, and L-stability.
+
+    Order conditions of Hairer, Norsett and Wanner, II.2.
+    """
     c, ones = NODES, np.ones(NODES.size)
     trees = (ones, c, c**2, A @ c, c**3, c * (A @ c), A @ c**2, A @ A @ c)
     wanted = (1.0, 1 / 2, 1 / 3, 1 / 6, 1 / 4, 1 / 8, 1 / 12, 1 / 24)
@@ -78,7 +81,10 @@ def test_the_tableau_has_its_order() -> None:
 
 
 def test_its_error_goes_with_the_fourth_power_of_the_step() -> None:
-    """Seen where the ring passes its middle, after 4.25 periods of steps as long as they may be."""
+    """Compare the error at halved steps.
+
+    Where the ring passes its middle, after 4.25 periods, with the longest steps.
+    """
     errors = []
     for steps in (16, 32):
         motion = swing(1e-6, 4.25, longest=1.0 / (steps * FREQUENCY), samples=17, tolerance=0.1)
@@ -89,7 +95,10 @@ def test_its_error_goes_with_the_fourth_power_of_the_step() -> None:
 
 @pytest.mark.parametrize("amplitude", [0.1e-6, 20e-6])
 def test_a_swing_without_a_loss_stays(amplitude: float) -> None:
-    """Seven periods with steps for 1 kHz: 0.1 % of the energy in 28 at most; the frequency within 0.02 %."""
+    """Keep energy and frequency of a swing.
+
+    Seven periods with steps for 1 kHz: 0.1 % of the energy in 28 at most; the frequency within 0.02 %.
+    """
     motion = swing(amplitude, 7.0, longest=1.0 / (6.0 * 1000.0), samples=280)
     x, t = place(motion), 2.0 * np.pi * FREQUENCY * motion.times
 
@@ -104,7 +113,9 @@ def test_a_swing_without_a_loss_stays(amplitude: float) -> None:
 
 
 def test_a_swing_in_contacts_of_hertz_without_a_loss_stays() -> None:
-    """5 kg on an axial 6208 under 1 300 N, released from its rest under the load that presses it 20 um further.
+    """Keep a swing in contacts of Hertz.
+
+    5 kg on an axial 6208 under 1 300 N, released from its rest under the load that presses it 20 um further.
 
     No friction, no damping, no gravity; 28 periods with the default's steps for 2 kHz. Contacts are not linear: the
     ring swings 23.5 um to the other side, at 466 Hz.
@@ -136,7 +147,10 @@ def test_a_swing_in_contacts_of_hertz_without_a_loss_stays() -> None:
 
 @pytest.mark.parametrize(("fine", "steps"), [(False, 20.0), (False, 50.0), (True, 6.0)])
 def test_what_a_formula_does_to_a_swing_is_foretold(fine: bool, steps: float) -> None:
-    """As the root of its formula says, to a tenth; and of BDF2 in short steps (w h)^3/4 and -(w h)^2/3."""
+    """Compare damping with the root of its formula.
+
+    To a tenth; and for BDF2 in short steps with (w h)^3/4 and -(w h)^2/3.
+    """
     motion = swing(
         1e-6, 40.0 if fine else 8.0, longest=1.0 / (steps * FREQUENCY), samples=400, tolerance=0.1, fine=fine
     )
@@ -156,14 +170,20 @@ def test_what_a_formula_does_to_a_swing_is_foretold(fine: bool, steps: float) ->
 
 
 def test_of_long_steps_the_damping_still_holds() -> None:
-    """Eight periods in a step: 4 % of critical for each, not the 0.1 % of half a period; the frequency is lost."""
+    """Compare damping with eight periods per step.
+
+    4 % of critical for each, not the 0.1 % of half a period; the frequency is lost.
+    """
     damping, shift = added(8.0 * 2.0 * np.pi, fine=True)
     assert 0.03 < damping < 0.05
     assert shift == -1.0
 
 
 def test_a_run_says_how_far_its_vibrations_can_be_believed(tmp_path: Path) -> None:
-    """The axial 6208 has a mode of its rings near 1.2 kHz with hardly any damping; BDF2 damps it by percents."""
+    """Report how far the vibrations are resolved.
+
+    The axial 6208 has a mode of its rings near 1.2 kHz with hardly any damping; BDF2 damps it by percents.
+    """
     said, reach = {}, {}
     for accuracy in ("averages", "vibration"):
         out = tmp_path / f"{accuracy}.h5"
@@ -221,7 +241,10 @@ def decay(accuracy: str, amplitude: float) -> tuple[float, float]:
 
 @pytest.mark.parametrize("amplitude", [0.1e-6, 20e-6])
 def test_a_swing_of_a_bearing_keeps_its_frequency_and_damping(amplitude: float) -> None:
-    """As a hundredfold tighter run does: frequency within 0.2 %, damping within 0.05 % of critical."""
+    """Compare with a hundredfold tighter run.
+
+    Frequency within 0.2 %, damping within 0.05 % of critical.
+    """
     fine = decay('solver.accuracy="vibration" solver.resolve="474Hz"', amplitude)
     finer = decay('solver.accuracy="vibration" solver.resolve="4kHz" solver.tolerance=1e-5', amplitude)
     assert fine[0] == pytest.approx(finer[0], rel=2e-3)
@@ -266,7 +289,9 @@ def kicked_across(*changes: str) -> FloatArray:
 
 @pytest.mark.slow
 def test_the_mode_that_hardly_anything_damps() -> None:
-    """1 518 Hz, 0.21 % of critical, over 27 periods: 10 % of its amplitude is what was aimed at (docs/vibration.md).
+    """Compare a mode with 0.21 % of damping.
+
+    1 518 Hz, over 27 periods: the aim is 10 % of its amplitude (docs/vibration.md).
 
     Stiff friction lowers the order of the formula there; half the step leaves a quarter of the error.
     """

@@ -171,7 +171,10 @@ def test_no_study_has_more_than_a_million_points() -> None:
 
 
 def test_a_value_may_stand_twice_in_step() -> None:
-    """Zipped parameters go together: a value of one may come again with another of the other."""
+    """Repeat a value of zipped parameters.
+
+    It may come again with another value of the other parameter.
+    """
     found = plan('path = "a"\nvalues = [1, 1, 2]', 'path = "b"\nvalues = [3, 4, 3]', tail='[design]\nkind = "zipped"')
     assert [point.coordinates for point in found.points()] == [(1.0, 3.0), (1.0, 4.0), (2.0, 3.0)]
 

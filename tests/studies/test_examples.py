@@ -91,7 +91,10 @@ def test_the_warmest_and_tightest_bearing_lies_on_both_limits(inline: Executor, 
 
 @pytest.mark.slow
 def test_what_decides_adds_up(tmp_path: Path) -> None:
-    """Temperature and load decide the torque, roughness and temperature Lambda, and load the pressure."""
+    """Compare total indices of the example.
+
+    Temperature and load decide the torque, roughness and temperature Lambda, and load the pressure.
+    """
     api.study_run(STUDIES / "what-decides.toml", tmp_path / "sobol", workers=2)
     data = api.view(tmp_path / "sobol", "sensitivity")
     total = {panel.title: panel.series[1].y for panel in data.panels}

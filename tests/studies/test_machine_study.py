@@ -18,7 +18,10 @@ def box(tmp_path: Path) -> Path:
 
 
 def test_a_study_of_a_machine_says_what_its_points_say(box: Path, tmp_path: Path) -> None:
-    """Two gear powers: every response equals the number of the equilibrium, of modes or of compare at that power."""
+    """Compare responses at two gear powers.
+
+    Every response equals the number of the equilibrium, of modes or of compare at that power.
+    """
     names = [
         "system_life_h", "max_deflection_um", "first_critical_speed_rpm", "power_loss_W", "left.radial_load_N",
         "right.reference_life_h", "right.friction_torque_Nmm", "left.min_film_parameter",
@@ -52,7 +55,10 @@ def test_a_study_of_a_machine_says_what_its_points_say(box: Path, tmp_path: Path
 
 @pytest.mark.parametrize("mode", ["quasi-static", "dynamic"])
 def test_a_life_has_one_name_for_a_bearing_alone_and_in_a_machine(box: Path, mode: str, tmp_path: Path) -> None:
-    """`reference_rating_life_h` of a machine was `rating.reference_life_h` of a bearing."""
+    """Give the life one name everywhere.
+
+    `reference_rating_life_h` of a machine was `rating.reference_life_h` of a bearing.
+    """
     asked = ["reference_life_h", "basic_life_h", "static_safety"]
     for case, before in (("6208-axial-700", ""), (str(box), "left.")):
         study = {
@@ -85,7 +91,10 @@ def test_mistakes_of_a_study_of_a_machine_are_named(box: Path) -> None:
 
 
 def test_runs_of_a_machine_are_points(box: Path, tmp_path: Path) -> None:
-    """A run per point, one file each; responses are the numbers of its summary, of the machine and of a bearing."""
+    """Store one run and one file per point.
+
+    Responses are the numbers of its summary, of the machine and of a bearing.
+    """
     from lambda_core.studies.machine_responses import machine_responses
 
     names = [name for name, one in machine_responses(("left", "right")).items() if one.dynamic is not None]

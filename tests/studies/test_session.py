@@ -55,7 +55,10 @@ def test_a_study_of_a_few_seconds_takes_no_other_process(
 def test_a_study_killed_before_its_bands_were_written_gets_them_on_resume(
     write: Write, inline: Executor, tmp_path: Path
 ) -> None:
-    """A kill while the bands were computed, before the first point or after the last one, lost them without a word."""
+    """Restore bands of a killed study.
+
+    A kill while the bands were computed, before the first point or after the last one, lost them silently.
+    """
     folder = tmp_path / "map"
     api.study_run(write(MAP), folder, executor=inline, band=True)
 
@@ -212,7 +215,10 @@ def test_the_cost_of_runs_is_said_beforehand(write: Write) -> None:
 
 
 def test_the_estimate_of_disk_counts_the_samples_that_a_run_takes(write: Write, tmp_path: Path) -> None:
-    """Samples are spaced by a hundredth of a cage turn, not by the longest step of the integrator."""
+    """Estimate disk space from samples.
+
+    A hundredth of a cage turn sets their distance, not the longest step of the integrator.
+    """
     text = RUNS.format(duration="20 ms", speeds=2, loads=2)
     text = (
         text[: text.index("[[parameters]]")]
@@ -291,7 +297,10 @@ constraints = [{ response = "min_film_parameter", at_least = 4.0 }]
 
 
 def test_a_search_ends_on_its_constraint(write: Write, inline: Executor, tmp_path: Path) -> None:
-    """Hotter oil means less rolling torque and thinner films: the best oil is as hot as Lambda allows."""
+    """Find the best oil at its constraint.
+
+    Hotter oil means less rolling torque and thinner films: the best oil is as hot as Lambda allows.
+    """
     folder = tmp_path / "cool"
     status = api.study_run(write(GOAL), folder, executor=inline)
     assert status.best is not None
@@ -328,7 +337,10 @@ def made_up(design: str, inputs: np.ndarray, outputs: np.ndarray) -> StudyTable:
 
 
 def test_sobol_indices_of_the_ishigami_function() -> None:
-    """Ishigami and Homma 1990, a = 7, b = 0.1: S = 0.3139, 0.4424, 0; S_T = 0.5576, 0.4424, 0.2437."""
+    """Compare Sobol indices with Ishigami and Homma.
+
+    1990, a = 7, b = 0.1: S = 0.3139, 0.4424, 0; S_T = 0.5576, 0.4424, 0.2437.
+    """
     from lambda_core.studies.design import saltelli
 
     shares = saltelli(2048, 3, 1)

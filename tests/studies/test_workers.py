@@ -306,7 +306,9 @@ def test_a_point_that_kills_its_worker_fails_alone(write: Write, tmp_path: Path,
 @pytest.mark.clock
 @pytest.mark.slow
 def test_a_map_of_500_points_within_30_seconds_on_two_cores(tmp_path: Path) -> None:
-    """From the command line, start of the program and of the workers included, once everything is compiled.
+    """Time a compiled map from the command line.
+
+    The start of the program and of the workers is included.
 
     On a machine with more to do than it has cores, the processor time of all processes stands for the wall time.
     """

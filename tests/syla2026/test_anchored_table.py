@@ -60,7 +60,10 @@ def test_the_loss_factor_is_sampled_over_its_own_range() -> None:
 
 
 def test_raceways_over_a_bath_are_a_case_of_their_own() -> None:
-    """The oil is held at the bath's temperature, rings and balls find theirs; laws are those of the anchored set."""
+    """Hold the oil at the bath's temperature.
+
+    Rings and balls find theirs; laws are those of the anchored set.
+    """
     model = api.check(POINTS[0].case, P.changes(T._over_bath(63.8)))
     assert model.laws == api.check(POINTS[0].case, P.changes(P.anchored())).laws
     assert model.thermal is not None

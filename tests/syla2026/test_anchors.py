@@ -47,7 +47,10 @@ class Invented:
 
 
 def test_the_grid_is_no_table_4() -> None:
-    """Ten bearings or more, two makers, three loads and three speeds; none of them the 6319."""
+    """Check ten bearings of two makers.
+
+    Three loads and three speeds; none of the bearings is the 6319.
+    """
     assert len(A.BEARINGS) >= 10
     assert "6319" not in {name for name, _ in A.BEARINGS}
     assert {"SKF", "NSK"} <= {maker for _, maker in A.BEARINGS}
@@ -89,7 +92,10 @@ def test_an_axial_load_is_compared_with_none() -> None:
 
 
 def test_a_small_axial_load_is_felt_by_skfs_model_alone() -> None:
-    """6208, 1.5 kN radial and 75 N axial: the contacts do not feel it, nor does Schaeffler's catalogue."""
+    """Add 75 N axial to 1.5 kN radial.
+
+    A 6208: neither the contacts nor Schaeffler's catalogue change.
+    """
     case = ("bearing.designation=6208", "loads.radial=1500 N", "operation.speed=1000 rpm")
     none, small = (READ(resolve_point(case_text(ANCHOR), (*case, f"loads.axial={axial} N"))) for axial in (0, 75))
     assert small["torque"] == pytest.approx(none["torque"], rel=0.03)
@@ -113,14 +119,20 @@ def test_random_cases_are_the_same_every_time() -> None:
 
 
 def test_the_random_case_that_once_had_no_equilibrium_has_a_torque() -> None:
-    """A 6001 at 427 1/min under both loads, its balls half a pitch on."""
+    """Find an equilibrium of a 6001 again.
+
+    427 1/min under both loads, its balls half a pitch on.
+    """
     case = next(c for c in A.random_cases("VG 68, radial and axial") if "bearing.designation=6001" in c)
     assert 0.3 < (anchor(resolve_point(case_text(ANCHOR), case))["torque"] or 0.0) < 30.0
 
 
 @pytest.mark.parametrize("parameters", A.SETS)
 def test_a_point_of_either_set(parameters: str) -> None:
-    """A 6208 at C/P = 10: parts add up, the sets differ, and SKF's is the catalogue's own number."""
+    """Compare both sets for a 6208.
+
+    At C/P = 10 parts add up, the sets differ, and SKF's is the catalogue's own number.
+    """
     changes = ("bearing.designation=6208", "loads.radial=3.25 kN", "operation.speed=3667 rpm", *A.laws_of(parameters))
     found = anchor(resolve_point(case_text(ANCHOR), changes))
     assert found["torque"] == pytest.approx(
@@ -132,7 +144,10 @@ def test_a_point_of_either_set(parameters: str) -> None:
 
 
 def test_the_anchored_set_replaces_what_the_blind_one_names() -> None:
-    """Every path but the laws that come with it stands in the blind set too, and everything has a source."""
+    """Compare the paths of both sets.
+
+    Every path but the laws that come with it is in the blind set too, and everything has a source.
+    """
     blind = {entry.path for entry in P.blind_set()}
     for path, value, source in P.anchored_set():
         assert source

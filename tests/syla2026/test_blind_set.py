@@ -42,7 +42,10 @@ def _flat(tables: dict[str, Any], path: str = "") -> list[str]:
 
 @pytest.mark.parametrize("point", POINTS, ids=lambda point: point.case)
 def test_the_set_is_the_first_one_whatever_the_defaults(point) -> None:  # type: ignore[no-untyped-def]
-    """It resolves to the model of the laws and constants of b7aec9b, by which the blind comparison was made."""
+    """Resolve the set to laws of b7aec9b.
+
+    The blind comparison was made with these laws and constants.
+    """
     tables = tomllib.loads(CONSTANTS.read_text(encoding="utf-8"))
     first = _flat(tables["b7aec9b"]) + _flat(tables["newer"])
     assert case_hash(api.check(point.case, P.changes())) == case_hash(api.check(point.case, first))

@@ -60,7 +60,10 @@ def test_a_change_within_three_standard_errors_alters_nothing() -> None:
 
 @pytest.mark.parametrize("criterion", CRITERIA)
 def test_errors_of_the_runs_are_carried_over_to_the_boundary(criterion: str) -> None:
-    """Against 4000 noisy copies of three runs; the noise is small, so that first order is enough."""
+    """Compare errors with 4000 noisy copies.
+
+    Three runs; the noise is small, so that first order is enough.
+    """
     s, t, error = (0.0100, 0.0085, 0.0075), (0.0, 0.03, 0.08), {"S": 5e-5, "T": 2e-3}
     random = np.random.default_rng(3)
     runs = [
@@ -88,7 +91,10 @@ def test_errors_of_the_runs_are_carried_over_to_the_boundary(criterion: str) -> 
 
 
 def test_jackknife_of_a_mean_is_its_standard_error() -> None:
-    """For a mean the jackknife is exact: s/sqrt(n) (Efron and Tibshirani 1993, eq. 11.5)."""
+    """Compare the jackknife with s/sqrt(n).
+
+    For a mean it is exact (Efron and Tibshirani 1993, eq. 11.5).
+    """
     values = np.random.default_rng(1).normal(5.0, 1.0, 10)
     mean, error = jackknife(values[:, None], np.ones((10, 1)))
     assert mean == pytest.approx(values.mean())
@@ -118,11 +124,13 @@ def test_the_motion_has_the_acceleration_that_was_asked_for() -> None:
 
 
 def test_natural_frequencies_of_what_centrifugal_force_holds() -> None:
-    """By hand for the 6220: cage at 0.5 (1 - 25.4/140) 1500/60 = 10.23 Hz, groove 13.462 - 12.7 = 0.762 mm.
+    """Compute frequencies of the 6220 by hand.
 
-    A sphere that rolls in the groove: 10.23 sqrt(5/7 x 70/0.762) = 82.9 Hz. Steel ball 67.4 g (7850 kg/m3), so
-    k = 25.6 N/mm; with a load zone of +-73.2 degrees 5.93 of ten balls are unloaded, cage 0.263 kg:
-    sqrt(5.93 x 25600/(0.263 + 5.93 x 0.0943))/(2 pi) = 68.1 Hz.
+    Cage at 0.5 (1 - 25.4/140) 1500/60 = 10.23 Hz, groove 13.462 - 12.7 = 0.762 mm.
+
+    A sphere that rolls in the groove: 10.23 sqrt(5/7 x 70/0.762) = 82.9 Hz. Steel ball 67.4 g (7850 kg/m3), so k = 25.6
+    N/mm; with a load zone of +-73.2 degrees 5.93 of ten balls are unloaded, cage 0.263 kg: sqrt(5.93 x 25600/(0.263 +
+    5.93 x 0.0943))/(2 pi) = 68.1 Hz.
     """
     from lambda_syla2026.readings import axial_resonance
 
@@ -134,7 +142,10 @@ def test_natural_frequencies_of_what_centrifugal_force_holds() -> None:
 
 
 def test_half_the_load_zone() -> None:
-    """cos(psi) = P_d/(2 delta): 60 degrees at delta = P_d, all of the ring without clearance and load."""
+    """Compare cos(psi) with P_d/(2 delta).
+
+    60 degrees at delta = P_d, all of the ring without clearance and load.
+    """
     assert half_zone(20e-6, 20e-6) == pytest.approx(math.pi / 3.0)
     assert half_zone(5e-6, 20e-6) == 0.0
     assert half_zone(0.0, -1e-6) == math.pi
@@ -142,7 +153,10 @@ def test_half_the_load_zone() -> None:
 
 @pytest.mark.slow
 def test_runs_lie_on_both_sides_of_the_boundary(tmp_path: Path) -> None:
-    """Variant A under 5 kN at 8.9 Hz: 20 m/s2 leave the running as it is, 80 m/s2 alter it by both criteria."""
+    """Run variant A at 20 and 80 m/s2.
+
+    5 kN, 8.9 Hz: 20 m/s2 do not change the running, 80 m/s2 change it by both criteria.
+    """
     ray = Ray(Setting("A", 5.0), 8.9)
     with JobRunner(tmp_path, 1) as runner:
         below, above = runner.all([ray.job(20.0), ray.job(80.0)])

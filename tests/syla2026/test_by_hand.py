@@ -40,7 +40,10 @@ def both(point: Point, *changes: str) -> tuple[Numbers, dict[str, float]]:
     ids=lambda point: point.case,
 )
 def test_parts_of_the_torque(point: Point) -> None:
-    """Within 1 %: the balls' gravity, and the program's rounded corner where the shear stress meets its limit."""
+    """Compute parts of the torque to 1 %.
+
+    The difference is the balls' gravity, and the program's rounded corner where the shear stress meets its limit.
+    """
     found, hand = both(point, *FINE)
     for name, expected in hand.items():
         assert found[name] == pytest.approx(expected, rel=0.01), name
@@ -49,7 +52,9 @@ def test_parts_of_the_torque(point: Point) -> None:
 @pytest.mark.full
 @pytest.mark.parametrize("point", [POINTS[0], POINTS[-1]], ids=lambda point: point.case)
 def test_one_cell_along_rolling_overestimates_sliding(point: Point) -> None:
-    """The default has slices, as the paper: the mean pressure of a strip in place of Hertz's along it.
+    """Compare one cell with slices along rolling.
+
+    The default has slices, as the paper: the mean pressure of a strip in place of Hertz's along it.
 
     The stress goes with ln(eta), which grows ever more slowly with pressure, so its mean over a strip lies below its
     value at the mean pressure: by 2 to 3.5 %, 0.5 to 1.5 % of the torque.
@@ -60,10 +65,12 @@ def test_one_cell_along_rolling_overestimates_sliding(point: Point) -> None:
 
 @pytest.mark.slow
 def test_what_an_estimate_without_the_unloaded_balls_leaves_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A first estimate had 248, 519 and 733 N mm of rolling: 30 um of clearance, loaded balls only.
+    """Add the rolling torque of unloaded balls.
 
-    Centrifugal force presses every ball on the outer ring, under 3000 1/min with 111 g x 73.75 mm x (125 rad/s)^2 =
-    128 N. The six balls outside the load zone add 2, 9 and 17 %.
+    A first estimate had 248, 519 and 733 N mm of rolling: 30 um of clearance, loaded balls only.
+
+    Centrifugal force presses every ball on the outer ring, under 3000 1/min with 111 g x 73.75 mm x (125 rad/s)^2 = 128
+    N. The six balls outside the load zone add 2, 9 and 17 %.
     """
     monkeypatch.setattr(by_hand, "CLEARANCE", 30e-6)
     for rpm, estimate, share in ((500.0, 248.0, 0.02), (1500.0, 519.0, 0.09), (3000.0, 733.0, 0.17)):
@@ -74,7 +81,9 @@ def test_what_an_estimate_without_the_unloaded_balls_leaves_out(monkeypatch: pyt
 
 
 def test_strips_of_an_unloaded_ball_against_the_formula_of_a_point_contact() -> None:
-    """7.5826 E' R_x^2 (R_y/R_x)^0.4055 W^(1/3) U^0.75 (Houpert, common form) lies above the strips at 128 N.
+    """Compare strips at 128 N with Houpert's points.
+
+    7.5826 E' R_x^2 (R_y/R_x)^0.4055 W^(1/3) U^0.75 (common form) lies above the strips.
 
     So the share of the balls outside the load zone is not overestimated by taking strips there.
     """
@@ -88,7 +97,9 @@ def test_strips_of_an_unloaded_ball_against_the_formula_of_a_point_contact() -> 
 
 @pytest.mark.slow
 def test_heat_takes_off_more_the_faster_it_runs() -> None:
-    """Film temperature alone: 2 % less sliding at 500 1/min, 10 to 12 % less at 3000 1/min.
+    """Compare sliding at 500 and 3000 1/min.
+
+    Film temperature alone: 2 % less at 500 1/min, 10 to 12 % less at 3000 1/min.
 
     Without heat it grows with asinh(eta v/(h tau_e)), with heat it stays.
     """

@@ -33,7 +33,9 @@ def test_the_excitation_is_the_one_asked_for(shaken: Result) -> None:
 
 
 def test_ball_speeds_before_and_after(shaken: Result) -> None:
-    """Outside the load zone balls run away from kinematic speed at first and near it in the end (Syla et al., Fig. 6).
+    """Compare ball speeds with Syla et al., Fig. 6.
+
+    Outside the load zone balls depart from kinematic speed at first and are near it in the end.
 
     The inner ring presses them there never without excitation, in more than 5 % of the time (criterion T) with it.
     """

@@ -81,7 +81,10 @@ def test_a_boundary_that_does_not_move_up_is_missed() -> None:
 
 
 def test_the_error_of_a_slope_is_that_of_its_points() -> None:
-    """Least squares: sigma/sqrt(sum (x - mean)^2); what all points share does not turn a line."""
+    """Compute a slope's error by least squares.
+
+    sigma/sqrt(sum (x - mean)^2); an error common to all points does not turn a line.
+    """
     x = [math.log(f) for f in FREQUENCIES]
     spread = math.sqrt(sum((v - sum(x) / len(x)) ** 2 for v in x))
     for still in (0.0, 0.5):
@@ -90,7 +93,10 @@ def test_the_error_of_a_slope_is_that_of_its_points() -> None:
 
 
 def test_the_error_of_a_step_holds_what_its_points_share() -> None:
-    """Mean over n frequencies: own errors by sqrt(n), those of the runs without excitation in full; two loads."""
+    """Compute a step's error by hand.
+
+    Mean over n frequencies: own errors by sqrt(n), those of the runs without excitation in full; two loads.
+    """
     for step in steps(points(by_load=1.1, own=0.03, still=0.02)):
         assert step.rise_pct == pytest.approx(10.0)
         expected = math.sqrt(2.0 * (0.03**2 / len(FREQUENCIES) + 0.02**2))

@@ -18,7 +18,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_fig7_meets_every_bar(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Statements of Syla et al. 2026, section 4.3; bars as in docs/validation.md."""
+    """Check each statement of Syla's section 4.3.
+
+    Syla et al. 2026; bars as in docs/validation.md.
+    """
     assert main(["reproduce", "fig7", "--quick", "--workers", "1", "--out", str(folder), "--json", "-q"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert all(bar.startswith("met: ") for bar in found["bars"]), found["bars"]

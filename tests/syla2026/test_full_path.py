@@ -106,7 +106,10 @@ def lost(monkeypatch: pytest.MonkeyPatch) -> set[str]:
 
 @pytest.mark.usefixtures("lost")
 def test_table_4_in_full_reaches_its_page(tmp_path: Path) -> None:
-    """A value that has no range is no sensitivity: the film width of the cage's pockets once ended all of it."""
+    """Skip a value without a range.
+
+    It is no sensitivity: the film width of the cage's pockets once ended all of it.
+    """
     found = reproduce(registry(), "table4", tmp_path, workers=1)
     assert found.table4 is not None
     of_cage = {s.name for s in found.table4.sensitivities if s.basis.startswith("runs")}
@@ -128,7 +131,10 @@ def test_table_4_in_full_reaches_its_page(tmp_path: Path) -> None:
 def test_a_point_without_a_result_ends_no_experiment(
     what: str, without: str, options: list[str], lost: set[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """It is marked in tables and page, null in JSON, named in the message, and the exit code is that of a part."""
+    """Mark a point without a result.
+
+    In tables and page; null in JSON, named in the message, and the exit code is that of a part.
+    """
     lost.add(without)
     words = ["reproduce", what, "--out", str(tmp_path), "--workers", "1", "--quiet", *options]
     assert main(words) == 5

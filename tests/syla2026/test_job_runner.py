@@ -76,7 +76,10 @@ def test_what_was_found_before_keeps_the_time_that_it_took(tmp_path: Path) -> No
 
 @pytest.mark.full
 def test_a_case_that_is_wrong_fails_alone(tmp_path: Path) -> None:
-    """On a worker. Nothing of it is kept, the others go on, its number is NaN, and the reason is kept."""
+    """Fail one case on a worker.
+
+    Nothing of it is kept but the reason; its number is NaN, and the others go on.
+    """
     with JobRunner(tmp_path, 1) as runner:
         good, bad = runner.all([JOBS[0], Job("6220-excited", ("loads.radial=5 furlong",), "axial resonance")])
         assert len(runner.failures) == 1

@@ -28,7 +28,10 @@ def test_torque_rises_with_speed_and_load(torque: np.ndarray) -> None:
 
 
 def test_quasi_static_torque_meets_a_run() -> None:
-    """Issue of the dynamics' own: without the cage both are the same physics, 3 % is the bar."""
+    """Compare quasi-static torque with a run to 3 %.
+
+    Without the cage both have the same physics.
+    """
     case = "6319-cp10-3000"
     still = friction(api.check(case, P.changes()))["torque"]
     assert still is not None
@@ -103,7 +106,10 @@ def test_a_law_without_a_second_alternative_is_shown_once() -> None:
 
 
 def test_every_law_without_constants_of_the_user_is_calibrated() -> None:
-    """Scheuermann's law has no published constants; without rolling resistance there is nothing to compare."""
+    """Calibrate all laws but two.
+
+    Scheuermann's law has no published constants; without rolling resistance there is nothing to compare.
+    """
     assert laws_of("elastic_hysteresis")[0] == "loss-factor"
     assert {"loss-factor", "houpert", "none"} <= set(laws_of("elastic_hysteresis"))
     assert "scheuermann" not in laws_of("elastic_hysteresis")

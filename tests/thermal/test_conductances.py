@@ -119,7 +119,10 @@ def test_shares_of_two_bodies() -> None:
 
 
 def test_a_line_of_square_shape_has_the_constriction_of_a_square() -> None:
-    """0.4732 by the mean temperature under even flux (Yovanovich); long lines: ln(L/b) + 1/2."""
+    """Compare a square line with 0.4732.
+
+    By the mean temperature under even flux (Yovanovich); long lines: ln(L/b) + 1/2.
+    """
     side = 1e-3
     assert resting_line(side, 0.5 * side, 46.0) == pytest.approx(46.0 * side / (2.0 * 0.4732), rel=1e-4)
     length, half = 10e-3, 0.1e-3
@@ -128,6 +131,9 @@ def test_a_line_of_square_shape_has_the_constriction_of_a_square() -> None:
 
 
 def test_a_line_passes_more_than_the_ellipse_with_its_axes() -> None:
-    """Every strip of a line takes the time of the ellipse's middle: fast films pass 4/pi as much, by the area."""
+    """Compare a line with an ellipse.
+
+    Every strip of a line takes the time of the ellipse's middle: fast films pass 4/pi as much, by the area.
+    """
     line, ellipse = (f(x, 1e-4, 5.0, 1e3, E, E) for f, x in ((rolling_line, 10e-3), (rolling_contact, 5e-3)))
     assert line / ellipse == pytest.approx(4.0 / math.pi, rel=1e-2)

@@ -104,7 +104,10 @@ def test_the_same_bearing_runs_away_over_time() -> None:
 
 
 def test_a_stable_one_warms_up_to_its_steady_state() -> None:
-    """The course ends where the steady search ends: two ways, to what the map of losses leaves between its points."""
+    """Compare the end of warming with steady state.
+
+    Two ways, to the error of the interpolated map of losses.
+    """
     case = preloaded("3000 rpm")
     steady, course = api.thermal(case), api.warm_up(case, 4 * 3600.0)
     for name, value in steady.temperatures_degC.items():

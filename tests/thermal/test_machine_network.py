@@ -52,7 +52,9 @@ def ready() -> MachineModel:
 
 
 def test_a_rod_with_two_sources_and_convection_has_its_closed_form() -> None:
-    """Three pieces with k A T'' = h P (T - T_a); held at both ends, heat q_1 and q_2 put in between them.
+    """Compare a rod with its closed form.
+
+    Three pieces with k A T'' = h P (T - T_a); held at both ends, heat q_1 and q_2 put in between them.
 
     theta = T - T_a is c_i cosh(m s) + d_i sinh(m s) on each piece; the six numbers follow from the ends, from
     continuity, and from the jumps k A [theta'] = -q at the sources.
@@ -101,7 +103,9 @@ def test_growth_is_the_integral_of_the_temperature() -> None:
 
 
 def test_losses_that_leave_by_the_ends_of_the_shaft_have_their_closed_form() -> None:
-    """Nothing but the shaft joins the bearings: a rod with two point sources and held ends.
+    """Compare a shaft's temperatures with its closed form.
+
+    Only the shaft joins the bearings: a rod with two point sources and held ends.
 
     T = T_0 + (T_L - T_0) x/L + sum q_i/(k A) G(x, x_i), G = x (L - x_i)/L below x_i, x_i (L - x)/L above it.
     """
@@ -146,7 +150,10 @@ def test_equal_bearings_have_equal_temperatures(warm: MachineTemperatures) -> No
 
 
 def test_a_machine_of_one_bearing_is_the_bearing_alone() -> None:
-    """With no way out of the shaft the network of a machine is that of its one bearing."""
+    """Compare a machine of one bearing with it.
+
+    The shaft has no way out for heat.
+    """
     alone = api.thermal(
         {
             "name": "alone",
@@ -178,7 +185,10 @@ def test_a_machine_of_one_bearing_is_the_bearing_alone() -> None:
 
 
 def test_the_loss_of_a_gear_warms_the_shaft(warm: MachineTemperatures) -> None:
-    """The small force of its mesh aside, the pair with another source of heat."""
+    """Add a gear's loss as another source.
+
+    The small force of its mesh aside, the pair is the same.
+    """
     gear = {"gears": {"wheel": {"at": "100 mm", "pitch_diameter": "90 mm", "torque": "20 N m", "role": "driven"}}}
     gear["gears"]["wheel"]["mesh"] = "90 deg"
     hot = temperatures(merged(pair(thermal={"nodes": {"wheel": {"heat": "60 W"}}}), gear))
@@ -253,7 +263,10 @@ def test_a_warm_up_balances_its_heat_and_rises() -> None:
 
 @pytest.mark.full
 def test_a_machine_settles_in_its_steady_state(warm: MachineTemperatures) -> None:
-    """From above, in a housing of little heat capacity: that takes an hour in place of eight."""
+    """Cool a machine to its steady state.
+
+    In a housing of little heat capacity, which takes an hour in place of eight.
+    """
     light = {"start": "60 degC", "nodes": {"housing": {"heat_capacity": "100 J/K"}}}
     steady, course = warm, api.warm_up(pair(thermal=light), 3600.0)
     for name, value in steady.temperatures_degC.items():
@@ -268,7 +281,10 @@ def test_a_machine_that_gets_too_hot_is_refused_in_words() -> None:
 
 @pytest.mark.full
 def test_the_warm_up_of_a_machine_ends_where_it_gets_too_hot() -> None:
-    """The same for one bearing in tests/thermal/test_loop.py."""
+    """End the warm-up at the limit.
+
+    tests/thermal/test_loop.py tests the same for one bearing.
+    """
     hot = pair(thermal={"start": "46 degC", "limit": "50 degC", "nodes": {"left.inner_ring": {"heat": "400 W"}}})
     course = api.warm_up(hot, 600.0)
     assert course.ended == "limit"
@@ -277,7 +293,10 @@ def test_the_warm_up_of_a_machine_ends_where_it_gets_too_hot() -> None:
 
 @pytest.mark.full
 def test_red_heat_is_beyond_the_limit() -> None:
-    """Radiation at 1400 degC once swung the temperatures of the network until it did not settle."""
+    """End at `thermal.limit` under 2 kW.
+
+    Radiation there once swung the temperatures of the network until it did not settle.
+    """
     glowing = pair(thermal={"limit": "80 degC", "nodes": {"left.inner_ring": {"heat": "2 kW"}}})
     with pytest.raises(Runaway, match=r"is beyond thermal\.limit"):
         api.thermal(glowing)

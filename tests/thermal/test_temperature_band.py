@@ -46,7 +46,10 @@ def _band(tables: dict[str, Any], quantities: list[str], changes: Sequence[str] 
 
 
 def test_temperatures_answer_to_conductances_as_a_new_search_does() -> None:
-    """A small change, answered to first order with the loop of temperature and loss, and searched anew."""
+    """Compare first order with a new search.
+
+    A small change, with the loop of temperature and loss.
+    """
     found = _found()
     moved = found.by_network(lambda section: section.model_copy(update={"seat_conductance": 2500.0}))
     again = _found("thermal.seat_conductance=2500 W/(m2 K)").steady.temperatures - found.steady.temperatures

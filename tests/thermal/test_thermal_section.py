@@ -87,7 +87,10 @@ def test_a_network_that_says_all_is_well(ordinary: dict[str, Any]) -> None:
 
 
 def test_computed_temperatures_are_part_of_what_a_run_is(ordinary: dict[str, Any]) -> None:
-    """Two cases whose temperatures will differ have different hashes; given ones do not see the network."""
+    """Give computed temperatures another hash.
+
+    Two cases whose temperatures will differ have different hashes; given ones do not depend on the network.
+    """
 
     def hash_of(**changes: Any) -> str:
         return api.describe(api.check(merged(ordinary, changes))).hash

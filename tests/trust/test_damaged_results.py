@@ -93,7 +93,10 @@ def test_a_result_without_samples_is_named_by_views(file: Path, capsys: pytest.C
 def test_a_damaged_place_of_an_open_file_is_not_read_for_ever(
     file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """A killed run leaves a file that is read as one being written: HDF5 would try again, for longer each time."""
+    """Stop reading a damaged place of an open file.
+
+    A killed run leaves a file that is read as one being written: HDF5 would try again, for longer each time.
+    """
     killed = tmp_path / "killed.h5"
     with h5py.File(file, "r") as source, h5py.File(killed, "w", libver="latest") as target:
         for name in source:
@@ -114,7 +117,10 @@ def test_a_damaged_place_of_an_open_file_is_not_read_for_ever(
 def test_a_damaged_root_is_named(
     file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """HDF5 has errors of several kinds for a header that cannot be read."""
+    """Name a damaged root of the file.
+
+    HDF5 has errors of several kinds for a header that cannot be read.
+    """
 
     def refuse(*_: object, **__: object) -> None:
         raise RuntimeError("Can't deserialize object header prefix (bad object header chunk size)")

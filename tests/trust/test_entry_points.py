@@ -118,7 +118,10 @@ def test_a_place_that_takes_no_file_is_refused_before_the_work(
 
 @pytest.mark.full
 def test_c2_3_nothing_is_imported_from_the_working_directory(tmp_path: Path) -> None:
-    """Workers that compile, helpers of the builder, workers of studies: each would import these."""
+    """Import nothing from the working directory.
+
+    Workers that compile, helpers of the builder and workers of studies would import it.
+    """
     for name in ("json", "multiprocessing", "lambda_core", "numba", "random"):
         (tmp_path / f"{name}.py").write_text("open('imported', 'a').write(__name__)\n", encoding="utf-8")
     script = Path(sys.executable).parent / "lambda-bearing"

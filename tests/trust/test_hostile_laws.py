@@ -152,7 +152,10 @@ def test_a4_a_sound_law_among_them_is_not() -> None:
 
 @pytest.mark.parametrize("name", ["outside", "driving", "lurking", "special"])
 def test_a4_check_tries_the_laws_of_a_case(name: str, capsys: pytest.CaptureFixture[str]) -> None:
-    """``check CASE`` ends as ``run`` does, with exit code 3 and the law's name, and --json stays one object."""
+    """Try the laws of a case in `check`.
+
+    ``check CASE`` ends as ``run`` does, with exit code 3 and the law's name, and --json stays one object.
+    """
     assert main(["check", CASE, "--set", f"models.traction={name}", "--json"]) == 3
     (error,) = json.loads(capsys.readouterr().out)["errors"]
     assert error["where"] == "models.traction"
@@ -170,7 +173,10 @@ def test_a4_a_kernel_that_calls_itself_through_scipy_is_a_sentence() -> None:
 
 
 def test_a4_laws_of_others_raise_at_a_wrong_index() -> None:
-    """Machine code of others writes neither behind its arrays nor into the cells of the next contact."""
+    """Raise at a wrong index of foreign laws.
+
+    Their machine code writes neither behind its arrays nor into the cells of the next contact.
+    """
     room = np.zeros(100)
     compiled = compile_kernel(law("outside")).dispatcher
     pressure = np.ones(60)
@@ -184,7 +190,10 @@ def test_a4_laws_of_others_raise_at_a_wrong_index() -> None:
 def test_a4_an_index_that_is_wrong_in_a_run_alone_ends_it_with_the_name_of_the_law(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    """The trials are left out, as if no draw had met a pressure at which the index is wrong."""
+    """End a run at an index wrong there alone.
+
+    The trials are left out, as if no draw had met a pressure at which the index is wrong.
+    """
     monkeypatch.setattr(tried, "check_choice", lambda *_: None)
     out = ["--duration", "1 ms", "--out", str(tmp_path / "run.h5"), "--quiet"]
     assert main(["run", CASE, "--set", "models.traction=often-outside", *out]) == 4
@@ -195,7 +204,10 @@ def test_a4_an_index_that_is_wrong_in_a_run_alone_ends_it_with_the_name_of_the_l
 
 @pytest.mark.timeout(900)
 def test_a4_a_step_that_becomes_too_small_is_told_with_the_law_behind_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The shear stress at the state where the integration stopped is looked at first."""
+    """Blame the law behind a tiny step.
+
+    The program first examines the shear stress at the state where the integration stopped.
+    """
     from lambda_core.solver.drivers.dynamics import BearingEngine
     from lambda_core.solver.drivers.equilibrium import solve
 
@@ -219,7 +231,10 @@ def test_a4_a_step_that_becomes_too_small_is_told_with_the_law_behind_it(monkeyp
 
 @pytest.mark.timeout(900)
 def test_a4_a_failure_of_a_machine_names_law_and_bearing(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As for one bearing, with the name of the bearing whose contacts are driven."""
+    """Name law and bearing of a failed machine.
+
+    As for one bearing, with the name of the bearing whose contacts are driven.
+    """
     machine = resolve_machine(tomllib.loads(geared_shaft("box")), ["models.traction=sound"])
     engine = BlamingMachineEngine(machine_start(machine))
     stuck = Advance(ok=False, message="the time step fell below 1e-14 s at t = 0 s")
@@ -251,7 +266,10 @@ def raise_within(model: Any, sentence: str) -> None:
 
 
 def test_a4_trying_at_thresholds_takes_a_moment() -> None:
-    """A run that chose the law of a stranger starts a second later at the most."""
+    """Limit the delay of trials to a second.
+
+    The run chose the law of a stranger.
+    """
     from lambda_core.laws.par import make_par
     from lambda_core.laws.probe import trial_context
 
@@ -264,7 +282,10 @@ def test_a4_trying_at_thresholds_takes_a_moment() -> None:
 
 
 def test_a_force_element_that_refuses_in_the_equilibrium_says_why() -> None:
-    """Supports were blamed, and the sentence of its status was lost."""
+    """Report the status of a refusing force element.
+
+    The message blamed supports and lost the sentence of its status.
+    """
     changes = ["loads.radial=2 kN", "elements.line.law=rope", "elements.line.second=inner_ring"]
     with pytest.raises(SolverError, match=r"force_element/rope .*: the rope has torn \(elements.line; t 0, place"):
         api.quasistatic(CASE, changes)

@@ -11,7 +11,10 @@ from lambda_core.domain.processes import locked
 
 
 def test_a_lock_keeps_every_other_holder_out(tmp_path: Path) -> None:
-    """Whoever asks for the same file, in this process or in another one."""
+    """Lock a file against every other holder.
+
+    The second holder asks in this process or in another one.
+    """
     path = tmp_path / "locks" / "one.lock"
     with locked(path), pytest.raises(Timeout):
         FileLock(path).acquire(timeout=0.0)

@@ -37,7 +37,10 @@ def points(count: int) -> list[list[str]]:
 
 @pytest.mark.full
 def test_c3_a_long_table_is_checked_in_seconds(tmp_path: Path) -> None:
-    """20 000 points in the case itself: time with the square of the number was minutes."""
+    """Check 20 000 points in seconds.
+
+    They are in the case itself; time with the square of the number was minutes.
+    """
     path = case_with({"kind": "table", "points": points(20_000)}, tmp_path)
     start = time.process_time()
     model = check_bearing(api.case(path))

@@ -89,7 +89,10 @@ def test_of_two_that_resume_one_file_one_is_refused(tmp_path: Path, monkeypatch:
 
 
 def test_a_failed_write_leaves_no_run_that_counts_as_running(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Input/output errors of a disk: the run ends, and its file can be resumed by the same process."""
+    """End a run after a disk error.
+
+    The same process can resume its file.
+    """
     path, calls = tmp_path / "run.h5", []
     complete = writer.ResultWriter._append_samples
 
@@ -109,7 +112,10 @@ def test_a_failed_write_leaves_no_run_that_counts_as_running(tmp_path: Path, mon
 
 
 def test_on_windows_files_are_renamed_while_closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Windows renames no open file: the order is another there, the result the same."""
+    """Rename files after closing them.
+
+    Windows renames no open file: the order is another there, the result the same.
+    """
     api.run(CASE, SHORT, out=tmp_path / "here.h5")
     monkeypatch.setattr(writer, "ON_WINDOWS", True)
     opened: list[bool] = []

@@ -66,7 +66,10 @@ def test_numbers_of_numpy_and_arrays_are_numbers_and_lists() -> None:
 
 @pytest.mark.parametrize("name", sorted(FUNCTIONS))
 def test_every_public_function_checks_and_keeps_its_face(name: str) -> None:
-    """Signature and docstring stay, other processes find the function, and each argument has a check that works."""
+    """Compare signature, docstring and pickling of each function.
+
+    Each argument has a check that works.
+    """
     function = FUNCTIONS[name]
     plain = inspect.unwrap(function)
     assert inspect.signature(function) == inspect.signature(plain)

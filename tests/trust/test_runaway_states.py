@@ -92,7 +92,10 @@ def faulty(unit: str) -> str:
 @pytest.mark.full
 @pytest.mark.timeout(900)
 def test_a_run_ends_with_the_state_that_ran_away(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    """It e-folds in 33 us, so that after 0.9 ms no bound is left: the run names the state, not the time step."""
+    """Name the state that ran away.
+
+    It e-folds in 33 us, so that after 0.9 ms no bound is left: the message does not name the time step.
+    """
     out = ["--duration", "3 ms", "--out", str(tmp_path / "run.h5"), "--quiet"]
     assert main(["run", "6208-axial-1300", "--set", "models.contact_state=feeding", *out]) == 4
     said = capsys.readouterr().err
@@ -102,7 +105,9 @@ def test_a_run_ends_with_the_state_that_ran_away(capsys: pytest.CaptureFixture[s
 
 @pytest.mark.timeout(900)
 def test_a_machine_ends_with_the_bearing_whose_state_ran_away(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The bearing is named, too; the other one keeps the state as well, but its contacts came first.
+    """Name the bearing of the state too.
+
+    The other bearing has the same state, but its contacts came first.
 
     Steps become smaller as the state grows: a hundred times its scale is far enough here.
     """

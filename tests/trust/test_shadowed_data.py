@@ -104,7 +104,10 @@ def test_a4_bad_rows_are_named_and_the_rest_goes_on(brings: Callable[..., None])
 
 
 def test_a2_an_oil_that_passes_the_check_runs(brings: Callable[..., None]) -> None:
-    """An oil with data for its rheology alone resolves with every default law; missing data are reported."""
+    """Resolve an oil with data for its rheology.
+
+    Every default law accepts it; missing data are reported.
+    """
     brings(
         source="key,title\nmine,My own measurement\n",
         lubricant="name,base_type,rheology,note\nmine,mineral,roelands,my own\n",

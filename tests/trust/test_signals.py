@@ -130,7 +130,10 @@ def test_c2_4_a_limit_of_wall_time_holds_within_a_record_and_the_run_goes_on(tmp
 
 
 def test_b10_the_limit_of_wall_time_includes_the_preparation(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Equilibrium and compiling came on top of it."""
+    """Count the preparation in the time limit.
+
+    Equilibrium and compiling came on top of it.
+    """
     clock, late, prepared = time.perf_counter, [0.0], launch.prepared
 
     def slowly(*arguments: Any) -> Any:
@@ -208,7 +211,10 @@ def test_a4_a_law_that_never_returns_does_not_keep_the_others_from_being_checked
 
 
 def test_c1_packing_a_long_result_is_not_for_whoever_waits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Asked to stop while it closes, a finished run keeps its result as it is, complete and not packed."""
+    """Stop before a long result is packed.
+
+    Asked to stop while it closes, a finished run keeps its result as it is, complete and not packed.
+    """
     plain = file_format._copy_dataset
 
     def asked(name: str, item: object, target: object, rows: object, compress: bool, stop: Callable[[], bool]) -> None:
@@ -241,7 +247,10 @@ def test_c2_4_what_was_stopped_is_packed_for_half_a_second_at_most(
 def test_ctrl_c_while_the_program_starts_ends_in_one_line(
     moment: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """It printed the traceback of whatever was being imported, or of the thread that waits for signals."""
+    """End an early Ctrl+C in one line.
+
+    It printed the traceback of the import, or of the thread that waits for signals.
+    """
 
     def interrupted() -> int:
         raise KeyboardInterrupt
@@ -258,7 +267,10 @@ def test_ctrl_c_while_the_program_starts_ends_in_one_line(
 
 
 def test_c2_4_an_interruption_that_a_destructor_drops_is_heard_again() -> None:
-    """A report whose Ctrl+C came while a figure was destroyed went on to its end."""
+    """Repeat an interruption that a destructor dropped.
+
+    A report whose Ctrl+C came while a figure was destroyed went on to its end.
+    """
 
     class Deaf:
         def __del__(self) -> None:

@@ -47,7 +47,10 @@ def test_c4_wild_geometry_is_refused_by_its_option(settings: list[str], where: s
     ],
 )
 def test_a_spin_that_bursts_steel_is_refused(settings: list[str], where: str) -> None:
-    """Records of 1e9 turns in a fifth of a millisecond had filled the memory."""
+    """Refuse a spin that bursts steel.
+
+    Records of 1e9 turns in a fifth of a millisecond had filled the memory.
+    """
     with pytest.raises(CaseError, match="too fast") as caught:
         api.check(CASE, settings)
     assert where in [problem.where for problem in caught.value.problems]
@@ -62,6 +65,9 @@ def test_c4_an_oil_that_is_no_liquid_is_refused(temperature: str) -> None:
 
 @pytest.mark.parametrize("value", ["inf", "nan"])
 def test_a_parameter_without_end_is_refused(value: str) -> None:
-    """It had ended as a bug where the case was written into the result."""
+    """Refuse an infinite parameter.
+
+    It had ended as a bug where the case was written into the result.
+    """
     with pytest.raises(CaseError, match="not a finite number"):
         api.check(CASE, [f"parameters.rolling_resistance.thermal_coefficient={value}"])

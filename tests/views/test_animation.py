@@ -42,7 +42,10 @@ def test_the_scene_is_the_end_of_the_run(radial_run: Result, scene: Scene) -> No
 
 
 def test_load_vectors_hold_the_applied_force(scene: Scene) -> None:
-    """On the inner ring: 16 kN down is met by the balls, which push up; on the outer ring they push down."""
+    """Compare load vectors of both rings.
+
+    On the inner ring: 16 kN down is met by the balls, which push up; on the outer ring they push down.
+    """
     inner, outer = scene.load_vectors().sum(axis=1)[-1]
     assert inner[2] == pytest.approx(16e3, rel=0.01)
     assert outer[2] == pytest.approx(-16e3, rel=0.02)
@@ -59,7 +62,10 @@ def test_axial_load_pushes_the_inner_ring_back(combined_run: Result) -> None:
 
 
 def test_balls_turn_as_they_roll(scene: Scene) -> None:
-    """Outer ring at rest: a rolling ball turns by orbit angle times (1 - outer race radius over ball radius)."""
+    """Compare rolling with orbit times radii.
+
+    Outer ring at rest: a rolling ball turns by orbit angle times (1 - outer race radius over ball radius).
+    """
     from scipy.spatial.transform import Rotation
 
     geometry = scene.geometry

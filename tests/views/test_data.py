@@ -193,7 +193,10 @@ def test_the_cage_stays_in_its_clearance_and_turns_as_the_summary_says(radial_ru
 
 @pytest.mark.parametrize(("turns", "spin"), [(0.5, 60.0), (1.0, -60.0), (-2.0, 60.0)])
 def test_whirl_is_the_speed_of_the_centre_over_that_of_the_cage(turns: float, spin: float) -> None:
-    """A centre on a circle that it rounds `turns` times while the cage turns once."""
+    """Compare whirl with turns on a circle.
+
+    The centre goes round `turns` times while the cage turns once.
+    """
     from lambda_plugins.views.cage import _whirl
 
     time = np.linspace(0.0, 0.5, 2001)

@@ -92,7 +92,10 @@ def test_looks_differ_without_colour() -> None:
 
 
 def test_a_series_without_a_role_does_not_look_like_a_ring() -> None:
-    """The oil of a warm-up had the blue line of the inner ring."""
+    """Draw oil in a colour of its own.
+
+    The oil of a warm-up had the blue line of the inner ring.
+    """
     from lambda_plugins.views.panels import _looks
 
     at = np.zeros(2)

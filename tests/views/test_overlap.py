@@ -19,7 +19,10 @@ OF_A_RESULT = [name for name, view in registry().views.items() if view.subject =
 @pytest.mark.full
 @pytest.mark.parametrize("name", OF_A_RESULT)
 def test_texts_of_a_view_keep_apart(combined_run: Result, name: str) -> None:
-    """As tests of figures have it for the other run, whose views they draw."""
+    """Find no overlap of texts in a view.
+
+    Tests of figures do the same for the other run, whose views they draw.
+    """
     no_collision(data_of(registry().view(name), combined_run, {}))
 
 

@@ -105,7 +105,10 @@ def test_measured_torque_stands_in_the_curve_over_speed(tmp_path: Path, capsys: 
 def test_a_run_shows_measured_torque_over_speed_and_temperatures_over_time(
     radial_run: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """A run is one point: the curve of its case, and its warm-up, have the measured points."""
+    """Draw measured points over speed and time.
+
+    A run is one point: the curve of its case, and its warm-up, have the measured points.
+    """
     torque = _file(tmp_path, "speed [1/min],friction torque [N mm]\n800,900\n3000,1500\n")
     (curve,) = api.with_measured([], torque, result=radial_run.path)
     panel = curve.panels[0]

@@ -46,7 +46,9 @@ def show(run: Any, name: str, **options: Any) -> Any:
 
 @pytest.mark.parametrize("ring", ["inner", "outer"])
 def test_slices_of_a_tilted_roller_are_those_of_its_equilibrium(ring: str) -> None:
-    """The equilibrium of ISO 16281 finds approach and tilt itself; load and tilt alone give its slices.
+    """Compare slices of a tilted roller.
+
+    The equilibrium of ISO 16281 finds approach and tilt itself; load and tilt alone give its slices.
 
     To 1.5 % of the largest: it has the modulus of the standard, the model that of its steel.
     """
@@ -64,7 +66,10 @@ def test_slices_of_a_tilted_roller_are_those_of_its_equilibrium(ring: str) -> No
 
 
 def test_contacts_of_a_tilted_roller_lean_to_opposite_ends(run: Result) -> None:
-    """Thrust along +x tilts rollers outwards at +x: the outer contact carries more there, the inner one at -x."""
+    """Load opposite ends of a tilted roller.
+
+    Thrust along +x tilts rollers outwards at +x: the outer contact carries more there, the inner one at -x.
+    """
     found = show(run, "line-contact")
     pressure, load = ({series.name: series for series in panel.series} for panel in found.panels)
     for ring, side in (("inner", -1.0), ("outer", 1.0)):
@@ -77,7 +82,9 @@ def test_contacts_of_a_tilted_roller_lean_to_opposite_ends(run: Result) -> None:
 
 
 def test_ribs_carry_the_thrust(run: Result) -> None:
-    """The inner rib at -x pushes rollers along +x, the outer one at +x holds them: each sum is the thrust to 15 %.
+    """Sum rib forces to the thrust within 15 %.
+
+    The inner rib at -x pushes rollers along +x, and the outer one at +x holds them.
 
     The rest is the traction of skewed rollers along the shaft.
     """

@@ -109,7 +109,10 @@ def test_points_scattered_over_two_parameters_are_interpolated_and_it_is_said() 
 
 
 def test_methods_stand_on_one_axis_with_the_simulation() -> None:
-    """The comparison is the point: one panel for the friction torque, whoever computed it."""
+    """Draw the friction torque in one panel.
+
+    The comparison is the point, whoever computed it.
+    """
     torques = table().response("friction_torque_Nmm")
     skf = Column("skf/friction/total", "N mm", "total friction torque", tuple(2.0 * v for v in torques.numbers()))
     film = Column("min_film_um", "um", "smallest film under load", torques.values)
@@ -214,7 +217,10 @@ def test_options_that_would_do_nothing_are_refused() -> None:
 
 
 def test_named_values_have_positions_of_their_own() -> None:
-    """A study over names alone, such as oils, is drawn over these names."""
+    """Draw names of oils at their positions.
+
+    The study has names alone.
+    """
     oils = Column("lubricant.name", "", "oil", ("thin", "middle", "thick"))
     torques = Column("friction_torque_Nmm", "N mm", "friction torque", (75.0, 84.0, 105.0))
     loads = Column("max_load_N", "N", "largest load", (1697.6802, 1697.6801, 1697.6795))

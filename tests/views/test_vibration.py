@@ -16,7 +16,10 @@ from lambda_core.results.reader import Result
 
 
 def test_the_envelope_of_a_modulated_carrier_is_its_modulation() -> None:
-    """(1 + m cos(2 pi f t)) cos(2 pi F t) has the envelope 1 + m cos(2 pi f t), also with a low tone added."""
+    """Compare envelope and modulation of a carrier.
+
+    (1 + m cos(2 pi f t)) cos(2 pi F t) has the envelope 1 + m cos(2 pi f t), also with a low tone added.
+    """
     time = np.arange(8192) / 8192.0
     size = 1.0 + 0.5 * np.cos(2.0 * np.pi * 40.0 * time)
     values = size * np.cos(2.0 * np.pi * 2000.0 * time) + 3.0 * np.sin(2.0 * np.pi * 25.0 * time)
@@ -27,7 +30,10 @@ def test_the_envelope_of_a_modulated_carrier_is_its_modulation() -> None:
 
 
 def test_displacement_velocity_and_acceleration_are_of_one_motion(radial_run: Result) -> None:
-    """Amplitudes at one frequency differ by 2 pi f: at the passing of the balls, where the ring moves most."""
+    """Compare amplitudes by factors of 2 pi f.
+
+    At the passing of the balls, where the ring moves most.
+    """
     views = {
         motion: api.view(radial_run, "vibration", {"motion": motion, "axis": "y"})
         for motion in ("displacement", "velocity", "acceleration")
@@ -66,7 +72,10 @@ def test_a_measured_signal_stands_with_the_computed_one(radial_run: Result, tmp_
 
 
 def test_a_measured_signal_without_a_spectrum_is_refused(radial_run: Result, tmp_path: Path) -> None:
-    """An empty cell made a spectrum of nothing, and a short signal blamed the run's averaging window."""
+    """Refuse an empty and a short signal.
+
+    The empty cell made a spectrum of nothing, and a short signal blamed the run's averaging window.
+    """
     file = tmp_path / "rig.csv"
     rows = [f"{0.001 * k},{k % 3},{k}" for k in range(40)]
     rows[9] = "0.009,,4"
@@ -81,7 +90,10 @@ def test_a_measured_signal_without_a_spectrum_is_refused(radial_run: Result, tmp
 
 @pytest.mark.full
 def test_a_measured_signal_of_the_most_lines_is_read(radial_run: Result, tmp_path: Path) -> None:
-    """200 000 lines are allowed, and 4 MiB were."""
+    """Read a signal of 200 000 lines.
+
+    So many are allowed, but only 4 MiB were.
+    """
     file = tmp_path / "rig.csv"
     rows = [f"{2e-5 * k:.9f},{k % 7:.9f}" for k in range(200_000)]
     file.write_text("\n".join(["time [s],acceleration [m/s2]", *rows]), encoding="utf-8")
