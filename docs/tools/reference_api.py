@@ -12,10 +12,21 @@ import tables as md
 
 _INTRODUCTION = """# Python reference
 
-Every public name, from its docstring: [lambda_core.api](#lambda_coreapi) runs things,
-[lambda_core.plugins](#lambda_coreplugins) is what a plugin imports, [lambda_core.testing](#lambda_coretesting) is for
-its tests. [What the functions return](#what-the-functions-return) stands at the end. Everything else is internal and
-may change. [Python](../python.md) has examples.
+This page lists every public name with its docstring, for authors of scripts and plugins. Scripts import
+[lambda_core.api](#lambda_coreapi), plugins import [lambda_core.plugins](#lambda_coreplugins), and tests of plugins
+import [lambda_core.testing](#lambda_coretesting). The last part lists
+[what the functions return](#what-the-functions-return). Everything else is internal and may change.
+[Python](../python.md) has more examples.
+
+```python
+from lambda_core import api
+
+print(f"{api.quasistatic('6208-axial-1300').friction_torque_Nmm:.0f} N mm")
+```
+
+```text
+252 N mm
+```
 """
 
 

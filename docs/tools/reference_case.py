@@ -43,13 +43,29 @@ _WHERE: dict[type[BaseModel], str] = {
 }
 _INTRODUCTION = """# Case reference
 
-Every option of a case file, from the declarations in the code. A case is a TOML file; `lambda-bearing schema` prints
-the same as a JSON schema for editors, and `--set PATH=VALUE` changes one option for one call.
+This page lists every option of a case file, for authors of cases. A case is a TOML file; `lambda-bearing schema`
+prints the same as a JSON schema for editors, and `--set PATH=VALUE` changes one option for one call. The shortest case:
+
+`smallest.toml`:
+
+```toml
+name = "smallest"
+bearing.designation = "SKF 6208"
+lubricant = { name = "FVA3", temperature = "70 degC" }
+operation.speed = "1500 rpm"
+loads.radial = "2 kN"
+```
+
+```console
+$ lambda-bearing check smallest.toml
+smallest: no errors, ...
+...
+```
 
 A dimensional value is a text with its unit, `"16 kN"`; [the units](#units) of each quantity are a closed list. A value
-without unit, with a decimal comma or in a unit of another quantity is an error that says what to write. Where a
-*time function* is allowed, a value is a constant, and [a table](#time-functions) says more. A degree of freedom has a
-short form: `x = "free"`, `x = "200 N/um"`.
+without unit, with a decimal comma or in a unit of another quantity is an error; its message names what to write. Where
+a *time function* is allowed, a value is a constant, and [a table](#time-functions) gives a course over time. A degree
+of freedom has a short form: `x = "free"`, `x = "200 N/um"`.
 """
 
 

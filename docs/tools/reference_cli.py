@@ -14,9 +14,16 @@ from typer.main import get_command
 
 _INTRODUCTION = f"""# Command reference
 
-Every command and option of `{PROGRAM}`, from the program itself; `{PROGRAM} COMMAND --help` says the same. Data go to
-standard output, everything else to standard error, so that `--json` and redirection give clean data. The
-[exit codes](../errors.md#exit-codes) say how a command ended.
+This page lists every command and option of `{PROGRAM}`, for users of the command line and authors of scripts.
+`{PROGRAM} COMMAND --help` prints the same. Data go to standard output, everything else to standard error, so that
+`--json` and redirection give clean data. [Exit codes](../errors.md#exit-codes) tell how a command ended.
+
+```console
+$ {PROGRAM} quasistatic 6208-axial-1300 --set "operation.speed=3000 rpm"
+...
+power loss       80 W ...
+...
+```
 """
 _SHELL = ("--install-completion", "--show-completion")
 

@@ -17,9 +17,16 @@ from lambda_core.laws.law import Law
 
 _INTRODUCTION = """# Model reference
 
-Every built-in law with its parameters, every comparison method and every view, from their declarations. The
-[theory](../theory/index.md) explains them in context; `lambda-bearing plugins show ROLE/NAME` prints one of them,
-those of [your own packages](../plugins.md) too.
+This page lists every built-in law with its parameters, every comparison method and every view, for readers who choose
+or judge them. The [theory](../theory/index.md) explains them in context. `lambda-bearing plugins show ROLE/NAME` prints
+one law, also of [your own packages](../plugins.md):
+
+```console
+$ lambda-bearing plugins show rheology/roelands
+rheology/roelands ...
+summary      Viscosity after Roelands and Walther.
+...
+```
 
 A law is chosen with `models.ROLE = "NAME"`, or for one force element with `forces.ELEMENT.models.ROLE`; its parameters
 are set with `parameters.ROLE.NAME`. A parameter marked *lubricant* comes from the oil's row in the catalogue. Status:

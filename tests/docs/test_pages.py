@@ -23,6 +23,16 @@ def _text(page: str) -> str:
     return (DOCS / page).read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize("page", re.findall(r"\S+\.md", NAVIGATION))
+def test_a_page_begins_with_its_purpose_and_audience(page: str) -> None:
+    opening = re.split(r"^## ", _text(page), maxsplit=1, flags=re.M)[0]
+    sentences = " ".join(opening.split())
+    assert re.search(r"\b(?:This|this) (?:page|section|site)\b", sentences)
+    assert re.search(
+        r"\bfor (?:[a-z-]+ )*?(?:readers|users|authors|engineers|developers|contributors|everyone|anyone)\b", sentences
+    )
+
+
 def test_the_gallery_is_the_second_page() -> None:
     assert re.findall(r"\S+\.md", NAVIGATION)[:2] == ["index.md", "gallery.md"]
 

@@ -42,7 +42,7 @@ def catalogues(run: RunData, options: Options) -> ViewData:
         values[0] = sum(v or 0.0 for key, v in found.items() if key.split("_")[0] in mechanisms)
         series.append(Series(name, places, values, "bars", group=group))
     totals = np.array([math.nan, *(value for _, value in others)])
-    series.append(Series("whole", places, totals, "bars", "reference"))
+    series.append(Series("total", places, totals, "bars", "reference"))
     panel = Panel(
         "",
         Axis("", categories=("simulation", *(name for name, _ in others))),
