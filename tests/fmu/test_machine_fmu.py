@@ -170,7 +170,7 @@ def test_what_a_machine_tells_and_refuses(host: Any, machine_unit: Any, shaft: P
     early = host.Instance(machine_unit)
     assert early.set("gears.wheel.force_z", -100.0) == host.OK
     early.ready()
-    assert "begins at the equilibrium of its case" in early.said[-1]
+    assert "the start is the equilibrium of the case" in early.said[-1]
     assert early.set("gears.wheel.force_x", 1e300) == host.OK
     assert early.step(STEP) == host.ERROR
     with pytest.raises(UsageError, match="couple by force, or export one of its bearings alone"):

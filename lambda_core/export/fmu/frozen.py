@@ -33,6 +33,7 @@ from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.external_inputs import Coupling, given_names, start
 from lambda_core.solver.drivers.machine_inputs import check_coupling
 from lambda_core.solver.drivers.machine_motion import MachineEngine, MachineStart, changed_start, machine_start
+from lambda_core.solver.drivers.roller_tables import roller_pointers
 from lambda_core.solver.drivers.solver_context import assemble
 from lambda_core.solver.integrator.blocks import blocks_t, factors_t
 from lambda_core.solver.integrator.memory import evaluate_t, jacobian_t, memory_t
@@ -53,6 +54,7 @@ _TABLES = (
     "state_steps", "par", "terms", "table",
 )  # fmt: skip
 _CONTROL = ("longest_step", "leak_floor")
+_ENDLESS = 1e300
 
 
 @dataclass(frozen=True)
@@ -213,7 +215,9 @@ def freeze(
     kinds = observe_sig.args[-len(scratch._fields) :]
     sections += [(name, kind, array) for name, kind, array in zip(scratch._fields, kinds, scratch, strict=True)]
     pointers = [kernel.pointer for bearing in context.assembly.bearings for kernel in bearing.kernels.compiled.values()]
-    image = Image(sections, bundle.laws, pointers, prescribed.workspaces() if prescribed else ())
+    pointers += roller_pointers()
+    functions = (*bundle.laws, *(table for table in (bundle.rollers, context.factors.rollers) if table.size))
+    image = Image(sections, functions, pointers, prescribed.workspaces() if prescribed else ())
     at = image.sections
     advance = core.advance_finely_pointer if memory.stages.size else core.advance_pointer
     steps = tuple(at[name] for name in ("bundle", "blocks", "factors", "memory"))
@@ -272,7 +276,8 @@ class _OneBearing:
     def __init__(self, model: BearingModel, couple: Coupling, announce: Announce) -> None:
         model, equilibrium = start(model, couple, announce)
         self.given, self._couple, self._equilibrium = given_names(model, couple), couple, equilibrium
-        self.start: Start | None = prepare_start(equilibrium)
+        # The search for a start in C is that of balls; rollers begin at the equilibrium of their case, as machines do.
+        self.start: Start | None = None if model.rollers is not None else prepare_start(equilibrium)
         self.engine = BearingEngine(model, announce, equilibrium, given=self.given, capacity=_CAPACITY)
         _, context, _, _ = self.engine.parts()
         self.prescribed = prescribed_rings(context, self.given) if couple == "motion" else None
@@ -346,7 +351,7 @@ def _parts(engine: BearingEngine | MachineEngine) -> list[FloatArray]:
 def _joined(parts: Sequence[FloatArray]) -> FloatArray:
     """Return all numbers one after another.
 
-    A count below zero, which reads as no number, becomes -1.
+    A count below zero, which reads as no number, becomes -1. What has no end gets one that curves can be drawn to.
     """
-    joined: FloatArray = np.nan_to_num(np.concatenate(parts), nan=-1.0, posinf=np.inf, neginf=-np.inf)
+    joined: FloatArray = np.nan_to_num(np.concatenate(parts), nan=-1.0, posinf=_ENDLESS, neginf=-_ENDLESS)
     return joined

@@ -9,13 +9,14 @@ import numpy as np
 
 from lambda_core.analysis.electric import columns as circuit_columns
 from lambda_core.domain.channels import RINGS, SHORTED
+from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.export.fmu.circuit_image import NUMBERS, OF_A_BEARING
 from lambda_core.export.fmu.frozen import Frozen
 from lambda_core.export.fmu.variables import Variable, control
 from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.laws.jit.portable import features, known_processor
-from lambda_core.results.limits import THINNEST_FILM, Grooves, highest_pressure
+from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, THINNEST_FILM, Grooves, highest_pressure
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.fault_roles import ROLES
@@ -24,7 +25,7 @@ from lambda_core.solver.drivers.ball_paths import NO_PATH, PATH_ITERATIONS, PATH
 from lambda_core.solver.drivers.equilibrium import MAX_ITERATIONS
 from lambda_core.solver.drivers.external_inputs import MOST_ITERATIONS, MOST_ITERATIONS_PER_SECOND
 from lambda_core.solver.drivers.machine_inputs import SHAFT_SPIN
-from lambda_core.solver.drivers.ring_values import rings_of_contacts
+from lambda_core.solver.drivers.ring_values import are_ribs, rings_of_contacts
 from lambda_core.solver.records import STATIC_REPORT
 from lambda_core.solver.status import Status
 
@@ -157,16 +158,30 @@ def _part_table(frozen: Frozen) -> list[str]:
     """
     parts = []
     for one in frozen.bearings:
-        grooves, rings = Grooves.of(dataclasses.asdict(one.model.geometry)), rings_of_contacts(one.model.geometry)
-        ridge = np.zeros(len(RINGS)) if grooves.ridge is None else grooves.ridge
-        rows = ("{" + _reals(row) + "}" for row in np.column_stack([grooves.radius, grooves.edge, ridge]).tolist())
+        geometry = one.model.geometry
+        rings, ribs = rings_of_contacts(geometry), are_ribs(geometry).astype(int)
+        element, grooves = ("ball", _grooves(geometry)) if one.model.rollers is None else ("roller", _NO_GROOVES)
         label = f"{one.name}: " if one.name else ""
         parts.append(
-            f'{{"{label}", {one.span.first_ball}, {one.span.balls}, {len(rings)}, '
-            f"{{{', '.join(map(str, rings))}}}, {{{', '.join(rows)}}}, {highest_pressure(grooves.kind)!r}, "
-            f"{grooves.least_share!r}, {int(grooves.one_sided)}, {int(grooves.ridge is not None)}}}"
+            f'{{"{label}", "{element}", {one.span.first_ball}, {one.span.balls}, {len(rings)}, '
+            f"{{{', '.join(map(str, rings))}}}, {{{', '.join(map(str, ribs))}}}, {grooves}}}"
         )
     return [f"static const lb_part lb_parts[] = {{{', '.join(parts)}}};"]
+
+
+# Rollers have no shoulders to run over.
+_NO_GROOVES = f"0, {{{{0.0}}}}, {HIGHEST_ROLLER_PRESSURE!r}, 0.0, 0, 0"
+
+
+def _grooves(geometry: Geometry) -> str:
+    """Return the grooves of a ball bearing and its limits."""
+    grooves = Grooves.of(dataclasses.asdict(geometry))
+    ridge = np.zeros(len(RINGS)) if grooves.ridge is None else grooves.ridge
+    rows = ("{" + _reals(row) + "}" for row in np.column_stack([grooves.radius, grooves.edge, ridge]).tolist())
+    return (
+        f"1, {{{', '.join(rows)}}}, {highest_pressure(grooves.kind)!r}, {grooves.least_share!r}, "
+        f"{int(grooves.one_sided)}, {int(grooves.ridge is not None)}"
+    )
 
 
 def _start_numbers(frozen: Frozen) -> dict[str, object]:
@@ -302,6 +317,7 @@ def _slope_numbers(frozen: Frozen) -> dict[str, object]:
     kept = prescribed.bundle.states
     return {
         "SLOPES": 1,
+        "ELEMENT_STATES_SIZE": 8 * int(frozen.bundle.system["tail"][0]),
         "SLOPE_STATE": image.place(prescribed.state),
         "SLOPE_MATRIX": image.place(prescribed.blocks.shared),
         "SLOPE_WIDTH": prescribed.blocks.shared.shape[-1],

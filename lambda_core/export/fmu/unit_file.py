@@ -125,7 +125,7 @@ def export_fmu(
     loaded = read_case(source, overrides)
     options = tuple(listed(vary, "vary"))
     varied(options, loaded)
-    _refuse_touching_rollers(check(loaded))
+    check(loaded)
     target = check_target(Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu"))
     check_folder(check_new(target, overwrite).parent, target)
     task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}
@@ -137,16 +137,6 @@ def export_fmu(
             announce(f"exporting for {processor} (compiling takes one to three minutes the first time)")
         _write_apart(task, processor)
     return target
-
-
-def _refuse_touching_rollers(model: BearingModel | MachineModel) -> None:
-    """Refuse rollers without a cage.
-
-    Exported code of theirs fails when its outputs are read.
-    """
-    for one in model.bearing_models.values():
-        if one.rollers is not None and not one.depth.cage:
-            raise UsageError(f"{one.name}: rollers without a cage are not exported: run them, or give them a cage")
 
 
 def _plain(name: str) -> str:

@@ -146,3 +146,8 @@ def roller_code(compiled: Core, has_rollers: bool) -> tuple[NDArray[np.int64], N
             _kept[name] = compiled.find(f"roller_{name}").pointer
     code, blocks = (addresses([[_kept[name] for name in each]]) for each in names)
     return code, blocks
+
+
+def roller_pointers() -> list[Any]:
+    """Return the pointers whose addresses `roller_code` has returned."""
+    return [*_kept.values()]

@@ -25,9 +25,10 @@ typedef struct {
   unsigned place, begin, first, count;
 } lb_follower; /* a number that is a sum of inputs, since when it is, and its shares */
 typedef struct {
-  const char *label; /* before what is told of it */
-  unsigned first_ball, balls, contacts; /* of a ball */
-  unsigned char ring[4]; /* of each contact */
+  const char *label, *element; /* before what is told of it; ball or roller */
+  unsigned first_ball, balls, contacts; /* of a ball or roller */
+  unsigned char ring[6], rib[6]; /* of each contact its ring, and whether a rib is what it touches */
+  int grooved;
   double grooves[2][3];  /* of each ring: radius, edge, edge between two arcs */
   double highest_pressure, least_share;
   int one_sided, ridge;

@@ -64,6 +64,7 @@ static void tell_part(lb_bearing *b, const lb_part *p) {
   unsigned ball = 0, ring = 0;
   for (unsigned j = p->first_ball; j < p->first_ball + p->balls; j++)
     for (unsigned k = 0; k < p->contacts; k++) {
+      if (p->rib[k]) continue; /* the limits are those of raceways */
       double thin = SAMPLE(j, k, FILM_PARAMETER);
       most = fmax(most, SAMPLE(j, k, LOAD)), pressure = fmax(pressure, SAMPLE(j, k, MAX_PRESSURE));
       if (thin > 0.0 && thin < film) film = thin, share = SAMPLE(j, k, ASPERITY_SHARE), ball = j - p->first_ball, ring = p->ring[k];
@@ -77,15 +78,15 @@ static void tell_part(lb_bearing *b, const lb_part *p) {
   lb_capacitance(b, p, &shorted);
   if (shorted && begins(b, p, SHORT))
     lb_say(b, LB_WARNING,
-           "%sat t = %.9g s metal touches metal on both rings of %u ball%s (Lambda below %g): the rings are connected there, and "
-           "bearing.capacitance is that of the other balls",
-           p->label, lb_time(b), shorted, shorted > 1 ? "s" : "", LB_SHORTED_BELOW);
+           "%sat t = %.9g s metal touches metal on both rings of %u %s%s (Lambda below %g): the rings are connected there, and "
+           "bearing.capacitance is that of the others",
+           p->label, lb_time(b), shorted, p->element, shorted > 1 ? "s" : "", LB_SHORTED_BELOW);
   if (film < LB_THINNEST_FILM && begins(b, p, FILM))
     lb_say(b, LB_WARNING,
-           "%sat t = %.9g s the film parameter Lambda of %.2g at ball %u on the %s ring is below %g: the film is thinner than "
+           "%sat t = %.9g s the film parameter Lambda of %.2g at %s %u on the %s ring is below %g: the film is thinner than "
            "the roughness, asperities carry a share of %.2g of the load there",
-           p->label, lb_time(b), film, ball + 1, rings[ring], LB_THINNEST_FILM, share);
-  tell_shoulders(b, p, most);
+           p->label, lb_time(b), film, p->element, ball + 1, rings[ring], LB_THINNEST_FILM, share);
+  if (p->grooved) tell_shoulders(b, p, most);
 }
 
 void lb_tell_limits(lb_bearing *b) {

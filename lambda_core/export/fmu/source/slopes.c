@@ -15,8 +15,8 @@
 static int differentiate(lb_bearing *b) {
   if (b->sloped) return LB_OK;
   double *state = &REAL(b, LB_SLOPE_STATE);
-  memcpy(state, b->image + LB_STATE, LB_BALLS * LB_BALL_SIZE);
-  state += LB_BALLS * LB_BALL_SIZE / sizeof *state;
+  memcpy(state, b->image + LB_STATE, LB_ELEMENT_STATES_SIZE);
+  state += LB_ELEMENT_STATES_SIZE / sizeof *state;
   for (size_t i = 0; i < sizeof lb_slope_states / sizeof *lb_slope_states; i++)
     *state++ = REAL(b, LB_SHARED + 8 * lb_slope_states[i]);
   memcpy(state, b->image + LB_CONTACT_STATES, LB_CONTACT_STATES_SIZE);

@@ -4,9 +4,10 @@
 #include "image.h"
 
 #if !LB_SETTLES
-/* The equilibrium of a machine is that of its shaft in all bearings, which the program finds: see drivers/shaft_equilibrium.py. */
+/* The program finds the equilibrium of a machine, which is that of its shaft in all bearings, and that of rollers: see
+   drivers/shaft_equilibrium.py and elements/roller. */
 int lb_settle(lb_bearing *b) {
-  lb_say(b, LB_WARNING, "the machine begins at the equilibrium of its case: what was given before the initialisation ended acts "
+  lb_say(b, LB_WARNING, "the start is the equilibrium of the case: what was given before the initialisation ended acts "
                         "from the start as a jump");
   return LB_OK;
 }
