@@ -22,7 +22,7 @@ class Record(BaseModel):
     def __str__(self) -> str:
         """Return the lines of text.
 
-        They are the short form where there are none.
+        A record without a text gives its short form.
         """
         text = getattr(type(self), "text", None)
         return str(text(self)) if callable(text) else repr(self)

@@ -61,7 +61,7 @@ def table4_chart(found: Table4) -> ViewData:
 def sensitivity_chart(found: Table4) -> ViewData:
     """Draw the change of torque over every range.
 
-    The bars lead from one end of the range to the other, the largest first; words list parameters without effect.
+    Each parameter has a bar for either end of its range, the largest first; a note lists those without effect.
     """
 
     def effect(s: Sensitivity) -> float:

@@ -66,7 +66,7 @@ def friction(model: BearingModel) -> Numbers:
 def skf(model: BearingModel) -> Numbers:
     """Return the friction torque of SKF's model [N mm].
 
-    The complete model answers for the same case.
+    The rows of the method `skf` for the same case have these names.
     """
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.discovery.manager import registry

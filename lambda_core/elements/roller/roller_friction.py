@@ -251,8 +251,8 @@ def _rib(
 ) -> tuple[float, float, float, HertzContact] | None:
     """Return power [W] and film [m] of ribs.
 
-    The power is that of all rollers; the film is the smallest, with friction and contact of the most loaded; None
-    unloaded.
+    The power is that of all rollers, the film the smallest; friction and contact of the most loaded follow. It is None
+    without a load.
     """
     if not np.any(loads > 0.0):
         return None

@@ -78,9 +78,9 @@ def _repeat(lane, first, count, n):
 
 @helper
 def _motion(first, count, n, scratch):
-    """Write penetration and surface velocity into lanes.
+    """Write penetrations and speeds of contacts into lanes.
 
-    The surface velocity is the mean one of contacts.
+    The speeds are the normal velocity and the mean speed of both surfaces.
     """
     lanes = scratch.lanes
     for k in range(first, first + count):

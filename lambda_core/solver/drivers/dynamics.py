@@ -285,7 +285,7 @@ class MotionEngine(Generic[Sampled, Summed_co]):
     def modes(self) -> list[tuple[float, float]]:
         """Return the modes at `time`.
 
-        Each has a frequency [Hz] and a damping ratio; rings, shaft and bodies move.
+        Each has a frequency [Hz] and a damping ratio; rings, shaft and bodies have most of its energy.
         """
         bundle, blocks = self.context.bundle, self.context.blocks
         return ring_modes(bundle, blocks, self._memory.inertia, until=self._modes_until)

@@ -122,9 +122,9 @@ def chains_of(size: int) -> tuple[Any, ...]:
 
     @helper
     def take_part(matrix, part, its):
-        """Take a matrix product from a part.
+        """Subtract a matrix product from a part.
 
-        The product is a matrix times one ball's part of a solution; it is taken from another's part.
+        The product is a matrix times one ball's part of a solution; the difference is another ball's part.
         """
         for i in range(size):
             total = 0.0

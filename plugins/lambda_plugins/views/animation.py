@@ -227,7 +227,7 @@ def _unit(angle: Any) -> FloatArray:
 def _loads(axes: Any, scene: Scene) -> Any:
     """Draw the load of every ball over its azimuth.
 
-    It shows the past and the present position.
+    Faint points show all frames, and a marker the present one.
     """
     azimuth, load = np.degrees(scene.ball_azimuth) % 360.0, 1e-3 * scene.load
     points = []

@@ -21,7 +21,7 @@ _PARTS = (
 def catalogues(run: RunData, options: Options) -> ViewData:
     """Show the friction torque of simulation and catalogues.
 
-    It shows them by parts; SKF's and Schaeffler's models answer for the same point.
+    The simulation is split into parts; SKF's and Schaeffler's models give their totals for the same point.
     """
     summary = run.summary()
     rating = summary.rating
