@@ -63,7 +63,9 @@ def open_catalogue(seed_folders: Sequence[Any] = ()) -> SqlCatalogue:
     folders = [Path(folder) for folder in seed_folders]
     for folder in folders:
         if not folder.is_dir():
-            raise _error(str(folder), "a plugin brings catalogue rows in it, but it is not a folder")
+            raise _error(
+                str(folder), "is not a folder, but a plugin names it for its catalogue rows: correct the plugin"
+            )
     return SqlCatalogue(_connection_to(folders), tuple(folders))
 
 

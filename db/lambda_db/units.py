@@ -101,7 +101,7 @@ def to_si(value: float, unit: str, quantity: str | None = None) -> float:
         If the unit is not known, or not one of `quantity`.
     """
     if quantity == "" and unit:
-        raise ValueError(f'"{unit}": this is a plain number without a unit')
+        raise ValueError(f'"{unit}": this value is a plain number; leave the unit out')
     if not unit:
         if quantity:
             raise ValueError(f"{value:g} has no unit; allowed: {', '.join(UNITS[quantity])}")

@@ -102,7 +102,7 @@ class LockedServer(Server):  # type: ignore[misc, unused-ignore]
         They came from another page or under another name; browsers get the order to load nothing else.
         """
         if self._names and request.url.host not in self._names:
-            raise web.HTTPForbidden(text=f"this is not {request.host}")
+            raise web.HTTPForbidden(text=f"the builder is not at {request.host}: open the address that it printed")
         if request.headers.get("Origin") not in (None, f"{request.scheme}://{request.host}"):
             raise web.HTTPForbidden(text="another page may not drive the builder")
         answer = await handler(request)

@@ -97,7 +97,7 @@ class Helper:
         if self._process is not None and self._process.returncode is None:
             return self._process
         if self._deaths == _STARTS:
-            raise LambdaError("the helper process has ended several times and is not started again")
+            raise LambdaError("the helper process ended several times: close the builder and open it again")
         loop = asyncio.get_running_loop()
         command = (sys.executable, "-P", "-m", "lambda_gui.helper_process")
         try:

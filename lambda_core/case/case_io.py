@@ -127,7 +127,7 @@ def read_tables(source: Source, folder: Path | None = None) -> Tables:
     if is_builtin(str(source)):
         return Tables(toml_tables(builtin_text(str(source)), str(source)), str(source), None)
     if path.is_dir():
-        raise UsageError(f'"{source}" is a folder, not a case file')
+        raise UsageError(f'"{source}" is a folder: name a case file in it')
     raise UsageError(f'"{source}" is neither a file nor a built-in case; {_instead_of(path)}')
 
 

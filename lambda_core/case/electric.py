@@ -37,7 +37,9 @@ class Inverter(Section):
     @model_validator(mode="after")
     def _edges_fit(self) -> Inverter:
         if self.rise_time * self.switching_frequency > 0.05:
-            raise ValueError("rise_time is more than 1/20 of a switching period: the edges would overlap")
+            raise ValueError(
+                "`rise_time` is more than 1/20 of a switching period, so that edges would overlap: shorten it"
+            )
         return self
 
 

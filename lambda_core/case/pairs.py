@@ -53,7 +53,7 @@ def given_pairs(points: Sequence[tuple[float, float]] | None, file: str | None, 
         With a sentence that names the entry or the line.
     """
     if (points is None) == (file is None):
-        raise ValueError("give either points or file")
+        raise ValueError("give either `points` or `file`")
     if points is None:
         return read_pairs(folder / str(file), quantity)
     if len(points) > _MOST:

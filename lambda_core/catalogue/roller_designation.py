@@ -61,7 +61,8 @@ def _clearance(behind: str, row: RollerRow) -> str | None:
         taken = _taken(part)
         if taken is None:
             raise CatalogueError(
-                "catalogue", [Problem("designation", f'"{part}" is not a known suffix of {row.designation}')]
+                "catalogue",
+                [Problem("designation", f'"{part}" is not a known suffix of {row.designation}: leave it out')],
             )
         found = next((suffix for suffix in taken if _CLEARANCE.fullmatch(suffix)), found)
     return found

@@ -45,7 +45,7 @@ def new_plugin(name: str, parent: Path) -> list[Path]:
         raise UsageError(f'"{name}" is the name of the law {label}: choose another, for example "my-{name}"')
     target = parent / name
     if target.exists():
-        raise UsageError(f"{target} exists already")
+        raise UsageError(f"{target} exists already: choose another name")
     written = []
     try:
         for source in sorted(_TEMPLATE.rglob("*.tmpl")):

@@ -47,7 +47,9 @@ def opened(path: Path) -> Iterator[h5py.File]:
         file = open_for_reading(path)
     except (OSError, RuntimeError, KeyError) as error:
         if not h5py.is_hdf5(path):
-            raise ResultError(f"{path} is not a result file (not HDF5)") from None
+            raise ResultError(
+                f"{path} is not a result file (not HDF5): name a file that lambda-bearing run has written"
+            ) from None
         raise ResultError(f"{path} cannot be read: {reason(error)}") from None
     with file:
         try:

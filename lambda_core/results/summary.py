@@ -193,7 +193,7 @@ def summarise(result: Result) -> Summary:
     """
     status = result.status()
     if not status.rows.samples or not status.rows.records:
-        raise UsageError(f"{result.path} holds no samples yet")
+        raise UsageError(f"{result.path} holds no samples yet: wait for the first ones, or run the case again")
     of_machine = result.is_machine and (not result.bearing or len(result.bearing_names) == 1)
     each = result.bearings if of_machine else {result.bearing: result}
     # A bearing of a machine need not be known better than all of them together.

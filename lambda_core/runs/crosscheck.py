@@ -192,7 +192,7 @@ def _machine(machine: MachineModel, free_cage: bool, announce: Callable[[str], N
 
 def _check_turning(speed: float) -> None:
     if speed == 0.0:
-        raise SolverError("the rings stand still: there is no power to compare")
+        raise SolverError("the rings stand still, so there is no power to compare: give operation.speed")
 
 
 def _trajectories(begun: _Begun, duration: float) -> CrossCheck:
@@ -279,7 +279,7 @@ def _means(begun: _Begun, turns: int) -> CrossCheck:
     turn, tolerance = begun.turn, begun.motion.tolerance
     if turns < 3:
         raise SolverError(
-            f"the cage makes {turns} turns of {turn:.3g} s: at least 3 are needed for a confidence interval"
+            f"the cage makes {turns} turns of {turn:.3g} s: at least 3 are needed for a confidence interval; simulate longer"
         )
     times = turn * np.arange(turns + 1, dtype=np.float64)
     engine = MotionEngine(begun.motion)

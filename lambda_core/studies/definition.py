@@ -144,7 +144,7 @@ class Study(Section):
             raise ValueError(f"{double} is varied twice: give it once")
         fixed = next((path for path in paths if path in self.set), None)
         if fixed is not None:
-            raise ValueError(f"{fixed} is both set and varied: remove one: remove one")
+            raise ValueError(f"{fixed} is both set and varied: remove one")
         if (self.design.kind == "optimise") != (self.optimise is not None):
             raise ValueError('an optimisation needs both design.kind = "optimise" and a table [optimise]')
         return self

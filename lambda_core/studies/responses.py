@@ -318,7 +318,11 @@ def chosen(
             wrong.append(Problem("responses", f'"{name}" is not a known response; nearest: {", ".join(close)}'))
         elif _of_mode(known[name], mode) is None:
             other = "dynamic" if mode == "quasi-static" else "quasi-static"
-            wrong.append(Problem("responses", f'"{name}" exists in {other} studies only'))
+            wrong.append(
+                Problem(
+                    "responses", f'"{name}" exists in {other} studies only: choose another, or write mode = "{other}"'
+                )
+            )
         else:
             found.append(name)
     if wrong:

@@ -283,7 +283,7 @@ class Manifest:
         """
         owner = json.loads(self.meta("director") or "{}")
         if owner and owner != this_process() and Status(process=owner).alive():
-            raise UsageError(f"{self.folder} is being worked on by process {owner['pid']}")
+            raise UsageError(f"{self.folder} is being worked on by process {owner['pid']}: wait until it ends")
         self.write_meta("director", json.dumps(this_process()))
         try:
             yield

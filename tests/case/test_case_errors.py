@@ -89,7 +89,7 @@ def test_the_valid_case_is_valid(problems: Problems) -> None:
             "loads.radial",
             "the times must increase",
         ),
-        ({"loads": {"radial": {"kind": "table"}}}, "loads.radial", "give either points or file"),
+        ({"loads": {"radial": {"kind": "table"}}}, "loads.radial", "give either `points` or `file`"),
         ({"loads": {"radial": {"kind": "table", "file": "no.csv"}}}, "loads.radial", 'cannot read "no.csv"'),
         ({"name": "a/b"}, "name", "letters, digits"),
         ({"electric": {"series": {"file": ""}}}, "electric.series.file", "is empty"),

@@ -196,7 +196,7 @@ def test_ring_guided_cage_gets_a_land_contact_on_its_ring_only() -> None:
 
 
 def test_cage_that_cannot_be_or_cannot_act() -> None:
-    with pytest.raises(CaseError, match="leaves no bars between the pockets: balls are"):
+    with pytest.raises(CaseError, match="leaves no bars between the pockets: must be below"):
         model_of("6319-cp10-1500", bodies={"cage": {"pocket_clearance": "25 mm"}})
     loose = model_of("6319-cp10-1500", bodies={"cage": {"type": "brass-outer-ring"}})
     assert "land clearance 825 um is above its pocket clearance 600 um" in " ".join(loose.assumptions)

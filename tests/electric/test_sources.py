@@ -120,7 +120,7 @@ def test_series_is_repeated(tmp_path: Path) -> None:
         ),
         ({"series": {"points": ["0 s, 1 V"]}}, "electric.series.points.0", "is not a pair in brackets"),
         ({"grounding": {"shunt": "1 Ohm"}}, "electric.grounding", "`shunt` requires `insulation`"),
-        ({"series": {}}, "electric.series", "give either points or file"),
+        ({"series": {}}, "electric.series", "give either `points` or `file`"),
     ],
 )
 def test_mistakes_are_named(electric: dict[str, object], where: str, words: str) -> None:

@@ -97,7 +97,7 @@ def test_any_channel_over_time(radial_run: Result) -> None:
     assert torque.y[0] == radial_run["bearing_capacitance"][0]
     with pytest.raises(UsageError, match='"laod" is not a known channel of this run; nearest: load'):
         data(radial_run, "channel", channel="laod")
-    with pytest.raises(NotApplicable, match="is not of each ball"):
+    with pytest.raises(NotApplicable, match="has no values of single balls: leave `ball` out"):
         data(radial_run, "channel", channel="bearing_capacitance", ball="2")
 
 

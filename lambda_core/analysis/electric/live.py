@@ -178,5 +178,6 @@ class Live:
         )
         if (len(found.circuit["time"]), len(found.discharges["time"])) != (rows.circuit, rows.discharges):
             raise ResultError(
-                f"{result.path} cannot go on: its circuit does not reproduce the state at which it stopped"
+                f"{result.path} cannot go on: its circuit does not reproduce the state at which it stopped; "
+                "run the case again"
             )

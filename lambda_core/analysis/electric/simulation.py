@@ -212,7 +212,9 @@ def simulate_circuit(
         first = int(np.searchsorted(times, settled))
         if last - first < 2:
             origin = contacts[0].origin
-            raise UsageError(f"{origin}: too short: fewer than two samples are left from {settled:.4g} s on")
+            raise UsageError(
+                f"{origin}: too short: fewer than two samples are left from {settled:.4g} s on; simulate longer"
+            )
     network = network_of(bearings, [each.film.shape[1] for each in electric], announce)
     begin, end = float(times[0]), float(times[-1])
     source = corners(options.source, begin, end + reach(options.source), contacts[0].turned)

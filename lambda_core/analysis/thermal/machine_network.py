@@ -119,7 +119,9 @@ class MachineNetwork:
         found.update({name: node.heat_capacity for name, node in given.items() if node.heat_capacity is not None})
         missing = [n for n, held in zip(self.names, self.held, strict=True) if n not in found and math.isnan(held)]
         if missing:
-            problems = [Problem(f"thermal.nodes.{n}.heat_capacity", "is required over time") for n in missing]
+            problems = [
+                Problem(f"thermal.nodes.{n}.heat_capacity", "is required for a course over time") for n in missing
+            ]
             raise CaseError(self._case, problems)
         free = np.isnan(self.held)
         return np.where(free, [found.get(name, math.inf) for name in self.names], math.inf)

@@ -126,7 +126,7 @@ def friction(
         When nothing turns.
     """
     if motion.relative == 0.0:
-        raise ValueError("friction torque needs rings that turn against each other")
+        raise ValueError("a friction torque needs rings that turn against each other: give a speed")
     par = given or FrictionParameters()
     heat = float(
         line_film.inlet_heat_rolling(

@@ -117,7 +117,7 @@ def export_fmu(
     from lambda_core.export.fmu.library import PLATFORMS, compiler
 
     if not wanted:
-        raise UsageError(f"for which system: {', '.join(PLATFORMS)}?")
+        raise UsageError(f"no system is given: choose {', '.join(PLATFORMS)}")
     for name in wanted:
         if name not in PLATFORMS:
             raise UsageError(unknown_name("platform", name, PLATFORMS))

@@ -439,5 +439,5 @@ def _begun(found: Result) -> Result:
     A result without samples raises a UsageError.
     """
     if not found.status().rows.samples:
-        raise UsageError(f"{found.path} holds no samples yet")
+        raise UsageError(f"{found.path} holds no samples yet: wait for the first ones, or run the case again")
     return found

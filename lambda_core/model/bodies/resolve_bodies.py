@@ -173,7 +173,10 @@ def _check_cage(geometry: Geometry, pocket: float, land: float, ledger: Ledger) 
     chord = geometry.pitch_diameter * math.sin(math.pi / geometry.ball_count)
     if geometry.ball_diameter + pocket >= chord:
         gap = show(chord - geometry.ball_diameter, "small_length", 4)
-        ledger.problem("bodies.cage.pocket_clearance", f"leaves no bars between the pockets: balls are {gap} apart")
+        ledger.problem(
+            "bodies.cage.pocket_clearance",
+            f"leaves no bars between the pockets: must be below {gap}, the gap between balls",
+        )
     if land > pocket:
         ledger.assume(
             f"the cage's land clearance {show(land, 'small_length', 4)} is above its pocket clearance "
@@ -308,7 +311,7 @@ def check_bodies(case: Case, ledger: Ledger) -> None:
             if there:
                 ledger.problem(
                     where,
-                    "contradicts depth.cage = false: there is no cage (forces.ball_ball is between neighbours)",
+                    "contradicts depth.cage = false: there is no cage; leave it out (forces.ball_ball is between neighbours)",
                 )
     elif "ball_ball" in case.forces.model_fields_set:
         ledger.problem("forces.ball_ball", "neighbours touch only without a cage: it needs depth.cage = false")

@@ -42,7 +42,7 @@ def resolve_elastic(
             found[body] = _resolve_ring(body, options, geometry, materials[part], ledger)
     if case.elastic.cage is not None:
         if not case.depth.cage:
-            ledger.problem("elastic.cage", "contradicts depth.cage = false: there is no cage")
+            ledger.problem("elastic.cage", "contradicts depth.cage = false: there is no cage; leave one of the two out")
         found["cage"] = _resolve_cage(case.elastic.cage, geometry, *cage, materials["cage"], ledger)
     return found
 
@@ -67,7 +67,9 @@ def _resolve_ring(
     # The height that the case gives to the section does not move the seat.
     radius = seat + 0.5 * height if body == "inner_ring" else seat - 0.5 * height
     if radius <= 0.5 * height:
-        ledger.problem(f"{path}.section_height", f"{show(height, 'length', 4)} leaves no hole in the ring")
+        ledger.problem(
+            f"{path}.section_height", f"{show(height, 'length', 4)} leaves no hole in the ring: choose a smaller one"
+        )
         radius = seat
     _record(path, options, (("housing_stiffness", "stiffness"), ("orders", ""), ("damping_ratio", "")), ledger)
     ring = ElasticRing.rectangle(
@@ -104,7 +106,9 @@ def _resolve_cage(
         ledger,
     )
     if 0.5 * height >= radius:
-        ledger.problem(f"{path}.section_height", f"{show(height, 'length', 4)} leaves no hole in the cage")
+        ledger.problem(
+            f"{path}.section_height", f"{show(height, 'length', 4)} leaves no hole in the cage: choose a smaller one"
+        )
     _record(path, options, (("orders", ""), ("damping_ratio", "")), ledger)
     moment = width * height**3 / 12.0
     ring = ElasticRing(radius, area, moment, material.youngs_modulus, material.density)

@@ -126,7 +126,7 @@ def check_clearance(g: Geometry, ledger: Ledger, *, has_grooves: bool = True) ->
     The free contact angle, or the preload, would be impossible. Raceways of rollers have no grooves and no such angle.
     """
     if not math.isfinite(g.clearance):
-        ledger.problem("bearing.clearance", "is not finite with these dimensions and temperatures")
+        ledger.problem("bearing.clearance", "is not finite with these dimensions and temperatures: check their units")
         return
     curvature = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
     shown = f"{g.clearance * 1e6:.4g} um"

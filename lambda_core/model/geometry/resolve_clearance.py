@@ -115,7 +115,7 @@ def class_of_kind(table: KindClearance, bearing: Bearing, bore: float, where: st
 def _class_above(name: str, bore: float, catalogue: Catalogue, ledger: Ledger) -> Limits | None:
     index = CLEARANCE_CLASSES.index(name[:2]) + 1
     if index == len(CLEARANCE_CLASSES):
-        ledger.problem(PATH, f'"{name}" reaches into the class above {name[:2]}, and there is none')
+        ledger.problem(PATH, f'"{name}" reaches into the class above {name[:2]}, and there is none: write a value')
         return None
     row = ledger.ask(PATH, lambda: catalogue.clearance(bore, CLEARANCE_CLASSES[index]))
     return Limits(row.minimum, row.maximum) if row else None

@@ -51,7 +51,7 @@ def _with_suffixes(case: Case, read: Designation, ledger: Ledger) -> Case:
             ledger.assume(f"{written} of the designation: {suffix.meaning}")
             continue
         if suffix.kind in taken:
-            ledger.problem(WHERE, f'"{taken[suffix.kind]}" and "{written}" contradict each other')
+            ledger.problem(WHERE, f'"{taken[suffix.kind]}" and "{written}" contradict each other: keep one')
             continue
         taken[suffix.kind] = written
         case = _DECIDES[suffix.kind](case, written, suffix, ledger)

@@ -62,7 +62,7 @@ def resolve_markers(case: Case, ledger: Ledger) -> dict[str, Marker]:
             continue
         for axis in ("about_x", "about_y", "about_z"):
             if getattr(marker, axis):
-                ledger.problem(f"markers.{name}.{axis}", "turns axes of a machine: nothing acts along these")
+                ledger.problem(f"markers.{name}.{axis}", "has no effect in the case of one bearing: leave it out")
         found[name] = Marker(body, (marker.x, marker.y, marker.z))
     return found
 

@@ -25,7 +25,10 @@ def check_states(
         for state in keeper.states if keeper else ():
             other = known.setdefault(state.name, state)
             if other.unit != state.unit:
-                ledger.problem(f"models.{ROLE}", f"{state.name} is kept in {other.unit} and in {state.unit}")
+                ledger.problem(
+                    f"models.{ROLE}",
+                    f"{state.name} is kept in {other.unit} and in {state.unit}: choose laws with one unit",
+                )
         kept, whose = ([state.name for state in keeper.states], keeper.label) if keeper else ([], "")
         for role, law in roles.items():
             for name in law.model.reads:

@@ -202,10 +202,10 @@ def check_nodes(nodes: Mapping[str, ThermalNode], supplies: Iterable[str], ledge
     Also note start temperatures of nodes that are held.
     """
     if "ambient" in nodes:
-        ledger.problem("thermal.nodes.ambient", "is held at thermal.ambient: change that option option")
+        ledger.problem("thermal.nodes.ambient", "is held at `thermal.ambient`: change that option")
     for supply in supplies:
         if supply in nodes:
-            ledger.problem(f"thermal.nodes.{supply}", "is held at thermal.oil_supply: change that option option")
+            ledger.problem(f"thermal.nodes.{supply}", "is held at `thermal.oil_supply`: change that option")
     for name, node in nodes.items():
         if node.temperature is not None and node.start is not None:
             ledger.problem(f"thermal.nodes.{name}.start", "has no effect on a node that is held at a temperature")

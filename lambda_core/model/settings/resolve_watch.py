@@ -45,7 +45,9 @@ def resolve_observers(case: Case, registry: WatchSource, ledger: Ledger) -> dict
                 ledger.problem(where, message)
             owners.setdefault(channel.name, name)
             if "marker" in channel.dims and not case.markers:
-                ledger.problem(where, f"its channel {channel.name} is per marker, and the case has no markers")
+                ledger.problem(
+                    where, f"its channel {channel.name} is per marker, and the case has no markers: add [markers]"
+                )
         found[name] = ChosenObserver(item, parameters)
         _record(where, item, parameters, texts, ledger)
     return found

@@ -132,7 +132,9 @@ def contact_field(
     finer = bundle._replace(grid=grid, cells=cells, scratch=scratch)
     status = core().probe(ball.view(R.BALL), body.view(R.BODY_STATE), place, finer, losses)
     if status == -1:
-        raise SolverError(f"the ball does not touch the {RINGS[groove.ring]} ring at this moment")
+        raise SolverError(
+            f"the ball does not touch the {RINGS[groove.ring]} ring at this moment: choose another ball or time"
+        )
     if status != 1:
         bundle.scratch["fault"] = scratch["fault"]
         raise SolverError(fault_sentence(context))

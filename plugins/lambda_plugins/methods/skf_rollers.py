@@ -111,7 +111,7 @@ def skf_roller_friction(inputs: RollerMethodInputs) -> SkfFriction:
     """
     bearing, kind = inputs.bearing, skf_kind(inputs.bearing)
     if kind not in _FULL_FILM:
-        raise NotApplicable("SKF's table of needle roller bearings was not at hand")
+        raise NotApplicable("the program does not have SKF's table of needle roller bearings")
     if inputs.lubrication not in STARVATION:
         raise NotApplicable(f"SKF's model knows no {inputs.lubrication} lubrication")
     speed = inputs.relative_speed

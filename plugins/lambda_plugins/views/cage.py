@@ -90,7 +90,7 @@ def _whirl(time: FloatArray, away: FloatArray, spin: FloatArray) -> tuple[Series
     turned = np.abs(np.concatenate([[0.0], np.cumsum(0.5 * (spin[1:] + spin[:-1]) * np.diff(time))])) / (2.0 * math.pi)
     edges = np.arange(0.0, turned[-1], _WHIRL_WINDOW)
     if edges.size < 3:
-        raise NotApplicable("the run is too short for the whirl of the cage")
+        raise NotApplicable("the run is too short for the whirl of the cage: simulate longer")
     at = np.interp(edges, turned, time)
     orbit, cage = np.diff(np.interp(at, time, angle)), 2.0 * math.pi * np.diff(edges)
     return (

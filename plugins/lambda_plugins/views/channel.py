@@ -36,10 +36,11 @@ def channel(run: RunData, options: ChannelOptions) -> ViewData:
     labels = _labels(chosen, run[options.channel].shape[1:])
     if options.ball:
         if "ball" not in chosen.dims:
-            raise NotApplicable(f"the channel {chosen.name} is not of each ball")
+            raise NotApplicable(f"the channel {chosen.name} has no values of single balls: leave `ball` out")
         keep = [i for i, label in enumerate(labels) if f"ball {options.ball}" in label.split(", ")]
         if not keep:
-            raise UsageError(f"view channel: there is no ball {options.ball}")
+            balls = run[options.channel].shape[1 + chosen.dims.index("ball")]
+            raise UsageError(f"view channel: there is no ball {options.ball}; the bearing has {balls}")
         values, labels = values[:, keep], [labels[i] for i in keep]
     lines = [trace(label, time, values[:, i]) for i, label in enumerate(labels)]
     if len(lines) > _MOST_LINES:

@@ -226,7 +226,9 @@ def spectrum(time: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArr
     """
     n = values.size
     if n < SHORTEST_SPECTRUM:
-        raise NotApplicable(f"{n} samples in the averaging window are too few for a spectrum ({SHORTEST_SPECTRUM})")
+        raise NotApplicable(
+            f"{n} samples to average over are too few for a spectrum: at least {SHORTEST_SPECTRUM}; simulate longer"
+        )
     taper = np.hanning(n + 1)[:n]
     amplitude: FloatArray = np.asarray(2.0 * np.abs(np.fft.rfft((values - values.mean()) * taper)) / taper.sum(), float)
     step = float(time[-1] - time[0]) / (n - 1)

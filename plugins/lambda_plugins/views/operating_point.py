@@ -27,7 +27,7 @@ def deflection(machine: MachineData, options: Options) -> ViewData:
     """
     model, report = machine.model, machine.equilibrium
     if report is None:
-        raise NotApplicable("the equilibrium was not solved")
+        raise NotApplicable("this view needs an equilibrium, and none was solved")
     along = Axis("position", "mm", low=min(0.0, 1e3 * model.outline[0][0]), high=1e3 * model.outline[-1][1])
     places, cuts = np.array(report.positions_mm), np.array(report.cut_positions_mm)
     moved, moments = np.array(report.deflection_um), np.array(report.bending_moment_Nm)
@@ -108,7 +108,7 @@ def ball_loads(machine: MachineData, options: Options) -> ViewData:
     """
     found = machine.equilibrium
     if found is None or not hasattr(next(iter(getattr(found, "bearings", [found]))), "contacts"):
-        raise NotApplicable("an equilibrium of balls shows their loads")
+        raise NotApplicable("this view needs an equilibrium of balls")
     each = {one.name: one for one in found.bearings} if hasattr(found, "bearings") else {"": found}
     panels = tuple(_loads(name, one.contacts) for name, one in each.items())
     source = _source(found) if hasattr(found, "bearings") else f"{found.case}   {found.title}"
@@ -133,7 +133,7 @@ def campbell(machine: MachineData, options: Options) -> ViewData:
     """
     report = machine.modes
     if report is None or len(report.campbell) < 2:
-        raise NotApplicable("the modes were not computed")
+        raise NotApplicable("this view needs modes at two speeds or more, and they were not computed")
     speeds = np.array([row.speed_rpm for row in report.campbell])
     series, seen = [], set()
     for i in range(min(len(row.modes) for row in report.campbell)):
