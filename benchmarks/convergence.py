@@ -117,7 +117,7 @@ def tolerance_table() -> list[str]:
 def page() -> str:
     """Measure and return the page."""
     text = [
-        "# Convergence",
+        "# Convergence of grid and tolerance",
         "",
         "This page compares the dissipated power with that of a much finer computation, for readers who choose a grid",
         "or a tolerance. Written by `python -m benchmarks.convergence --write`; counts and deviations, no timings.",

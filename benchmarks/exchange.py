@@ -293,7 +293,7 @@ def section(exchange: Exchange) -> list[str]:
 def page() -> str:
     """Run everything and return the page."""
     text = [
-        "# Laws exchanged",
+        "# Effect of each law",
         "",
         "This page shows the effect of every law, for readers who choose one. The built-in case",
         f"`{CASE}` (6319, 16 kN radial, 1500 rpm, FVA3A at 62.5 degC) ran once for every law",

@@ -101,7 +101,7 @@ def _over_kinematic(result: Result, rows: NDArray[np.bool_]) -> FloatArray:
     return ratio
 
 
-_TEXT = f"""# A transition: the 6220 shaken along its shaft
+_TEXT = f"""# Axial excitation of a 6220
 
 This page is an example of [motions over time](run.md#loads-and-speeds-over-time), for readers of the paper. Above a
 limit of axial excitation the balls outside the load zone leave the speed that they have without it (Syla et al. 2026,

@@ -70,7 +70,7 @@ def refusal(changes: Sequence[str]) -> str:
     return ""
 
 
-_TEXT = """# Hard regimes
+_TEXT = """# Standstill, overspeed and shocks
 
 This page lists hard regimes that the dynamics pass, for readers whose case stops, reverses or is shaken. The energy
 balance is input minus dissipation minus the change of kinetic and elastic energy, over the energy that flowed (the

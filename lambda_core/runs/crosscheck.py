@@ -279,7 +279,7 @@ def _means(begun: _Begun, turns: int) -> CrossCheck:
     turn, tolerance = begun.turn, begun.motion.tolerance
     if turns < 3:
         raise SolverError(
-            f"the cage makes {turns} turns of {turn:.3g} s: at least 3 are needed for a confidence interval; simulate longer"
+            f"the cage makes {turns} turns of {turn:.3g} s: at least 3 are needed for a confidence interval: take more"
         )
     times = turn * np.arange(turns + 1, dtype=np.float64)
     engine = MotionEngine(begun.motion)

@@ -311,7 +311,7 @@ def check_bodies(case: Case, ledger: Ledger) -> None:
             if there:
                 ledger.problem(
                     where,
-                    "contradicts depth.cage = false: there is no cage; leave it out (forces.ball_ball is between neighbours)",
+                    "contradicts depth.cage = false: there is no cage, leave it out (forces.ball_ball is for balls)",
                 )
     elif "ball_ball" in case.forces.model_fields_set:
         ledger.problem("forces.ball_ball", "neighbours touch only without a cage: it needs depth.cage = false")
