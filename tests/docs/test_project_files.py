@@ -75,7 +75,7 @@ def test_the_first_pages_name_every_kind_of_bearing() -> None:
     rows = dict(re.findall(r"^\| (ball|roller) bearings \| (.*) \|$", index, re.M))
     assert f"[{counts[len(balls)]} kinds]" in rows["ball"]
     assert not [name for name in balls if name not in rows["ball"]]
-    assert f"Ball bearings of {counts[len(balls)]} kinds" in readme
+    assert f"{counts[len(balls)]} kinds of ball bearings" in readme
     for text in (rows["roller"], readme):
         assert not [kind for kind in rollers if kind not in text]
     catalogued = {row.kind for row in registry().catalogue().bearings("", 10_000)}
