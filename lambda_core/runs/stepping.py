@@ -141,7 +141,7 @@ class _Machine:
     """
 
     def __init__(self, machine: MachineModel, couple: Coupling, announce: Announce | None) -> None:
-        from lambda_core.solver.drivers.machine_inputs import check_coupling
+        from lambda_core.solver.drivers.external_inputs import check_coupling
         from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_start
 
         check_coupling(machine, couple)

@@ -177,3 +177,17 @@ def test_what_a_machine_tells_and_refuses(host: Any, machine_unit: Any, shaft: P
         api.iterate(shaft, CHANGES, couple="motion")
     with pytest.raises(UsageError, match="give a load by its name, gears"):
         api.iterate(shaft, CHANGES).push((1.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize(("case", "changes"), [
+    ("machine", ()),
+    ("6208-axial-700", ("elements.bush.law=bushing", "elements.bush.second=inner_ring")),
+])  # fmt: skip
+def test_an_export_by_motion_is_refused_before_it_begins(
+    case: str, changes: tuple[str, ...], shaft: Path, tmp_path: Path
+) -> None:
+    said: list[str] = []
+    source = shaft if case == "machine" else case
+    with pytest.raises(UsageError, match="couple by force"):
+        api.export_fmu(source, changes, out=tmp_path / "a.fmu", couple="motion", announce=said.append)
+    assert not said

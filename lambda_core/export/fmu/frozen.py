@@ -30,8 +30,7 @@ from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.integrator_memory import CONTROL, Memory
 from lambda_core.solver.drivers.compiled_laws import derive_oils
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.solver.drivers.external_inputs import Coupling, given_names, start
-from lambda_core.solver.drivers.machine_inputs import check_coupling
+from lambda_core.solver.drivers.external_inputs import Coupling, check_coupling, given_names, start
 from lambda_core.solver.drivers.machine_motion import MachineEngine, MachineStart, changed_start, machine_start
 from lambda_core.solver.drivers.roller_tables import roller_pointers
 from lambda_core.solver.drivers.solver_context import assemble

@@ -92,8 +92,8 @@ def export_fmu(
     Raises
     ------
     UsageError
-        For an unknown version, coupling, platform or processor, a file that exists, a folder that takes none, on
-        another system, without a C compiler, or for rollers without a cage.
+        For an unknown version, coupling, platform or processor, a case that cannot be coupled so, a file that
+        exists, a folder that takes none, on another system, without a C compiler, or for rollers without a cage.
     CaseError, SolverError
         With a sentence about the case or its equilibrium.
     """
@@ -103,13 +103,12 @@ def export_fmu(
     from lambda_core.domain.lists import listed
     from lambda_core.export.fmu.varied import varied
     from lambda_core.model.api import check
-    from lambda_core.solver.drivers.external_inputs import COUPLINGS
+    from lambda_core.solver.drivers.external_inputs import check_coupling, check_known
 
     wanted = tuple(dict.fromkeys(listed(platforms, "platforms")))
     if fmi not in _VERSIONS:
         raise UsageError(f"FMI {fmi} is not supported: choose 2 or 3")
-    if couple not in COUPLINGS:
-        raise UsageError(unknown_name("coupling", couple, COUPLINGS))
+    check_known(couple)
     if processor not in PROCESSORS:
         raise UsageError(unknown_name("processor", processor, PROCESSORS))
     if (platform.system(), platform.machine()) != ("Linux", "x86_64"):
@@ -125,7 +124,7 @@ def export_fmu(
     loaded = read_case(source, overrides)
     options = tuple(listed(vary, "vary"))
     varied(options, loaded)
-    check(loaded)
+    check_coupling(check(loaded), couple)
     target = check_target(Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu"))
     check_folder(check_new(target, overwrite).parent, target)
     task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}

@@ -18,6 +18,7 @@ from lambda_core.domain.elements import BODIES, DOFS, SPIN
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.model.bearing_model import BearingModel, Body, DofState, TimeFunction
 from lambda_core.model.laws.time_functions import initial
+from lambda_core.model.machine_model import MachineModel
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.solver_context import SolverContext
@@ -89,6 +90,23 @@ def check_known(couple: str) -> None:
         raise UsageError(unknown_name("coupling", couple, COUPLINGS))
 
 
+def check_coupling(model: BearingModel | MachineModel, couple: Coupling) -> None:
+    """Refuse what another program cannot lead; UsageError."""
+    check_known(couple)
+    if couple == "force":
+        return
+    if isinstance(model, MachineModel):
+        raise UsageError(
+            f"{model.name}: a machine moves its rings itself, another program gives it loads and speed: "
+            "couple by force, or export one of its bearings alone"
+        )
+    if model.links:
+        raise UsageError(
+            f"{model.name}: its force elements between bodies hold rings that another program is to move: "
+            "leave out [elements], or couple by force"
+        )
+
+
 def start(model: BearingModel, couple: Coupling, announce: Any = None) -> tuple[BearingModel, Equilibrium]:
     """Return the coupled model and its equilibrium.
 
@@ -103,15 +121,10 @@ def start(model: BearingModel, couple: Coupling, announce: Any = None) -> tuple[
     SolverError
         When there is no equilibrium.
     """
-    check_known(couple)
+    check_coupling(model, couple)
     found = solve(model, announce=announce, strict=False)
     if couple == "force":
         return model, found
-    if model.links:
-        raise UsageError(
-            f"{model.name}: its force elements between bodies hold rings that another program is to move: "
-            "leave out [elements], or couple by force"
-        )
     poses = _poses(found)
     held = dataclasses.replace(
         model, inner_ring=_held(model.inner_ring, poses[0]), outer_ring=_held(model.outer_ring, poses[1])

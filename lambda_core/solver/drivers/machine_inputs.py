@@ -14,12 +14,10 @@ from typing import Any
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.errors import UsageError
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bodies.locations import carried, carried_by_shaft
 from lambda_core.model.machine_model import GROUND, SHAFT, MachineModel, Place
 from lambda_core.solver import records as R
-from lambda_core.solver.drivers.external_inputs import Coupling, check_known
 from lambda_core.solver.drivers.lumps import LumpedShaft
 from lambda_core.solver.drivers.machine_assembly import MemberNumbers, member_numbers
 from lambda_core.solver.drivers.solver_context import SolverContext
@@ -101,16 +99,6 @@ class MachineInputs:
         The terms are those of the engine's own state.
         """
         self.values[...], self.since[...] = state["values"], state["since"]
-
-
-def check_coupling(machine: MachineModel, couple: Coupling) -> None:
-    """Refuse to let another program lead a machine; UsageError."""
-    check_known(couple)
-    if couple != "force":
-        raise UsageError(
-            f"{machine.name}: a machine moves its rings itself, another program gives it loads and speed: "
-            "couple by force, or export one of its bearings alone"
-        )
 
 
 def machine_inputs(machine: MachineModel, shaft: LumpedShaft, context: SolverContext) -> MachineInputs:
