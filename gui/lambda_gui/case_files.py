@@ -13,7 +13,7 @@ from lambda_core import api
 from lambda_core.domain.errors import LambdaError
 from lambda_gui import recovery
 from lambda_gui.builder import BuilderScreen
-from lambda_gui.dialogs import EMPTY, MACHINE, SHAFT, Ask, AskText, OpenCase
+from lambda_gui.dialogs import EMPTY, EMPTY_MACHINE, TEMPLATE, Ask, AskText, OpenCase
 
 if TYPE_CHECKING:
     from lambda_core.api import Draft
@@ -37,13 +37,13 @@ class CaseApp(App[None]):
     def open(self, source: str) -> None:
         """Open a case.
 
-        A case file, a copy of a built-in case, what is usual in a machine, an empty model or shaft.
+        A case file, a copy of a built-in case, what is usual in a machine, an empty model or machine.
         """
         try:
-            if source.startswith(MACHINE):
-                draft = api.draft(template=source.removeprefix(MACHINE))
-            elif source == SHAFT:
-                draft = api.draft(shaft=True)
+            if source.startswith(TEMPLATE):
+                draft = api.draft(template=source.removeprefix(TEMPLATE))
+            elif source == EMPTY_MACHINE:
+                draft = api.draft(is_machine=True)
             else:
                 draft = api.draft(source or None)
         except LambdaError as error:
@@ -97,13 +97,13 @@ class CaseApp(App[None]):
     def _recover(self, rescue: recovery.Rescue, draft: Draft) -> None:
         """Put rescued work into the draft.
 
-        Work without a file has another outline where it has a shaft.
+        Work without a file has another outline where it is a machine.
         """
-        if draft.path is not None or rescue.has_shaft == ("shaft" in draft.root.model_fields):
+        if draft.path is not None or rescue.is_machine == draft.is_machine_case:
             recovery.take(rescue, draft)
             self.builder.edited()
             return
-        other = api.draft(shaft=rescue.has_shaft)
+        other = api.draft(is_machine=rescue.is_machine)
         recovery.take(rescue, other)
         self._open(other)
 

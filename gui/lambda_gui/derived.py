@@ -154,7 +154,7 @@ class Derived(Static):
             return Text(self._say or "solving ...", style="dim italic")
         width, room, warned = max(20, self.size.width), max(3, self.size.height), self.warnings()
         lines = _table(estimate.equilibrium, units, width, self._style())
-        lines += [Text(line, style=self._style()) for line in _of_the_shaft(estimate, units)]
+        lines += [Text(line, style=self._style()) for line in _of_the_machine(estimate, units)]
         state = "" if self.is_current else f"stale: {self._say or 'solving'}"
         head = [Text(state, style="italic", no_wrap=True, overflow="ellipsis")] if state else []
         if warned:
@@ -292,7 +292,7 @@ def _table(report: MachineEquilibrium, units: UnitSystem, width: int, style: str
     return lines
 
 
-def _of_the_shaft(answer: MachineEstimate, units: UnitSystem) -> list[str]:
+def _of_the_machine(answer: MachineEstimate, units: UnitSystem) -> list[str]:
     """Return the text about the complete shaft."""
     report, modes = answer.equilibrium, answer.modes
     bends = ((math.hypot(y, z), x) for (_, y, z), x in zip(report.deflection_um, report.positions_mm, strict=True))

@@ -80,8 +80,8 @@ class AskText(ModalScreen[str | None]):
 
 
 EMPTY = ""
-SHAFT = "shaft:"  # an empty shaft
-MACHINE = "machine:"  # what stands before the name of a machine to start from
+EMPTY_MACHINE = "machine:"
+TEMPLATE = "template:"  # what stands before the name of a machine to start from
 _NAMES = 18  # columns for the names of cases; what is longer is wrapped
 
 
@@ -97,7 +97,7 @@ def _short(folder: Path) -> str:
 class OpenCase(ModalScreen[str | None]):
     """Choice of a case.
 
-    It is empty, a shaft, a file, a machine or a built-in name; None when left with Esc.
+    It is empty, a new machine, a file, a machine or a built-in name; None when left with Esc.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -134,13 +134,13 @@ class OpenCase(ModalScreen[str | None]):
 
         self._offers = [
             (EMPTY, "empty model", "one bearing, start from nothing"),
-            (SHAFT, "new shaft", "a shaft in several bearings, start from nothing"),
+            (EMPTY_MACHINE, "new machine", "a shaft in several bearings, start from nothing"),
         ]
         here = [f for f in sorted(self._folder.glob("*.toml")) if f.name[0] != "." and f.name != "pyproject.toml"]
         self._offers += [(str(file), file.name, f"in {self._folder.name or self._folder}") for file in here]
         known = {file.resolve() for file in here}
         self._offers += [(str(f), f.name, f"recent, in {_short(f.parent)}") for f in recent_cases() if f not in known]
-        self._offers += [(f"{MACHINE}{name}", name, text) for name, text in api.templates().items()]
+        self._offers += [(f"{TEMPLATE}{name}", name, text) for name, text in api.templates().items()]
         self._offers += [(name, name, text) for name, text in api.builtin_cases().items()]
         self._filter("")
 

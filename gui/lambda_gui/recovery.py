@@ -39,8 +39,8 @@ class Rescue:
     when: float
 
     @property
-    def has_shaft(self) -> bool:
-        """True for the case of a shaft."""
+    def is_machine(self) -> bool:
+        """True for the case of a machine."""
         tables = tomllib.loads(self.text)
         return "shaft" in tables or "bearings" in tables
 

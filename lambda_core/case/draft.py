@@ -52,7 +52,7 @@ class Draft:
     tables : dict
         What the file would say now.
     root : type of BaseModel
-        What the file is to be: the case of one bearing (`Case`), or of a shaft in several (`MachineCase`).
+        What the file is to be: the case of one bearing (`Case`), or of a machine (`MachineCase`).
     """
 
     path: Path | None
@@ -270,17 +270,17 @@ def _in_full(value: Any) -> Any:
     return {_STIFFNESS if value[:1].isdigit() else _MODE: value}
 
 
-def new_draft(name: str = "untitled", *, shaft: bool = False) -> Draft:
+def new_draft(name: str = "untitled", *, is_machine: bool = False) -> Draft:
     """Return a draft with a name.
 
-    It is the case of one bearing, or of a shaft in several.
+    It is the case of one bearing, or of a machine.
 
     The inner ring of one bearing does not tilt, as in every new case: a shaft on two bearings hardly does.
     """
     tables: dict[str, Any] = {"name": name}
-    if not shaft:
+    if not is_machine:
         tables["bodies"] = {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}}
-    return Draft(None, "", tables, Path.cwd(), MachineCase if shaft else Case)
+    return Draft(None, "", tables, Path.cwd(), MachineCase if is_machine else Case)
 
 
 def open_draft(source: str | Path) -> Draft:

@@ -18,7 +18,7 @@ from lambda_core.formulas.elastic.beam import NODE, NODES
 from lambda_core.formulas.elastic.body import ElasticBody
 from lambda_core.model.machine_model import GROUND, SHAFT, MachineModel
 from lambda_core.solver.drivers.compiled_laws import Announce
-from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, solve_shaft
+from lambda_core.solver.drivers.machine_statics import MachineState, solve_machine
 
 # Ours: x, y, z, tilt_y, tilt_z; theirs: x, y, z, alpha, beta, theta about their axes.
 _THEIRS = (2, 0, 1, 3, 4)
@@ -26,14 +26,14 @@ _OURS = (1, 2, 0, 4, 5, 3)  # of six, in their order
 
 
 @one_blas_thread()
-def ross_rotor(model: MachineModel, state: ShaftState | None = None, announce: Announce = None) -> Any:
+def ross_rotor(model: MachineModel, state: MachineState | None = None, announce: Announce = None) -> Any:
     """Return the machine at its operating point as ``ross.Rotor``.
 
     Parameters
     ----------
     model : MachineModel
         From :func:`check`.
-    state : ShaftState, optional
+    state : MachineState, optional
         Its equilibrium; default: it is solved.
     announce : callable, optional
         Called with a sentence before something is compiled.
@@ -57,7 +57,7 @@ def ross_rotor(model: MachineModel, state: ShaftState | None = None, announce: A
         raise UsageError("ROSS has no springs between the shaft and other bodies: remove them")
     if model.links or model.hold is not None:
         raise UsageError("ROSS has no supports of the shaft and no connections by laws: remove them")
-    found = state if state is not None else solve_shaft(model, announce)
+    found = state if state is not None else solve_machine(model, announce)
     body = model.body
     shaft = [_piece(ross, body, node) for node in range(body.positions.size - 1)]
     discs = [

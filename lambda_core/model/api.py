@@ -356,7 +356,7 @@ def schema() -> dict[str, Any]:
     return {**head, "if": {"required": ["bearing"]}, "then": one, "else": several, **parts}
 
 
-def draft(source: str | Path | None = None, *, template: str | None = None, shaft: bool = False) -> Draft:
+def draft(source: str | Path | None = None, *, template: str | None = None, is_machine: bool = False) -> Draft:
     """Open a case for editing, or begin a new one.
 
     Parameters
@@ -365,8 +365,8 @@ def draft(source: str | Path | None = None, *, template: str | None = None, shaf
         File or built-in name; None for an empty draft.
     template : str, optional
         Instead of `source`: one of :func:`templates`.
-    shaft : bool
-        An empty draft is that of a shaft in several bearings; what a file holds decides for itself.
+    is_machine : bool
+        An empty draft is that of a machine of several bearings; what a file holds decides for itself.
 
     Returns
     -------
@@ -384,7 +384,7 @@ def draft(source: str | Path | None = None, *, template: str | None = None, shaf
 
     if template is not None:
         return draft_of(_template_text(template, template, None), None)
-    return new_draft(shaft=shaft) if source is None else open_draft(source)
+    return new_draft(is_machine=is_machine) if source is None else open_draft(source)
 
 
 def catalogue() -> Catalogue:

@@ -129,13 +129,13 @@ def _compare_in_machine(
     from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
     from lambda_core.runs.compare_rollers import compare_rollers
     from lambda_core.runs.comparison import comparison_of
+    from lambda_core.solver.drivers.machine_statics import solve_machine
     from lambda_core.solver.drivers.roller_reaction import RollerReaction
-    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
     from lambda_core.views.method import evaluate_methods
 
     machine = ready_machine_of(source, overrides, announce)
     number = bearing_number(machine, bearing)
-    state = solve_shaft(machine, announce)
+    state = solve_machine(machine, announce)
     mounted = machine.bearings[number].model
     clean = _clean(contamination, mounted.contamination, mounted.geometry.pitch_diameter)
     ring, (for_balls, for_rollers) = state.rings[number], methods

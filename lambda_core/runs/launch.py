@@ -194,9 +194,9 @@ def _with_bands(model: Runnable, provenance: Provenance, announce: Announce | No
     if isinstance(model, BearingModel):
         bands = dict.fromkeys(provenance.bearings, band_alone(model))
     else:
-        from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+        from lambda_core.solver.drivers.machine_statics import solve_machine
 
-        bands = bands_of_machine(model, solve_shaft(model)).bearings
+        bands = bands_of_machine(model, solve_machine(model)).bearings
     origins = {name: dataclasses.replace(origin, band=bands[name]) for name, origin in provenance.bearings.items()}
     return dataclasses.replace(provenance, bearings=origins)
 

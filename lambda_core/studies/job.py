@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
     from lambda_core.solver.drivers.compiled_laws import Kernels
     from lambda_core.solver.drivers.equilibrium import Equilibrium
-    from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels
+    from lambda_core.solver.drivers.machine_statics import MachineState, SharedKernels
 
 _Model = TypeVar("_Model", "BearingModel", "MachineModel", "BearingModel | MachineModel")
 
@@ -224,7 +224,7 @@ def _equilibrium(model: BearingModel) -> Equilibrium:
 @lru_cache(maxsize=1)
 def shared_kernels() -> SharedKernels:
     """Return the compiled laws of machines in this process."""
-    from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels
+    from lambda_core.solver.drivers.machine_statics import SharedKernels
 
     return SharedKernels()
 
@@ -257,7 +257,7 @@ def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) ->
 
 
 def machine_columns(
-    model: MachineModel, state: ShaftState, equilibria: Sequence[Equilibrium], names: tuple[str, ...]
+    model: MachineModel, state: MachineState, equilibria: Sequence[Equilibrium], names: tuple[str, ...]
 ) -> dict[str, tuple[float | None, str, str]]:
     """Return columns of a machine's comparison methods.
 

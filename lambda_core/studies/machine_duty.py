@@ -17,7 +17,7 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.life import system_life
 from lambda_core.results.averages import finite
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels, solve_shaft
+from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_machine
 from lambda_core.studies.duty_cycle import YEAR, DutyCycle, PhaseResult, duty_table, summed_phases
 
 SYSTEM = (
@@ -95,7 +95,7 @@ class MachinePhases:
         SolverError where there is none.
         """
         model = ready_machine_of(case, changes, self.announce)
-        return equilibrium_of(model, solve_shaft(model, self.announce, self.kernels))
+        return equilibrium_of(model, solve_machine(model, self.announce, self.kernels))
 
 
 def added_machine(

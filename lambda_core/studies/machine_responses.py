@@ -20,7 +20,7 @@ from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, M
 from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.quantity import quantities
 from lambda_core.results.summary import Summary
-from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
+from lambda_core.solver.drivers.machine_statics import MachineState, SharedKernels, solve_machine
 from lambda_core.studies.responses import RATED, RESPONSES, DynamicPoint, Number, Response, StaticPoint, of_fields
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ class MachinePoint:
     """
 
     model: MachineModel
-    state: ShaftState
+    state: MachineState
     kernels: SharedKernels
     _points: dict[str, StaticPoint] = field(default_factory=dict)
 
@@ -99,7 +99,7 @@ class MachinePoint:
 
 def machine_point(model: MachineModel, kernels: SharedKernels) -> MachinePoint:
     """Solve a machine for a point of a study."""
-    return MachinePoint(model, solve_shaft(model, kernels=kernels), kernels)
+    return MachinePoint(model, solve_machine(model, kernels=kernels), kernels)
 
 
 @lru_cache(maxsize=8)

@@ -333,10 +333,10 @@ def _probe_machine(
 ) -> tuple[float, dict[str, tuple[float | None, str, str]], float]:
     """Do for a machine what :func:`_probe` does for one bearing."""
     from lambda_core.runs.estimate import machine_estimate
-    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+    from lambda_core.solver.drivers.machine_statics import solve_machine
 
     warm = with_temperatures(model)
-    state = solve_shaft(warm, announce)  # compiles or loads; not timed
+    state = solve_machine(warm, announce)  # compiles or loads; not timed
     equilibria = [ring.equilibrium() for ring in state.rings]
     columns = machine_columns(warm, state, equilibria, rows)
     if study.mode == "dynamic":

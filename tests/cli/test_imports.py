@@ -33,7 +33,7 @@ HEAVY = (
     "lambda_core.discovery.manager",
     "lambda_core.model.resolve",
     "lambda_core.model.resolve_machine",  # machines: never for one bearing
-    "lambda_core.solver.drivers.shaft_equilibrium",
+    "lambda_core.solver.drivers.machine_statics",
     "lambda_core.solver.entry",
     "lambda_core.export.report.page",
     "lambda_core.studies.folders",

@@ -146,7 +146,7 @@ async def test_a_shaft_from_nothing_by_keys(work_folder: Path, monkeypatch: pyte
     """
     at_once = ModelTree._move_to
     async with BuilderApp().run_test(size=SMALL) as pilot:
-        await wait_for(pilot, lambda: "new shaft" in screen_text(pilot.app))  # type: ignore[arg-type]
+        await wait_for(pilot, lambda: "new machine" in screen_text(pilot.app))  # type: ignore[arg-type]
         await pilot.press(*"new", "enter")
         await wait_for(pilot, lambda: has_a_shaft(pilot))
         with monkeypatch.context() as slow:

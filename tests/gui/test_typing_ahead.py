@@ -21,7 +21,7 @@ async def test_what_follows_enter_belongs_to_the_next_entry(work_folder: Path, m
         self.set_timer(0.2, lambda: at_once(self, event))
 
     async with BuilderApp().run_test(size=SMALL) as pilot:
-        await wait_for(pilot, lambda: "new shaft" in screen_text(pilot.app))  # type: ignore[arg-type]
+        await wait_for(pilot, lambda: "new machine" in screen_text(pilot.app))  # type: ignore[arg-type]
         await pilot.press(*"new", "enter")
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, BuilderScreen))
         await go_to(pilot, "gravity.x")

@@ -22,7 +22,7 @@ from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.bearing_reaction import BearingReaction
-from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
+from lambda_core.solver.drivers.machine_statics import MachineState, SharedKernels, solve_machine
 
 from .statics import STEEL
 
@@ -119,9 +119,9 @@ def thrust(closed: float) -> float:
     return -float(reaction(pose, math.atan2(pose[0], DISTANCE * math.cos(FREE)))[0])
 
 
-def solved(case: dict[str, Any]) -> tuple[MachineModel, ShaftState]:
+def solved(case: dict[str, Any]) -> tuple[MachineModel, MachineState]:
     model = resolve_machine(case)
-    return model, solve_shaft(model, kernels=KERNELS)
+    return model, solve_machine(model, kernels=KERNELS)
 
 
 @cache

@@ -21,7 +21,7 @@ from lambda_core.formulas.gear_forces import gear_forces
 from lambda_core.formulas.life import dynamic_equivalent_load, static_equivalent_load, system_life
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.resolve_machine import resolve_machine
-from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
+from lambda_core.solver.drivers.machine_statics import MachineState, SharedKernels, solve_machine
 
 PINNED = {"tilt_y": "free", "tilt_z": "free"}  # outer rings that follow, so that no bearing bears a moment
 SHARED: dict[str, Any] = {
@@ -38,13 +38,13 @@ def bearing(position: str, designation: str = "SKF 6206", **more: Any) -> dict[s
     return {"at": position, "designation": designation, "support": PINNED, **more}
 
 
-def solved(case: dict[str, Any]) -> tuple[MachineModel, ShaftState]:
+def solved(case: dict[str, Any]) -> tuple[MachineModel, MachineState]:
     model = resolve_machine({"name": "shaft", **SHARED, **case})
-    return model, solve_shaft(model, kernels=KERNELS)
+    return model, solve_machine(model, kernels=KERNELS)
 
 
 @cache
-def overhung() -> tuple[MachineModel, ShaftState]:
+def overhung() -> tuple[MachineModel, MachineState]:
     """Return an overhung shaft.
 
     Bearings at 30 and 150 mm, a force beyond the second one at 200 mm; the left one locates.

@@ -14,7 +14,7 @@ from lambda_core import api
 from lambda_core.analysis.rotor.bearing_alone import alone_under_load, at_speed, bearing_alone
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.solver.drivers.equilibrium import solve
-from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+from lambda_core.solver.drivers.machine_statics import solve_machine
 
 
 @pytest.mark.parametrize("number", [0, 1])
@@ -24,7 +24,7 @@ def test_a_bearing_alone_is_that_of_the_machine(number: int) -> None:
     It is free under the load where the machine holds it: loads to 2 N of 236, friction and position to 2 %.
     """
     machine = api.check(tomllib.loads(geared_shaft("box")))
-    state = solve_shaft(machine)
+    state = solve_machine(machine)
     held = state.rings[number].equilibrium()
     free = solve(alone_under_load(machine, state, number))
     assert np.abs(free.contacts[:, :, 0] - held.contacts[:, :, 0]).max() < 2.0  # friction of balls carries a part

@@ -14,7 +14,7 @@ from lambda_core.analysis.rotor.vibration import damped, supported
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.machine_motion import machine_engine
-from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+from lambda_core.solver.drivers.machine_statics import solve_machine
 
 SEAL = {
     "at": "110 mm",
@@ -53,7 +53,7 @@ def test_a_spring_takes_its_part() -> None:
     Stiffness times deflection there; all forces on the shaft add up to 1e-6.
     """
     model = resolve_machine(tables())
-    state = solve_shaft(model)
+    state = solve_machine(model)
     (spring,) = model.springs
     moved = state.displacement[model.body.rows(spring.place.point[0])][:3]
     held = -np.diag(spring.stiffness)[:3] * moved

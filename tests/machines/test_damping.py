@@ -16,11 +16,11 @@ from lambda_core.solver.core import core
 from lambda_core.solver.drivers.damping import damping_matrix
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.machine_statics import MachineState, solve_machine
 from lambda_core.solver.drivers.modes import dense
-from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.solver.drivers.stiffness import freed, stiffness_at
 
-Solved = tuple[MachineModel, ShaftState, list[Equilibrium]]
+Solved = tuple[MachineModel, MachineState, list[Equilibrium]]
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +32,7 @@ def solved() -> Solved:
     case = tomllib.loads(geared_shaft("box"))
     case["bearings"]["right"]["support"] = {"x": "free", "y": "50 N/um", "z": "80 N/um"}
     model = resolve_machine(case)
-    state = solve_shaft(model)
+    state = solve_machine(model)
     return model, state, [ring.equilibrium() for ring in state.rings]
 
 

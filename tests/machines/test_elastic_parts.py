@@ -20,8 +20,8 @@ from lambda_core.solver.core import core
 from lambda_core.solver.drivers.damping import damping_matrix
 from lambda_core.solver.drivers.dynamics import BearingEngine, initial_state
 from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_engine
+from lambda_core.solver.drivers.machine_statics import solve_machine
 from lambda_core.solver.drivers.modes import dense
-from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
 from lambda_core.solver.drivers.stiffness import freed, stiffness_at
 
 SOFT = {"housing_stiffness": "100 N/um", "orders": 4}
@@ -72,7 +72,7 @@ def test_equilibrium_of_one_bearing(complete: MachineEngine) -> None:
     assert 1e6 * pose[2] == pytest.approx(found.inner_ring_displacement_um[2], rel=1e-4)
     rigid = copy.deepcopy(ONE)
     del rigid["bearings"]["only"]["elastic"]
-    stiff = solve_shaft(resolve_machine(rigid))
+    stiff = solve_machine(resolve_machine(rigid))
     assert stiff.pose(resolve_machine(rigid), 0)[2] > 1.05 * pose[2]  # down; the soft one goes further
     assert complete.start.state.stiffness[0][2, 2] < 0.8 * stiff.stiffness[0][2, 2]
 

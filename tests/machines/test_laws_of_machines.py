@@ -13,7 +13,7 @@ from lambda_core.analysis.rotor.vibration import damped, supported
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.solver.drivers.machine_motion import machine_engine
-from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+from lambda_core.solver.drivers.machine_statics import solve_machine
 
 STANDS = dict.fromkeys("xyz", "50 N/um") | dict.fromkeys(("tilt_x", "tilt_y", "tilt_z"), "1 N m/mrad")
 BOX = {"x": "85 mm", "mass": "20 kg", "polar_inertia": "0.2 kg m2", "transverse_inertia": "0.2 kg m2"}
@@ -50,7 +50,7 @@ def test_a_bushing_by_its_law_is_springs_and_dampers(to: str) -> None:
     law = machine(connections={"seal": {"at": "110 mm", "to": to, "parameters": PARAMETERS}})
     assert law.links
     assert not law.springs
-    one, two = solve_shaft(springs), solve_shaft(law)
+    one, two = solve_machine(springs), solve_machine(law)
     size = np.abs(one.displacement).max()
     assert two.displacement == pytest.approx(one.displacement, abs=1e-9 * size)
     assert two.bodies == pytest.approx(one.bodies, abs=1e-9 * size)

@@ -14,7 +14,7 @@ from lambda_core.domain.elements import OUTER
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.machine_motion import machine_engine
-from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+from lambda_core.solver.drivers.machine_statics import solve_machine
 
 
 def tables(left: dict[str, Any], right: dict[str, Any], **changes: Any) -> dict[str, Any]:
@@ -40,7 +40,7 @@ def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
         for name in ("left", "right")
     ]
     seats[0]["x"] = {"motion": "3 um"}
-    at_rest, carried = solve_shaft(model), solve_shaft(resolve_machine(tables(*seats)))
+    at_rest, carried = solve_machine(model), solve_machine(resolve_machine(tables(*seats)))
     assert carried.reactions == pytest.approx(at_rest.reactions, rel=2e-3, abs=0.5)
     moved = (carried.displacement - at_rest.displacement).reshape(-1, 6)
     assert moved[:, 0] == pytest.approx(3e-6, abs=2e-8)
@@ -113,10 +113,10 @@ def test_a_body_with_prescribed_motion_carries_its_bearings() -> None:
     By 20 um and, about its centre, 0.2 mrad: reactions as before, the shaft moves with the body.
     """
     at_rest, model = (
-        solve_shaft(resolve_machine(boxed({}))),
+        solve_machine(resolve_machine(boxed({}))),
         resolve_machine(boxed({"x": {"motion": "3 um"}, "y": {"motion": "20 um"}, "tilt_z": {"motion": "0.2 mrad"}})),
     )
-    carried = solve_shaft(model)
+    carried = solve_machine(model)
     assert carried.bodies[0] == pytest.approx([3e-6, 2e-5, 0.0, 0.0, 0.0, 2e-4], abs=1e-15)
     assert carried.reactions == pytest.approx(at_rest.reactions, rel=2e-3, abs=0.5)
     moved = (carried.displacement - at_rest.displacement).reshape(-1, 6)

@@ -25,7 +25,7 @@ from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.lumps import lump
 from lambda_core.solver.drivers.machine_motion import machine_engine
-from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+from lambda_core.solver.drivers.machine_statics import solve_machine
 
 
 def tables(**changes: Any) -> dict[str, Any]:
@@ -76,7 +76,7 @@ def test_the_own_beam_from_a_file_stands_and_swings_as_itself(beam: MachineModel
     Statics, natural frequencies and critical speeds; section forces as far as nodes carry the weight.
     """
     other = of_file(beam, tmp_path / "shaft.npz")
-    one, two = solve_shaft(beam), solve_shaft(other)
+    one, two = solve_machine(beam), solve_machine(other)
     assert two.displacement == pytest.approx(one.displacement, rel=1e-9, abs=1e-9 * np.abs(one.displacement).max())
     assert two.reactions == pytest.approx(one.reactions, rel=1e-9, abs=1e-9 * np.abs(one.reactions).max())
     k_1, k_2 = supported(beam, one), supported(other, two)
@@ -122,7 +122,7 @@ def test_a_craig_bampton_reduction_of_the_shaft(beam: MachineModel, tmp_path: Pa
     kept = [0.0, 0.021, 0.085, 0.148, 0.17]
     write_reduced(craig_bampton(alone(beam), kept, 12), tmp_path / "shaft.json")
     other = resolve_machine(tables(shaft={"reduced": "shaft.json", "temperature": "50 degC"}), folder=tmp_path)
-    one, two = solve_shaft(beam), solve_shaft(other)
+    one, two = solve_machine(beam), solve_machine(other)
     assert two.reactions == pytest.approx(one.reactions, rel=1e-7, abs=1e-4)
     first = [mode.frequency for mode in modes_at(beam, supported(beam, one), 314.0)[:6]]
     second = [mode.frequency for mode in modes_at(other, supported(other, two), 314.0)[:6]]

@@ -21,7 +21,7 @@ from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.machine_assembly import member_numbers
 from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_engine
-from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels, solve_shaft
+from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_machine
 from lambda_core.solver.drivers.structure import static_rows, stretch
 from lambda_core.solver.drivers.tables import STATES
 
@@ -62,7 +62,7 @@ def test_a_housing_on_mounts_in_equilibrium(model: MachineModel) -> None:
 
     In force and moment about the housing's centre.
     """
-    state, rows = solve_shaft(model, kernels=KERNELS), static_rows(model)
+    state, rows = solve_machine(model, kernels=KERNELS), static_rows(model)
     (box,) = model.bodies
     assert box.mass == pytest.approx(model.body.elements[0].material.density * 0.16 * 0.12 * 0.08)
     assert box.polar_inertia == pytest.approx(box.mass * (0.12**2 + 0.08**2) / 12.0)
@@ -96,7 +96,7 @@ def test_a_stiff_housing_is_the_ground(model: MachineModel) -> None:
     held = tables(connections={})
     held["bodies"]["box"]["support"] = dict.fromkeys(("x", "y", "z", "tilt_x", "tilt_y", "tilt_z"), "locked")
     one, two = (
-        solve_shaft(resolve_machine(case), kernels=KERNELS)
+        solve_machine(resolve_machine(case), kernels=KERNELS)
         for case in (ground | {"connections": {}, "bodies": {}, "markers": {}}, held)
     )
     assert two.reactions == pytest.approx(one.reactions, rel=1e-3, abs=1e-3 * np.abs(one.reactions).max())
@@ -126,7 +126,7 @@ def test_modes_of_a_housing_on_its_mounts(model: MachineModel) -> None:
     case = tables()
     case["bodies"]["box"] |= {"mass": "12000 kg", "polar_inertia": "30 kg m2", "transverse_inertia": "40 kg m2"}
     heavy = resolve_machine(case)
-    state = solve_shaft(heavy, kernels=KERNELS)
+    state = solve_machine(heavy, kernels=KERNELS)
     stiffness = supported(heavy, state)
     found = sorted(m.frequency for m in modes_at(heavy, stiffness, 0.0) if m.kind == "body")[:6]
     k = np.zeros((6, 6))
@@ -145,7 +145,7 @@ def test_a_shaft_that_swings_with_its_housing_has_its_critical_speed(model: Mach
     Mounts of 20 to 40 N/um under 16 kg shake the shaft far below its own bending (m w^2 = k, 10 %).
     """
     box = model.bodies[0]
-    found = criticals(model, supported(model, solve_shaft(model, kernels=KERNELS)))
+    found = criticals(model, supported(model, solve_machine(model, kernels=KERNELS)))
     first = min(mode.frequency for mode in found if mode.bodies_share > 0.5)
     mass = box.mass + model.body.total_mass
     assert found[0].frequency <= first < 1.1 * math.sqrt(4 * 40e6 / mass)
@@ -161,10 +161,10 @@ def test_what_nothing_holds_is_said() -> None:
     for name in ("left", "right"):
         case["bearings"][name] |= {"outer": "ground", "support": {"x": "free"}}
     with pytest.raises(SolverError, match="nothing holds it along x"):
-        solve_shaft(resolve_machine(case), kernels=KERNELS)
+        solve_machine(resolve_machine(case), kernels=KERNELS)
     alone = tables(connections={"foot": {"at": "foot-lf", "z": "20 N/um"}})
     with pytest.raises(SolverError, match="nothing holds it"):
-        solve_shaft(resolve_machine(alone), kernels=KERNELS)
+        solve_machine(resolve_machine(alone), kernels=KERNELS)
 
 
 def test_a_housing_in_motion(model: MachineModel) -> None:
@@ -244,7 +244,7 @@ def test_a_torque_over_time() -> None:
     model = resolve_machine(case)
     assert model.loads[model.body.rows(0.16).start + 3] == pytest.approx(20.0)
     assert dict(model.varying)[model.body.rows(0.16).start + 3].terms[0].kind == "harmonic"
-    state = solve_shaft(model, kernels=KERNELS)
+    state = solve_machine(model, kernels=KERNELS)
     assert state.drive_torque == pytest.approx(-20.0 - model.gears["wheel"].moment[0], rel=1e-6)
 
 
@@ -294,7 +294,7 @@ def test_markers_in_the_report(model: MachineModel) -> None:
     case = tables()
     case["markers"] |= {"seat": {"x": "21 mm"}, "floor": {"body": "ground", "x": "0 mm", "z": "-200 mm"}}
     marked = resolve_machine(case)
-    state = solve_shaft(marked, kernels=KERNELS)
+    state = solve_machine(marked, kernels=KERNELS)
     places = dict(marked.markers)
     assert _at(marked, state, places["seat"]) == pytest.approx(state.displacement[marked.body.rows(0.021)])
     assert _at(marked, state, places["floor"]).tolist() == [0.0] * 6

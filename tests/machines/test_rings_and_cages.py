@@ -15,7 +15,7 @@ from lambda_core.model.machine_model import BearingPart
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.machine_motion import machine_engine
-from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels, solve_shaft
+from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_machine
 from lambda_core.solver.drivers.structure import static_rows, structure
 
 KERNELS = SharedKernels()
@@ -45,7 +45,7 @@ def test_springs_at_an_outer_ring_are_those_of_its_support() -> None:
     by_support = resolve_machine(tables(bearings={"left": {"support": SEAT}}))
     rows = static_rows(by_support)
     np.testing.assert_array_equal(structure(by_connection, rows)[0], structure(by_support, rows)[0])
-    one, other = (solve_shaft(model, kernels=KERNELS) for model in (by_connection, by_support))
+    one, other = (solve_machine(model, kernels=KERNELS) for model in (by_connection, by_support))
     np.testing.assert_allclose(one.motions, other.motions, rtol=1e-9, atol=1e-15)
 
 
@@ -56,7 +56,7 @@ def test_a_load_on_an_outer_ring_is_carried_by_its_springs() -> None:
     """
     loaded = on_springs(loads={"pull": {"at": "left.outer_ring", "force_z": "-500 N"}})
     models = [resolve_machine(on_springs()), resolve_machine(loaded)]
-    free, pulled = (solve_shaft(model, kernels=KERNELS) for model in models)
+    free, pulled = (solve_machine(model, kernels=KERNELS) for model in models)
     total = np.sum(pulled.reactions[:, 2]) - np.sum(free.reactions[:, 2])
     assert total == pytest.approx(0.0, abs=1e-3)  # on the shaft act the same loads
     left = models[1].index(BearingPart("left", "outer_ring"))
@@ -72,7 +72,7 @@ def test_a_marker_on_a_ring_moves_with_it_and_one_on_a_cage_only_in_motion() -> 
     model = resolve_machine(on_springs(markers=markers))
     found = api.quasistatic(model)
     assert "bar" not in found.markers
-    state = solve_shaft(model, kernels=KERNELS)
+    state = solve_machine(model, kernels=KERNELS)
     left = model.index(BearingPart("left", "outer_ring"))
     assert found.markers["rim"].displacement_um[1:] == pytest.approx(
         [1e6 * (state.outer[left, 1]), 1e6 * state.outer[left, 2]], abs=1e-6

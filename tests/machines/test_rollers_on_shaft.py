@@ -23,8 +23,8 @@ from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.bearing_reaction import BearingReaction
 from lambda_core.solver.drivers.equilibrium import solve
+from lambda_core.solver.drivers.machine_statics import MachineState, SharedKernels, solve_machine
 from lambda_core.solver.drivers.roller_reaction import RollerReaction
-from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 from lambda_core.solver.records import CONTACT_CHANNELS
 
 PINNED = {"tilt_y": "free", "tilt_z": "free"}  # outer rings that follow, so that no bearing bears a moment
@@ -41,9 +41,9 @@ THICK = {"sections": [{"length": "60 mm", "diameter": "400 mm"}]}  # hardly bend
 KERNELS = SharedKernels()
 
 
-def solved(case: dict[str, Any]) -> tuple[MachineModel, ShaftState]:
+def solved(case: dict[str, Any]) -> tuple[MachineModel, MachineState]:
     model = resolve_machine({**SHARED, **case})
-    return model, solve_shaft(model, kernels=KERNELS)
+    return model, solve_machine(model, kernels=KERNELS)
 
 
 def motor(**more: Any) -> dict[str, Any]:

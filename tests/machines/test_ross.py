@@ -13,7 +13,7 @@ from lambda_core.analysis.rotor.vibration import bearing_damping, criticals, dam
 from lambda_core.export.ross import ross_rotor
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine
-from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+from lambda_core.solver.drivers.machine_statics import solve_machine
 
 pytest.importorskip("ross")
 
@@ -26,7 +26,7 @@ def test_natural_frequencies_and_critical_speeds_agree() -> None:
     ROSS has two-node elements and Hutchinson's shear coefficient.
     """
     model = resolve_machine(tomllib.loads(geared_shaft("box")))
-    state = solve_shaft(model)
+    state = solve_machine(model)
     rotor, stiffness = ross_rotor(model, state), supported(model, state)
     damping = damped(model, state, bearing_damping(model, [ring.equilibrium() for ring in state.rings]))
     own = modes_at(model, stiffness, model.speed, damping)[:6]

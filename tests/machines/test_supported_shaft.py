@@ -13,7 +13,7 @@ from lambda_core.analysis.rotor.vibration import supported
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.solver.drivers.machine_motion import machine_engine
-from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+from lambda_core.solver.drivers.machine_statics import solve_machine
 
 
 def machine(**support: Any) -> MachineModel:
@@ -31,7 +31,7 @@ def test_a_held_place_stays_where_it_is_moved() -> None:
     The torque of the coupling is that of the gear as before.
     """
     model = machine(at="85 mm", y="locked", z={"motion": "10 um"}, tilt_y="locked")
-    state, free = solve_shaft(model), solve_shaft(machine())
+    state, free = solve_machine(model), solve_machine(machine())
     moved = state.displacement[model.body.rows(0.085)]
     assert moved[[1, 2, 4]] == pytest.approx([0.0, 10e-6, 0.0], abs=1e-18)
     assert np.abs(state.displacement[model.body.rows(0.148)][1:3]).max() > 1e-7
@@ -43,9 +43,9 @@ def test_a_very_stiff_support_is_a_lock() -> None:
 
     The support gives way by a picometre; reactions of the bearings agree to 1e-5.
     """
-    locked = solve_shaft(machine(at="60 mm", y="locked", z="locked"))
+    locked = solve_machine(machine(at="60 mm", y="locked", z="locked"))
     stiff = machine(at="60 mm", y="1000000000 N/um", z="1000000000 N/um")
-    found = solve_shaft(stiff)
+    found = solve_machine(stiff)
     assert found.reactions == pytest.approx(locked.reactions, rel=1e-5, abs=1e-3)
     k = supported(stiff, found)
     assert sorted(np.diag(k))[-2:] == pytest.approx([1e15, 1e15], rel=1e-3)

@@ -9,7 +9,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.analysis.thermal.machine_temperatures import MachineLoop, without_temperatures
-from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+from lambda_core.solver.drivers.machine_statics import solve_machine
 
 MOTOR: dict[str, Any] = {
     "name": "motor",
@@ -34,7 +34,7 @@ def test_friction_of_tilted_rollers_changes_smoothly_with_the_clearance() -> Non
     loop = MachineLoop(without_temperatures(machine))
     losses = []
     for clearance in np.array([35.5, 36.5, 37.5, 38.5]) * 1e-6:
-        state = solve_shaft(loop.there(np.array([343.15, 343.15, clearance, 13e-6, 0.0, 0.0])))
+        state = solve_machine(loop.there(np.array([343.15, 343.15, clearance, 13e-6, 0.0, 0.0])))
         found = state.rings[0].equilibrium()
         assert found.converged, clearance
         losses.append(float(found.losses.sum()))

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from lambda_core.analysis.thermal.found_temperatures import FoundTemperatures
     from lambda_core.case.case_io import Source
     from lambda_core.model.machine_model import MachineModel
-    from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
+    from lambda_core.solver.drivers.machine_statics import MachineState
 
 _NORMAL = 1.6448536269514722  # standard deviations of a normal distribution within which 90 % lie
 _LEAST_SHARE = 0.02  # of the variance of a contributor that is named
@@ -101,15 +101,15 @@ def _of_machine(
     machine: MachineModel, quantities: Sequence[str], bearing: str | None, announce: Callable[[str], None] | None
 ) -> ModelBand | MachineBand:
     from lambda_core.analysis.rotor.bearing_alone import bearing_number
-    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+    from lambda_core.solver.drivers.machine_statics import solve_machine
 
     number = None if bearing is None else bearing_number(machine, bearing)
-    bands = bands_of_machine(machine, solve_shaft(machine, announce), quantities, number)
+    bands = bands_of_machine(machine, solve_machine(machine, announce), quantities, number)
     return bands if bearing is None else bands.bearings[bearing]
 
 
 def bands_of_machine(
-    machine: MachineModel, state: ShaftState, quantities: Sequence[str] = QUANTITIES, number: int | None = None
+    machine: MachineModel, state: MachineState, quantities: Sequence[str] = QUANTITIES, number: int | None = None
 ) -> MachineBand:
     """Return the bands of a solved machine's bearings.
 
@@ -125,7 +125,7 @@ def bands_of_machine(
     return MachineBand(case=machine.name, bearings=bands if number is None else {names[number]: bands[names[number]]})
 
 
-def _effects_in(machine: MachineModel, state: ShaftState, i: int, quantities: Sequence[str]) -> BearingEffects:
+def _effects_in(machine: MachineModel, state: MachineState, i: int, quantities: Sequence[str]) -> BearingEffects:
     """Return the effects on results of a machine's bearing."""
     from lambda_core.analysis.rotor.bearing_alone import alone_under_load
 
@@ -143,9 +143,9 @@ def temperature_band(model: BearingModel | MachineModel) -> ModelBand:
     if isinstance(model, BearingModel):
         each, labels = [effects_alone(model, ())], [""]
     else:
-        from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+        from lambda_core.solver.drivers.machine_statics import solve_machine
 
-        state, labels = solve_shaft(model), [one.name for one in model.bearings]
+        state, labels = solve_machine(model), [one.name for one in model.bearings]
         each = [_effects_in(model, state, i, ()) for i in range(len(labels))]
     _, warmer = _effects(each, model.found_temperatures, labels)
     bands = list(node_bands(model.found_temperatures, warmer).values()) if warmer else []

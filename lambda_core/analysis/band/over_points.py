@@ -67,9 +67,9 @@ def _logarithms(model: BearingModel | MachineModel) -> dict[str, list[float]]:
     from lambda_core.model.machine_model import MachineModel
 
     if isinstance(model, MachineModel):
-        from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+        from lambda_core.solver.drivers.machine_statics import solve_machine
 
-        return _of_machine(bands_of_machine(model, solve_shaft(model)))
+        return _of_machine(bands_of_machine(model, solve_machine(model)))
     return _of_bearing(band_alone(model))
 
 

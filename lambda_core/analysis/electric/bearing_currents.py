@@ -70,12 +70,12 @@ def electric(
     if not is_machine(source):
         return electric_of_model(model_of(source, overrides), announce, window=window)  # type: ignore[arg-type]
     from lambda_core.analysis.rotor.api import machine_of
-    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+    from lambda_core.solver.drivers.machine_statics import solve_machine
 
     machine = machine_of(source, overrides)  # type: ignore[arg-type]
     for mounted in machine.bearings:
         spins(mounted.model)  # refuses rings at rest before anything is solved
-    state = solve_shaft(machine, announce)
+    state = solve_machine(machine, announce)
     poses = [state.pose(machine, number) for number in range(len(machine.bearings))]
     return electric_of_machine(machine, poses, announce, window=window)
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
     from lambda_core.solver.drivers.compiled_laws import Kernels
     from lambda_core.solver.drivers.equilibrium import Equilibrium
-    from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
+    from lambda_core.solver.drivers.machine_statics import MachineState
 
 PHASES = 3  # equilibria per ball pitch: a map has many points
 
@@ -120,14 +120,16 @@ def static_numbers(found: Equilibrium, kernels: Any) -> CurrentNumbers:
     return numbers_of(simulate(contacts_of_equilibria([found, *others], bearing.options.duration), bearing))
 
 
-def machine_numbers(machine: MachineModel, state: ShaftState, kernels: Sequence[Kernels]) -> dict[str, CurrentNumbers]:
+def machine_numbers(
+    machine: MachineModel, state: MachineState, kernels: Sequence[Kernels]
+) -> dict[str, CurrentNumbers]:
     """Compute the circuit of a machine's bearings.
 
     All bearings have quasi-static films at three positions of the balls.
 
     Parameters
     ----------
-    state : ShaftState
+    state : MachineState
         The equilibrium of the machine.
     kernels : sequence of Kernels
         Compiled laws of each bearing.

@@ -334,7 +334,7 @@ def _floor(share: float) -> str:
     return f"{100 * share:.0f} % of the breakdowns at breakdown.least_voltage, an assumed lower limit"
 
 
-def _floor_of_all(found: ShaftOutcome) -> float:
+def _floor_of_all(found: MachineOutcome) -> float:
     """Return all bearings' share of breakdowns at least voltage."""
     each = [(one.discharges + one.partial_discharges, one.floor_share) for one in found.bearings.values()]
     return sum(count * share for count, share in each) / max(sum(count for count, _ in each), 1)
@@ -369,7 +369,7 @@ def _worst(ring: str, shares: Sequence[float]) -> str:
     return f"{ring} {100 * most:.0f} % at {at:.0f}..{at + width:.0f} deg"
 
 
-class ShaftOutcome(Answer):
+class MachineOutcome(Answer):
     """All bearings of a shaft in one circuit."""
 
     interface: int = INTERFACE
@@ -390,16 +390,16 @@ class ShaftOutcome(Answer):
 
     def text(self) -> str:
         """Return the lines for people."""
-        return shaft_text(self)
+        return machine_outcome_text(self)
 
 
-def shaft_outcome(found: CircuitSimulation) -> ShaftOutcome:
+def machine_outcome(found: CircuitSimulation) -> MachineOutcome:
     """Return the shaft's outcome in interface units."""
     each = {name: one.outcome for name, one in found.bearings.items()}
     first, outcome = found.first, next(iter(each.values()))
     low, high = found.solution.extremes[:, -1].T
     every = [one.assumptions for one in each.values()]
-    return ShaftOutcome(
+    return MachineOutcome(
         case=first.case,
         source=outcome.source,
         simulated_s=outcome.simulated_s,
@@ -417,7 +417,7 @@ def shaft_outcome(found: CircuitSimulation) -> ShaftOutcome:
     )
 
 
-def shaft_text(found: ShaftOutcome) -> str:
+def machine_outcome_text(found: MachineOutcome) -> str:
     """Return the text of a shaft's circuit.
 
     It has a block per bearing.

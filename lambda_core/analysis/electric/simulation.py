@@ -32,7 +32,7 @@ from lambda_core.domain.errors import UsageError
 if TYPE_CHECKING:
     from lambda_core.analysis.electric.circuit_bearing import CircuitBearing
     from lambda_core.analysis.electric.events import Events
-    from lambda_core.analysis.electric.outcome import Outcome, ShaftOutcome
+    from lambda_core.analysis.electric.outcome import MachineOutcome, Outcome
 
 
 @dataclass(frozen=True)
@@ -124,14 +124,14 @@ class CircuitSimulation:
     solution: CircuitSolution
 
     @cached_property
-    def outcome(self) -> ShaftOutcome:
+    def outcome(self) -> MachineOutcome:
         """Outcome of shaft and bearings.
 
         It consists of voltages and discharges in the words of the interface.
         """
-        from lambda_core.analysis.electric.outcome import shaft_outcome
+        from lambda_core.analysis.electric.outcome import machine_outcome
 
-        return shaft_outcome(self)
+        return machine_outcome(self)
 
     @property
     def first(self) -> Simulation:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lambda_core.elements.roller.roller_bearing import RollerBearing
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
-    from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
+    from lambda_core.solver.drivers.machine_statics import MachineState
 
 # Field of the rating -> method that answers it, group and name of the row.
 _ROWS: dict[str, tuple[str, str, str]] = {
@@ -77,7 +77,7 @@ def rating_of(found: Equilibrium, methods: Mapping[str, Method], loads: tuple[fl
     )
 
 
-def mounted_rating(model: MachineModel, state: ShaftState, number: int, found: Equilibrium) -> Rating:
+def mounted_rating(model: MachineModel, state: MachineState, number: int, found: Equilibrium) -> Rating:
     """Rate a bearing of a machine.
 
     The bearing has the loads that it carries on the shaft.

@@ -30,11 +30,11 @@ def machine_equilibrium(
     """Solve a machine; :func:`lambda_core.api.quasistatic` for a machine of several bearings."""
     from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
     from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+    from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_machine
     from lambda_core.solver.drivers.preload import preloads
-    from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels, solve_shaft
 
     model, kernels = ready_machine_of(source, overrides, announce), SharedKernels(announce)
-    state = solve_shaft(model, announce, kernels)
+    state = solve_machine(model, announce, kernels)
     found = equilibrium_of(model, state, preload=preloads(model, kernels))
     if not band:
         return found
@@ -77,7 +77,7 @@ def modes(
     from lambda_core.analysis.rotor.machine_modes import modes_of
     from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
     from lambda_core.case.case_io import is_machine
-    from lambda_core.solver.drivers.shaft_equilibrium import solve_shaft
+    from lambda_core.solver.drivers.machine_statics import solve_machine
 
     if not is_machine(source):
         raise UsageError(
@@ -85,7 +85,7 @@ def modes(
             "lambda-bearing init NAME --template geared-shaft writes a machine to start from"
         )
     model = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
-    return modes_of(model, solve_shaft(model, announce))
+    return modes_of(model, solve_machine(model, announce))
 
 
 def machine_of(source: Source | MachineModel, overrides: Iterable[str] = ()) -> MachineModel:

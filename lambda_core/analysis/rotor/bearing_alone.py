@@ -11,7 +11,7 @@ from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.model.bearing_model import BearingModel, DofState, TimeFunction
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, solve_shaft
+from lambda_core.solver.drivers.machine_statics import MachineState, solve_machine
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
@@ -51,7 +51,7 @@ def bearing_alone(
     number = bearing_number(model, name)
     if isinstance(model, BearingModel):
         return model
-    return alone_under_load(model, solve_shaft(model, announce), number)
+    return alone_under_load(model, solve_machine(model, announce), number)
 
 
 def bearing_of_run(result: Result) -> BearingModel:
@@ -73,7 +73,7 @@ def bearing_of_run(result: Result) -> BearingModel:
     return bearing_alone(model, result.of_bearing().bearing if result.is_machine else None)
 
 
-def alone_under_load(machine: MachineModel, state: ShaftState, number: int) -> BearingModel:
+def alone_under_load(machine: MachineModel, state: MachineState, number: int) -> BearingModel:
     """Return one bearing of a solved machine as :func:`bearing_alone` does."""
     mounted, reaction, pose = machine.bearings[number], state.reactions[number], state.pose(machine, number)
     model, body = mounted.model, mounted.model.inner_ring

@@ -35,9 +35,9 @@ from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Summary
 from lambda_core.results.verdict import Verdict
 from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.machine_statics import MachineState
 from lambda_core.solver.drivers.preload import Preload, first_contact
 from lambda_core.solver.drivers.roller_reaction import RollerReaction
-from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
 from lambda_core.solver.drivers.structure import point_on, static_rows, stretch
 
 
@@ -266,7 +266,7 @@ class MachineEquilibrium(Answer):
 
 def equilibrium_of(
     model: MachineModel,
-    state: ShaftState,
+    state: MachineState,
     equilibria: Sequence[Equilibrium] | None = None,
     preload: Mapping[str, Preload] = MappingProxyType({}),
 ) -> MachineEquilibrium:
@@ -325,7 +325,7 @@ def _moved(motion: FloatArray) -> BodyMoved:
     return BodyMoved(displacement_um=_listed(1e6 * motion[:3]), tilt_mrad=_listed(1e3 * motion[3:]))
 
 
-def _at(model: MachineModel, state: ShaftState, place: Place) -> FloatArray:
+def _at(model: MachineModel, state: MachineState, place: Place) -> FloatArray:
     """Return the displacement and rotation of a place.
 
     They are zero on the ground and off the nodes of the shaft.
@@ -338,7 +338,7 @@ def _listed(values: FloatArray) -> Any:
     return values.tolist()
 
 
-def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibrium) -> BearingEquilibrium:
+def _bearing(model: MachineModel, state: MachineState, index: int, found: Equilibrium) -> BearingEquilibrium:
     """Return what there is to say of one bearing."""
     bearing, reaction = model.bearings[index], state.reactions[index]
     alone = quasistatic_of(found)
@@ -374,7 +374,7 @@ def _bearing(model: MachineModel, state: ShaftState, index: int, found: Equilibr
     )
 
 
-def _rollers(model: MachineModel, state: ShaftState, index: int, ring: RollerReaction) -> BearingEquilibrium:
+def _rollers(model: MachineModel, state: MachineState, index: int, ring: RollerReaction) -> BearingEquilibrium:
     """Return the numbers of a bearing with rollers."""
     bearing, reaction, pose = model.bearings[index], state.reactions[index], state.pose(model, index)
     found = rollers_on_shaft(ring)
@@ -407,7 +407,7 @@ def _rollers(model: MachineModel, state: ShaftState, index: int, ring: RollerRea
 
 
 def _in_machine(
-    bearing: MountedBearing, state: ShaftState, index: int, pose: FloatArray, reaction: FloatArray
+    bearing: MountedBearing, state: MachineState, index: int, pose: FloatArray, reaction: FloatArray
 ) -> dict[str, Any]:
     """Return place, load and stiffness of a bearing.
 

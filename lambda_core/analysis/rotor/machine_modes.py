@@ -25,7 +25,7 @@ from lambda_core.model.machine_model import MachineModel
 from lambda_core.results.answer import Answer, dataset, drawn
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.solver.drivers.equilibrium import Equilibrium
-from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
+from lambda_core.solver.drivers.machine_statics import MachineState
 
 _CAMPBELL = 9  # speeds
 _SHOWN = 8  # modes
@@ -135,7 +135,7 @@ class MachineModes(Answer):
         return f"<MachineModes {self.case}, {self.speed_rpm:.5g} 1/min{first}>"
 
 
-def modes_of(model: MachineModel, state: ShaftState) -> MachineModes:
+def modes_of(model: MachineModel, state: MachineState) -> MachineModes:
     """Return natural frequencies and critical speeds.
 
     They hold at an equilibrium, with the matrices of the bearings.
@@ -176,7 +176,7 @@ def modes_of(model: MachineModel, state: ShaftState) -> MachineModes:
     )  # fmt: skip
 
 
-def modes_at_speed(model: MachineModel, state: ShaftState, equilibria: Sequence[Equilibrium]) -> list[ModeAtSpeed]:
+def modes_at_speed(model: MachineModel, state: MachineState, equilibria: Sequence[Equilibrium]) -> list[ModeAtSpeed]:
     """Return natural frequencies at an equilibrium's speed.
 
     The bearings damp them.

@@ -18,7 +18,7 @@ from lambda_core.model.machine_model import GROUND, LOCKED, PLACES, SHAFT, Machi
 from lambda_core.solver.drivers.damping import damping_matrix
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.link_forces import SolvedLink
-from lambda_core.solver.drivers.shaft_equilibrium import ShaftState
+from lambda_core.solver.drivers.machine_statics import MachineState
 from lambda_core.solver.drivers.structure import Rows, static_rows, structure
 
 _ABOUT_X = 3  # row of a node that turns about the shaft
@@ -43,7 +43,7 @@ class Mode:
     lateral: float = 0.0  # share of the shaft's motion squared that is across its axis
 
 
-def housed_stiffness(model: MachineModel, state: ShaftState) -> FloatArray:
+def housed_stiffness(model: MachineModel, state: MachineState) -> FloatArray:
     """Return the stiffness of bearings with their housing.
 
     It acts on the shaft; the array has shape (bearings, 5, 5).
@@ -72,7 +72,7 @@ def bearing_damping(model: MachineModel, equilibria: Sequence[Equilibrium]) -> F
     ])  # fmt: skip
 
 
-def housed_damping(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
+def housed_damping(model: MachineModel, state: MachineState, dampings: FloatArray) -> FloatArray:
     """Return the damping of bearings with their housing.
 
     It acts on the shaft; the array has shape (bearings, 6, 6).
@@ -90,7 +90,7 @@ def _of_each(matrix: FloatArray) -> FloatArray:
     return np.array([matrix[i : i + size, i : i + size] for i in range(0, matrix.shape[0], size)])
 
 
-def _damping_in_series(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
+def _damping_in_series(model: MachineModel, state: MachineState, dampings: FloatArray) -> FloatArray:
     """Return the shaft's damping at all bearings.
 
     The shape is (5 bearings, 5 bearings).
@@ -100,7 +100,7 @@ def _damping_in_series(model: MachineModel, state: ShaftState, dampings: FloatAr
     return np.asarray(_seen_by_shaft(model, matrix).imag / speed)
 
 
-def _in_series(model: MachineModel, state: ShaftState) -> FloatArray:
+def _in_series(model: MachineModel, state: MachineState) -> FloatArray:
     """Return the shaft's stiffness at all bearings.
 
     The shape is (5 bearings, 5 bearings).
@@ -110,7 +110,7 @@ def _in_series(model: MachineModel, state: ShaftState) -> FloatArray:
     return np.asarray(_seen_by_shaft(model, _joined(model, state, springs=False)))
 
 
-def _joined(model: MachineModel, state: ShaftState, *, springs: bool = True) -> FloatArray:
+def _joined(model: MachineModel, state: MachineState, *, springs: bool = True) -> FloatArray:
     """Return the stiffness of all connections.
 
     They join shaft, outer rings and bodies: bearings, seats, housing, holds and springs.
@@ -132,7 +132,7 @@ def _joined(model: MachineModel, state: ShaftState, *, springs: bool = True) -> 
     return found
 
 
-def _links(state: ShaftState, *, springs: bool) -> list[SolvedLink]:
+def _links(state: MachineState, *, springs: bool) -> list[SolvedLink]:
     """Return the connections by laws.
 
     Those of the shaft are included or left out.
@@ -144,7 +144,7 @@ def _without_springs_of_the_shaft(model: MachineModel) -> MachineModel:
     return replace(model, springs=tuple(s for s in model.springs if SHAFT not in (s.place.body, s.to)))
 
 
-def _resisting(model: MachineModel, state: ShaftState, dampings: FloatArray, *, springs: bool = True) -> FloatArray:
+def _resisting(model: MachineModel, state: MachineState, dampings: FloatArray, *, springs: bool = True) -> FloatArray:
     """Return the damping likewise."""
     rows = static_rows(model)
     found = structure(model if springs else _without_springs_of_the_shaft(model), rows)[1]
@@ -198,7 +198,7 @@ def _seen(matrix: Any, kept: Any, others: list[int]) -> Any:
     return found
 
 
-def supported(model: MachineModel, state: ShaftState) -> FloatArray:
+def supported(model: MachineModel, state: MachineState) -> FloatArray:
     """Return the stiffness of the shaft on bearings.
 
     It covers the other bodies as far as they can move.
@@ -230,7 +230,7 @@ def _seen_by_shaft(model: MachineModel, matrix: Any) -> Any:
     return _seen(matrix, kept, [*rings, *bodies])
 
 
-def damped(model: MachineModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
+def damped(model: MachineModel, state: MachineState, dampings: FloatArray) -> FloatArray:
     """Return the damping of bearings, springs and seats.
 
     The rows are those of :func:`supported`.

@@ -29,7 +29,7 @@ from lambda_core.model.machine_model import MachineModel, MountedBearing
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.model.settings.machine_heat import BEARING_NODES, stretch
 from lambda_core.results.reader import Result
-from lambda_core.solver.drivers.shaft_equilibrium import SharedKernels, solve_shaft
+from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_machine
 
 _ZERO_CELSIUS = 273.15
 _NEAR = (2.0, 1e-6)  # inlet temperatures [K] and lengths [m] this near to others have their slopes
@@ -112,7 +112,7 @@ class MachineLoop(Loop):
         """
         self._count += 1
         try:
-            state = solve_shaft(self.there(seen), self._announce, self._kernels)
+            state = solve_machine(self.there(seen), self._announce, self._kernels)
             found = [ring.equilibrium() for ring in state.rings]
             for bearing, one in zip(self.machine.bearings, found, strict=True):
                 if not one.converged:
@@ -238,7 +238,7 @@ def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Stea
     """
     machine = resolve_machine(toml_tables(result.case_toml, str(result.path)))
     loop = MachineLoop(without_temperatures(machine), announce)
-    state = solve_shaft(machine, announce)
+    state = solve_machine(machine, announce)
     measured = tuple(
         point_of(ring.equilibrium()).with_losses(averaged_losses(result.of_bearing(bearing.name), bearing.model))
         for ring, bearing in zip(state.rings, machine.bearings, strict=True)

@@ -93,7 +93,7 @@ def export_fmu(
     ------
     UsageError
         For an unknown version, coupling, platform or processor, a case that cannot be coupled so, a file that
-        exists, a folder that takes none, on another system, without a C compiler, or for rollers without a cage.
+        exists, a folder that takes none, on another system, or without a C compiler.
     CaseError, SolverError
         With a sentence about the case or its equilibrium.
     """

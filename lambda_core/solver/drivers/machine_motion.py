@@ -24,8 +24,8 @@ from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.lumps import LumpedShaft, lump, unbalance_of_lumps
 from lambda_core.solver.drivers.machine_assembly import machine_assembly, member_numbers, with_free_bodies
 from lambda_core.solver.drivers.machine_inputs import MachineInputs, machine_inputs
+from lambda_core.solver.drivers.machine_statics import MachineState, solve_machine
 from lambda_core.solver.drivers.readings import Channels, MachineReadings, MachineSamples, ReadBearing, Sums
-from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble, context_of
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import SIGNS, STATES
@@ -43,7 +43,7 @@ class MachineStart:
     ----------
     machine : MachineModel
     shaft : LumpedShaft
-    state : ShaftState
+    state : MachineState
         The quasi-static equilibrium of shaft, rings and bodies.
     equilibria : tuple of Equilibrium
         Of each bearing there, with the friction of its balls.
@@ -56,7 +56,7 @@ class MachineStart:
 
     machine: MachineModel
     shaft: LumpedShaft
-    state: ShaftState
+    state: MachineState
     equilibria: tuple[Equilibrium, ...]
     motion: MotionStart[MachineSamples, list[Sums]]
     readings: MachineReadings
@@ -91,7 +91,7 @@ def machine_start(
     SolverError
         When there is none.
     """
-    state, shaft = solve_shaft(machine, announce), lump(machine)
+    state, shaft = solve_machine(machine, announce), lump(machine)
     # where cages follow given paths, balls begin between rings at the poses of the equilibrium
     equilibria = tuple(ring.at_pose() if leads_cages else ring.equilibrium() for ring in state.rings)
     alone = [_free(found.context) for found in equilibria]
@@ -115,7 +115,7 @@ def changed_start(start: MachineStart, machine: MachineModel) -> MachineStart:
 
 
 def _begun(
-    machine: MachineModel, shaft: LumpedShaft, state: ShaftState, equilibria: tuple[Equilibrium, ...],
+    machine: MachineModel, shaft: LumpedShaft, state: MachineState, equilibria: tuple[Equilibrium, ...],
     alone: list[SolverContext], *, is_given: bool, leads_cages: bool = False,
 ) -> MachineStart:  # fmt: skip
     """Return a machine at t = 0.
@@ -222,7 +222,7 @@ def _free(found: SolverContext) -> SolverContext:
 
 def _start_state(
     machine: MachineModel, shaft: LumpedShaft, context: SolverContext, bearings: tuple[ReadBearing, ...],
-    state: ShaftState, equilibria: tuple[Equilibrium, ...],
+    state: MachineState, equilibria: tuple[Equilibrium, ...],
 ) -> FloatArray:  # fmt: skip
     """Return the initial state of the motion.
 

@@ -10,8 +10,8 @@ from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.geometry.axial_play import axial_play
 from lambda_core.model.machine_model import MachineModel, MountedBearing
+from lambda_core.solver.drivers.machine_statics import MachineState, SharedKernels, solve_machine
 from lambda_core.solver.drivers.roller_reaction import RollerReaction
-from lambda_core.solver.drivers.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def preloads(model: MachineModel, kernels: SharedKernels | None = None) -> dict[
     without = np.zeros_like(model.loads)
     alone = replace(model, loads=without, weight=without, gravity=(0.0, 0.0, 0.0), part_loads={})
     try:
-        state = solve_shaft(alone, None, kernels)
+        state = solve_machine(alone, None, kernels)
     except SolverError:
         return {}
     return {
@@ -68,7 +68,7 @@ def preloads(model: MachineModel, kernels: SharedKernels | None = None) -> dict[
     }
 
 
-def _lift_off(model: MachineModel, state: ShaftState, index: int) -> float | None:
+def _lift_off(model: MachineModel, state: MachineState, index: int) -> float | None:
     """Return the thrust of first contact.
 
     The thrust on `index` at which its opposite is back at first contact.

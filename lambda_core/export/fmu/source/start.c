@@ -5,7 +5,7 @@
 
 #if !LB_SETTLES
 /* The program finds the equilibrium of a machine, which is that of its shaft in all bearings, and that of rollers: see
-   drivers/shaft_equilibrium.py and elements/roller. */
+   drivers/machine_statics.py and elements/roller. */
 int lb_settle(lb_bearing *b) {
   lb_say(b, LB_WARNING, "the start is the equilibrium of the case: what was given before the initialisation ended acts "
                         "from the start as a jump");

@@ -43,7 +43,7 @@ _LONGEST = 2e-4  # [m] largest move of a ring per step; tilts count at the pitch
 
 
 @dataclass
-class ShaftState:
+class MachineState:
     """The solution.
 
     Attributes
@@ -269,7 +269,7 @@ class SharedKernels:
         return self._known[choice]
 
 
-def solve_shaft(model: MachineModel, announce: Announce = None, kernels: SharedKernels | None = None) -> ShaftState:
+def solve_machine(model: MachineModel, announce: Announce = None, kernels: SharedKernels | None = None) -> MachineState:
     """Find the equilibrium of shaft, bearings and housing.
 
     Parameters
@@ -304,7 +304,7 @@ def solve_shaft(model: MachineModel, announce: Announce = None, kernels: SharedK
     rings[0].alone = bearing_on_rigid_shaft(model)
     torque = -float(unbalanced[model.drive])
     moved = system.moves @ q
-    return ShaftState(
+    return MachineState(
         displacement=moved[: system.size],
         outer=q[system.outer],
         bodies=moved[system.outer.max() + 1 :].reshape(-1, NODE),
