@@ -17,7 +17,6 @@ import json
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import h5py
@@ -25,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.channels import CHANNELS, DIMENSIONS, Channel
+from lambda_core.results import objects as low
 from lambda_core.results.averages import INTEGRALS
 from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP, circuit_channels, discharge_channels
 from lambda_core.results.event_rows import (
@@ -35,7 +35,7 @@ from lambda_core.results.event_rows import (
     event_rows,
     observer_rows,
 )
-from lambda_core.results.objects import attach, describe, scales_along, scales_in, texts_of
+from lambda_core.results.objects import attach, describe, filled, make_scale, scales_along, scales_in, texts, texts_of
 from lambda_core.results.run_status import Rows
 
 if TYPE_CHECKING:
@@ -52,9 +52,9 @@ INTEGRALS_GROUP = "integrals"
 REVOLUTIONS_GROUP = "revolutions"
 INPUTS_GROUP = "inputs"
 
-ROWS = 1024  # of one chunk
+ROWS = 1024  # of one chunk of a packed result, and read at a time
+NEW_ROWS = 64  # of one chunk while rows are added: a short run does not write thousands of empty ones
 _SLOT_CHUNK = 65536
-_TEXT = h5py.string_dtype()
 _TIME = CHANNELS[0]
 _LAW_COLUMNS = (
     "element",
@@ -96,7 +96,7 @@ def create(file: h5py.File, provenance: Provenance, channels: RunChannels) -> No
     _series(file, (_TIME,), "time")
     inputs = file.create_group(INPUTS_GROUP)
     inputs.attrs["case_toml"] = "the case, complete: it runs again as it stands"
-    inputs.create_dataset("case_toml", data=provenance.case_toml, dtype=_TEXT)
+    filled(inputs, "case_toml", texts(provenance.case_toml))
     _sentences(inputs, "plugins", provenance.plugins)
     _pairs(inputs, "versions", provenance.versions())
     if machine is not None:
@@ -131,8 +131,8 @@ def _machine(group: h5py.Group, origin: MachineOrigin, channels: Sequence[Channe
         _scale(group, dim, labels)
     _series(group, [c for c in channels if all(dim not in origin.labels or len(origin.labels[dim]) for dim in c.dims)])
     inputs = group.create_group(INPUTS_GROUP)
-    inputs.create_dataset("model_json", data=json.dumps(origin.model, ensure_ascii=False), dtype=_TEXT)
-    inputs.create_dataset("numbers_json", data=json.dumps(dict(origin.numbers)), dtype=_TEXT)
+    filled(inputs, "model_json", texts(json.dumps(origin.model, ensure_ascii=False)))
+    filled(inputs, "numbers_json", texts(json.dumps(dict(origin.numbers))))
     for name, lines in (("assumptions", origin.assumptions), ("warnings", origin.warnings)):
         _sentences(inputs, name, lines)
 
@@ -181,8 +181,10 @@ def _linked(file: h5py.File) -> set[str]:
 
 def _link_alone(file: h5py.File) -> None:
     """Link everything of the only bearing at root."""
-    for path in _linked(file):
-        file[path] = file[f"{BEARINGS}/{next(iter(file[BEARINGS]))}/{path}"]
+    if found := _linked(file):
+        (name,) = file[BEARINGS]
+        for path in found:
+            low.link(file, path, f"{BEARINGS}/{name}/{path}")
 
 
 def _dimensions(file: h5py.File, channels: RunChannels) -> None:
@@ -194,10 +196,7 @@ def _dimensions(file: h5py.File, channels: RunChannels) -> None:
 
 def _scale(group: h5py.Group, name: str, labels: Sequence[str] | NDArray[Any]) -> None:
     """Create the labels of one dimension."""
-    if isinstance(labels, np.ndarray):
-        group.create_dataset(name, data=labels).make_scale(name)
-    else:
-        group.create_dataset(name, data=np.array(labels, dtype=object), dtype=_TEXT).make_scale(name)
+    make_scale(filled(group, name, labels if isinstance(labels, np.ndarray) else texts(labels)), name)
 
 
 def _series(group: h5py.Group, channels: Sequence[Channel], along: str = "") -> None:
@@ -205,45 +204,47 @@ def _series(group: h5py.Group, channels: Sequence[Channel], along: str = "") -> 
 
     `along` is the growing dimension, without one the samples' time.
     """
-    root = group.file
-    first = None if along else root["time"]
-    dims = {dim: _nearest(group, dim) for c in channels for dim in c.dims}
-    sizes = {dim: labels.size for dim, labels in dims.items()}
+    first = None if along else group.file["time"].id
+    dims = {dim: _nearest(group, dim) for dim in dict.fromkeys(dim for c in channels for dim in c.dims)}
+    sizes = {dim: math.prod(labels.shape) for dim, labels in dims.items()}
     for channel in sorted(channels, key=lambda channel: channel.name != along):
         shape = tuple(sizes[dim] for dim in channel.dims)
-        data = group.create_dataset(
-            channel.name, (0, *shape), np.float64, maxshape=(None, *shape), chunks=(ROWS, *shape)
+        data = low.created(
+            group, channel.name, low.NUMBER, (0, *shape), longest=(None, *shape), chunk=(NEW_ROWS, *shape)
         )
         describe(data, {"units": channel.unit, "long_name": channel.meaning})
         if channel.name == along:
-            data.make_scale(along)
+            make_scale(data, along)
             first = data
             continue
         for axis, scale in enumerate((first, *(dims[dim] for dim in channel.dims))):
             attach(data, axis, scale)
 
 
-def _nearest(group: h5py.Group, dim: str) -> h5py.Dataset:
+def _nearest(group: h5py.Group, dim: str) -> h5py.h5d.DatasetID:
     """Return the labels of a dimension.
 
     This group has them, otherwise the nearest one above that does.
     """
-    while not isinstance(group.get(dim), h5py.Dataset) and group.name != "/":  # a bearing may have the name of one
-        group = group.parent
-    return group[dim]
+    place = group.name.rstrip("/")
+    while (found := low.dataset(group, f"{place}/{dim}")) is None:  # a bearing may have the name of one
+        if not place:
+            raise KeyError(dim)
+        place = place.rpartition("/")[0]
+    return found
 
 
 def _inputs(group: h5py.Group, origin: BearingOrigin) -> None:
     from lambda_core.model.checks.operating_limits import operating_warnings
 
     model = origin.model
-    group.create_dataset("model_json", data=origin.model_json(), dtype=_TEXT)
+    filled(group, "model_json", texts(origin.model_json()))
     if origin.rating is not None:
-        group.create_dataset("rating_json", data=origin.rating.model_dump_json(), dtype=_TEXT)
+        filled(group, "rating_json", texts(origin.rating.model_dump_json()))
     if origin.band is not None:
-        group.create_dataset("model_band_json", data=origin.band.model_dump_json(), dtype=_TEXT)
+        filled(group, "model_band_json", texts(origin.band.model_dump_json()))
         for name, ends in origin.band.fields().items():
-            group.create_dataset(name, data=np.array(ends))
+            filled(group, name, np.array(ends))
     _sentences(group, "assumptions", model.assumptions)
     _sentences(group, "warnings", operating_warnings(model, on_shaft=bool(origin.headline)))
     _table(group, "values", _VALUE_COLUMNS, origin.values())
@@ -256,7 +257,7 @@ def _inputs(group: h5py.Group, origin: BearingOrigin) -> None:
 
 
 def _sentences(group: h5py.Group, name: str, lines: Sequence[str]) -> None:
-    group.create_dataset(name, data=np.array(lines, dtype=object), dtype=_TEXT).make_scale(name)
+    make_scale(filled(group, name, texts(lines)), name)
 
 
 def _pairs(group: h5py.Group, name: str, pairs: Mapping[str, str]) -> None:
@@ -269,11 +270,10 @@ def _table(group: h5py.Group, name: str, columns: Sequence[str], rows: Sequence[
     Each column makes one dataset along the first column.
     """
     table = group.create_group(name)
-    index = table.create_dataset("row", data=np.arange(len(rows)))
-    index.make_scale("row")
+    index = filled(table, "row", np.arange(len(rows)))
+    make_scale(index, "row")
     for column in columns:
-        data = table.create_dataset(column, data=np.array([row[column] for row in rows], dtype=object), dtype=_TEXT)
-        attach(data, 0, index)
+        attach(filled(table, column, texts([row[column] for row in rows])), 0, index)
 
 
 def read_table(group: h5py.Group) -> list[dict[str, str]]:
@@ -303,23 +303,23 @@ def grows(item: object) -> bool:
 
     It is then a growing dataset of the file.
     """
-    return isinstance(item, h5py.Dataset) and bool(item.maxshape) and item.maxshape[0] is None
+    return isinstance(item, h5py.Dataset) and low.grows(item.id)
 
 
-def chunk_bytes(item: h5py.Dataset) -> int:
-    """Return the bytes of ROWS rows of a dataset."""
-    return int(ROWS * math.prod(item.shape[1:]) * item.dtype.itemsize)
+def row_bytes(data: h5py.h5d.DatasetID) -> int:
+    """Return the bytes of one row of a dataset."""
+    return int(math.prod(data.shape[1:]) * data.dtype.itemsize)
 
 
-def size(source: h5py.File, rows: Rows) -> int:
+def size(originals: Mapping[str, Any], rows: Rows) -> int:
     """Return the size limit of a copy [bytes].
 
-    It is an upper bound with the first `rows` rows, without metadata.
+    It is an upper bound for these :func:`objects` with the first `rows` rows, without metadata.
     """
     total = 0
-    for name, item in objects(source).items():
+    for name, item in originals.items():
         if grows(item):
-            total += math.ceil(rows_of(name, rows) / ROWS) * chunk_bytes(item)
+            total += math.ceil(rows_of(name, rows) / NEW_ROWS) * NEW_ROWS * row_bytes(item.id)
         elif isinstance(item, h5py.Dataset):
             total += 2 * item.nbytes + 4096
     return total + total // 100
@@ -365,15 +365,17 @@ def soon() -> Stop:
     return lambda: time.process_time() > until
 
 
-def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool, stop: Stop = never) -> None:
+def copy(originals: Mapping[str, Any], target: h5py.File, rows: Rows, compress: bool, stop: Stop = never) -> None:
     """Copy a result with its first rows.
 
     It takes the first `rows` rows of its growing datasets.
 
     Parameters
     ----------
-    source, target : h5py.File
-        A result and an empty file.
+    originals : mapping
+        The :func:`objects` of a result.
+    target : h5py.File
+        An empty file, with the attributes of the result.
     rows : Rows
         How many to copy.
     compress : bool
@@ -386,18 +388,17 @@ def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool, stop:
     InterruptedError
         When `stop` says so.
     """
-    target.attrs.update(source.attrs)
-    originals, copies = objects(source), {}
+    copies = {}
     for name, item in originals.items():
         if isinstance(item, h5py.Group):
             target.require_group(name).attrs.update(item.attrs)
         else:
             copies[name] = _copy_dataset(name, item, target, rows, compress, stop)
-    scales = scales_in(originals)
+    scales = scales_in({name: originals[name].id for name in copies})
     for name in scales.values():
-        copies[name].make_scale(Path(name).name)
+        make_scale(copies[name], name.rpartition("/")[2])
     for name, copied in copies.items():
-        for axis, scale in enumerate(scales_along(originals[name], scales)):
+        for axis, scale in enumerate(scales_along(originals[name].id, scales)):
             if scale:
                 attach(copied, axis, copies[scale])
     _link_alone(target)
@@ -405,20 +406,20 @@ def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool, stop:
 
 def _copy_dataset(
     name: str, item: h5py.Dataset, target: h5py.File, rows: Rows, compress: bool, stop: Stop
-) -> h5py.Dataset:
-    packing = {"compression": "gzip", "compression_opts": 4, "shuffle": True} if compress else {}
-    if not grows(item):
-        options = {"maxshape": item.maxshape, "chunks": item.chunks, **packing} if item.chunks else {}
-        data = target.create_dataset(name, data=item[()], dtype=item.dtype, **options)
+) -> h5py.h5d.DatasetID:
+    old = item.id
+    kind, (shape, longest) = old.get_type(), low.extent(old)
+    if longest[:1] != (None,):
+        chunk = low.chunk_of(old) if None in longest else None
+        data = low.created(target, name, kind, shape, longest=longest, chunk=chunk, packed=compress)
+        low.put(data, low.content(old))
     else:
         count = rows_of(name, rows)
-        shape = (count, *item.shape[1:])
-        chunk = (min(ROWS, max(count, 1)) if compress else ROWS, *item.chunks[1:])
-        data = target.create_dataset(name, shape, item.dtype, maxshape=item.maxshape, chunks=chunk, **packing)
+        chunk = (min(ROWS, max(count, 1)) if compress else NEW_ROWS, *shape[1:])
+        data = low.created(target, name, kind, (count, *shape[1:]), longest=longest, chunk=chunk, packed=compress)
         for start in range(0, count, ROWS):
             if stop():
                 raise InterruptedError("asked to stop")
-            end = min(start + ROWS, count)
-            data[start:end] = item[start:end]
-    describe(data, texts_of(item, ("units", "long_name")))
+            low.put_rows(data, start, low.rows(old, start, min(start + ROWS, count)))
+    describe(data, texts_of(old, ("units", "long_name")))
     return data

@@ -117,8 +117,10 @@ def copy(path: Path, rows: Rows, *, compress: bool, stop: layout.Stop = layout.n
         with open_for_reading(path) as source:
             # SWMR needs the newest file format; for keeping, the oldest one is read by most programs.
             with h5py.File(made, "w", libver="earliest" if compress else "latest") as target:
-                reserve(target, layout.size(source, rows))
-                layout.copy(source, target, rows, compress, stop)
+                originals = layout.objects(source)
+                reserve(target, layout.size(originals, rows))
+                target.attrs.update(source.attrs)
+                layout.copy(originals, target, rows, compress, stop)
                 target.flush()
                 size = target.id.get_filesize()
             trim(made, size)

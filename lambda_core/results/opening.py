@@ -18,7 +18,7 @@ from lambda_core.model.bearing_model import ResolvedValue
 from lambda_core.results import file_format as layout
 from lambda_core.results.averages import INTEGRALS
 from lambda_core.results.hdf5 import open_for_reading, reason
-from lambda_core.results.objects import scales_along, scales_in
+from lambda_core.results.objects import datasets, grows, scales_along, scales_in, texts_of
 
 
 class ResultError(UsageError):
@@ -84,17 +84,23 @@ def check_alone(file: h5py.File) -> None:
     Somebody's link would show the content of other files of the user; a run writes none.
     """
 
-    def elsewhere(name: str, link: Any) -> str | None:  # HDF5 passes on what is returned, not what is raised
-        if not isinstance(link, h5py.HardLink):
+    seen = set[int]()
+
+    def elsewhere(name: bytes, link: Any) -> bytes | None:  # HDF5 passes on what is returned, not what is raised
+        if link.type != h5py.h5l.TYPE_HARD:
             return name
-        # as h5py's own objects do, which take three times as long to make
-        item = h5py.h5o.open(file.id, name.encode())
+        if link.u in seen:  # by another name
+            return None
+        seen.add(link.u)
+        item = h5py.h5o.open(file.id, name)
         made = item.get_create_plist() if isinstance(item, h5py.h5d.DatasetID) else None
         away = made is not None and (made.get_external_count() > 0 or made.get_layout() == h5py.h5d.VIRTUAL)
         return name if away else None
 
-    if name := file.visititems_links(elsewhere):
-        raise ResultError(f"{file.filename} is not a result of a run: {printable(name)} is a link or external data")
+    # by the lower level: h5py's own objects take five times as long
+    if found := file.id.links.visit(elsewhere, info=True):
+        name = printable(found.decode("utf-8", "surrogateescape"))
+        raise ResultError(f"{file.filename} is not a result of a run: {name} is a link or external data")
 
 
 def channels_of(group: h5py.Group) -> Iterator[tuple[Channel, dict[str, str]]]:
@@ -103,15 +109,16 @@ def channels_of(group: h5py.Group) -> Iterator[tuple[Channel, dict[str, str]]]:
     Yield everything there that grows, with the path of the labels of each dimension.
     """
     root = group.file
-    items = {f"{group.name}/{name}": item for name, item in group.items()}
-    scales = scales_in({f"/{name}": item for name, item in root.items()} | items)
-    for path, item in items.items():
-        if layout.grows(item):
-            item.id.get_num_chunks()  # a damaged index raises here; read through, it would fill the memory
-            along = [scale for scale in scales_along(item, scales) if scale.rpartition("/")[2] not in ("", "time")]
+    items = {f"{group.name}/{name}": data for name, data in datasets(group).items()}
+    scales = scales_in({f"/{name}": data for name, data in datasets(root).items()} | items)
+    for path, data in items.items():
+        if grows(data):
+            data.get_num_chunks()  # a damaged index raises here; read through, it would fill the memory
+            along = [scale for scale in scales_along(data, scales) if scale.rpartition("/")[2] not in ("", "time")]
             paths = {scale.rpartition("/")[2]: scale for scale in along}
             dims = tuple(scale.rpartition("/")[2] for scale in along)
-            yield Channel(path.rpartition("/")[2], dims, item.attrs["units"], item.attrs["long_name"]), paths
+            texts = texts_of(data, ("units", "long_name"))
+            yield Channel(path.rpartition("/")[2], dims, texts["units"], texts["long_name"]), paths
 
 
 def labels_of(data: h5py.Dataset) -> tuple[int, ...] | tuple[float, ...] | tuple[str, ...]:

@@ -250,6 +250,10 @@ def _leaves(path: str, value: Any) -> Iterator[tuple[str, Any]]:
 
 def plain(value: Any) -> Any:
     """Return `value` as what JSON can say."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else str(value)
+    if value is None or isinstance(value, str | int):
+        return value
     if isinstance(value, Law):
         return {"role": value.role, "name": value.name, "distribution": value.distribution}
     if isinstance(value, Observer | Event):
@@ -264,6 +268,4 @@ def plain(value: Any) -> Any:
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [plain(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return str(value)
     return value

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from lambda_core.results import file_format as layout
 from lambda_core.results.checkpoint import Position
+from lambda_core.results.objects import rows as rows_of
 from lambda_core.results.opening import ResultError, opened
 from lambda_core.results.run_status import Rows
 
@@ -50,7 +51,7 @@ def sums_of(file: h5py.File, rows: Rows) -> RowSums:
             continue
         count = layout.rows_of(name, rows)
         for start in range(0, count, layout.ROWS):
-            found.add(name, item[start : min(start + layout.ROWS, count)])
+            found.add(name, rows_of(item.id, start, min(start + layout.ROWS, count)))
     return found
 
 

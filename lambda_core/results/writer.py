@@ -27,6 +27,7 @@ from lambda_core.results.averages import INTEGRALS, spans
 from lambda_core.results.checkpoint import Checkpoint
 from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP, CircuitRows
 from lambda_core.results.event_rows import EVENTS_GROUP
+from lambda_core.results.objects import datasets, grows, put_rows
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.row_sums import RowSums, sums_of
 from lambda_core.results.run_status import Rows, Status
@@ -68,13 +69,15 @@ class ResultWriter:
         paths = [f"{layout.BEARINGS}/{name}/{group}".rstrip("/") for name in self._bearings for group in own]
         groups |= {path: path for path in paths}
         self._growing = {
-            key: {name: item for name, item in file[group].items() if layout.grows(item)}
+            key: {name: data for name, data in datasets(file[group]).items() if grows(data)}
             for key, group in groups.items()
             if group in file
         }
-        self._growing[_SAMPLES] = {TIME: file[TIME]}  # the only bearing's channels are linked there, too
+        self._growing[_SAMPLES] = {TIME: file[TIME].id}  # the only bearing's channels are linked there, too
         # What one more chunk of everything that grows together takes on disk.
-        self._chunk = {key: sum(map(layout.chunk_bytes, items.values())) for key, items in self._growing.items()}
+        self._chunk = {
+            key: layout.NEW_ROWS * sum(map(layout.row_bytes, items.values())) for key, items in self._growing.items()
+        }
         self._samples: list[Samples] = []
         self._records: list[Mapping[str, FloatArray]] = []
         self._revolutions: dict[str, list[FloatArray]] = {name: [] for name in self._bearings}
@@ -284,8 +287,9 @@ class ResultWriter:
 
     def _append(self, place: str, name: str, start: int, values: NDArray[np.float64]) -> None:
         data = self._growing[place][name]
-        data.resize(start + len(values), axis=0)
-        data[start:] = values.reshape(len(values), *data.shape[1:])
+        shape = (start + len(values), *data.shape[1:])
+        data.set_extent(shape)
+        put_rows(data, start, values.reshape(len(values), *shape[1:]))
         self._sums.add(f"{place}/{name}".lstrip("/"), values)
 
     def _place(self, bearing: str, group: str = "") -> str:
@@ -312,7 +316,7 @@ class ResultWriter:
         total = 0
         for key, count in waiting.items():
             start = layout.rows_of(f"{key}/{TIME}", self._written)
-            opened = math.ceil((start + count) / layout.ROWS) - math.ceil(start / layout.ROWS)
+            opened = math.ceil((start + count) / layout.NEW_ROWS) - math.ceil(start / layout.NEW_ROWS)
             total += opened * self._chunk.get(key, 0)
         return total
 

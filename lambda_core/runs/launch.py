@@ -18,7 +18,6 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_folder, check_new, check_target
 from lambda_core.domain.number_text import counted
 from lambda_core.domain.units import show
-from lambda_core.laws.kernels import sources_key
 from lambda_core.laws.pack import NATIVE, code, other_code
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.checks.describe import headline
@@ -41,7 +40,7 @@ from lambda_core.runs.loop import resume, run
 from lambda_core.runs.progress import Report
 from lambda_core.runs.run_engine import OneBearing, RunEngine, SeveralBearings
 from lambda_core.runs.session import Attachments
-from lambda_core.solver.code_files import physics_sources
+from lambda_core.solver.code_files import physics_key
 from lambda_core.solver.drivers.equilibrium import solve
 
 if TYPE_CHECKING:
@@ -174,7 +173,7 @@ def prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Pro
     found = _machine(model, announce) if isinstance(model, MachineModel) else _one(model, announce)
     engine, provenance, live = found
     attached = Attachments.of(provenance, live)
-    shared = {"core": sources_key(*physics_sources()), "code": code(), **(live.keys() if live is not None else {})}
+    shared = {"core": physics_key(), "code": code(), **(live.keys() if live is not None else {})}
     origins = {
         name: dataclasses.replace(origin, kernel_keys={**origin.kernel_keys, **attached.watches[name].keys(), **shared})
         for name, origin in provenance.bearings.items()

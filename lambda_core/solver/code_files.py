@@ -5,7 +5,10 @@ They name compiled code on disk, and tell whether other code continues a run.
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
+
+from lambda_core.laws.kernels import sources_key
 
 _SOLVER = Path(__file__).parent
 _DRIVERS = "drivers"  # Python around the compiled code: what it does is in no machine code
@@ -39,3 +42,12 @@ def physics_sources() -> tuple[Path, ...]:
     They lead from a case to forces and motion.
     """
     return tuple(_SOLVER.parent / room for room in ("domain", "formulas", "elements", "model", "solver"))
+
+
+@cache
+def physics_key() -> str:
+    """Return the hash of the physics.
+
+    It is that which this process found first: what is edited later runs in the next process.
+    """
+    return sources_key(*physics_sources())

@@ -169,11 +169,9 @@ class JobRunner:
     _asked: set[Job] = field(default_factory=set)
 
     def __post_init__(self) -> None:
-        from lambda_core.laws.kernels import sources_key
-        from lambda_core.solver.code_files import physics_sources
+        from lambda_core.solver.code_files import physics_key
 
-        key = sources_key(*physics_sources())
-        self._work = self.folder / "work" / key[:12]
+        self._work = self.folder / "work" / physics_key()[:12]
         try:
             self._work.mkdir(parents=True, exist_ok=True)
         except OSError as error:

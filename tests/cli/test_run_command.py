@@ -224,7 +224,7 @@ def test_resume_refuses_what_would_be_another_run(
 
     with pytest.raises(UsageError, match=r"resolves to other values: .*solver\.tolerance"):
         api.resume("r.h5", ["solver.tolerance=1e-4", "solver.duration=10 ms"])
-    monkeypatch.setattr(launch, "sources_key", lambda *folders: "another")
+    monkeypatch.setattr(launch, "physics_key", lambda: "another")
     with pytest.raises(UsageError, match="the code has changed since: core"):
         api.resume("r.h5", ["solver.duration=10 ms"])
 

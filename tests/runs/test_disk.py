@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from warm import Warm
 
 # The first object of a result file to the last sample of this run span this many bytes.
-LIMITS = [3_000, 1_100_000, *sorted(random.Random(1).sample(range(1_200_000, 12_000_000), 2))]
+LIMITS = [3_000, 1_100_000, *sorted(random.Random(1).sample(range(1_200_000, 10_000_000), 2))]
 WANTED = {"solver": {"duration": 1.2}, "checkpoint_interval": 0.03}
 
 

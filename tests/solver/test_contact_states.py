@@ -139,8 +139,9 @@ def test_resumed_and_paused_runs_are_the_same_bits() -> None:
     second.advance(3e-3)
     ours, theirs = undisturbed.now(), second.now()
     assert all(np.array_equal(ours[name], theirs[name], equal_nan=True) for name in ours)
-    early = first.samples()
-    assert np.array_equal(undisturbed.samples()["warmth"][: len(early["time"])], early["warmth"])
+    early, every = first.samples(), undisturbed.samples()
+    assert np.array_equal(every["warmth"][: len(early["time"])], early["warmth"])
+    assert np.array_equal(second.samples()["warmth"], every["warmth"])  # those that waited at 1.1 ms, too
 
 
 def test_slopes_of_the_rates() -> None:

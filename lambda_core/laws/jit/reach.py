@@ -75,7 +75,7 @@ def reach(function: Callable[..., Any], *, lenient: bool = False) -> Reach:
     walk.value(function, "the function itself")
     root = _plain(function)
     helpers = tuple(helper for helper in walk.functions if helper is not root)
-    return Reach(walk.hash.hexdigest(), helpers, tuple(walk.codes))
+    return Reach(hashlib.sha256(b"".join(walk.added)).hexdigest(), helpers, tuple(walk.codes))
 
 
 def content_key(function: Callable[..., Any]) -> str:
@@ -107,7 +107,7 @@ def _plain(function: Any) -> Any:
 @dataclass
 class _Walk:
     lenient: bool
-    hash: Any = field(default_factory=hashlib.sha256)
+    added: list[bytes] = field(default_factory=list)
     functions: list[FunctionType] = field(default_factory=list)
     codes: list[CodeType] = field(default_factory=list)
     seen: dict[int, int] = field(default_factory=dict)
@@ -116,7 +116,7 @@ class _Walk:
     def add(self, *words: object) -> None:
         for word in words:
             data = word if isinstance(word, bytes) else str(word).encode()
-            self.hash.update(len(data).to_bytes(8, "little") + data)
+            self.added += (len(data).to_bytes(8, "little"), data)
 
     def value(self, value: Any, where: str) -> None:
         """Add one value.

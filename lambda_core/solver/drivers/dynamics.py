@@ -302,9 +302,10 @@ class MotionEngine(Generic[Sampled, Summed_co]):
     def state(self, *, samples: bool = True) -> dict[str, NDArray[np.float64]]:
         """Return everything that a continuation needs.
 
-        It is memory, Jacobian blocks and factors. Without `samples` the buffer of those that nobody has taken yet is
-        left out.
+        It is memory, Jacobian blocks and factors, and the samples that nobody has taken yet; without `samples` no
+        buffer.
         """
+        waiting = int(self._memory.count["samples_waiting"][0])
         parts: dict[str, NDArray[np.float64]] = {}
         for prefix, group in self._groups().items():
             for name, array in group._asdict().items():
@@ -312,8 +313,10 @@ class MotionEngine(Generic[Sampled, Summed_co]):
                     continue
                 if f"{prefix}.{name}" == _ADDRESSES:
                     continue
-                if samples or name not in _BUFFER:
+                if name not in _BUFFER:
                     parts[f"{prefix}.{name}"] = array.copy()
+                elif samples:
+                    parts[f"{prefix}.{name}"] = array[:waiting].copy()
         parts |= {f"readings.{name}": array for name, array in self._readings.state().items()}
         parts["start_energy"] = np.array([self._start_energy])
         if self.given.size:
@@ -337,6 +340,8 @@ class MotionEngine(Generic[Sampled, Summed_co]):
                 read[name] = saved
             elif prefix in groups:
                 array = getattr(groups[prefix], name)
+                if name in _BUFFER:
+                    array = array[: len(saved)]
                 if array.shape != saved.shape or array.dtype != saved.dtype:
                     raise SolverError(f"the checkpoint does not fit this model: {key} has shape {saved.shape}")
                 array[...] = saved
