@@ -1,6 +1,6 @@
 """Run all checks: ``python -m tests [arguments of pytest]``.
 
-Style, types and layers while the solver compiles, then the tests on three processes; with arguments, only the tests
+Style and layers while the solver compiles, then the tests on three processes; with arguments, only the tests
 that they choose. Each part runs whatever became of the others.
 """
 
@@ -21,7 +21,6 @@ CACHE = ROOT / ".pytest_cache" / "d" / "lambda-bearing"
 LOOKING = {
     "ruff": [PYTHON, "-m", "ruff", "check", "."],
     "format": [PYTHON, "-m", "ruff", "format", "--check", "."],
-    "mypy": [PYTHON, "-m", "mypy"],
     "layers": [str(Path(PYTHON).parent / "lint-imports")],
 }
 # Once, before the processes of tests would do it side by side.
