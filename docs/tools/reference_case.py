@@ -51,7 +51,8 @@ prints the same as a JSON schema for editors, and `--set PATH=VALUE` changes one
 ```toml
 name = "smallest"
 bearing.designation = "SKF 6208"
-lubricant = { name = "FVA3", temperature = "70 degC" }
+lubricant.name = "FVA3"
+lubricant.temperature = "70 degC"
 operation.speed = "1500 rpm"
 loads.radial = "2 kN"
 ```
