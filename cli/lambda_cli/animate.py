@@ -30,8 +30,8 @@ def animate(
 ) -> None:
     """Show balls, cage and load vectors in motion.
 
-    MP4 needs the extra `animation`, which brings an encoder; GIF and glTF (for viewers of three
-    dimensions) need nothing. Writes the file and prints its name.
+    MP4 needs the extra `animation`, which brings an encoder; GIF and glTF (for viewers of three dimensions) need
+    nothing. The command writes the file and prints its name.
     """
     from lambda_core import api
 

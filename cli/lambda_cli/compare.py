@@ -35,7 +35,7 @@ def compare(
 
     The catalogue formulas and standards answer for the same case.
 
-    Friction by the SKF and Schaeffler models, analytical capacitance, rating life after ISO 281 and ISO/TS
+    They are friction by the SKF and Schaeffler models, analytical capacitance, rating life after ISO 281 and ISO/TS
     16281, loads and stiffness of the quasi-static equilibrium, and the methods of plugins.
     """
     from lambda_core import api

@@ -28,9 +28,9 @@ def cross_check(
     Both integrate one case.
 
     The cage follows its kinematic path: a free cage moves chaotically, and trajectories could not be compared.
-    --free-cage compares mean dissipated powers instead. Needs the extra "sundials". Exit code 5 when the two do not
-    agree: power within 0.02 % and states within 10 tolerances; cage free: power within the joint 95 % interval, or
-    0.02 %.
+    --free-cage compares mean dissipated powers instead. The command needs the extra "sundials". Exit code 5 when the
+    two do not agree: power within 0.02 % and states within 10 tolerances; cage free: power within the joint 95 %
+    interval, or 0.02 %.
     """
     from lambda_core import api
 

@@ -111,7 +111,7 @@ def choose(
 ) -> None:
     """Choose ball bearings by load, speed and life.
 
-    The smallest that meet everything come first.
+    The smallest bearings that meet all conditions come first.
     """
     from lambda_core import api
 

@@ -20,13 +20,11 @@ def duty(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Add up rating life and losses.
+    """Add up rating life and losses over a duty cycle.
 
-    It adds over the phases of a duty cycle.
-
-    Each phase at its quasi-static equilibrium; lives by ISO 281 and ISO/TS 16281, damages added (Palmgren, Miner). Of a
-    machine: every bearing, and the life of all of them. spectrum = "loads.csv" in the TOML file reads the phases from
-    a CSV file.
+    Each phase has its quasi-static equilibrium. Lives follow ISO 281 and ISO/TS 16281; damages are added (Palmgren,
+    Miner). A machine has the lives of every bearing and of the system. spectrum = "loads.csv" in the TOML file reads
+    the phases from a CSV file.
     """
     from lambda_core import api
 

@@ -68,7 +68,7 @@ def fmu(
 
     The unit has the compiled solver and needs no Python.
 
-    It starts at the equilibrium of the case at t = 0. Needs a C compiler; the extra fmu brings one.
+    It starts at the equilibrium of the case at t = 0. The export needs a C compiler; the extra fmu brings one.
     """
     from lambda_core import api
 

@@ -55,9 +55,9 @@ def fit(
 ) -> None:
     """Fit parameters of a case to measurements.
 
-    The measurements are operating points. Reports which parameters they determine.
+    The measurements are operating points. The report names the parameters that they determine.
 
-    Quasi-static and without cage. Ctrl+C keeps the best values so far.
+    Solutions are quasi-static and without a cage. Ctrl+C keeps the best values so far.
     """
     from lambda_core import api
 

@@ -86,7 +86,8 @@ def show(
 ) -> None:
     """Show one model, or those of a plugin.
 
-    The plugin is a file or a package. Prints parameters with units, limits and sources; validity, reference.
+    The plugin is a file or a package. The command prints parameters with units, limits and sources, the validity and
+    the reference.
     """
     from lambda_core import api
 

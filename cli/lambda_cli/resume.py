@@ -25,9 +25,8 @@ def resume(
 
     The results are the same as without the interruption.
 
-    Works after Ctrl+C, a kill, a full disk or the limit of wall time. --duration makes a
-    finished run longer. --max-wall applies to this session; the earlier limit is discarded.
-    Exit codes as for run.
+    This works after Ctrl+C, a kill, a full disk or the limit of wall time. --duration makes a finished run longer.
+    --max-wall applies to this session; the earlier limit is discarded. Exit codes are those of run.
     """
     from lambda_core import api
 

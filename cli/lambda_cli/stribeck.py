@@ -47,9 +47,10 @@ def stribeck(
 ) -> None:
     """Compute the friction torque over speed.
 
-    It prints its parts, too, and compares them with SKF's catalogue model.
+    It also prints the parts of the torque and SKF's catalogue model.
 
-    Quasi-static and without cage; from 1 1/min to n d_m = 500 000 mm/min unless speeds are given.
+    Solutions are quasi-static and without a cage. Speeds range from 1 1/min to n d_m = 500 000 mm/min unless they are
+    given.
     """
     from lambda_core import api
 

@@ -43,7 +43,7 @@ def view(
 ) -> None:
     """Draw one view, or all views that apply.
 
-    Writes RESULT-NAME.svg and .png and prints their names; with --json the data with units instead.
+    The command writes RESULT-NAME.svg and .png and prints their names; with --json the data with units instead.
     """
     from lambda_core import api
 

@@ -32,8 +32,9 @@ def reproduce(
     It compares them with the printed values of Lubricants 14, 154.
 
     table4: friction torque of the 6319, blind and calibrated; anchors: friction of other bearings against SKF's model;
-    fig5: limits of axial excitation of the 6220; fig7: capacitance of the 6208. Writes figures (SVG, PNG) and one HTML
-    page. Called again it goes on where it ended. A point without a result is marked failed; the exit code is then 5.
+    fig5: limits of axial excitation of the 6220; fig7: capacitance of the 6208. The command writes figures (SVG, PNG)
+    and one HTML page. A second call continues where the first one ended. A point without a result is marked failed; the
+    exit code is then 5.
     """
     from lambda_core.domain.errors import PartialResultError
     from lambda_syla2026 import reproduce as repeat
