@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,7 +13,7 @@ from lambda_cli.talk import columns
 from lambda_core.domain.wrapping import wrapped
 
 if TYPE_CHECKING:
-    from lambda_core.api import BearingModel, RollerModel
+    from lambda_core.api import BearingModel
     from lambda_core.domain.errors import Problem
 
 FileOption = Annotated[
@@ -100,10 +99,6 @@ def check(
         if api.is_machine(case):
             _check_machine(case, changes or [], units, as_json=as_json, everything=everything)
             return
-        rollers = api.roller_model(case, changes or ())
-        if rollers is not None:
-            _say_rollers(rollers, units, as_json=as_json)
-            return
         model = api.check(case, changes or ())
         assert isinstance(model, api.BearingModel)
         if faults := [*api.law_problems(model), *_watch_problems(model)]:
@@ -119,16 +114,6 @@ def check(
         typer.echo(json.dumps(report.model_dump(mode="json"), indent=2, allow_nan=False))
         return
     typer.echo("\n".join(wrapped(units.system.sentence(report.text(everything)).splitlines(), columns())))
-
-
-def _say_rollers(model: RollerModel, units: Units, *, as_json: bool) -> None:
-    """Say what a roller bearing is."""
-    if as_json:
-        values = [asdict(value) for value in model.values]
-        found = {"version": 1, "valid": True, "case": model.name, "title": model.title, "values": values}
-        typer.echo(json.dumps({**found, "warnings": model.warnings, "assumptions": list(model.assumptions)}, indent=2))
-    else:
-        typer.echo("\n".join(wrapped(units.system.sentence(model.text()).splitlines(), columns())))
 
 
 def _watch_problems(model: BearingModel) -> list[Problem]:

@@ -113,20 +113,6 @@ class RollerModel:
         """
         return list(speed_warning(abs(self.speeds[0] - self.speeds[1]), self.bearing.limiting_speed))
 
-    def text(self) -> str:
-        """Return the text of the bearing.
-
-        It lists parts, warnings, the origin of every value, and assumptions.
-        """
-        lines = [self.title, *(f"WARNING  {sentence}" for sentence in self.warnings), "", "values"]
-        for value in self.values:
-            number = value.value
-            if not isinstance(number, str):
-                number = show(number, value.quantity, 5) if value.quantity else f"{number:.5g}"
-            grade = f", grade {value.grade}" if value.grade else ""
-            lines.append(f"  {value.path} = {number} ({value.status}{grade}): {value.source}")
-        return "\n".join([*lines, "", "assumptions", *(f"  {sentence}" for sentence in self.assumptions)])
-
 
 def roller_model(source: Source, overrides: Iterable[str] = ()) -> RollerModel | None:
     """Return the roller bearing of a case.

@@ -7,12 +7,12 @@ for contacts with raceways, points for those of their ends with ribs, their own 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lambda_core.case.case import Case
-from lambda_core.case.modelling import ForceElement, Forces
+from lambda_core.case.modelling import ForceElement
 from lambda_core.case.parts import InlineGeometry
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.catalogue.roller_designation import roller_designation
@@ -40,14 +40,18 @@ _SIDES = {1: "+x", -1: "-x"}
 # Laws that know the shape of the elements, and their defaults for rollers.
 _SHAPED = {"cage_contact": "roller-pocket", "fluid_drag": "skf-rollers"}
 NEIGHBOUR, _NEIGHBOURS = next(iter(NEIGHBOURS)), "roller-roller"
+# Force elements whose laws are those of lines or know the shape of rollers, and these roles.
+_LINES = dict.fromkeys(_ELEMENTS, tuple(DEFAULT_LINE_MODELS))
+_NEIGHBOUR_ROLES = ("cage_contact",)
+_ELEMENTS_OF_SHAPES = {"ball_cage": ("cage_contact",), "fluid_drag": ("fluid_drag",)}
 
 
 def rollers_of(
     case: Case, catalogue: Catalogue, place: Callable[[str], str] = str
-) -> tuple[RollerBearing, str, tuple[str, ...]] | None:
+) -> tuple[RollerBearing, str, tuple[str, ...], tuple[ResolvedValue, ...]] | None:
     """Return the rollers of a case.
 
-    Also return their title and assumptions. The result is None for a case with balls.
+    Also return their title, assumptions, and the origins of their values. The result is None for a case with balls.
 
     Parameters
     ----------
@@ -71,7 +75,6 @@ def rollers_of(
         _check_complement(case, rollers, ledger)
     for part in (name for name in type(case.elastic).model_fields if getattr(case.elastic, name) is not None):
         ledger.problem(f"elastic.{part}", "rings and cages of rollers are rigid: leave it out")
-    _refuse_parameters(case, ledger)
     rings = {f"rib_{rib.ring}" for rib in rollers.ribs} if rollers is not None else RIBS
     for name in (name for name in RIBS if name not in rings and getattr(case.forces, name) != ForceElement()):
         ledger.problem(f"forces.{name}", "this bearing has no such ribs: leave it out")
@@ -81,7 +84,7 @@ def rollers_of(
         ledger.assume(STRAIGHT)
     if not rollers.ribs:
         ledger.assume("rollers are guided along the shaft by the pockets of their cage: no height of a rib is known")
-    return rollers, roller_title(case, found, rollers), tuple(ledger.assumptions)
+    return rollers, roller_title(case, found, rollers), tuple(ledger.assumptions), tuple(ledger.values)
 
 
 def _check_complement(case: Case, rollers: RollerBearing, ledger: Ledger) -> None:
@@ -97,7 +100,8 @@ def _check_complement(case: Case, rollers: RollerBearing, ledger: Ledger) -> Non
     if case.depth.cage and "cage" in case.depth.model_fields_set:
         ledger.problem("depth.cage", f"{rollers.kind} rollers are a full complement without a cage: write false")
     if rollers.kind == "tapered":
-        ledger.problem("depth.cage", "tapered rollers in motion need their cage: write true")
+        told = "tapered rollers in motion need their cage: write true (quasistatic leaves cages out)"
+        ledger.problem("depth.cage", told)
     ledger.assume(
         f"no cage: neighbouring rollers touch; they leave {show(rollers.room, 'length', 3)} of the pitch circle free, "
         "even gaps at the start"
@@ -115,23 +119,6 @@ def _refuse_thrust(case: Case, rollers: RollerBearing, ledger: Ledger) -> None:
     problem = thrust_problem(rollers, thrust)
     if problem:
         ledger.problem("loads.axial", problem)
-
-
-def _refuse_parameters(case: Case, ledger: Ledger) -> None:
-    """Refuse parameters and laws without effect.
-
-    They are those of single contacts.
-    """
-    fixed = (*DEFAULT_LINE_MODELS, *_SHAPED)
-    written = {f"parameters.{role}": role for role in case.parameters if role not in DEFAULT_LINE_MODELS}
-    forces = {name: getattr(case.forces, name) for name in case.forces.model_fields_set}
-    for name, force in forces.items():
-        if force is not None and name not in RIBS:
-            written |= {f"forces.{name}.parameters.{role}": role for role in force.parameters}
-            written |= {f"forces.{name}.models.{role}": role for role in force.models.model_fields_set}
-    for path, role in written.items():
-        if role in fixed and not path.startswith(f"forces.{NEIGHBOUR}."):
-            ledger.problem(path, "rollers in motion take the law's own values here: leave it out")
 
 
 def check_roller_fit(case: Case, model: BearingModel) -> None:
@@ -173,24 +160,22 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
     own = {*DEFAULT_LINE_MODELS, *_SHAPED} - ({"cage_contact"} if rollers.full_complement else set())
     models = case.models.model_copy(update=dict.fromkeys(own))
     bodies = case.bodies.model_copy(update={"inner_ring": inner})
-    parameters = {role: values for role, values in case.parameters.items() if role not in DEFAULT_LINE_MODELS}
-    forces = case.forces.model_copy(update={rib: ForceElement() for rib in RIBS})
-    if rollers.full_complement:
-        forces = forces.model_copy(update={NEIGHBOUR: _of_other_roles(forces)})
+    parameters = {role: values for role, values in case.parameters.items() if role not in own}
+    shaped = {NEIGHBOUR: _NEIGHBOUR_ROLES} if rollers.full_complement else _ELEMENTS_OF_SHAPES
+    others = {element: _without(getattr(case.forces, element), roles) for element, roles in (_LINES | shaped).items()}
+    forces = case.forces.model_copy(update={**{rib: ForceElement() for rib in RIBS}, **others})
     depth = case.depth.model_copy(update={"cage": not rollers.full_complement})
     changed = {"forces": forces, "bearing": bearing, "bodies": bodies, "models": models, "parameters": parameters}
     return case.model_copy(update={**changed, "depth": depth, "fit": None})
 
 
-def _of_other_roles(forces: Forces) -> ForceElement:
-    """Return what a case says of neighbouring rollers.
+def _without(given: ForceElement, roles: Iterable[str]) -> ForceElement:
+    """Return what a case says of other roles.
 
-    The options of their contact are left out, because its laws are not those of balls.
+    The laws of these roles are not those of balls.
     """
-    given: ForceElement = getattr(forces, NEIGHBOUR)
-    models = given.models.model_copy(update={"cage_contact": None})
-    parameters = {role: values for role, values in given.parameters.items() if role != "cage_contact"}
-    return ForceElement(models=models, parameters=parameters)
+    models = given.models.model_copy(update=dict.fromkeys(roles))
+    return ForceElement(models=models, parameters={k: v for k, v in given.parameters.items() if k not in roles})
 
 
 def with_ribs(balls: Case, case: Case) -> Case:
@@ -208,6 +193,7 @@ def with_rollers(
     rollers: RollerBearing,
     title: str,
     assumptions: tuple[str, ...],
+    sizes: tuple[ResolvedValue, ...],
     points: Mapping[str, Mapping[str, ChosenLaw]],
     law: Callable[[str, str], Law],
 ) -> BearingModel:
@@ -221,7 +207,7 @@ def with_rollers(
         Of :func:`as_balls`.
     case : Case
         As it is written: its laws of line contacts take the place of the defaults.
-    rollers, title, assumptions
+    rollers, title, assumptions, sizes
         Of :func:`rollers_of`.
     points : mapping
         Laws of the points at ribs, by element and role.
@@ -234,13 +220,14 @@ def with_rollers(
         For a law of point contacts, or parameters that a law does not have.
     """
 
-    def chosen(role: str, name: str) -> ChosenLaw:
-        written = case.parameters.get(role, {}) if role in DEFAULT_LINE_MODELS and name != "none" else {}
-        return read(role, name, written)
-
-    def read(role: str, name: str, written: Mapping[str, Any], under: str = "") -> ChosenLaw:
+    def chosen(element: str, role: str, default: str) -> ChosenLaw:
+        own = getattr(case.forces, element)
+        under = f"forces.{element}." if role in own.parameters or getattr(own.models, role) else ""
+        name = getattr(own.models, role) or (None if element == NEIGHBOUR else getattr(case.models, role)) or default
+        general = {} if element == NEIGHBOUR or name == "none" else case.parameters.get(role, {})
+        written = {**general, **own.parameters.get(role, {})}
         found = law(role, name)
-        if role in (*DEFAULT_LINE_MODELS, *_SHAPED) and found.contact == "point":
+        if found.contact == "point":
             problem = Problem(f"{under}models.{role}", f'"{name}" is a law of balls: choose one of rollers')
             raise CaseError(case.name, [problem])
         ledger = Ledger(place=lambda path: under + path)
@@ -250,7 +237,6 @@ def with_rollers(
         origins = {key: "case" if key in written else "default" for key in found.parameters.model_fields}
         return ChosenLaw(found, values, origins)
 
-    lines = {role: chosen(role, getattr(case.models, role) or name) for role, name in DEFAULT_LINE_MODELS.items()}
     laws = dict(model.laws)
     for ring in sorted({_ELEMENTS.index(f"ball_{rib.ring}") for rib in rollers.ribs}):
         element = tuple(RIBS)[ring]
@@ -258,17 +244,13 @@ def with_rollers(
         own = {"supply": _with_constants(found["supply"], rollers), "asperity_load": _of_ribs(found["asperity_load"])}
         laws[element] = {**found, **own}
     for element in _ELEMENTS:
+        lines = {role: chosen(element, role, name) for role, name in DEFAULT_LINE_MODELS.items()}
         supply = _with_constants(laws[element]["supply"], rollers)
         laws[element] = {**laws[element], **lines, "supply": supply}
-    drag = chosen("fluid_drag", case.models.fluid_drag or _SHAPED["fluid_drag"])
+    drag = chosen("fluid_drag", "fluid_drag", _SHAPED["fluid_drag"])
     laws["fluid_drag"] = {"fluid_drag": _with_constants(drag, rollers)}
-    if rollers.full_complement:
-        given = getattr(case.forces, NEIGHBOUR)
-        name, written = given.models.cage_contact or _NEIGHBOURS, given.parameters.get("cage_contact", {})
-        laws[NEIGHBOUR] = {"cage_contact": read("cage_contact", name, written, f"forces.{NEIGHBOUR}.")}
-    else:
-        pocket = chosen("cage_contact", case.models.cage_contact or _SHAPED["cage_contact"])
-        laws["ball_cage"] = {"cage_contact": pocket}
+    contact, name = (NEIGHBOUR, _NEIGHBOURS) if rollers.full_complement else ("ball_cage", _SHAPED["cage_contact"])
+    laws[contact] = {"cage_contact": chosen(contact, "cage_contact", name)}
     values, told = _of_laws(model, laws, case)
     ratings = tuple(
         ResolvedValue(f"bearing.{name}", getattr(rollers, name), "force", "of the rollers", "", "given")
@@ -284,7 +266,7 @@ def with_rollers(
         title=title,
         rollers=rollers if model.mounting is None else with_clearance(rollers, model.geometry.clearance),
         assumptions=(*told, *assumptions),
-        values=(*values, *ratings),
+        values=(*sizes, *values, *ratings),
     )
 
 
@@ -299,9 +281,10 @@ def _of_laws(
     for element, role in ((e, r) for e, roles in laws.items() for r in roles):
         if laws[element][role] is not model.laws.get(element, {}).get(role):
             changed |= {f"forces.{element}.{kind}.{role}" for kind in ("models", "parameters")}
-            asked = getattr(case.forces, element) if element in (*RIBS, NEIGHBOUR) else None
-            if asked is None or element == NEIGHBOUR or {role} & {*asked.parameters, *asked.models.model_fields_set}:
-                given = getattr(case.models if asked is None else asked.models, role, None) is not None
+            asked = getattr(case.forces, element)
+            if element not in RIBS or {role} & {*asked.parameters, *asked.models.model_fields_set}:
+                general = () if element in (*RIBS, NEIGHBOUR) else (case.models,)
+                given = any(getattr(models, role, None) is not None for models in (asked.models, *general))
                 record_law(ledger, element, role, laws[element][role], "given" if given else "default")
     for value in model.values:
         if ".".join(value.path.split(".")[:4]) not in changed and not is_of_grooves(value.path):
@@ -353,7 +336,7 @@ def _with_constants(law: ChosenLaw, rollers: RollerBearing) -> ChosenLaw:
     SKF's geometry constants of these rollers, where it has them.
     """
     known = dict(zip(("k_l", "k_z"), SKF_CONSTANTS[skf_kind(rollers)], strict=True))
-    values = {name: value for name, value in known.items() if name in type(law.parameters).model_fields}
+    values = {name: value for name, value in known.items() if law.origins.get(name) == "default"}
     if not values:
         return law
     origin = "SKF, Rolling bearings (2018), Friction: constant of these rollers"

@@ -249,12 +249,47 @@ def test_a_case_starts_from_the_catalogue(
     monkeypatch.chdir(tmp_path)
     assert main(["init", "start", "--bearing", bearing]) == 0
     assert main(["check", "start.toml"]) == 0
-    shown = capsys.readouterr().out
-    assert "roller_count" in shown
-    assert "grade" in shown
+    assert "32 slices" in capsys.readouterr().out
     assert main(["quasistatic", "start.toml"]) == 0
+    capsys.readouterr()
     assert main(["check", "start.toml", "--json"]) == 0
+    assert "bearing.rollers.roller_count" in {v["path"] for v in json.loads(capsys.readouterr().out)["values"]}
     assert main(["init", "other", "--bearing", bearing, "--template", "pump"]) == 2
+
+
+def test_raceways_pockets_and_drag_of_rollers_have_their_own_numbers(tmp_path: Path) -> None:
+    """Read numbers of single elements; they count in motion."""
+    changes = (
+        "parameters.elastic_hysteresis.loss_factor=0.02",
+        "forces.ball_outer.parameters.elastic_hysteresis.loss_factor=0.04",
+        "parameters.cage_contact.film_width=0.1",
+        "forces.ball_cage.parameters.cage_contact.mu_s=0.1",
+        "parameters.fluid_drag.k_l=0.5",
+        "parameters.supply.k_z=7",
+    )
+    laws = api.check(case(tmp_path, "NU 208"), changes).laws
+    found = [laws[raceway]["elastic_hysteresis"].parameters.loss_factor for raceway in ("ball_inner", "ball_outer")]
+    pocket = laws["ball_cage"]["cage_contact"].parameters
+    assert found == [0.02, 0.04]
+    assert (pocket.film_width, pocket.mu_s) == (0.1, 0.1)
+    assert laws["fluid_drag"]["fluid_drag"].parameters.k_l == 0.5
+    assert laws["ball_inner"]["supply"].parameters.k_z == 7.0
+
+
+@pytest.mark.parametrize(
+    ("change", "where"),
+    [
+        ("forces.ball_outer.parameters.elastic_hysteresis.los_factor=1", "elastic_hysteresis.los_factor"),
+        ("forces.ball_outer.models.film_thickness=hamrock-dowson", "forces.ball_outer.models.film_thickness"),
+        ("forces.ball_cage.parameters.traction.tau_eyring=1", "forces.ball_cage.parameters.traction"),
+        ("parameters.fluid_drag.volume=1", "parameters.fluid_drag.volume"),
+    ],
+)
+def test_check_finds_mistakes_in_laws_of_rollers(
+    change: str, where: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", case(tmp_path, "NU 208"), "--set", change]) == 3
+    assert where in capsys.readouterr().err
 
 
 def test_a_run_rates_rollers_as_rollers(

@@ -56,18 +56,22 @@ def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[
             ledger.assume(f"parameters.{role}.{key} counts in motion only: the quasi-static answer has no such law")
     for rib in (name for name in RIBS if name in case.forces.model_fields_set):
         ledger.assume(f"forces.{rib} counts in motion only: the quasi-static answer has its own laws at ribs")
+    for element in (name for name in case.forces.model_fields_set if name not in RIBS):
+        ledger.assume(f"forces.{element} counts in motion only: the quasi-static answer has one law for both raceways")
     return found
 
 
 def friction_of_model(model: BearingModel) -> dict[str, Any]:
     """Return a model's friction data of rollers.
 
-    The model is resolved, with rollers in motion; its case has the data.
+    The model is resolved, with rollers in motion; its case has the data. What differs between the raceways counts in
+    motion only.
     """
-    laws, found = model.laws["ball_inner"], {}
+    found = {}
     for role, (name, fields) in ROLLER_FRICTION.items():
-        chosen = laws[role]
-        for key, field in fields.items() if chosen.model.name == name else ():
-            if chosen.origins.get(key) == "case":
+        chosen, other = (model.laws[raceway][role] for raceway in ("ball_inner", "ball_outer"))
+        for key, field in fields.items() if chosen.model.name == other.model.name == name else ():
+            alike = getattr(chosen.parameters, key) == getattr(other.parameters, key)
+            if chosen.origins.get(key) == "case" and alike:
                 found[field] = float(getattr(chosen.parameters, key))
     return found
