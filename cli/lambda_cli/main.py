@@ -185,7 +185,7 @@ def _main(arguments: Sequence[str] | None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except RecursionError:
-        _say("what was given is nested too deeply")
+        _say("the input is nested too deeply")
         return CaseError.exit_code
     except OSError as error:
         why = system_refusal(error)

@@ -42,7 +42,7 @@ def constraint_sentence(error: IntegrityError) -> str:
             if constraint.name == name and "CHECK" in message:
                 return f"{constraint.info['sentence']} ({name})"
     if "UNIQUE" in message or "PRIMARY KEY" in message:
-        return "a row with this key stands already"
+        return "a row with this key exists already"
     return message
 
 

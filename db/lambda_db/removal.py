@@ -120,7 +120,7 @@ def _why_none(catalogue: SqlCatalogue, table: str, key: Row) -> str:
     if _is_built_in(catalogue, table, key):
         return (
             f"{named} is built in, or a plugin's, and cannot be removed; "
-            "a row of your own with the same key stands in front of it (db add)"
+            "a row of your own with the same key takes its place (db add)"
         )
     return f"you have no row {named}; your rows: lambda-bearing db export mine.toml --mine"
 

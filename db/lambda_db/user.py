@@ -175,7 +175,7 @@ def unwritable(path: Path, error: DatabaseError | UnicodeDecodeError) -> Catalog
 def _bring_up_to_date(connection: Connection, path: Path, *, changed: bool) -> None:
     found = connection.exec_driver_sql("PRAGMA user_version").scalar_one()
     if found > SCHEMA_VERSION:
-        message = f"was written by a newer version of this program (schema {found}, this one knows {SCHEMA_VERSION})"
+        message = f"was written by a newer version of this program (schema {found}, this one reads {SCHEMA_VERSION})"
         raise CatalogueError(str(path), [Problem("", message)])
     if found == 0:
         Base.metadata.create_all(connection)

@@ -130,7 +130,7 @@ class AnswerScreen(Screen[None]):
                 return
             self._found[question] = found
         text, views = self._found[question]
-        self._say("the case as it stands, without a run")
+        self._say("the present case, without a run")
         room = self.query_one("#content", VerticalScroll).size
         shown: list[Widget] = [Static(Text("\n".join(wrapped(text.splitlines(), max(40, room.width - 2)))))]
         for view in views:

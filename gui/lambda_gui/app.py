@@ -336,7 +336,7 @@ class BuilderApp(CaseApp):
         yield SystemCommand("Open a case", "a file, a built-in case, or an empty model", self.action_open_case)
         yield SystemCommand("Save", "write the case to its file", self.save_case)
         yield SystemCommand("Save as", "write the case to another file", self.action_save_as)
-        yield SystemCommand("Run", "run the case as it stands", self.action_run_case)
+        yield SystemCommand("Run", "run the present case", self.action_run_case)
         yield SystemCommand("Runs", "the queue and live traces", self.action_runs)
         yield SystemCommand("Study", "let one or two options of the case vary", self.action_study)
         yield SystemCommand("Duty cycle", "life and losses over phases of the case", self.action_duty)

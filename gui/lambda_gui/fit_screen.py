@@ -105,7 +105,7 @@ class FitScreen(Screen[None]):
         around = self._around
         file = card("data file", "CSV file of measured points; a name alone is in the folder of the case")
         yield TextRow(Held(self.values, ("file",)), file, around, kind=_FILE)
-        about = "what is fitted; type its beginning, Enter completes it; with a range: tau_eyring=3 MPa..10 MPa"
+        about = "parameters to fit: type a beginning, Enter completes it; with a range: tau_eyring=3 MPa..10 MPa"
         for number in range(_PARAMETERS):
             one = card(f"parameter {number + 1}", about)
             yield TextRow(Held(self.values, ("vary", str(number))), one, around, kind=_PARAMETER)
@@ -146,7 +146,7 @@ class FitScreen(Screen[None]):
     def action_fit(self) -> None:
         """Fit, unless a fit is going on."""
         if self._is_busy:
-            self.notify("a fit is going on: F8 stops it and keeps the best values so far", severity="warning")
+            self.notify("a fit is running: F8 stops it and keeps the best values so far", severity="warning")
             return
         name, vary = str(self.values.get(("file",)) or "").strip(), self._vary()
         if not name or not vary:

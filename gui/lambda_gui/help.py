@@ -34,9 +34,9 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
             ("F3", "a study: the option under the keyboard varies, or any other"),
             ("F4", "a duty cycle: life and losses over phases that differ in load, speed, oil temperature"),
             ("Ctrl+F", "a fit: parameters of the case from a file of measured points"),
-            ("F5 or Ctrl+R", "run the case as it stands, saved or not"),
+            ("F5 or Ctrl+R", "run the present case, saved or not"),
             ("F6  F7", "results; runs"),
-            ("F8", "go to the next mistake, ready to be corrected; show the warnings where there is none"),
+            ("F8", "go to the next mistake and correct it; without mistakes show the warnings"),
             ("F10 or Ctrl+G", "answers without a run: equilibrium, temperatures, currents, friction, assumptions"),
             ("Ctrl+S", "save; only what you changed is changed in the file"),
             ("Ctrl+Z  Ctrl+Y", "undo, redo"),
@@ -54,7 +54,7 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     ),
     "AnswerScreen": (
         "Answers",
-        "Answers about the case as it stands, saved or not, without a run in time: the equilibrium of all bearings "
+        "Answers about the present case, saved or not, without a run in time: the equilibrium of all bearings "
         "(of a shaft also its deflection, moments and critical speeds), steady temperatures under the case's own "
         "losses, bearing voltages and discharges, friction over speed, and all assumptions.",
         (
@@ -106,8 +106,8 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     ),
     "DutyScreen": (
         "A duty cycle",
-        "Each line is a phase of the case: how long it lasts, and what differs in it. What is left empty is as in the "
-        "case (grey). Phases are solved without time; damages add (Palmgren, Miner), and so do losses.",
+        "Each line is a phase of the case: its time and its differences. Empty fields have the value of the case "
+        "(grey). Phases are solved without time; damages add (Palmgren, Miner), and so do losses.",
         (
             ("↑ ↓", "between the phases"),
             ("Tab or Enter", "complete the unit, and go on to the next value"),
@@ -128,7 +128,7 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
             ("Enter", "complete the name and go on"),
             ("F5", "fit"),
             ("F8", "stop, and keep the best values so far"),
-            ("PgUp PgDn", "scroll what was found"),
+            ("PgUp PgDn", "scroll the results"),
             ("Ctrl+S", "save the case with the fitted values"),
             ("Esc", "back to the case"),
             *_ALL,
@@ -155,8 +155,8 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
         "differences of their cases, numbers in columns, pictures with catalogues on the same axis.",
         (
             ("Tab", "between the results and the views"),
-            ("↑ ↓", "move in the list; what is under the cursor is shown"),
-            ("PgUp PgDn", "scroll what is shown"),
+            ("↑ ↓", "move in the list; the entry under the cursor is shown"),
+            ("PgUp PgDn", "scroll the text"),
             ("Space", "mark a result (in the upper list)"),
             ("e", "export the view as SVG and PNG"),
             ("p", "pictures or text charts, in a terminal with kitty's graphics or sixel"),
@@ -174,11 +174,11 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     ),
     "PickList": (
         "A choice",
-        "The first entry is what holds when nothing is written in the case; the line below tells about the entry.",
+        "The first entry holds if the case has none; the line below explains the entry.",
         (("↑ ↓", "between the entries"), ("Enter", "take the entry"), ("Esc", "back, nothing is changed")),
     ),
     "Ask": ("A question", "Nothing happens before you answer.", _ASKING),
-    "AskText": ("A name", "Enter takes what is written, Esc goes back.", (("Enter", "take it"), ("Esc", "back"))),
+    "AskText": ("A name", "Enter takes the text, Esc goes back.", (("Enter", "take it"), ("Esc", "back"))),
 }
 
 _MARKS = (

@@ -53,7 +53,7 @@ NAMED = {
                       usual=("left", "right", "middle", "fourth", "fifth", "sixth")),
     "gears": Named("Gears", "forces from the power that a mesh transmits", "gear", {}, usual=("gear", "pinion")),
     "discs": Named("Discs", "wheels and rotors: mass, inertia, unbalance", "disc", {}, usual=("wheel", "rotor")),
-    "bodies": Named("Bodies", "housings that give way: mass, inertia, support", "body", {}, usual=("housing", "cover")),
+    "bodies": Named("Bodies", "mounted housings: mass, inertia, support", "body", {}, usual=("housing", "cover")),
     "markers": Named("Markers", "named points on bodies; the result has their motion", "marker", {},
                      usual=("foot", "seat")),
     "connections": Named("Connections", "springs, dampers, bushings between shaft, bodies and ground", "connection", {},

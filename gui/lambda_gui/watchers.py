@@ -47,7 +47,7 @@ def watcher_rows(draft: Draft, node: Node, around: Surroundings) -> Iterator[Wid
         yield row_for(place.part(parameter.name), parameter, around)
     for stranger in written if isinstance(written, dict) else ():
         if stranger != "action" and stranger not in [parameter.name for parameter in known]:
-            said = {"name": stranger, "kind": "text", "description": "is none of its parameters"}
+            said = {"name": stranger, "kind": "text", "description": "is not one of its parameters"}
             told = _ACTION.model_copy(update=said)
             yield row_for(place.part(stranger), told, around)
 

@@ -204,7 +204,7 @@ class Breakdown(Section):
 
     law: str = option(DEFAULT_MODELS["breakdown"], "law of the role breakdown")
     parameters: dict[str, Any] = option({}, "parameters of that law")
-    least_voltage: Voltage = option("0.5 V", "below which nothing breaks down, whatever the law says", gt=0.0)
+    least_voltage: Voltage = option("0.5 V", "below it nothing breaks down under any law", gt=0.0)
 
 
 class Discharge(Section):
@@ -265,7 +265,7 @@ class BearingElectric(Section):
     )
     insulation_resistance: Resistance = option("1 GOhm", "of that coating", gt=0.0)
     shunt: Resistance | None = option(None, "that bridges the insulation, to measure the current", gt=0.0)
-    film: Film = option({}, "conduction and surroundings of its films; what is absent is that of electric.film")
+    film: Film = option({}, "conduction and surroundings of its films; absent values are those of electric.film")
     cage: Cage | None = option(None, "a cage that conducts; absent: electric.cage")
     least_voltage: Voltage | None = option(None, "below which its films hold; absent: that of all bearings", gt=0.0)
 

@@ -178,7 +178,7 @@ class ShaftSpin(Dof):
     A torque drives the shaft.
     """
 
-    mode: Literal["free"] = option("free", "free; the speed or the torque of the shaft stands in [operation]")
+    mode: Literal["free"] = option("free", "free; [operation] has the speed or the torque of the shaft")
     damping: AngularDamping = option("0 N m s/rad", "resistance to the rotation", ge=0.0, le=LARGEST)
 
 

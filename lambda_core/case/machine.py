@@ -106,7 +106,7 @@ class Shaft(Section):
     reduced: str | None = option(
         None,
         "in place of the pieces: file with mass, stiffness and nodes of a finite-element program's reduced model; "
-        "everything on the shaft stands at one of its nodes, by position or by the node's name as the marker",
+        "every part on the shaft is at one of its nodes, by position or by the node's name as the marker",
         min_length=1,
     )
     sections: list[ShaftSection] = option(
@@ -182,10 +182,10 @@ class Support(Section):
     }
 
     x: SeatTranslation = option("locked", 'axial: "locked", "free" (floating), a stiffness ("200 N/um") or a motion')
-    y: SeatTranslation = option("locked", "horizontal, likewise")
-    z: SeatTranslation = option("locked", "vertical, likewise")
-    tilt_y: SeatTilt = option("locked", 'rotation about y: likewise, a stiffness being "50 N m/mrad"')
-    tilt_z: SeatTilt = option("locked", "rotation about z, likewise")
+    y: SeatTranslation = option("locked", "horizontal, in the same way")
+    z: SeatTranslation = option("locked", "vertical, in the same way")
+    tilt_y: SeatTilt = option("locked", 'rotation about y, in the same way; a stiffness is "50 N m/mrad"')
+    tilt_z: SeatTilt = option("locked", "rotation about z, in the same way")
 
 
 class MachineBearing(Bearing, Placed):
@@ -249,7 +249,7 @@ class MachineOperation(Section):
         None, "in motion: torque of the coupling on the shaft, in place of its speed; the shaft then twists"
     )
     temperatures: Literal["given", "computed"] = option(
-        "given", 'of oil, bearings, shaft and housing: as the case says, or "computed" by [thermal] for t = 0'
+        "given", 'of oil, bearings, shaft and housing: given in the case, or "computed" by [thermal] for t = 0'
     )
 
 

@@ -93,10 +93,10 @@ class ShaftSupport(Placed):
         min_length=1,
     )
     x: Translation = option("free", 'axial: "free", "locked", a stiffness ("200 N/um") or a motion')
-    y: Translation = option("free", "horizontal, likewise")
-    z: Translation = option("free", "vertical, likewise")
-    tilt_y: Tilt = option("free", 'rotation about y: likewise, a stiffness being "50 N m/mrad"')
-    tilt_z: Tilt = option("free", "rotation about z, likewise")
+    y: Translation = option("free", "horizontal, in the same way")
+    z: Translation = option("free", "vertical, in the same way")
+    tilt_y: Tilt = option("free", 'rotation about y, in the same way; a stiffness is "50 N m/mrad"')
+    tilt_z: Tilt = option("free", "rotation about z, in the same way")
     spin: ShaftSpin = option("free", "rotation about x: { damping = ... } is a load that grows with the speed")
 
     @property
@@ -115,11 +115,11 @@ class BodySupport(Section):
     """
 
     x: Translation = option("free", 'axial: "free", "locked", a stiffness ("200 N/um") or a motion')
-    y: Translation = option("free", "horizontal, likewise")
-    z: Translation = option("free", "vertical, likewise")
+    y: Translation = option("free", "horizontal, in the same way")
+    z: Translation = option("free", "vertical, in the same way")
     tilt_x: Roll = option("free", 'rotation about x: "free", "locked" or a stiffness ("50 N m/mrad")')
-    tilt_y: Tilt = option("free", "rotation about y, likewise, or a motion")
-    tilt_z: Tilt = option("free", "rotation about z, likewise")
+    tilt_y: Tilt = option("free", "rotation about y, in the same way, or a motion")
+    tilt_z: Tilt = option("free", "rotation about z, in the same way")
 
 
 class MachineBody(Section):
@@ -215,8 +215,8 @@ class Connection(Placed):
         min_length=1,
     )
     x: TranslationSpring = option("free", 'along the shaft: a stiffness ("1 N/um"), or stiffness and damping')
-    y: TranslationSpring = option("free", "horizontal, likewise")
-    z: TranslationSpring = option("free", "vertical, likewise")
+    y: TranslationSpring = option("free", "horizontal, in the same way")
+    z: TranslationSpring = option("free", "vertical, in the same way")
     tilt_x: RotationSpring = option("free", "against rotation about x; not of the shaft, which turns")
     tilt_y: RotationSpring = option("free", "against rotation about y")
     tilt_z: RotationSpring = option("free", "against rotation about z")

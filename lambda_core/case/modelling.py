@@ -120,7 +120,9 @@ class Solver(Section):
         gt=0.0,
     )
     max_wall: Time | None = option(
-        None, "wall time with preparation after which a run stops, resume goes on without it; absent: none", gt=0.0
+        None,
+        "wall time, preparation included, after which a run stops; resume continues without it; absent: no limit",
+        gt=0.0,
     )
 
 

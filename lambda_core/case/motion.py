@@ -144,7 +144,7 @@ class Operation(Section):
     speed: SpeedSignal = option(description="speed of the inner ring over time (initial speed where its spin is free)")
     torque: MomentSignal | None = option(None, "driving torque on the inner ring; needs bodies.inner_ring.spin free")
     temperatures: Literal["given", "computed"] = option(
-        "given", 'of oil and parts: as the case says, or "computed" by the network of [thermal] for t = 0'
+        "given", 'of oil and parts: given in the case, or "computed" by the network of [thermal] for t = 0'
     )
 
 
@@ -174,8 +174,8 @@ class Marker(Section):
     y: Length = option("0 mm", "horizontal distance from the axis at t = 0")
     z: Length = option("0 mm", "vertical distance from the axis at t = 0")
     about_x: Angle = option("0 deg", "axes of springs and loads here: turned about x, then about y and z as they were")
-    about_y: Angle = option("0 deg", "likewise about y")
-    about_z: Angle = option("0 deg", "likewise about z")
+    about_y: Angle = option("0 deg", "the same about y")
+    about_z: Angle = option("0 deg", "the same about z")
 
 
 class BetweenBodies(Section):
@@ -185,6 +185,6 @@ class BetweenBodies(Section):
     """
 
     law: str = option("bushing", "law of the role force_element", min_length=1)
-    first: str = option("ground", 'body or marker at one end; "ground" is what stands still', min_length=1)
+    first: str = option("ground", 'body or marker at one end; "ground" does not move', min_length=1)
     second: str = option(description="body or marker at the other end, on which the law's force acts", min_length=1)
     parameters: dict[str, Any] = option({}, "parameters of the law")

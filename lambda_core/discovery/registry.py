@@ -286,7 +286,7 @@ class Registry:
         """
         if failure not in self.set_aside.setdefault(hook, []):
             self.set_aside[hook].append(failure)
-            log.warning("went on without a plugin: %s", failure)
+            log.warning("continued without a plugin: %s", failure)
         went_on_without(failure)
 
     def _named(self, kind: str, name: str, known: Mapping[str, Any]) -> Any:

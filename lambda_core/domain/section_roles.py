@@ -39,7 +39,7 @@ SECTION_ROLES: tuple[Role, ...] = (
     ),
     Role(
         "breakdown",
-        "voltage that a film stands while it is on one patch of surface",
+        "voltage that a film holds while it is on one patch of surface",
         arguments_of(
             "h f central film [m]; h_min f minimum film [m]; sigma f composite rms roughness [m]; "
             "area f Hertzian area [m2]; u_1 f random number of the patch, 0..1; "

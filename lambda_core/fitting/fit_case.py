@@ -344,7 +344,7 @@ def _list(names: Sequence[str]) -> str:
 def _warnings(problem: CaseProblem, found: Fit) -> list[str]:
     warnings = []
     if found.is_interrupted:
-        warnings.append("The fit was interrupted: these are the best values so far; what was not computed is left out.")
+        warnings.append("The fit was interrupted: these are the best values so far; the other results are missing.")
     patterns = [test for test in found.tests if test.is_significant]
     if patterns:
         first = patterns[0]

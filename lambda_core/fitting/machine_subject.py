@@ -141,7 +141,7 @@ class MachineSubject:
         except ValueError:
             read = None
         if read is None:
-            more = f"; or name a number that stands in the case of {self._machine.name}"
+            more = f"; or name a number in the case of {self._machine.name}"
             raise UsageError(f"{refused}{more}") if refused is not None else UsageError(f"--vary: no {path}{more}")
         scale, (number,) = read
         entry = Graded(path, number, math.nan, math.nan, Scale(scale.unit), "", "")

@@ -65,7 +65,7 @@ class ComparedPoint(Record):
     unit: str
     measured: float
     predicted: float
-    band: list[float] = Field(description="90 % model band; empty where it was not asked for")
+    band: list[float] = Field(description="90 % model band; empty unless requested")
 
 
 class ComparedSeries(Record):
@@ -84,7 +84,7 @@ class MeasuredComparison(Record):
     """Every series next to the predictions; nothing is fitted."""
 
     interface: int = INTERFACE
-    compared: list[ComparedSeries] = Field(description="in the order asked for")
+    compared: list[ComparedSeries] = Field(description="in the requested order")
 
     def text(self) -> str:
         """Return the lines of the comparison.

@@ -22,7 +22,7 @@ class FittedParameter(Record):
     unit: str
     value: float
     standard_error: float | None = Field(description="null for a parameter that is held")
-    posterior_error: float = Field(description="standard deviation; that of the range where the data say nothing")
+    posterior_error: float = Field(description="standard deviation; that of the range if the data do not determine it")
     interval_95: list[float] = Field(description="95 % confidence interval; empty for a parameter that is held")
     start: float
     low: float = Field(description="lower end of its range")
@@ -128,7 +128,7 @@ class FitReport(Record):
     sha256: str = Field(description="hash of the file of measurements")
     date: str = Field(description="when the fit was made")
     sentence: str = Field(description="what the data determine")
-    warnings: list[str] = Field(description="what speaks against the fitted values")
+    warnings: list[str] = Field(description="reasons to doubt the fitted values")
     parameters: list[FittedParameter] = Field(description="in the order in which they were named")
     correlation: list[list[float]] = Field(description="of the parameters that are not held, in their order")
     posterior_correlation: list[list[float]] = Field(description="of all parameters, with the ranges of held ones")
@@ -140,7 +140,7 @@ class FitReport(Record):
     discrepancy_pct: dict[str, float] = Field(
         description="standard deviation of what the laws may be wrong by, by quantity: the ranges that are not fitted"
     )
-    posterior: SampledPosterior | None = Field(default=None, description="samples; null where none were asked for")
+    posterior: SampledPosterior | None = Field(default=None, description="samples; null unless requested")
     next_point: SuggestedPoint | None = Field(description="to measure next; null where none was looked for")
     scatter_pct: float | None = Field(description="standard deviation of the residuals; null where errors are known")
     chi_square_per_degree: float | None = Field(description="null where errors are not known")

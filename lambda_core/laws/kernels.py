@@ -251,7 +251,7 @@ def _check_return(model: Law, found: Any, wanted: Any) -> None:
     if found != wanted:
         some = "nothing, or a number on some paths only," if str(found).startswith(("none", "Optional")) else str(found)
         raise PluginError(
-            f"{model.label} returns {some} where an int64 status is due: "
+            f"{model.label} returns {some} in place of an int64 status: "
             "return 1 for a valid result, 2 and up for errors of your own"
         )
 

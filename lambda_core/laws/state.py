@@ -102,7 +102,7 @@ def state_fault(law: Law) -> str:
         if fault := _unit_fault(state.unit):
             return f"has the state {state.name} in {fault}"
         if not (state.scale > 0.0 and math.isfinite(state.scale)):
-            return f"has the state {state.name} of the scale {state.scale}: a positive number is due"
+            return f"has the state {state.name} of the scale {state.scale}: must be a positive number"
         if not state.lower < state.upper:
             return f"has the state {state.name} between {state.lower:g} and {state.upper:g}: lower must be below upper"
     return _reads_fault(law.reads)
@@ -130,5 +130,5 @@ def _symbols(unit: str) -> list[str]:
 def _reads_fault(reads: Mapping[str, float]) -> str:
     for name, value in reads.items():
         if not isinstance(value, int | float) or not math.isfinite(value):
-            return f"reads the state {name} and is tried with {value!r}: a finite number is due"
+            return f"reads the state {name} and is tried with {value!r}: must be a finite number"
     return ""

@@ -110,7 +110,7 @@ def _thrust(machine: MachineTemplate, bearing: BearingRow) -> tuple[float, str]:
     alone = bearing.kind == "angular contact" and bearing.contact_angle is not None
     least = HALF_LOADED * math.tan(bearing.contact_angle.value) if alone and bearing.contact_angle else 0.0
     if least > machine.thrust:
-        return 1.1 * least, "along the shaft; less opens an angular contact bearing that stands alone"
+        return 1.1 * least, "along the shaft; less opens a single angular contact bearing"
     return machine.thrust, f"{machine.thrust:.2g} of it, along the shaft" if machine.thrust else "along the shaft"
 
 

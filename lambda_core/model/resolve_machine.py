@@ -321,12 +321,12 @@ def _check_on_shaft(case: MachineCase, stand: Places, outside: ElasticBody | Non
         elif outside is not None and case.shaft.is_rigid and not outside.has_node(position):
             ledger.problem(
                 where,
-                f"{at} is not where the bearing is: what stands on a shaft without sections stands at its bearing, "
+                f"{at} is not the place of the bearing: parts of a shaft without sections are at its bearing, "
                 f"{show(float(outside.positions[0]), 'length', 6)}; move it there, or give shaft.sections",
             )
         elif outside is not None and not outside.has_node(position):
             nodes = ", ".join(f"{1e3 * x:.6g}" for x in outside.positions)
-            ledger.problem(where, f"there is no node at {at}; nodes of the shaft stand at {nodes} mm")
+            ledger.problem(where, f"there is no node at {at}; nodes of the shaft are at {nodes} mm")
 
 
 def _check_one_place(case: MachineCase, stand: Places, ledger: Ledger) -> None:

@@ -44,7 +44,7 @@ class Equilibrium(Record):
         "largest contact load, of both rings", "N", label="largest contact load of both rings", column="Q_max",
         decimals=0, digits=4, group="contact",
     )  # fmt: skip
-    max_load_ring: Ring = Field(description="the ring that the largest contact load stands at")
+    max_load_ring: Ring = Field(description="the ring with the largest contact load")
     max_pressure_GPa: float = quantity(
         "largest Hertzian pressure", "GPa", label="largest contact pressure", column="p_max", decimals=3,
         group="contact",

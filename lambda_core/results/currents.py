@@ -34,7 +34,7 @@ class Currents(Record):
         column="discharges", decimals=FLOATING, digits=4, group="currents",
     )  # fmt: skip
     partial_discharges_per_s: float = quantity(
-        "through one film, the other stands: only the ball's charge", "1/s", label="discharges through one film",
+        "through one film, while the other holds: only the ball's charge", "1/s", label="discharges through one film",
         decimals=FLOATING, digits=4, group="currents",
     )  # fmt: skip
     breakdown_voltage_V: list[float] | None = quantity(

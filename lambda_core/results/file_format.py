@@ -95,7 +95,7 @@ def create(file: h5py.File, provenance: Provenance, channels: RunChannels) -> No
     _dimensions(file, channels)
     _series(file, (_TIME,), "time")
     inputs = file.create_group(INPUTS_GROUP)
-    inputs.attrs["case_toml"] = "the case, complete: it runs again as it stands"
+    inputs.attrs["case_toml"] = "the complete case, which can run again unchanged"
     filled(inputs, "case_toml", texts(provenance.case_toml))
     _sentences(inputs, "plugins", provenance.plugins)
     _pairs(inputs, "versions", provenance.versions())

@@ -57,13 +57,13 @@ class Shoulder(Record):
         if self.ridge:
             return [
                 f"the contact of ball {self.ball} runs {-self.margin_um:.0f} um over the edge between the arcs of the "
-                f"{self.ring} ring (ellipse to {self.ellipse_end_deg:.1f} deg): computed as if each arc went on"
+                f"{self.ring} ring (ellipse to {self.ellipse_end_deg:.1f} deg): computed as if each arc continued"
             ]
         if self.low:
             return [
                 f"the contact of ball {self.ball} runs over the low shoulder of the {self.ring} ring (ellipse to "
                 f"{self.ellipse_end_deg:.1f} deg, where the groove ends at 0): more axial load holds an angular "
-                "contact bearing together; computed as if the groove went on"
+                "contact bearing together; computed as if the groove continued"
             ]
         return [
             f"the contact of ball {self.ball} runs {-self.margin_um:.0f} um over the {self.ring} ring's shoulder "

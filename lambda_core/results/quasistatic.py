@@ -68,7 +68,7 @@ class QuasiStatic(Answer, Banded):
     )
     loaded_balls: int = same_as(StartState, "loaded_balls")
     max_load_N: float = same_as(StartState, "max_load_N")
-    max_load_ring: Ring = Field(description="the ring that the largest contact load stands at")
+    max_load_ring: Ring = Field(description="the ring with the largest contact load")
     max_pressure_GPa: float = same_as(StartState, "max_pressure_GPa")
     friction_torque_Nmm: float | None = same_as(BearingSummary, "friction_torque_Nmm")
     friction_breakdown_Nmm: dict[str, float | None]

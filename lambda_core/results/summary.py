@@ -75,7 +75,7 @@ class Summary(Record):
     interface: int = INTERFACE
     case: str
     title: str
-    headline: str = Field(description="lines that say what was run")
+    headline: str = Field(description="lines that describe the run")
     file: str
     state: Literal["running", "finished", "stopped", "interrupted", "failed"]
     converged: bool
@@ -127,7 +127,7 @@ class Summary(Record):
     simulated_s: float = quantity("simulated time", "s", decimals=FLOATING, digits=4, group="trust")
     wall_s: float = Field(description="wall time of the integration")
     wall_per_simulated_second: float | None
-    vibrations: NumericalDamping | None = Field(description="how far vibrations can be believed")
+    vibrations: NumericalDamping | None = Field(description="accuracy of the vibrations")
     solver_statistics: dict[str, float]
     assumptions: list[str]
 

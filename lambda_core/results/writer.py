@@ -43,7 +43,7 @@ class DiskError(PartialResultError):
 
     def __init__(self, path: Path, why: str) -> None:
         super().__init__(
-            f"cannot write {path}: {why}; what was written before is kept. "
+            f"cannot write {path}: {why}; earlier results are kept. "
             f"Make room, then continue with: lambda-bearing resume {path}"
         )
 

@@ -29,7 +29,7 @@ _TRIAL = 0.05
 _TRIAL_WALL = 2.0  # [s] longest trial; slow bearings do not get as far
 
 
-SIMULATED = "simulated time of the run: what the case says, else the shortest in which it can converge"
+SIMULATED = "simulated time of the run: that of the case, or the shortest in which it can converge"
 PROCESSOR = "processor time of the run on this machine, from a trial; null where there is none"
 
 

@@ -41,7 +41,7 @@ class MachineDutyCycle(Record):
     mean_power_loss_W: float | None = Field(description="of all bearings")
     energy_loss_kJ: float | None = Field(description="of all bearings and phases, in one cycle")
     energy_loss_kWh_per_year: float | None = Field(description="of a cycle repeated without a pause, in 8766 h")
-    warnings: list[str] = Field(description="what cannot stand on the shaft as it is drawn")
+    warnings: list[str] = Field(description="geometric conflicts of parts on the shaft")
     assumptions: list[str]
 
     def text(self, units: UnitSystem = SI) -> str:

@@ -220,7 +220,7 @@ def _channels_fault(label: str, item: Observer) -> str:
         return f"{label} has no channel"
     for integral in item.integrals:
         if integral.of not in rates:
-            return f'{label}: the integral {integral.name} is of "{integral.of}", which is none of its channels'
+            return f'{label}: the integral {integral.name} is of "{integral.of}", which is not one of its channels'
     written = item.written()
     names = [channel.name for channel in written]
     taken = {channel.name for channel in CHANNELS} | {*DIMENSIONS, *_OWN_DIMENSIONS, "status"}
@@ -235,5 +235,5 @@ def _channels_fault(label: str, item: Observer) -> str:
             return f'{label}: the channel {channel.name} has the dimension "{unknown[0]}"; there are: {known}'
     for number in item.numbers:
         if number.channel not in names:
-            return f'{label}: the number {number.name} is of "{number.channel}", which is none of its channels'
+            return f'{label}: the number {number.name} is of "{number.channel}", which is not one of its channels'
     return ""

@@ -270,9 +270,9 @@ def test_bad_use_is_answered_with_a_sentence(host: Any, exported: Export, tmp_pa
     assert bearing.step(STEP) == host.OK
     trials = {
         "between initialisation and the end": early,
-        "inner_ring.force_z is to be nan N: a finite number is due": bearing.set(PUSHED, math.nan),
+        "inner_ring.force_z is to be nan N: must be finite": bearing.set(PUSHED, math.nan),
         "bearing.loss is no input": bearing.set("bearing.loss", 1.0),
-        "a positive, finite length is due": bearing.step(-STEP),
+        "must be positive and finite": bearing.step(-STEP),
         "from t = 0 s is lost in rounding": lost,
         "a step of 1e+300 s: 1000 s is the longest at once": bearing.step(1e300),
     }
@@ -288,7 +288,7 @@ def test_bad_use_is_answered_with_a_sentence(host: Any, exported: Export, tmp_pa
     for sentence in trials:
         assert any(sentence in said for said in bearing.said), sentence
     for along in (math.nan, math.inf):
-        with pytest.raises(ArithmeticError, match=r"a slope along .* of inner_ring.force_z: a finite number is due"):
+        with pytest.raises(ArithmeticError, match=r"a slope along .* of inner_ring.force_z: must be finite"):
             bearing.slope("inner_ring.z", PUSHED, along)
     assert bearing.step(STEP) == host.OK  # none of this has harmed it
     assert bearing.set(PUSHED, 1e300) == host.OK

@@ -320,7 +320,7 @@ def test_an_elastic_housing_from_a_file(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match=r"housing\.json: the housing is held by nothing"):
         solved(case)
     write_reduced(craig_bampton(replace(beam, stiffness=stiffness), [0.03], 2), tmp_path / "housing.json")
-    with pytest.raises(CaseError, match=r"right: there is no node at 0\.15 m; nodes stand at 30 mm"):
+    with pytest.raises(CaseError, match=r"right: there is no node at 0\.15 m; nodes are at 30 mm"):
         solved(case)
 
 

@@ -73,7 +73,7 @@ ALIGNING = {"b": {"designation": "SKF 1208 EKTN9", "at": "9 mm"}}
 @pytest.mark.parametrize(
     ("changes", "where", "words"),
     [
-        ({"loads": {"belt": {"at": "20 mm", "radial": "2 kN"}}}, "loads.belt.at", "20 mm is not where the bearing is"),
+        ({"loads": {"belt": {"at": "20 mm", "radial": "2 kN"}}}, "loads.belt.at", "is not the place of the bearing"),
         ({"bearings": BEARINGS}, "shaft.sections", "only the shaft of a single bearing can be rigid"),
         (
             {"shaft": {"support": {"spin": {"damping": "1 N m s/rad"}}}},

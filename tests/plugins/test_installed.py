@@ -101,7 +101,7 @@ SENTENCES = {
 }
 REFUSALS = {
     "bad-signature": "takes (slip, T, p, ln_eta, h, par, tau); traction kernels take (slip, p, T, ln_eta, h, par, tau)",
-    "bad-return": "returns float64 where an int64 status is due",
+    "bad-return": "returns float64 in place of an int64 status",
     "bad-number": "leaves shear stress [Pa] unwritten or returns NaN with status 1",
     "bad-status": "returns the status 4; declared: 1",
     "bad-index": "reads or writes outside its arrays: IndexError",

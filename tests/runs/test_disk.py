@@ -55,7 +55,7 @@ def test_a_full_disk_at_any_point(limit: int, warm: Warm, tmp_path: Path, comple
         assert not path.exists()
         return
     assert code == 5, said
-    assert f"cannot write {path}: File too large; what was written before is kept" in said
+    assert f"cannot write {path}: File too large; earlier results are kept" in said
     result = Result(path)
     status = result.status()
     for channel in result.channels:

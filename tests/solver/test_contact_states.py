@@ -195,9 +195,9 @@ def test_what_nobody_keeps_cannot_be_read() -> None:
         ("normal_contact", {"reads": {"warmth": 1.0}}, "reads states, which laws of the role normal_contact cannot"),
         ("traction", {"states": SPIRAL}, "keeps states: only laws of the role contact_state do"),
         ("traction", {"reads": {"load": 1.0}}, "has the state load: the name is taken"),
-        ("traction", {"reads": {"warmth": float("nan")}}, "a finite number is due"),
+        ("traction", {"reads": {"warmth": float("nan")}}, "must be a finite number"),
         ("contact_state", {}, "keeps no state: name what every contact keeps"),
-        ("contact_state", {"states": (State("a", "-", "a", scale=0.0),)}, "a positive number is due"),
+        ("contact_state", {"states": (State("a", "-", "a", scale=0.0),)}, "must be a positive number"),
         ("contact_state", {"states": (State("A b", "-", "a", scale=1.0),)}, "in lower case with underscores"),
     ],
 )

@@ -37,7 +37,7 @@ class FilmOutcome(Record):
     case: str
     rows: int = Field(description="of the measured series that were taken")
     measured_capacitance_pF: list[float]
-    expected_capacitance_pF: float = Field(description="of the case as it stands")
+    expected_capacitance_pF: float = Field(description="of the unchanged case")
     film_scale: list[float] = Field(description="film over that of the case")
     film_scale_uncertainty: float = Field(description="standard deviation by that of the measured capacitance")
     sensitivity: float = Field(description="d ln C/d ln h of the bearing: -1 where the films carry all capacitance")

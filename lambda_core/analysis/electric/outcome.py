@@ -66,7 +66,7 @@ class Outcome(Answer):
     impedance_phase_deg: dict[str, float]
     discharges: int = Field(description="through both contacts of a ball: the rotor's charge flows")
     discharges_per_s: float
-    partial_discharges: int = Field(description="through one film, the other stands: only the ball's charge")
+    partial_discharges: int = Field(description="through one film, while the other holds: only the ball's charge")
     floor_share: float = Field(description="of the breakdowns, at the least voltage of the case and not of the law")
     breakdown_voltage_V: list[float] | None = Field(description="of the bearing at discharges: 10, 50, 90 %")
     peak_current_A: list[float] | None = Field(description="10, 50, 90 % of discharges")

@@ -100,7 +100,7 @@ class BearingEquilibrium(Banded):
     )
     loaded_balls: int = same_as(StartState, "loaded_balls")
     max_load_N: float = same_as(StartState, "max_load_N")
-    max_load_ring: Ring = Field(description="the ring that the largest contact load stands at")
+    max_load_ring: Ring = Field(description="the ring with the largest contact load")
     max_pressure_GPa: float = same_as(StartState, "max_pressure_GPa")
     contact_angle_deg: list[float] = quantity(
         "smallest and largest of the loaded contacts, sizes", "deg", label="contact angles", column="contact angles",
@@ -125,7 +125,7 @@ class BearingEquilibrium(Banded):
     )
     contacts: list[Contact] = Field(description="of every ball with each ring")
     verdict: Verdict = Field(description="against required life and limits")
-    warnings: list[str] = Field(description="what is beyond a limit: ratings, pressure, shoulders, tilt, speed, oil")
+    warnings: list[str] = Field(description="values beyond a limit: ratings, pressure, shoulders, tilt, speed, oil")
 
 
 class BodyMoved(Record):
@@ -164,14 +164,14 @@ class MachineEquilibrium(Answer):
     positions_mm: list[float] = Field(description="of the nodes along the shaft")
     deflection_um: list[list[float]] = Field(description="x, y, z at each position")
     slope_mrad: list[list[float]] = Field(description="tilts about y and z at each position")
-    cut_positions_mm: list[float] = Field(description="where section forces stand, both sides of every node")
+    cut_positions_mm: list[float] = Field(description="places of the section forces, both sides of every node")
     shear_N: list[list[float]] = Field(description="along y and z")
     bending_moment_Nm: list[list[float]] = Field(description="about y and z, of the right side on the left")
     torque_Nm: list[float] = Field(description="about x, of the right side on the left")
     iterations: int = Field(description="of Newton's method")
     residual: float = Field(description="largest unbalanced force over the loads")
-    warnings: list[str] = Field(default=[], description="what cannot stand on the shaft as it is drawn")
-    assumptions: list[str] = Field(description="values that nobody gave, and simplifications")
+    warnings: list[str] = Field(default=[], description="geometric conflicts of parts on the shaft")
+    assumptions: list[str] = Field(description="assumed values and simplifications")
 
     def with_bands(self, found: MachineBand) -> MachineEquilibrium:
         """Return the same with the model bands of its bearings."""
@@ -245,7 +245,7 @@ class MachineEquilibrium(Answer):
 
     def _solved(self) -> MachineModel:
         if self._model is None:
-            raise UsageError(f"{self.case}: this equilibrium has no machine; solve its case anew")
+            raise UsageError(f"{self.case}: this equilibrium has no machine; solve its case again")
         return self._model
 
     def bearing(self, name: str) -> BearingEquilibrium:

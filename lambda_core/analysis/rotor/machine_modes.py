@@ -44,7 +44,7 @@ class BearingMatrices(Record):
     )
     housed_stiffness: list[list[float]] = Field(description="the same with the housing in series")
     damping: list[list[float]] = Field(
-        description="6 x 6, likewise, of vibrations with the shaft's speed [N s/m, N s/rad, N m s/rad]; zeros at rest"
+        description="6 x 6, of vibrations with the shaft's speed [N s/m, N s/rad, N m s/rad]; zeros at rest"
     )
     housed_damping: list[list[float]] = Field(description="the same with the housing in series")
 

@@ -126,7 +126,9 @@ def _nodes(data: dict[str, Any], found: list[Problem]) -> FloatArray:
             )
         nodes = np.ascontiguousarray(nodes[:, 0])
     if nodes.size > 1 and np.diff(nodes).min() <= 0.0:
-        found.append(Problem("nodes", "must rise along x, no two at one place; sort the rows of the matrices likewise"))
+        found.append(
+            Problem("nodes", "must rise along x, no two at one place; sort the rows of the matrices in the same order")
+        )
     return nodes
 
 

@@ -47,7 +47,7 @@ def elastic_housing(
             first = body.rows(bearing.position).start
         except ValueError as error:
             nodes = ", ".join(f"{1e3 * x:.6g}" for x in body.positions)
-            file.problem(f"{bearing.name}: {error}; nodes stand at {nodes} mm")
+            file.problem(f"{bearing.name}: {error}; nodes are at {nodes} mm")
             continue
         held = [d for d, k in enumerate(bearing.seating.stiffness) if math.isinf(k)]
         rows += [first + PLACES[d] for d in held]

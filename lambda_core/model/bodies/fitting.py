@@ -56,7 +56,7 @@ def fitting_warnings(case: MachineCase, bearings: Sequence[MountedBearing], outl
             found += _on_seat(bearing, case.bearings[bearing.name], span, outline)
             found += _on_shaft(span, outline[0][0], outline[-1][1])
     found += [
-        f"{one} and {other} overlap by {_mm(room)}: two bearings cannot stand in one place"
+        f"{one} and {other} overlap by {_mm(room)}: two bearings cannot be in one place"
         for one, other in combinations(spans, 2)
         if (room := min(one.end, other.end) - max(one.begin, other.begin)) > _TOUCHING
     ]

@@ -277,7 +277,7 @@ def full_film_coefficient(base_type: str) -> float:
 def evaluate(inputs: MethodInputs) -> MethodTable:
     """Answer a case with the SKF model."""
     if inputs.lubrication not in STARVATION:
-        raise NotApplicable(f"SKF's model knows no {inputs.lubrication} lubrication")
+        raise NotApplicable(f"SKF's model does not cover {inputs.lubrication} lubrication")
     seals, about_seals = _seals(inputs)
     assumptions = [f"lubrication: {inputs.lubrication}", about_seals]
     height = 0.0

@@ -113,7 +113,7 @@ def skf_roller_friction(inputs: RollerMethodInputs) -> SkfFriction:
     if kind not in _FULL_FILM:
         raise NotApplicable("the program does not have SKF's table of needle roller bearings")
     if inputs.lubrication not in STARVATION:
-        raise NotApplicable(f"SKF's model knows no {inputs.lubrication} lubrication")
+        raise NotApplicable(f"SKF's model does not cover {inputs.lubrication} lubrication")
     speed = inputs.relative_speed
     if speed == 0.0:
         raise NotApplicable("nothing turns")

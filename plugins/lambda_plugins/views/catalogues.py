@@ -33,7 +33,7 @@ def catalogues(run: RunData, options: Options) -> ViewData:
         if value is not None
     ]
     if not others:
-        raise NotApplicable("neither SKF's nor Schaeffler's model knows this bearing")
+        raise NotApplicable("neither SKF's nor Schaeffler's model covers this bearing")
     places = np.arange(1.0 + len(others))
     found = summary.friction_breakdown_Nmm
     series = []

@@ -279,7 +279,7 @@ int lb_set(lb_bearing *b, const unsigned *which, size_t count, const double *val
     if (!v) return LB_ERROR;
     const char *name = lb_names[which[i]], *unit = lb_units[which[i]];
     if (!lb_given(v)) return lb_say(b, LB_ERROR, "%s is no input: it cannot be set", name);
-    if (!isfinite(values[i])) return lb_say(b, LB_ERROR, "%s is to be %g%s: a finite number is due", name, values[i], unit);
+    if (!isfinite(values[i])) return lb_say(b, LB_ERROR, "%s is to be %g%s: must be finite", name, values[i], unit);
     if (values[i] < v->lowest || values[i] > v->highest)
       return lb_say(b, LB_ERROR, "%s is to be %g%s: it was exported for %g to %g%s", name, values[i], unit, v->lowest,
                     v->highest, unit);
@@ -323,7 +323,7 @@ int lb_step(lb_bearing *b, double now, double step) {
   double begin = lb_time(b), until = now + step - HOST(b, ORIGIN);
   if (HOST(b, PHASE) != LB_STEPPING) return lb_say(b, LB_ERROR, "a step comes between initialisation and the end");
   if (!(isfinite(now) && isfinite(step) && step > 0.0))
-    return lb_say(b, LB_ERROR, "a step from t = %g s by %g s: a positive, finite length is due", now, step);
+    return lb_say(b, LB_ERROR, "a step from t = %g s by %g s: must be positive and finite", now, step);
   if (step > LB_LONGEST_STEP) return lb_say(b, LB_ERROR, "a step of %g s: %g s is the longest at once", step, LB_LONGEST_STEP);
   if (fabs(now - begin) > 1e-6 * step + 1e-12 * fabs(begin))
     return lb_say(b, LB_ERROR, "a step from t = %.9g s, but the bearing stands at %.9g s: %s", now, begin,

@@ -103,7 +103,7 @@ int lb_slope(lb_bearing *b, const unsigned *unknowns, size_t n, const unsigned *
   for (size_t k = 0; k < m; k++) {
     const lb_variable *v = lb_real(b, knowns[k]);
     if (!v) return LB_ERROR;
-    if (!isfinite(along[k])) return lb_say(b, LB_ERROR, "a slope along %g of %s: a finite number is due", along[k], lb_names[knowns[k]]);
+    if (!isfinite(along[k])) return lb_say(b, LB_ERROR, "a slope along %g of %s: must be finite", along[k], lb_names[knowns[k]]);
     if (!lb_given(v)) return lb_say(b, LB_ERROR, "%s is no input: there are no slopes with it", lb_names[knowns[k]]);
   }
   if (lb_look(b) != LB_OK) return LB_ERROR;
