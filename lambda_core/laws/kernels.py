@@ -25,6 +25,7 @@ from lambda_core.domain.installed import OWN, project_of
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.processes import locked
 from lambda_core.domain.roles import ROLES
+from lambda_core.laws import executable
 from lambda_core.laws.compiler_words import gist
 from lambda_core.laws.jit import binding
 from lambda_core.laws.jit.reach import Reach, UnreachableError, reach
@@ -284,10 +285,8 @@ def sources_key(*places: Path) -> str:
     Hex, of every ``*.py`` among and below `places`, names included.
     """
     digest = hashlib.sha256()
-    for place in places:
-        for path in [place] if place.is_file() else sorted(place.rglob("*.py")):
-            data = path.read_bytes()
-            digest.update(f"{path.relative_to(place.parent).as_posix()} {len(data)}\n".encode() + data)
+    for name, data in executable.sources(*places):
+        digest.update(f"{name} {len(data)}\n".encode() + data)
     return digest.hexdigest()
 
 
@@ -295,9 +294,9 @@ def sources_key(*places: Path) -> str:
 def _host_content(function: Callable[..., Any], sources: tuple[Path, ...]) -> tuple[str, str]:
     """Return the hashes of the entry point's content.
 
-    They cover the sources and what it reaches, and are computed once per process.
+    They cover what is executed of the sources and what it reaches, and are computed once per process.
     """
-    return sources_key(*sources), reach(function, lenient=True).key
+    return executable.executable_key(cache_folder(), *sources), reach(function, lenient=True).key
 
 
 def host_key(function: Callable[..., Any], sources: tuple[Path, ...], **options: Any) -> str:
@@ -343,7 +342,7 @@ def compile_host(
 
     It belongs to the core and has one signature.
 
-    The cache folder is named by the hash of all sources in `sources`, of everything
+    The cache folder is named by the hash of all code in `sources` (without docstrings and comments), of everything
     that `function` reaches (constants imported from elsewhere included) and of the
     environment (Python, Numba, processor, bounds checks). Functions that `function`
     calls carry a plain ``numba.njit(error_model="numpy")`` and no ``cache=True``: a

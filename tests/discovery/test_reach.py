@@ -69,6 +69,17 @@ def test_any_edit_changes_the_key(old: str, new: str) -> None:
     assert reach(function(module())).key != reach(function(module(HELPERS.replace(old, new)))).key
 
 
+def test_a_docstring_does_not_count_but_the_same_text_in_the_body_does() -> None:
+    def key(text: str) -> str:
+        return reach(module(f"def f(x):\n    {text}\n").f).key
+
+    assert key("'one'; return x + 1.0") == key("'two'; return x + 1.0")
+    assert key("'one'; return x + 1.0") != key("'one'; return x + 2.0")
+    assert key("'one'; return len('one')") != key("'four'; return len('four')")
+    assert key("return len('one')") != key("return len('four')")
+    assert key("return ['a' for _ in x]") != key("return ['b' for _ in x]")
+
+
 def test_names_that_are_not_used_do_not_matter() -> None:
     assert reach(function(module())).key == reach(function(module(HELPERS + "OTHER = object()\n"))).key
 

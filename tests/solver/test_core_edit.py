@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import io
 import json
+import keyword
 import os
 import shutil
 import subprocess
 import sys
+import tokenize
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import lambda_core
-from lambda_core.laws.kernels import sources_key
+from lambda_core.laws.executable import executable_key, executed
 from lambda_core.solver import entry
+from lambda_core.solver.contact import contact_kinematics
+from lambda_core.solver.motion import steps
 
 # One small function of the core, compiled as the solver's parts are, and the names under which those are looked up.
 ONE_FUNCTION = """
@@ -84,6 +89,10 @@ class Copy:
 def test_an_edited_constant_of_the_core(tmp_path: Path) -> None:
     copy = Copy(tmp_path)
     before, again = copy.ask(ONE_FUNCTION), copy.ask(ONE_FUNCTION)
+    copy.file.write_text(f"# A remark.\n\n{copy.file.read_text()}")  # moves every function
+    told = copy.ask(ONE_FUNCTION)
+    assert told["cached"]
+    assert told["keys"] == before["keys"]
     copy.edit("1e-12", "0.25")
     after = copy.ask(ONE_FUNCTION)
     assert (before["cached"], again["cached"], after["cached"]) == (False, True, False)
@@ -101,14 +110,43 @@ def test_every_module_of_the_core_counts(tmp_path: Path) -> None:
     solver = tmp_path / "solver"
     shutil.copytree(Path(entry.__file__).parent, solver, ignore=shutil.ignore_patterns("__pyc*"))
     sources = [solver / path.name for path in entry.SOURCES]
-    keys = {sources_key(*sources)}
+    keys = {executable_key(tmp_path, *sources)}
     modules = [path for path in solver.rglob("*.py") if not {"drivers", "roller"} & set(path.parts)]
     for path in modules:
         text = path.read_text()
         path.write_text(text + "_ = 1\n")
-        keys.add(sources_key(*sources))
+        keys.add(executable_key(tmp_path, *sources))
         path.write_text(text)
     assert len(keys) == len(modules) + 1 > 30
+
+
+def test_every_token_counts_but_no_docstring_and_no_comment() -> None:
+    text = Path(steps.__file__).read_text()
+    lines, keys, edits = text.splitlines(keepends=True), {executed(text.encode())}, 0
+    for number, token in enumerate(tokenize.generate_tokens(io.StringIO(text).readline)):
+        other = {"+": "-", "*": "/"}.get(token.string, "")
+        if token.type in (tokenize.NAME, tokenize.NUMBER) and not keyword.iskeyword(token.string):
+            other = f"{token.string}7"
+        elif token.type == tokenize.COMMENT:
+            other = f"{token.string} {number}"
+        if other:
+            row, line = token.start[0], token.line
+            edited = line[: token.start[1]] + other + line[token.end[1] :]
+            keys.add(executed("".join([*lines[: row - 1], edited, *lines[row:]]).encode()))
+            edits += token.type != tokenize.COMMENT
+    assert len(keys) == edits + 1 > 80
+    assert executed(text.replace('"""', '"""Again: ', 1).encode()) == executed(text.encode())
+
+
+def test_a_damaged_table_of_hashes_is_made_anew(tmp_path: Path) -> None:
+    place = Path(contact_kinematics.__file__)
+    key = executable_key(tmp_path, place)
+    (table,) = tmp_path.iterdir()
+    kept = table.read_bytes()
+    for damaged in (b"", kept[:-5], b"\xff" + kept[1:], kept.replace(b'": "', b'": "g')):
+        table.write_bytes(damaged)
+        assert executable_key(tmp_path, place) == key
+        assert table.read_bytes() == kept
 
 
 @pytest.mark.parametrize("groups", [entry.GROUPS, entry.FINER_GROUPS], ids=["few", "many"])

@@ -49,7 +49,7 @@ class _FolderLocator(_CacheLocator):
 
     def __init__(self, function: Callable[..., Any]) -> None:
         self._py_file = function.__code__.co_filename
-        self._place = f"{function.__module__}-{function.__code__.co_firstlineno}"
+        self._place = function.__module__  # not its line: a longer docstring above it moves that
 
     def get_cache_path(self) -> str:
         return str(self.folder)

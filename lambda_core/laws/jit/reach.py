@@ -10,6 +10,7 @@ from __future__ import annotations
 import builtins
 import dis
 import hashlib
+import inspect
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -43,7 +44,7 @@ class Reach:
     Attributes
     ----------
     key : str
-        Hash (hex) of bytecode, constants, default values and values of globals, recursively.
+        Hash (hex) of bytecode, constants (no docstrings), default values and values of globals, recursively.
     helpers : tuple of function
         Plain Python functions that it calls, directly or through others, itself excluded.
     codes : tuple of code
@@ -177,9 +178,9 @@ class _Walk:
         It has its instructions, its constants and the globals that it reads.
         """
         self.codes.append(code)
-        self.add("code", code.co_code, code.co_argcount, code.co_kwonlyargcount, code.co_flags)
+        self.add("code", code.co_code, code.co_argcount, code.co_kwonlyargcount, code.co_flags & ~_HAS_DOCSTRING)
         self.add(code.co_varnames, code.co_names, code.co_freevars, code.co_cellvars)
-        for constant in code.co_consts:
+        for constant in code.co_consts[_has_docstring(code) :]:
             if isinstance(constant, CodeType):
                 self.code(constant, scope, free, f"{where}.{constant.co_name}")
             else:
@@ -240,6 +241,29 @@ def raises(code: CodeType) -> bool:
     return dis.opmap["RAISE_VARARGS"] in code.co_code[::2]
 
 
+@cache
+def _has_docstring(code: CodeType) -> bool:
+    """Tell whether the first constant is nothing but a docstring.
+
+    An equal text in the body is the same constant: then it is executed.
+    """
+    is_function = code.co_flags & inspect.CO_OPTIMIZED and not code.co_name.startswith("<")
+    if not is_function or not isinstance((*code.co_consts, None)[0], str):
+        return False
+    if sys.version_info >= (3, 14) and not code.co_flags & _HAS_DOCSTRING:
+        return False
+    argument = 0
+    for operation, low in zip(code.co_code[::2], code.co_code[1::2], strict=True):
+        argument = argument << 8 | low
+        if operation == dis.EXTENDED_ARG:
+            continue
+        if operation in dis.hasconst and argument == 0:
+            return False
+        argument = 0
+    return True
+
+
+_HAS_DOCSTRING = 0x4000000  # of co_flags since Python 3.14; before, a function without one has None as first constant
 _READS = {dis.opmap[name]: name for name in ("LOAD_GLOBAL", "LOAD_ATTR", "LOAD_METHOD") if name in dis.opmap}
 # The lowest bit of these arguments is a flag: of LOAD_GLOBAL always, of LOAD_ATTR since LOAD_METHOD went into it with
 # Python 3.12. The table of operations does not tell: it goes on naming LOAD_METHOD, which compiled code never holds.
