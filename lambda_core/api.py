@@ -79,7 +79,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.results.run_status import Status, process_identity, this_process
     from lambda_core.results.side_by_side import SideBySide
     from lambda_core.results.summary import Summary
-    from lambda_core.runs.estimate import Estimate, MachineEstimate
+    from lambda_core.runs.estimate import Estimate
     from lambda_core.runs.plugin_trials import check_plugins, watch_problems
     from lambda_core.runs.progress import Progress
     from lambda_core.studies.api import study_schema

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
         BearingModel,
         Estimate,
         MachineEquilibrium,
-        MachineEstimate,
         ValueReport,
     )
     from lambda_core.domain.unit_systems import UnitSystem
@@ -39,7 +38,7 @@ class Derived(Static):
     def __init__(self) -> None:
         super().__init__(id="derived")
         self._check: Check | None = None
-        self.estimate: Estimate | MachineEstimate | None = None
+        self.estimate: Estimate | None = None
         self._say = ""
         self.is_current = False  # whether the numbers are those of the case as it stands
 
@@ -52,7 +51,7 @@ class Derived(Static):
         self.is_current = False
         self.draw()
 
-    def show_estimate(self, estimate: Estimate | MachineEstimate | None, say: str) -> None:
+    def show_estimate(self, estimate: Estimate | None, say: str) -> None:
         """Take an estimate, or what is being done about it."""
         if estimate is not None:
             self.estimate, self.is_current = estimate, True
@@ -91,7 +90,7 @@ class Derived(Static):
         assert self._check is not None
         geometry = [fact_in_units(fact, units) for fact in _geometry(model, self._check.values)]
         warned = list(map(units.sentence, self.warnings()))
-        found = _numbers(self.estimate) if self.estimate else ()  # type: ignore[arg-type]
+        found = _numbers(self.estimate) if self.estimate else ()
         numbers = [fact_in_units(fact, units) for fact in found]
         if self.size.height > len(geometry) + len(numbers) + 1 + 2 * len(warned):
             told = self._listed(geometry, numbers)
@@ -241,7 +240,8 @@ def _geometry(model: BearingModel, values: Sequence[ValueReport]) -> Iterable[Fa
 
 
 def _numbers(estimate: Estimate) -> Iterable[Fact]:
-    state = estimate.equilibrium
+    state: Any = estimate.equilibrium
+    rating = state.rating
     loaded = [contact for contact in state.contacts if contact.load_N > 0.01 * state.max_load_N]
     angles = [abs(contact.contact_angle_deg) for contact in loaded]
     if angles:
@@ -251,11 +251,10 @@ def _numbers(estimate: Estimate) -> Iterable[Fact]:
     if state.film_um:
         yield "h", between(state.film_um, 2), "um"
         yield "Λ", between(state.film_parameter, 1), ""
-    if estimate.viscosity_ratio is not None:
-        yield "κ", f"{estimate.viscosity_ratio:.1f}", ""
-    if estimate.rating_life_h is not None:
-        yield "L10", _life(estimate.rating_life_h), "h"
-    rating = estimate.rating
+    if rating.viscosity_ratio is not None:
+        yield "κ", f"{rating.viscosity_ratio:.1f}", ""
+    if rating.basic_life_h is not None:
+        yield "L10", _life(rating.basic_life_h), "h"
     if rating.static_safety is not None:
         yield "S0", f"{rating.static_safety:.1f}", ""
     if state.friction_torque_Nmm is not None:
@@ -292,13 +291,14 @@ def _table(report: MachineEquilibrium, units: UnitSystem, width: int, style: str
     return lines
 
 
-def _of_the_machine(answer: MachineEstimate, units: UnitSystem) -> list[str]:
+def _of_the_machine(answer: Estimate, units: UnitSystem) -> list[str]:
     """Return the text about the complete shaft."""
-    report, modes = answer.equilibrium, answer.modes
+    report: Any = answer.equilibrium
+    modes = answer.modes
     bends = ((math.hypot(y, z), x) for (_, y, z), x in zip(report.deflection_um, report.positions_mm, strict=True))
     bend, place = max(bends)
     told = [f"bends {bend:.3g} um at {place:.4g} mm"]
-    if modes.critical_speeds:
+    if modes is not None and modes.critical_speeds:
         first = modes.critical_speeds[0].speed_rpm
         times = f", {first / abs(report.speed_rpm):.2g} x" if report.speed_rpm else ""
         told.append(f"critical {grouped(float(f'{first:.4g}'))} 1/min{times}")

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
     from lambda_core.results.roller_quasistatic import RollerQuasiStatic
     from lambda_core.runs.crosscheck import CrossCheck
-    from lambda_core.runs.estimate import Estimate, MachineEstimate
+    from lambda_core.runs.estimate import Estimate
     from lambda_core.runs.progress import Progress
     from lambda_core.runs.stepping import Stepping
     from lambda_core.runs.warmup import Warmup
@@ -132,7 +132,7 @@ def estimate(
     overrides: Iterable[str] = (),
     *,
     announce: Callable[[str], None] | None = None,
-) -> Estimate | MachineEstimate:
+) -> Estimate:
     """Estimate equilibrium, life and processor time of a run.
 
     Parameters
@@ -144,7 +144,7 @@ def estimate(
 
     Returns
     -------
-    Estimate or MachineEstimate
+    Estimate
         Of one bearing, or of a machine of several. Numbers that there are none of are None.
 
     Raises
@@ -152,15 +152,9 @@ def estimate(
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
-    from lambda_core.discovery.manager import registry
     from lambda_core.runs.estimate import estimate as ask
 
-    if is_machine(source):
-        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
-        from lambda_core.runs.estimate import machine_estimate
-
-        return machine_estimate(ready_machine_of(source, overrides, announce), announce)  # type: ignore[arg-type]
-    return ask(ready_model(source, overrides, announce), registry().methods, announce)  # type: ignore[arg-type]
+    return ask(ready(source, overrides, announce), announce)
 
 
 @one_blas_thread()

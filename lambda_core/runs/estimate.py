@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from pydantic import Field
@@ -12,25 +12,20 @@ from pydantic import Field
 from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium, equilibrium_of
 from lambda_core.analysis.rotor.machine_modes import MachineModes, modes_of
+from lambda_core.discovery.manager import registry
 from lambda_core.model.bearing_model import BearingModel, Solver
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.results.answer import Answer
 from lambda_core.results.convergence import AVERAGED_AT_LEAST, DISCARDED_AT_LEAST
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
-from lambda_core.results.rating import Rating
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_start
-from lambda_core.views.method import Method
 
 # Share of a cage turn that is simulated to see how fast it goes; the first steps are no slower than later ones.
 _TRIAL = 0.05
 _TRIAL_WALL = 2.0  # [s] longest trial; slow bearings do not get as far
-
-
-SIMULATED = "simulated time of the run: that of the case, or the shortest in which it can converge"
-PROCESSOR = "processor time of the run on this machine, from a trial; null where there is none"
 
 
 class Estimate(Answer):
@@ -39,108 +34,62 @@ class Estimate(Answer):
     Null where there is none.
     """
 
-    equilibrium: QuasiStatic
-    rating_life_h: float | None = Field(description="basic rating life L_10h (ISO 281)")
-    viscosity_ratio: float | None = Field(description="kappa = nu/nu_1 (ISO 281)")
-    rating: Rating = Field(description="life, safety and catalogue friction")
-    simulated_s: float | None = Field(description=SIMULATED)
-    processor_s: float | None = Field(description=PROCESSOR)
+    equilibrium: QuasiStatic | MachineEquilibrium = Field(description="of one bearing or a machine, with its lives")
+    modes: MachineModes | None = Field(description="of a machine; null of one bearing", default=None)
+    simulated_s: float | None = Field(
+        description="simulated time of the run: that of the case, or the shortest in which it can converge"
+    )
+    processor_s: float | None = Field(
+        description="processor time of the run on this machine, from a trial; null where there is none"
+    )
     basis: str = Field(description="what both times follow from")
 
     def text(self) -> str:
-        """Return the lines for people."""
-        return _text(self.equilibrium.case, self)
+        """Return what a run takes, and what that follows from."""
+        case = self.equilibrium.case
+        if self.processor_s is None:
+            return f"{case}: nothing is known of the time that a run takes\nbasis  {self.basis}"
+        simulated = f"{self.simulated_s:.3g} s"
+        return f"{case}: a run of {simulated} takes {_time(self.processor_s)} of processor time\nbasis  {self.basis}"
 
     def __repr__(self) -> str:
         """Return case and processor time."""
         return f"<Estimate {self.equilibrium.case}, {_time(self.processor_s)} of processor time>"
 
 
-class MachineEstimate(Answer):
-    """Numbers for a machine that is being set up."""
-
-    equilibrium: MachineEquilibrium
-    modes: MachineModes
-    simulated_s: float | None = Field(description=SIMULATED)
-    processor_s: float | None = Field(description=PROCESSOR)
-    basis: str = Field(description="what both times follow from")
-
-    def text(self) -> str:
-        """Return the lines for people."""
-        return _text(self.equilibrium.case, self)
-
-    def __repr__(self) -> str:
-        """Return case and processor time."""
-        return f"<MachineEstimate {self.equilibrium.case}, {_time(self.processor_s)} of processor time>"
-
-
-def _text(case: str, found: Estimate | MachineEstimate) -> str:
-    """Return what a run takes, and what that follows from."""
-    if found.processor_s is None:
-        return f"{case}: nothing is known of the time that a run takes\nbasis  {found.basis}"
-    simulated = f"{found.simulated_s:.3g} s"
-    return f"{case}: a run of {simulated} takes {_time(found.processor_s)} of processor time\nbasis  {found.basis}"
-
-
 def _time(seconds: float | None) -> str:
     return "unknown" if seconds is None else f"{seconds:.2g} s" if seconds < 100.0 else f"{seconds / 60.0:.3g} min"
 
 
-def machine_estimate(model: MachineModel, announce: Callable[[str], None] | None = None) -> MachineEstimate:
-    """Solve a machine once and estimate from it.
-
-    Its equilibrium is solved.
-
-    Raises
-    ------
-    SolverError
-        When there is no equilibrium.
-    """
-    start = machine_start(model, announce)
-    bearings = list(model.bearing_models.values())
-    turn = max(_cage_turn(one, found) for one, found in zip(bearings, start.equilibria, strict=True))
-    simulated = max(
-        (_simulated_time(one, found) for one, found in zip(bearings, start.equilibria, strict=True)),
-        key=lambda time: math.inf if time is None else time,
-    )
-    trial = None if simulated is None else _trial(MachineEngine(start, announce), turn, simulated)
-    return MachineEstimate(
-        equilibrium=equilibrium_of(model, start.state, start.equilibria), modes=modes_of(model, start.state),
-        simulated_s=simulated, processor_s=None if trial is None else trial.seconds,
-        basis=_basis(model.solver, simulated, turn, trial),
-    )  # fmt: skip
-
-
-def estimate(
-    model: BearingModel, methods: Mapping[str, Method], announce: Callable[[str], None] | None = None
-) -> Estimate:
+def estimate(model: BearingModel | MachineModel, announce: Callable[[str], None] | None = None) -> Estimate:
     """Solve a model once and estimate from it.
 
-    Its equilibrium is solved.
-
-    Parameters
-    ----------
-    methods : mapping
-        Installed comparison methods by name; the life comes from the one of ISO 281.
-
     Raises
     ------
     SolverError
         When there is no equilibrium.
     """
-    found = solve(model, announce=announce)
-    rating = rating_of(found, methods)
-    simulated, turn = _simulated_time(model, found), _cage_turn(model, found)
-    trial = None if simulated is None else _trial(BearingEngine(model, announce, found), turn, simulated)
+    equilibria: Sequence[Equilibrium]
+    engine: BearingEngine | MachineEngine
+    equilibrium: QuasiStatic | MachineEquilibrium
+    modes: MachineModes | None
+    if isinstance(model, BearingModel):
+        alone = solve(model, announce=announce)
+        equilibria, engine = [alone], BearingEngine(model, announce, alone)
+        equilibrium, modes = quasistatic_of(alone, rating_of(alone, registry().methods)), None
+    else:
+        start = machine_start(model, announce)
+        equilibria, engine = start.equilibria, MachineEngine(start, announce)
+        equilibrium, modes = equilibrium_of(model, start.state, equilibria), modes_of(model, start.state)
+    each = list(zip(model.bearing_models.values(), equilibria, strict=True))
+    turn = max(_cage_turn(*one) for one in each)
+    times = [_simulated_time(*one) for one in each]
+    simulated = max(times, key=lambda time: math.inf if time is None else time)
+    trial = None if simulated is None else _trial(engine, turn, simulated)
     return Estimate(
-        equilibrium=quasistatic_of(found, rating),
-        rating_life_h=rating.basic_life_h,
-        viscosity_ratio=rating.viscosity_ratio,
-        rating=rating,
-        simulated_s=simulated,
-        processor_s=None if trial is None else trial.seconds,
-        basis=_basis(model.solver, simulated, turn, trial),
-    )
+        equilibrium=equilibrium, modes=modes, simulated_s=simulated,
+        processor_s=None if trial is None else trial.seconds, basis=_basis(model.solver, simulated, turn, trial),
+    )  # fmt: skip
 
 
 def _cage_turn(model: BearingModel, found: Equilibrium) -> float:

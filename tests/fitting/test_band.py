@@ -293,7 +293,7 @@ def test_a_run_keeps_its_band_in_the_file(tmp_path: Path) -> None:
 
 def test_life_in_the_band_is_that_of_the_standard() -> None:
     life = api.model_band("6319-cp10-500", quantities=["rating life"]).band("rating life")
-    assert life.value == pytest.approx(api.estimate("6319-cp10-500").rating.reference_life_h, rel=0.01)
+    assert life.value == pytest.approx(api.estimate("6319-cp10-500").equilibrium.rating.reference_life_h, rel=0.01)
     assert {c.name for c in life.contributors} == {"bearing.clearance"}
 
 

@@ -58,7 +58,7 @@ def bearing_on_shaft(name: str, position: float) -> api.BearingEquilibrium:
     )  # fmt: skip
 
 
-def report() -> api.MachineEstimate:
+def report() -> api.Estimate:
     """Return a possible answer for a shaft.
 
     It is the one that `init --template geared-shaft` writes.
@@ -77,7 +77,7 @@ def report() -> api.MachineEstimate:
         critical_speeds=[{"speed_rpm": 40012.0, "direction": 0.0, "kind": "bending", "bodies_share": 0.0}],
         modes=[mode], campbell=[{"speed_rpm": speed, "modes": [mode]} for speed in (0.0, 6000.0)], assumptions=[],
     )  # fmt: skip
-    return api.MachineEstimate(equilibrium=equilibrium, modes=modes, simulated_s=0.25, processor_s=0.3, basis="a trial")
+    return api.Estimate(equilibrium=equilibrium, modes=modes, simulated_s=0.25, processor_s=0.3, basis="a trial")
 
 
 @pytest.fixture
