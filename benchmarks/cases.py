@@ -1,4 +1,4 @@
-"""The operating points that are measured."""
+"""List the operating points that are measured."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Dynamics of rolling bearings: machines, contact mechanics, integrator, results.
+"""Simulate the dynamics of rolling bearings.
 
 ``import lambda_core as lb``: build a :class:`lb.Machine <lambda_core.machine.Machine>` and ask it, ``machine.run()``,
 or ask about a case file: ``lb.run("box.toml")``. Calls that few scripts need are in :mod:`lambda_core.api`, names for

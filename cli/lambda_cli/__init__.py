@@ -1,1 +1,1 @@
-"""The command line of lambda-bearing; one module per command."""
+"""Provide the command line, one module per command."""

@@ -1,4 +1,4 @@
-"""The command animate: a run in motion."""
+"""Define the command animate."""
 
 from __future__ import annotations
 

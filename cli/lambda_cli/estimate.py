@@ -1,4 +1,4 @@
-"""The command estimate: what a run will take."""
+"""Define the command estimate."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command export: bearings and machines for other programs."""
+"""Define the command export."""
 
 from __future__ import annotations
 

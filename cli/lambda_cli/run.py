@@ -1,4 +1,4 @@
-"""The command run: simulate a case and write its result."""
+"""Define the command run."""
 
 from __future__ import annotations
 

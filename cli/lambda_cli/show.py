@@ -1,4 +1,4 @@
-"""The command show: what a result file says."""
+"""Define the command show."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command stribeck: friction torque over speed."""
+"""Define the command stribeck."""
 
 from __future__ import annotations
 

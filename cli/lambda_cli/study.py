@@ -1,4 +1,4 @@
-"""`lambda-bearing study`: run, resume, watch and read studies."""
+"""Define the command study: run, resume, watch and read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command traction: traction of an oil over slide-roll ratio."""
+"""Define the command traction."""
 
 from __future__ import annotations
 

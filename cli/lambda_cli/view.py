@@ -1,4 +1,4 @@
-"""The command view: pictures of results and studies."""
+"""Define the command view."""
 
 from __future__ import annotations
 

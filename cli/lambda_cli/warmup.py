@@ -1,4 +1,4 @@
-"""The command warmup: compile everything ahead of the first run."""
+"""Define the command warmup."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The Python reference: every public name with its docstring."""
+"""Write the Python reference from the docstrings of public names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The case reference, from the declarations of the options."""
+"""Write the case reference from the declarations of options."""
 
 from __future__ import annotations
 

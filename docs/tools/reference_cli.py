@@ -1,4 +1,4 @@
-"""The command reference, from the commands themselves."""
+"""Write the command reference from the commands."""
 
 from __future__ import annotations
 

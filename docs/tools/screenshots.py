@@ -1,4 +1,4 @@
-"""Draws every screen of the builder: ``python docs/tools/screenshots.py [SCREEN ...]``.
+"""Draw screens of the builder: ``python docs/tools/screenshots.py [SCREEN ...]``.
 
 Works in a temporary folder with data and runs of its own, at 80 x 24 and at 160 x 48. Needs ``rsvg-convert``
 (librsvg), Pillow and the DejaVu fonts. Pictures go to docs/images/gui, or to the folder after ``--to``.

@@ -1,4 +1,4 @@
-"""Tables and headings of generated pages."""
+"""Format tables and headings of generated pages."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The model builder: a terminal interface from designation to result."""
+"""Provide the model builder in the terminal."""

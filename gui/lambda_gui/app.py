@@ -1,4 +1,4 @@
-"""The application: screens, files, themes, commands."""
+"""Run the application: screens, files, themes, commands."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A row that opens into further rows."""
+"""Open a row into further rows."""
 
 from __future__ import annotations
 

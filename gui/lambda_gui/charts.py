@@ -1,4 +1,4 @@
-"""The panels of a view as plots in the terminal."""
+"""Plot the panels of a view in the terminal."""
 
 from __future__ import annotations
 

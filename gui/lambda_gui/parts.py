@@ -1,4 +1,4 @@
-"""Rows for degrees of freedom and materials."""
+"""Make rows for degrees of freedom and materials."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plots in the terminal, in the colours of the theme."""
+"""Plot in the terminal, in the colours of the theme."""
 
 from __future__ import annotations
 

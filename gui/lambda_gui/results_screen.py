@@ -1,4 +1,4 @@
-"""Results and studies: summary, views, comparison of several, export."""
+"""Show results and studies, compare and export them."""
 
 from __future__ import annotations
 

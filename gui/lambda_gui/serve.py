@@ -1,4 +1,4 @@
-"""The builder in a browser."""
+"""Serve the builder in a browser."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Colours, dark and light."""
+"""Define colours, dark and light."""
 
 from __future__ import annotations
 

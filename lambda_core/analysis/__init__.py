@@ -1,1 +1,1 @@
-"""Analyses of a machine: rotor, temperatures, bearing currents."""
+"""Analyse machines: rotor, temperatures, bearing currents."""

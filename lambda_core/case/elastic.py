@@ -1,4 +1,4 @@
-"""Elastic parts of a bearing: the section elastic."""
+"""Declare the section elastic."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The bearing in an electric circuit: the section electric."""
+"""Declare the section electric."""
 
 from __future__ import annotations
 

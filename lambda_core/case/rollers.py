@@ -1,4 +1,4 @@
-"""Rollers of a bearing, written in the case."""
+"""Declare the rollers of a case."""
 
 from __future__ import annotations
 

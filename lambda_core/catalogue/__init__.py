@@ -1,1 +1,1 @@
-"""The catalogue's contract and the reading of designations."""
+"""Define the catalogue's contract; read designations."""

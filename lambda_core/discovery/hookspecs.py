@@ -1,4 +1,4 @@
-"""The hooks that plugins implement (pluggy project name ``lambda_core``)."""
+"""Declare the hooks that plugins implement (pluggy project ``lambda_core``)."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Machines for other programs and documents: FMU, ROSS, stiffness, report."""
+"""Export machines to other programs and documents."""

@@ -1,4 +1,4 @@
-"""A fit in lines for people."""
+"""Print a fit as text."""
 
 from __future__ import annotations
 

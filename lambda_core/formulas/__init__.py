@@ -1,1 +1,1 @@
-"""Formulas of the literature: Hertz, fits, tolerances, ratings, lives, oils."""
+"""Provide formulas of the literature."""

@@ -1,1 +1,1 @@
-"""Result files, averages, convergence, summaries, citations."""
+"""Store, average, summarise and cite results."""

@@ -1,4 +1,4 @@
-"""Checkpoints: the engine's state as bytes that prove themselves whole.
+"""Store the engine's state as bytes with a check.
 
 Two slots in the result file are written in turn. A process killed in the middle of one
 leaves the other, and a checksum tells which is whole; so a checkpoint is found at every

@@ -1,4 +1,4 @@
-"""The quasi-static equilibrium in the words of the machine interface."""
+"""Summarise the quasi-static equilibrium for the machine interface."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The machine interface in lines for people."""
+"""Print the machine interface as text."""
 
 from __future__ import annotations
 

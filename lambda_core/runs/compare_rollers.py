@@ -1,4 +1,4 @@
-"""Every comparison method on one roller bearing, side by side."""
+"""Compare one roller bearing by every method."""
 
 from __future__ import annotations
 

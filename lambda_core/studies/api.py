@@ -1,4 +1,4 @@
-"""Many runs: checking, running, resuming and reading studies."""
+"""Check, run, resume and read studies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Starting, resuming and looking at studies: what the api calls."""
+"""Start, resume and inspect studies in folders."""
 
 from __future__ import annotations
 

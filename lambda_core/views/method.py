@@ -1,4 +1,4 @@
-"""Comparison methods: what a plugin registers through the hook ``lambda_methods``.
+"""Define comparison methods of plugins.
 
 A method answers the same question as the simulation by other means (a catalogue formula, a standard, an analytical
 model) and is compared with it. It gets plain numbers (:class:`MethodInputs`) and returns a table of named values with

@@ -1,4 +1,4 @@
-"""Views: what a plugin registers through the hook ``lambda_views``.
+"""Define views of plugins.
 
 A view turns a run, several runs or a study into data with units (:class:`~lambda_core.views.chart.ViewData`).
 Everything that people look at is drawn from that data: figures of the command line and of reports, plots of

@@ -1,4 +1,4 @@
-"""States of contacts: ours have none."""
+"""Declare the default of contacts without states."""
 
 from __future__ import annotations
 

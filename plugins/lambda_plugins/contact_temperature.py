@@ -1,4 +1,4 @@
-"""Temperature of the oil inside the contact."""
+"""Compute the temperature of the oil inside the contact."""
 
 from __future__ import annotations
 

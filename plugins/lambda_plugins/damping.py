@@ -1,4 +1,4 @@
-"""Damping of the ball-raceway contact along its normal."""
+"""Damp the ball-raceway contact along its normal."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Isothermal, fully flooded film thickness of elliptical elastohydrodynamic contacts."""
+"""Compute isothermal, flooded films of elliptical contacts."""
 
 from __future__ import annotations
 

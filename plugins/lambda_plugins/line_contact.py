@@ -1,4 +1,4 @@
-"""Laws of line contacts: rollers on raceways.
+"""Define laws of line contacts: rollers on raceways.
 
 To a law of a line contact R_y is the effective length L of the contact, `semi_a` its half, `semi_b` Hertz's half width;
 loads, forces and moments are those of the whole length. Laws take them as spread evenly.

@@ -1,4 +1,4 @@
-"""Hertzian point contact: load, ellipse and pressure from penetration."""
+"""Compute load, ellipse and pressure of Hertzian contacts."""
 
 from __future__ import annotations
 

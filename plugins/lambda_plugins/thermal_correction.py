@@ -1,4 +1,4 @@
-"""Thinning of the film by shear heating in the inlet."""
+"""Compute the thinning of films by inlet shear heating."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Shear stress of the film from its rate of shear."""
+"""Compute the shear stress of films from their rate."""
 
 from __future__ import annotations
 

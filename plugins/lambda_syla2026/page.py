@@ -1,4 +1,4 @@
-"""Figures in files and one self-contained HTML page."""
+"""Write figures and one self-contained HTML page."""
 
 from __future__ import annotations
 

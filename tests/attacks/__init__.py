@@ -1,1 +1,1 @@
-"""The program attacked on purpose: ``python -m tests.attacks --help``."""
+"""Attack the program on purpose: ``python -m tests.attacks --help``."""

@@ -1,4 +1,4 @@
-"""Tables as TOML, whatever stands in them."""
+"""Write tables as TOML, whatever they contain."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Random valid cases: what hypothesis draws for the round trips."""
+"""Draw random valid cases for the round trips."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Cards of declared options: what every face shows."""
+"""Test the cards of declared options."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Roller bearings from the command line."""
+"""Test roller bearings from the command line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command thermal: output, exit codes, pictures."""
+"""Test output, exit codes and pictures of `thermal`."""
 
 from __future__ import annotations
 

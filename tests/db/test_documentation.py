@@ -1,4 +1,4 @@
-"""docs/catalogue.md says what the code finds."""
+"""Test that docs/catalogue.md agrees with the code."""
 
 from __future__ import annotations
 

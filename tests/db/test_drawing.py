@@ -1,4 +1,4 @@
-"""The cross-section is to scale."""
+"""Test that the cross-section is to scale."""
 
 from __future__ import annotations
 

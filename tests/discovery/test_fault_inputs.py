@@ -1,4 +1,4 @@
-"""The message about a law that refuses names its arguments."""
+"""Test that messages about refusing laws name their arguments."""
 
 from __future__ import annotations
 

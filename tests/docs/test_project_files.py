@@ -1,4 +1,4 @@
-"""Citation, changelog and contributing notes say what the package says."""
+"""Test citation, changelog and contributing notes against the package."""
 
 from __future__ import annotations
 

@@ -126,7 +126,7 @@ def test_docstrings_open_with_no_question_word() -> None:
     assert [place for place, (_, doc) in _docstrings().items() if doc.split(maxsplit=1)[0] in QUESTIONS] == []
 
 
-def test_docstrings_of_functions_open_with_a_verb() -> None:
+def test_docstrings_of_functions_and_modules_open_with_a_verb() -> None:
     """Reject articles and pronouns as first words.
 
     Rule D401 of ruff finds other moods.
@@ -134,7 +134,7 @@ def test_docstrings_of_functions_open_with_a_verb() -> None:
     functions = {
         place: doc.split(maxsplit=1)[0]
         for place, (node, doc) in _docstrings().items()
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and not _is_named(node)
+        if isinstance(node, ast.Module | ast.FunctionDef | ast.AsyncFunctionDef) and not _is_named(node)
     }
     assert len(functions) > 6000
     assert {place: word for place, word in functions.items() if word in NOUNS} == {}

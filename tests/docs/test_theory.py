@@ -1,4 +1,4 @@
-"""Every built-in law stands in the theory, with its source."""
+"""Test that the theory names every built-in law."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Small networks with films that a test sets itself."""
+"""Make small networks with films that a test sets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Films found again from their own capacitance."""
+"""Test films that their own capacitance gives back."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Nine balls with changing capacitances between two rings against ngspice."""
+"""Test nine balls with changing capacitances against ngspice."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Views of a run in an electric machine."""
+"""Test views of a run in an electric machine."""
 
 from __future__ import annotations
 

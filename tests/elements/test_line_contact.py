@@ -1,4 +1,4 @@
-"""Line contact and profiles of rollers."""
+"""Test line contact and profiles of rollers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Equilibrium, kinematics and friction of a row of rollers."""
+"""Test equilibrium, kinematics and friction of a roller row."""
 
 from __future__ import annotations
 

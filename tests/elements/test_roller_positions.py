@@ -1,4 +1,4 @@
-"""Answers over one pitch of the rollers."""
+"""Test answers over one pitch of the rollers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Model bands of quasi-static roller bearings."""
+"""Test model bands of quasi-static roller bearings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Traction over slide-roll ratio."""
+"""Test traction over slide-roll ratio."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Driving the builder by keyboard.
+"""Drive the builder by keyboard.
 
 Nothing here takes a time for enough: a key has been heard when nothing is left to do, and what takes time (a check, a
 run, a timer) is waited for by what it does.

@@ -1,4 +1,4 @@
-"""The builder's screen by keyboard: editing, mistakes, undo, saving, recovery."""
+"""Test editing, undo and saving by keyboard."""
 
 from __future__ import annotations
 

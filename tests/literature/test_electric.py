@@ -1,4 +1,4 @@
-"""Bearing capacitance and first breakdown against published numbers."""
+"""Test capacitance and first breakdown against published numbers."""
 
 from __future__ import annotations
 

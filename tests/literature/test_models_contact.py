@@ -1,4 +1,4 @@
-"""Normal contact, film and thermal factor against the literature."""
+"""Test contacts, films and thermal factors against the literature."""
 
 from __future__ import annotations
 

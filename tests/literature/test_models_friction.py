@@ -1,4 +1,4 @@
-"""Rolling resistance, hysteresis, mixed friction and traction against the literature."""
+"""Test laws of friction against the literature."""
 
 from __future__ import annotations
 

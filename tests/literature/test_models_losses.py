@@ -1,4 +1,4 @@
-"""Fluid losses and cage friction against catalogues and fluid mechanics."""
+"""Test fluid losses and cage friction against catalogues."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Viscosity, density and permittivity laws against published values."""
+"""Test viscosity, density and permittivity against published values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Friction torque of roller bearings against measured series.
+"""Test torque of roller bearings against measured series.
 
 Reliability of a value stands in its source: [R2] is digitised from a figure by somebody else. Two sets of parameters
 were committed before the first comparison and not changed after it; the defaults were preferred after it. Neither was

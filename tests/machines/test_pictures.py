@@ -1,4 +1,4 @@
-"""Pictures of a machine at its operating point."""
+"""Test pictures of a machine at its operating point."""
 
 from __future__ import annotations
 

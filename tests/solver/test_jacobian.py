@@ -1,4 +1,4 @@
-"""The block-arrow Jacobian against differences of the right-hand side."""
+"""Test the block-arrow Jacobian against differences."""
 
 from __future__ import annotations
 

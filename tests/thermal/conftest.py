@@ -1,4 +1,4 @@
-"""Bearings whose temperatures are looked for."""
+"""Provide bearings for searches of temperatures."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Conductances against limits, quadratures and printed numbers."""
+"""Test conductances against limits, quadratures and printed numbers."""
 
 from __future__ import annotations
 

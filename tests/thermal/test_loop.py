@@ -1,4 +1,4 @@
-"""Torque and temperature together: steady, over time, running away."""
+"""Test torque and temperature together: steady, transient, runaway."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The network against closed forms."""
+"""Test the network against closed forms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Mistakes in the section thermal, each with its path."""
+"""Test mistakes in the section thermal and their paths."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A bearing that runs away."""
+"""Provide a bearing that runs away."""
 
 from __future__ import annotations
 

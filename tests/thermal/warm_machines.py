@@ -1,4 +1,4 @@
-"""Machines whose temperatures are looked for."""
+"""Provide machines for searches of temperatures."""
 
 from __future__ import annotations
 

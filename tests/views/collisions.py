@@ -1,4 +1,4 @@
-"""Texts of a figure that lie on each other."""
+"""Find texts of a figure that overlap."""
 
 from __future__ import annotations
 

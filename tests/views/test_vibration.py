@@ -1,4 +1,4 @@
-"""Vibration as a sensor sees it."""
+"""Test vibration as a sensor measures it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The event happens beyond its limit, not below."""
+"""Test that the event happens beyond its limit only."""
 
 import numpy as np
 from cage_whirl import Whirl, whirls

@@ -1,4 +1,4 @@
-"""The pull is Maxwell's stress, summed around the rotor."""
+"""Test the pull against Maxwell's stress around the rotor."""
 
 import numpy as np
 import pytest

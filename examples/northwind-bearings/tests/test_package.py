@@ -1,4 +1,4 @@
-"""Rows, method, view and command of the package."""
+"""Test rows, method, view and command of the package."""
 
 from contextlib import closing
 

@@ -1,4 +1,4 @@
-"""The wear rate is Archard's."""
+"""Test the wear rate against Archard's."""
 
 import numpy as np
 from sliding_wear import Archard, wear

@@ -1,4 +1,4 @@
-"""Bearing currents of cases, machines and runs."""
+"""Compute bearing currents of cases, machines and runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From contacts and options to voltages and discharges."""
+"""Compute voltages and discharges from contacts and options."""
 
 from __future__ import annotations
 

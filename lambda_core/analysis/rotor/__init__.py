@@ -1,1 +1,1 @@
-"""Equilibrium, modes and critical speeds of machines, and their text."""
+"""Compute equilibrium, modes and critical speeds of machines."""

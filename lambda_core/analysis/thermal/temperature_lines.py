@@ -1,4 +1,4 @@
-"""Temperatures in lines for people."""
+"""Print temperatures as text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Balls, and the kinds of bearings that have them."""
+"""Provide balls, and the kinds of bearings with them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Inner geometry of a ball bearing."""
+"""Describe the inner geometry of a ball bearing."""
 
 from __future__ import annotations
 

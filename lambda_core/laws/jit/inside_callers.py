@@ -1,4 +1,4 @@
-"""Functions that exist inside their compiled callers only.
+"""Compile functions inside their callers only.
 
 Numba completes every function that compiled code calls as if it were called from elsewhere too: with wrappers for
 Python and C, optimised and turned into machine code, although a caller takes in its intermediate code and has that

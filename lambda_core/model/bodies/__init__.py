@@ -1,1 +1,1 @@
-"""Bodies of a machine: rings, cage, shaft, housing, materials, places."""
+"""Resolve the bodies of a machine."""

@@ -1,4 +1,4 @@
-"""Masses, inertias, boundary conditions and loads of rings and cage."""
+"""Resolve masses, inertias, boundary conditions and loads."""
 
 from __future__ import annotations
 

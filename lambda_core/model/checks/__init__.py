@@ -1,1 +1,1 @@
-"""Checks and descriptions of a resolved machine."""
+"""Check and describe a resolved machine."""

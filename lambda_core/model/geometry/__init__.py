@@ -1,1 +1,1 @@
-"""Geometry of a bearing: designation, clearance, rows, shoulders."""
+"""Resolve designation, clearance, rows and shoulders of a bearing."""

@@ -1,1 +1,1 @@
-"""Laws of a machine: choice, parameters, context, functions of time."""
+"""Resolve laws, parameters and functions of time."""

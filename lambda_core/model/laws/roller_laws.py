@@ -1,4 +1,4 @@
-"""Parameters that a case gives to the laws of rollers."""
+"""Resolve the parameters of the laws of rollers."""
 
 from __future__ import annotations
 

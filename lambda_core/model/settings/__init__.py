@@ -1,1 +1,1 @@
-"""Settings of a machine: solver, temperatures, circuit, observers."""
+"""Resolve settings of solver, temperatures, circuit and observers."""

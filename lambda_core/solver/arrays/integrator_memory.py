@@ -1,4 +1,4 @@
-"""Memory of the integrator, and the handle on a model."""
+"""Hold the memory of the integrator."""
 
 from __future__ import annotations
 

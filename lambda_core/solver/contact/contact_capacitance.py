@@ -1,4 +1,4 @@
-"""Capacitance of loaded contacts and of open gaps."""
+"""Compute the capacitance of loaded contacts and open gaps."""
 
 from __future__ import annotations
 

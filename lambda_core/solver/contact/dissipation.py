@@ -1,4 +1,4 @@
-"""Power that a raceway contact dissipates, by mechanism."""
+"""Compute the power that a contact dissipates, by mechanism."""
 
 from __future__ import annotations
 

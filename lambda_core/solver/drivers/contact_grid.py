@@ -1,4 +1,4 @@
-"""Cells of a contact ellipse."""
+"""Divide a contact ellipse into cells."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Friction's equilibrium in thick oil, from that in warmer oil.
+"""Find equilibria in thick oil from those in thinner oil.
 
 In oil far below its range friction has steep plateaus, and whether the continuation finds a way between them is a
 matter of luck: 5 K on it does. So the way leads through temperatures (natural-parameter continuation: Allgower and

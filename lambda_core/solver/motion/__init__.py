@@ -1,1 +1,1 @@
-"""Right-hand side, equations of motion, energy, and the Jacobian. Compiled."""
+"""Evaluate right-hand side, energy and Jacobian in compiled code."""

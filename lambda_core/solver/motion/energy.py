@@ -1,4 +1,4 @@
-"""Energy that is stored in motion, contacts and supports."""
+"""Compute energy stored in motion, contacts and supports."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Equations of motion of the balls and of the bodies."""
+"""Write equations of motion of balls and bodies."""
 
 from __future__ import annotations
 

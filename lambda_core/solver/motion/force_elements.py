@@ -1,4 +1,4 @@
-"""Force elements of the right-hand side: raceways, cage, drag."""
+"""Evaluate force elements: raceways, cage, drag."""
 
 from __future__ import annotations
 

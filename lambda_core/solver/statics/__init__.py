@@ -1,1 +1,1 @@
-"""Quasi-static equilibrium by pseudo-transient continuation. Compiled."""
+"""Solve the quasi-static equilibrium by pseudo-transient continuation."""

@@ -1,4 +1,4 @@
-"""Built-in comparison methods: catalogue friction, analytical capacitance, rating life, kinematics."""
+"""Provide the built-in comparison methods."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Contacts over azimuth: load, contact angle, pressure, film."""
+"""Show load, angle, pressure and film over azimuth."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Several runs side by side."""
+"""Compare several runs side by side."""
 
 from __future__ import annotations
 

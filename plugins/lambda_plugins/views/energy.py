@@ -1,4 +1,4 @@
-"""Energy balance of one run."""
+"""Show the energy balance of one run."""
 
 from __future__ import annotations
 

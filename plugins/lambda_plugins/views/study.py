@@ -1,4 +1,4 @@
-"""Studies: responses over two parameters, friction stacked, sensitivities, stability."""
+"""Show responses of a study over its parameters."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Cases to start from."""
+"""Provide cases to start from."""

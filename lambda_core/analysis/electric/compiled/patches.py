@@ -1,4 +1,4 @@
-"""Voltage at which a film breaks down, patch by patch."""
+"""Find the voltage at which a film breaks down."""
 
 from __future__ import annotations
 

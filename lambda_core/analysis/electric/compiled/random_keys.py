@@ -1,4 +1,4 @@
-"""Random numbers that depend on a key alone."""
+"""Draw random numbers that depend on a key alone."""
 
 from __future__ import annotations
 

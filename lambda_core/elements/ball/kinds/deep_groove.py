@@ -1,4 +1,4 @@
-"""Deep groove ball bearings."""
+"""Define deep groove ball bearings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Double row angular contact ball bearings.
+"""Define double row angular contact ball bearings.
 
 With the distance A of the groove centres and the free contact angle alpha_0, rings that go G_a against each other from
 one row's touch to the other's have the resting angle sin(alpha_s) = sin(alpha_0) - G_a/(2 A); below zero the rows press
