@@ -331,8 +331,8 @@ _COLUMNS: tuple[tuple[str, str, Callable[[BearingEquilibrium], str], int], ...] 
     ("clearance", "um", lambda b: _number(b.clearance_um), 8),
     ("film", "um", lambda b: f"{min(b.film_um):.2f}" if b.film_um else "-", 7),
     ("torque", "N mm", lambda b: _number(b.friction_torque_Nmm), 9),
-    ("S0", "", lambda b: _number(b.static_safety), 6),
-    ("L10rh", "h", lambda b: _life(b.reference_life_h), 2),
+    ("S0", "", lambda b: _number(b.rating.static_safety), 6),
+    ("L10rh", "h", lambda b: _life(b.rating.reference_life_h), 2),
 )
 
 

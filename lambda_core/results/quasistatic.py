@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,7 @@ from lambda_core.results.bearing_summary import CONTACT_UNITS, BearingSummary, C
 from lambda_core.results.bearing_summary import Equilibrium as StartState
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
 from lambda_core.results.model_band import Banded
-from lambda_core.results.quantity import quantity, same_as, shown
+from lambda_core.results.quantity import FLOATING, quantity, same_as, shown
 from lambda_core.results.rating import Rating, rated_verdict
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import capacitance_note, contact_list, merged_cage, span
@@ -49,48 +50,57 @@ class RingShape(Record):
     inwards_deg: float = Field(description="azimuth where that is")
 
 
-class QuasiStatic(Answer, Banded):
-    """Quasi-static solution of a bearing.
+class BearingStatics(Banded):
+    """Quasi-static equilibrium of a bearing, alone or in a machine.
 
-    Loads, displacement, kinematics and friction without time; the cage is left out.
+    Contacts, lives, friction and films without time; the cage is left out.
 
     Numbers that a ring at rest does not have (friction torque, film) are null.
     """
 
-    interface: int = INTERFACE
-    case: str
     title: str
-    headline: str
     verdict: Verdict | None = Field(description="against required life and limits", default=None)
+    loaded_balls: int = same_as(StartState, "loaded_balls")
+    max_load_N: float = same_as(StartState, "max_load_N")
+    max_load_ring: Ring = same_as(StartState, "max_load_ring")
+    max_pressure_GPa: float = same_as(StartState, "max_pressure_GPa")
+    contact_angle_deg: list[float] = quantity(
+        "smallest and largest of the loaded contacts, sizes", "deg", label="contact angles", column="contact angles",
+        decimals=FLOATING, digits=3, group="contact",
+    )  # fmt: skip
     rating: Rating | None = Field(description="life, safety and catalogue friction", default=None)
+    friction_torque_Nmm: float | None = same_as(BearingSummary, "friction_torque_Nmm")
+    friction_breakdown_Nmm: dict[str, float | None] = Field(description="parts of friction_torque_Nmm")
     power_loss_W: float | None = same_as(
         BearingSummary, "power_loss_W", "of the friction, without the cage", default=None
     )
-    loaded_balls: int = same_as(StartState, "loaded_balls")
-    max_load_N: float = same_as(StartState, "max_load_N")
-    max_load_ring: Ring = Field(description="the ring with the largest contact load")
-    max_pressure_GPa: float = same_as(StartState, "max_pressure_GPa")
-    friction_torque_Nmm: float | None = same_as(BearingSummary, "friction_torque_Nmm")
-    friction_breakdown_Nmm: dict[str, float | None]
     orbit_speed_ratio: float | None = quantity(
         "mean orbital speed of the loaded balls over inner ring speed",
         label="orbital speed of the balls over inner ring speed", decimals=4, group="cage",
     )  # fmt: skip
-    contacts: list[Contact]
+    film_um: list[float] = same_as(BearingSummary, "film_um", "smallest and largest central film under load")
+    film_parameter: list[float] = same_as(BearingSummary, "film_parameter", "smallest and largest Lambda under load")
+    capacitance_note: str = Field(description="which contacts asperities short, where they do", default="")
+    ring_shapes: list[RingShape] = Field(description="how elastic rings bend; empty where all are rigid", default=[])
+    shoulders: list[Shoulder] = Field(description="how near contacts come to the shoulders, the worst on each ring")
+    contacts: list[Contact] = Field(description="of every rolling element with each ring")
+    warnings: list[str] = Field(
+        description="where the case or the state leaves what bearing, oil and laws are made for"
+    )
+
+
+class QuasiStatic(BearingStatics, Answer):
+    """Quasi-static solution of a bearing that is alone."""
+
+    interface: int = INTERFACE
+    case: str
+    headline: str
     inner_ring_displacement_um: list[float] = same_as(BearingSummary, "inner_ring_displacement_um", "x, y, z")
     axial_play_um: float | None = Field(
         description="from the middle to first contact without load: part of displacement x; null of two rows",
         default=None,
     )
     inner_ring_tilt_mrad: list[float] = same_as(BearingSummary, "inner_ring_tilt_mrad", "about y and z")
-    ring_shapes: list[RingShape] = Field(description="how elastic rings bend; empty where all are rigid", default=[])
-    film_um: list[float] = same_as(BearingSummary, "film_um", "smallest and largest central film under load")
-    film_parameter: list[float] = same_as(BearingSummary, "film_parameter", "smallest and largest Lambda under load")
-    capacitance_note: str = Field(description="which contacts asperities short, where they do", default="")
-    shoulders: list[Shoulder] = Field(description="how near contacts come to the shoulders, the worst on each ring")
-    warnings: list[str] = Field(
-        description="where the case or the state leaves what bearing, oil and laws are made for"
-    )
     iterations: int
     assumptions: list[str]
 
@@ -148,50 +158,72 @@ def quasistatic_of(found: Equilibrium, rating: Rating | None = None) -> QuasiSta
     from lambda_core.model.checks.describe import headline
 
     model = found.context.model
+    x, y, z, tilt_y, tilt_z = found.displacement
+    own = bearing_statics(found, rating, math.hypot(tilt_y, tilt_z))
+    return QuasiStatic(
+        **own,
+        case=model.name,
+        headline="\n".join(headline(model)),
+        inner_ring_displacement_um=[1e6 * value for value in (x, y, z)],
+        axial_play_um=1e6 * axial_play(model, model.geometry.clearance) if model.geometry.rated_rows == 1 else None,
+        inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
+        iterations=found.iterations,
+        assumptions=list(model.assumptions),
+    )
+
+
+def bearing_statics(found: Equilibrium, rating: Rating | None, tilt: float) -> dict[str, Any]:
+    """Return the fields of :class:`BearingStatics`.
+
+    Parameters
+    ----------
+    tilt : float
+        Between the axes of the rings [rad]; of a bearing in a machine its equilibrium does not know it.
+    """
+    model = found.context.model
     channels = {name: found.contacts[:, :, i] for i, name in enumerate(CONTACT_CHANNELS)}
     load = channels["load"]
     carrying = load > CARRYING * load.max()
     largest, ring = largest_contact(load)
     losses = dict(zip(LOSSES, found.losses.tolist(), strict=True))
     speed = found.relative_speed
-    x, y, z, tilt_y, tilt_z = found.displacement
     edges = shoulders(
         Grooves.of(dataclasses.asdict(model.geometry)), load, channels["contact_angle"], channels["semi_axis_a"]
     )
     per_speed = {name: power / speed if speed > 0.0 else math.nan for name, power in losses.items()}
-    pressure, films = 1e-9 * float(channels["max_pressure"].max()), span(channels["film_parameter"][carrying])
-    return QuasiStatic(
-        case=model.name,
-        title=model.title,
-        headline="\n".join(headline(model)),
-        verdict=rated_verdict(rating, pressure, films, 1e3 * math.hypot(tilt_y, tilt_z)),
-        rating=rating,
-        power_loss_W=finite(float(found.losses.sum())) if speed > 0.0 else None,
-        loaded_balls=loaded_balls(load[:, RINGS.index("inner")]),
-        max_load_N=largest,
-        max_load_ring=ring,
-        max_pressure_GPa=pressure,
-        friction_torque_Nmm=finite(1e3 * sum(per_speed.values())),
-        friction_breakdown_Nmm=merged_cage(per_speed),
-        orbit_speed_ratio=finite(_ratio(found)),
-        contacts=contact_list({**channels, "ball_azimuth": _azimuths(found)}),
-        inner_ring_displacement_um=[1e6 * value for value in (x, y, z)],
-        axial_play_um=1e6 * axial_play(model, model.geometry.clearance) if model.geometry.rated_rows == 1 else None,
-        inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
-        ring_shapes=_ring_shapes(found),
-        film_um=span(1e6 * channels["film_central"][carrying]),
-        film_parameter=films,
-        capacitance_note=capacitance_note(load, channels["capacitance"]),
-        shoulders=edges,
-        warnings=[
-            *operating_warnings(model),
-            *warnings(
-                float(channels["max_pressure"].max()), edges, math.hypot(tilt_y, tilt_z), model.geometry.kind.name
-            ),
-        ],
-        iterations=found.iterations,
-        assumptions=list(model.assumptions),
-    )
+    pressure = float(channels["max_pressure"].max())
+    films = span(channels["film_parameter"][carrying])
+    contacts = contact_list({**channels, "ball_azimuth": _azimuths(found)})
+    return {
+        "title": model.title,
+        "verdict": rated_verdict(rating, 1e-9 * pressure, films, 1e3 * tilt),
+        "loaded_balls": loaded_balls(load[:, RINGS.index("inner")]),
+        "max_load_N": largest,
+        "max_load_ring": ring,
+        "max_pressure_GPa": 1e-9 * pressure,
+        "contact_angle_deg": _angles(contacts, largest),
+        "rating": rating,
+        "friction_torque_Nmm": finite(1e3 * sum(per_speed.values())),
+        "friction_breakdown_Nmm": merged_cage(per_speed),
+        "power_loss_W": finite(float(found.losses.sum())) if speed > 0.0 else None,
+        "orbit_speed_ratio": finite(_ratio(found)),
+        "film_um": span(1e6 * channels["film_central"][carrying]),
+        "film_parameter": films,
+        "capacitance_note": capacitance_note(load, channels["capacitance"]),
+        "ring_shapes": _ring_shapes(found),
+        "shoulders": edges,
+        "contacts": contacts,
+        "warnings": [*operating_warnings(model), *warnings(pressure, edges, tilt, model.geometry.kind.name)],
+    }
+
+
+def _angles(contacts: Sequence[Contact], largest: float) -> list[float]:
+    """Return the smallest and largest contact angle.
+
+    They are absolute values, of contacts that carry at least 1 % of the largest load.
+    """
+    angles = [abs(one.contact_angle_deg) for one in contacts if one.load_N > 0.01 * largest]
+    return [min(angles), max(angles)] if angles else []
 
 
 def _ring_shapes(found: Equilibrium) -> list[RingShape]:

@@ -17,11 +17,11 @@ class Rating(Record):
 
     basic_life_h: float | None = quantity(
         "L_10h of ISO 281, from the catalogue's C and the equivalent load", "h",
-        label="basic rating life L_10h of ISO 281", column="L_10h", group="life",
+        label="basic rating life L_10h of ISO 281", column="L_10h", group="life", default=None,
     )  # fmt: skip
     reference_life_h: float | None = quantity(
         "L_10rh of ISO/TS 16281, from the load of every ball", "h",
-        label="reference rating life L_10rh of ISO/TS 16281", column="L_10rh", group="life",
+        label="reference rating life L_10rh of ISO/TS 16281", column="L_10rh", group="life", default=None,
     )  # fmt: skip
     modified_life_h: float | None = quantity(
         "L_nmh = a_ISO L_10h of ISO 281", "h", label="modified rating life L_nmh of ISO 281", column="L_nmh",
@@ -42,21 +42,23 @@ class Rating(Record):
         description="whether the case gives e_C; otherwise it is the lower end of normal cleanliness", default=False
     )
     equivalent_load_N: float | None = quantity(
-        "P of ISO 281", "N", label="equivalent load P of ISO 281", decimals=FLOATING, digits=4, group="load"
-    )
+        "P of ISO 281", "N", label="equivalent load P of ISO 281", decimals=FLOATING, digits=4, group="load",
+        default=None,
+    )  # fmt: skip
     static_safety: float | None = quantity(
-        "C_0/P_0 of ISO 76", label="static safety", column="static safety C0/P0", group="life"
+        "C_0/P_0 of ISO 76", label="static safety", column="static safety C0/P0", group="life", default=None
     )
     viscosity_ratio: float | None = quantity(
-        "kappa = nu/nu_1 of ISO 281", label="viscosity ratio kappa", column="viscosity ratio kappa", group="life"
-    )
+        "kappa = nu/nu_1 of ISO 281", label="viscosity ratio kappa", column="viscosity ratio kappa", group="life",
+        default=None,
+    )  # fmt: skip
     skf_torque_Nmm: float | None = quantity(
         "friction torque after SKF's catalogue", "N mm", label="friction torque, SKF's catalogue", column="  SKF",
-        decimals=0, digits=4, group="catalogue",
+        decimals=0, digits=4, group="catalogue", default=None,
     )  # fmt: skip
     schaeffler_torque_Nmm: float | None = quantity(
         "friction torque after Schaeffler's catalogue", "N mm", label="friction torque, Schaeffler's catalogue",
-        column="  Schaeffler", decimals=0, digits=4, group="catalogue",
+        column="  Schaeffler", decimals=0, digits=4, group="catalogue", default=None,
     )  # fmt: skip
     skf_torque_without_step_Nmm: float | None = Field(
         description="friction torque after SKF's catalogue without its step where an axial load begins; null without "
@@ -64,7 +66,7 @@ class Rating(Record):
         default=None,
     )
     limits: Limits | None = Field(description="what the bearing has to keep to", default=None)
-    notes: list[str] = Field(description="why a method does not answer, one sentence each")
+    notes: list[str] = Field(description="why a method does not answer, one sentence each", default=[])
 
 
 def life_that_counts(rating: Rating) -> tuple[str, float | None]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from pydantic import Field
@@ -38,6 +38,7 @@ from lambda_core.results.averages import finite
 from lambda_core.results.band_text import banded
 from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
 from lambda_core.results.model_band import Banded
+from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.text import band_lines, life_factor_text, line, place_with_play, warning_lines
 
@@ -99,18 +100,7 @@ class RollerQuasiStatic(Answer, Banded):
     )
     inner_ring_tilt_mrad: list[float]
     inner_ring_moment_Nm: list[float] = Field(description="about y and z, that the rollers put on the shaft")
-    modified_life_h: float | None = Field(description="L_nmh = a_ISO L_10h of ISO 281")
-    modified_reference_life_h: float | None = Field(description="L_nmrh of ISO 16281, a_ISO of every lamina")
-    life_factor: float | None = Field(description="a_ISO of ISO 281")
-    contamination: float = Field(description="e_C that a_ISO was computed with")
-    contamination_given: bool = Field(
-        description="whether the case gives e_C; otherwise it is the lower end of normal cleanliness"
-    )
-    equivalent_load_N: float | None = Field(description="P of ISO 281")
-    basic_life_h: float | None = Field(description="L_10h of ISO 281, exponent 10/3")
-    reference_life_h: float | None = Field(description="L_10rh of ISO 16281, from the load of every lamina")
-    static_safety: float | None = Field(description="C_0/P_0 of ISO 76")
-    viscosity_ratio: float | None = Field(description="kappa of ISO 281")
+    rating: Rating = Field(description="lives of every lamina (ISO 16281) and of ISO 281, safety; no catalogues")
     axial_limit_N: float | None = Field(description="permissible constant axial load of ribs of cylindrical rollers")
     rollers: list[RollerLoad]
     warnings: list[str]
@@ -228,7 +218,9 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
         axial_play_um=0.0 if bearing.kind == "tapered" else 1e6 * bearing.end_play,
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
         inner_ring_moment_Nm=[-float(state.loads[3]), -float(state.loads[4])],
-        **roller_lives(bearing, state, (radial, axial), motion.relative, model.oil.kinematic, model.contamination),
+        rating=roller_rating(
+            bearing, state, (radial, axial), motion.relative, model.oil.kinematic, model.contamination
+        ),
         axial_limit_N=limit.continuous if limit else None,
         rollers=_rollers(bearing, state),
         warnings=_warnings(model, state, axial, limit),
@@ -278,14 +270,14 @@ def _pressure(bearing: RollerBearing, state: RollerEquilibrium, model: RollerMod
     )
 
 
-def roller_lives(
+def roller_rating(
     bearing: RollerBearing,
     state: RollerEquilibrium,
     load: tuple[float, float],
     speed: float,
     viscosity: float,
     contamination: float | None,
-) -> dict[str, Any]:
+) -> Rating:
     """Return lives, static safety and viscosity ratio.
 
     None where a standard gives none.
@@ -321,18 +313,18 @@ def roller_lives(
     if kappa >= LEAST_KAPPA:
         factor = life_modification_factor(kappa, clean, bearing.fatigue_limit, equivalent, RADIAL_ROLLER)
         modified = modified_lamina_life(reference, bearing.dynamic_rating, kappa, clean, bearing.fatigue_limit)
-    return {
-        "equivalent_load_N": equivalent,
-        "basic_life_h": finite(life_hours(basic, speed)),
-        "reference_life_h": finite(life_hours(reference.life, speed)),
-        "modified_life_h": finite(life_hours(factor * basic, speed)),
-        "modified_reference_life_h": finite(life_hours(modified, speed)),
-        "life_factor": finite(factor),
-        "contamination": clean,
-        "contamination_given": contamination is not None,
-        "static_safety": finite(bearing.static_rating / static) if static > 0.0 else None,
-        "viscosity_ratio": finite(kappa),
-    }
+    return Rating(
+        equivalent_load_N=equivalent,
+        basic_life_h=finite(life_hours(basic, speed)),
+        reference_life_h=finite(life_hours(reference.life, speed)),
+        modified_life_h=finite(life_hours(factor * basic, speed)),
+        modified_reference_life_h=finite(life_hours(modified, speed)),
+        life_factor=finite(factor),
+        contamination=clean,
+        contamination_given=contamination is not None,
+        static_safety=finite(bearing.static_rating / static) if static > 0.0 else None,
+        viscosity_ratio=finite(kappa),
+    )
 
 
 def _limit(model: RollerModel, radial: float, motion: RollerMotion) -> AxialLimit | None:
@@ -401,7 +393,7 @@ def _warnings(model: RollerModel, state: RollerEquilibrium, axial: float, limit:
 
 def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str:
     """Return the answer's lines and table of rollers."""
-    parts = found.friction_breakdown_Nmm
+    parts, rating = found.friction_breakdown_Nmm, found.rating
     tilt_y, tilt_z = found.inner_ring_tilt_mrad
     pressure = units.text(found.max_pressure_GPa, "GPa", 3)
     lines = [
@@ -439,11 +431,11 @@ def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str
         friction = "" if found.rib_friction is None else f"friction {number(found.rib_friction, 4)}"
         lines.append(line("rib", f"load {units.text(found.rib_load_N, 'N', 0)}", film, friction))
     lines += [
-        *_life_lines(found),
+        *_life_lines(rating),
         line(
             "safety",
-            f"static C0/P0 {number(found.static_safety)}" if found.static_safety is not None else "",
-            f"viscosity ratio kappa {number(found.viscosity_ratio, 1)}" if found.viscosity_ratio is not None else "",
+            f"static C0/P0 {number(rating.static_safety)}" if rating.static_safety is not None else "",
+            f"viscosity ratio kappa {number(rating.viscosity_ratio, 1)}" if rating.viscosity_ratio is not None else "",
             f"axial limit {units.text(found.axial_limit_N, 'N', 0)}" if found.axial_limit_N is not None else "",
         ),
         *_table(found, units),
@@ -454,18 +446,18 @@ def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str
     return "\n".join(wrapped(lines, width))
 
 
-def _life_lines(found: RollerQuasiStatic) -> list[str]:
+def _life_lines(rating: Rating) -> list[str]:
     """Return basic lives and those with a_ISO."""
     rows = (
-        ("rating life", found.reference_life_h, found.basic_life_h),
-        ("with a_ISO", found.modified_reference_life_h, found.modified_life_h),
+        ("rating life", rating.reference_life_h, rating.basic_life_h),
+        ("with a_ISO", rating.modified_reference_life_h, rating.modified_life_h),
     )
-    lines, modified = [], (found.life_factor, found.contamination, found.contamination_given)
+    lines, modified = [], (rating.life_factor, rating.contamination, rating.contamination_given)
     for words, *lives in rows:
         named = zip(lives, ("ISO 16281", "ISO 281"), strict=True)
         texts = [f"{hours(life)} ({standard})" for life, standard in named if life is not None]
         lines += [line(words, *texts)] if texts else []
-    return [*lines, line("", life_factor_text(*modified))] if found.life_factor is not None else lines
+    return [*lines, line("", life_factor_text(*modified))] if rating.life_factor is not None else lines
 
 
 def _ring_line(ring: str, parts: dict[str, float], units: UnitSystem) -> str:

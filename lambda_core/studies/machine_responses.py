@@ -169,17 +169,15 @@ _OF_MACHINE = {"converged", *quantities(Summary)} - set(quantities(BearingSummar
 
 
 def _of_bearing(name: str) -> list[Response]:
-    rated = {key: _dynamic(name, read) for key in RATED if (read := RESPONSES[key].dynamic) is not None}
-    fields = (key for key in quantities(BearingEquilibrium) if key not in RESPONSES or key in RATED)
+    fields = (key for key in quantities(BearingEquilibrium) if key not in RESPONSES)
     own = [
-        Response(
-            f"{name}.{one.name}",
-            one.unit,
-            f"{name}: {one.meaning}",
-            _field(name, one.name),
-            rated.get(one.name),
-        )
+        Response(f"{name}.{one.name}", one.unit, f"{name}: {one.meaning}", _field(name, one.name))
         for one in of_fields(BearingEquilibrium, fields)
+    ]
+    own += [
+        Response(f"{name}.{key}", rated.unit, f"{name}: {rated.meaning}", _rated(name, key), _dynamic(name, read))
+        for key in RATED
+        if (rated := RESPONSES[key]) and (read := rated.dynamic) is not None
     ]
     currents = [
         Response(f"{name}.{key}", unit, f"{name}: {meaning(key)}", _current(name, key), _current(name, key))
@@ -216,6 +214,10 @@ def _field(name: str, path: str) -> Callable[[Any], Number]:
         return None if value is None else float(value)
 
     return read
+
+
+def _rated(name: str, key: str) -> Callable[[Any], Number]:
+    return lambda point: getattr(point.summary.bearing(name).rating, key)
 
 
 def _stiffness(name: str, index: int) -> Callable[[Any], Number]:

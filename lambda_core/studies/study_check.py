@@ -322,7 +322,7 @@ def _probe(
         seconds += time.perf_counter() - start
     if study.mode == "quasi-static":
         return seconds, columns, 0.0
-    run = estimate_run(resolved, {}, announce)
+    run = estimate_run(resolved, announce)
     if run.processor_s is None or run.simulated_s is None:
         return math.nan, columns, math.nan
     return seconds + run.processor_s, columns, _file_size(resolved, run.simulated_s, found.orbit)
@@ -332,7 +332,7 @@ def _probe_machine(
     study: Study, model: MachineModel, names: tuple[str, ...], rows: tuple[str, ...], announce: Announce
 ) -> tuple[float, dict[str, tuple[float | None, str, str]], float]:
     """Do for a machine what :func:`_probe` does for one bearing."""
-    from lambda_core.runs.estimate import machine_estimate
+    from lambda_core.runs.estimate import estimate as estimate_run
     from lambda_core.solver.drivers.machine_statics import solve_machine
 
     warm = with_temperatures(model)
@@ -340,7 +340,7 @@ def _probe_machine(
     equilibria = [ring.equilibrium() for ring in state.rings]
     columns = machine_columns(warm, state, equilibria, rows)
     if study.mode == "dynamic":
-        run = machine_estimate(warm, announce)
+        run = estimate_run(warm, announce)
         if run.processor_s is None or run.simulated_s is None:
             return math.nan, columns, math.nan
         each = zip(warm.bearings, equilibria, strict=True)

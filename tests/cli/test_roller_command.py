@@ -47,7 +47,7 @@ def test_quasistatic(designation: str, axial: str, tmp_path: Path, capsys: pytes
     found = json.loads(capsys.readouterr().out)
     assert found["friction_torque_Nmm"] == pytest.approx(sum(found["friction_breakdown_Nmm"].values()))
     assert found["loaded_rollers"] >= 3
-    assert found["basic_life_h"] > 0.0
+    assert found["rating"]["basic_life_h"] > 0.0
     assert (found["rib_load_N"] > 0.0) == (axial != "0 N")
     assert (found["axial_limit_N"] is not None) == designation.startswith(("NJ", "NCF"))
 
@@ -60,12 +60,12 @@ def test_lives_with_a_iso(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     path = case(tmp_path, "NU 208")
     assert main(["quasistatic", path, "--json", "--set", "life.contamination=0.3"]) == 0
     found = json.loads(capsys.readouterr().out)
-    film = 1.5859 - 1.2348 / found["viscosity_ratio"] ** 0.071739
+    film = 1.5859 - 1.2348 / found["rating"]["viscosity_ratio"] ** 0.071739
     expected = 0.1 * (1.0 - film * (0.3 * 6.7 / 6.0) ** 0.4) ** -9.185
-    assert found["life_factor"] == pytest.approx(expected, rel=1e-6)
-    assert found["modified_life_h"] == pytest.approx(expected * found["basic_life_h"])
-    of_laminae = found["modified_reference_life_h"] / found["reference_life_h"]
-    assert 1.0 < of_laminae < found["life_factor"]  # edges carry more
+    assert found["rating"]["life_factor"] == pytest.approx(expected, rel=1e-6)
+    assert found["rating"]["modified_life_h"] == pytest.approx(expected * found["rating"]["basic_life_h"])
+    of_laminae = found["rating"]["modified_reference_life_h"] / found["rating"]["reference_life_h"]
+    assert 1.0 < of_laminae < found["rating"]["life_factor"]  # edges carry more
     assert main(["quasistatic", path]) == 0
     assert "e_C 0.5: normal cleanliness, the case gives none" in capsys.readouterr().out
 
@@ -78,9 +78,9 @@ def test_a_iso_ends_where_its_formula_does(tmp_path: Path, capsys: pytest.Captur
     slow = ["--set", 'operation.speed="5 rpm"', "--set", 'lubricant.temperature="100 degC"']
     assert main(["quasistatic", case(tmp_path, "NU 208"), "--json", *slow]) == 0
     found = json.loads(capsys.readouterr().out)
-    assert found["viscosity_ratio"] < 0.1
-    assert found["modified_life_h"] is None
-    assert found["basic_life_h"] > 0.0
+    assert found["rating"]["viscosity_ratio"] < 0.1
+    assert found["rating"]["modified_life_h"] is None
+    assert found["rating"]["basic_life_h"] > 0.0
 
 
 def test_the_text_names_shares_and_lives(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -103,8 +103,8 @@ def test_thrust_alone_has_no_radial_load(tmp_path: Path, capsys: pytest.CaptureF
     assert main(["quasistatic", case(tmp_path, "NJ 208", "500 N"), "--json", "--set", 'loads.radial="0 N"']) == 0
     found = json.loads(capsys.readouterr().out)
     assert "radial 0 N, axial 500 N" in found["headline"]
-    assert found["equivalent_load_N"] == 0.0
-    assert found["static_safety"] is None
+    assert found["rating"]["equivalent_load_N"] == 0.0
+    assert found["rating"]["static_safety"] is None
 
 
 @pytest.mark.parametrize("verb", ["check", "quasistatic"])
@@ -302,7 +302,7 @@ def test_a_run_rates_rollers_as_rollers(
     monkeypatch.chdir(tmp_path)
     path = case(tmp_path, "SKF NU 208 ECP")
     assert main(["quasistatic", path, "--json"]) == 0
-    alone = json.loads(capsys.readouterr().out)
+    alone = json.loads(capsys.readouterr().out)["rating"]
     main(["run", path, "--set", "solver.duration=2 ms"])
     capsys.readouterr()
     assert main(["show", "case.h5", "--json"]) in (0, 5)

@@ -72,7 +72,7 @@ def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) 
     assert found["drive_torque_Nm"] == pytest.approx(-wheel.moment[0], rel=1e-9)
     assert left["axial_load_N"] == pytest.approx(wheel.force[0], rel=1e-6)
     assert 0.0 < left["friction_torque_Nmm"] < 500.0
-    assert left["basic_life_h"] > 1e4 < found["system_life_h"]
+    assert left["rating"]["basic_life_h"] > 1e4 < found["system_life_h"]
     ends = [moment for moment, place in zip(found["bending_moment_Nm"], found["cut_positions_mm"], strict=True)
             if place in (found["positions_mm"][0], found["positions_mm"][-1])]  # fmt: skip
     assert np.abs(ends).max() < 1e-6

@@ -147,12 +147,12 @@ def test_one_bearing_on_a_short_shaft_is_the_bearing_alone() -> None:
     pairs = [
         (found.max_load_N, alone.max_load_N),
         (found.max_pressure_GPa, alone.max_pressure_GPa),
-        (found.basic_life_h, alone.basic_life_h),
-        (found.reference_life_h, alone.reference_life_h),
-        (found.modified_life_h, alone.modified_life_h),
-        (found.modified_reference_life_h, alone.modified_reference_life_h),
-        (found.static_safety, alone.static_safety),
-        (found.viscosity_ratio, alone.viscosity_ratio),
+        (found.rating.basic_life_h, alone.rating.basic_life_h),
+        (found.rating.reference_life_h, alone.rating.reference_life_h),
+        (found.rating.modified_life_h, alone.rating.modified_life_h),
+        (found.rating.modified_reference_life_h, alone.rating.modified_reference_life_h),
+        (found.rating.static_safety, alone.rating.static_safety),
+        (found.rating.viscosity_ratio, alone.rating.viscosity_ratio),
         (found.film_um[0], alone.film_um[0]),
         (found.friction_torque_Nmm, alone.friction_torque_Nmm),
     ]

@@ -43,7 +43,7 @@ def test_damages_of_every_bearing_add_and_their_lives_join(box: Path) -> None:
     second = api.quasistatic(box)
     lives = []
     for name in ("left", "right"):
-        each = [state.bearing(name).reference_life_h for state in (first, second)]
+        each = [state.bearing(name).rating.reference_life_h for state in (first, second)]
         lives.append(1.0 / (0.25 / each[0] + 0.75 / each[1]))
         assert found.bearings[name].reference_life_h == pytest.approx(lives[-1], rel=1e-9)
         assert found.bearings[name].phases[0].damage == pytest.approx(0.25 * lives[-1] / each[0], rel=1e-9)

@@ -179,7 +179,7 @@ def _read(answer: RollerQuasiStatic, name: str, model: RollerModel) -> float:
     NaN where there is none.
     """
     torque = math.nan if answer.friction_torque_Nmm is None else answer.friction_torque_Nmm
-    life = answer.reference_life_h
+    life = answer.rating.reference_life_h
     return {
         "friction torque": torque,
         "power loss": 1e-3 * torque * abs(model.speeds[0] - model.speeds[1]),

@@ -19,7 +19,6 @@ from lambda_core.views.method import Method, evaluate_methods
 
 if TYPE_CHECKING:
     from lambda_core.elements.roller.roller_bearing import RollerBearing
-    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.machine_statics import MachineState
 
@@ -104,7 +103,7 @@ def _of_rollers(found: Equilibrium, rollers: RollerBearing) -> Rating:
     """
     from lambda_core.elements.roller.roller_equilibrium import balance
     from lambda_core.elements.roller.roller_motion import rolling_motion
-    from lambda_core.results.roller_quasistatic import roller_lives
+    from lambda_core.results.roller_quasistatic import roller_rating
 
     model, oil = found.context.model, found.context.oil
     radial, axial = bearing_load(model, equilibrium_state(found))
@@ -121,10 +120,8 @@ def _of_rollers(found: Equilibrium, rollers: RollerBearing) -> Rating:
             inertial=motion.inertial(rollers),
         )
     except (ValueError, ArithmeticError) as error:
-        return _rating({}, model, [f"rating lives: {error}"])
-    oil_state = oil.viscosity / oil.density, model.contamination
-    return _rating(roller_lives(rollers, state, (radial, axial), found.relative_speed, *oil_state), model, [])
-
-
-def _rating(lives: Mapping[str, float | bool | None], model: BearingModel, notes: list[str]) -> Rating:
-    return Rating.model_validate({**dict.fromkeys(_ROWS), **lives, "limits": limits_of(model), "notes": notes})
+        return Rating(limits=limits_of(model), notes=[f"rating lives: {error}"])
+    rating = roller_rating(
+        rollers, state, (radial, axial), found.relative_speed, oil.viscosity / oil.density, model.contamination
+    )
+    return rating.model_copy(update={"limits": limits_of(model)})

@@ -19,17 +19,15 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.formulas.elastic.body import internal_forces
 from lambda_core.formulas.life import system_life
-from lambda_core.formulas.loading import Ring
 from lambda_core.model.checks.operating_limits import load_warnings, operating_warnings
 from lambda_core.model.machine_model import MachineModel, MountedBearing, Place, is_on_cage
 from lambda_core.results.answer import Answer, dataset, declared_numbers, drawn
 from lambda_core.results.averages import finite
-from lambda_core.results.bearing_summary import BearingSummary, Contact
-from lambda_core.results.bearing_summary import Equilibrium as StartState
+from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.limits import warnings
-from lambda_core.results.model_band import Banded, MachineBand, sum_of_bands
+from lambda_core.results.model_band import MachineBand, sum_of_bands
 from lambda_core.results.quantity import FLOATING, quantity, same_as
-from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
+from lambda_core.results.quasistatic import BearingStatics, bearing_statics
 from lambda_core.results.rating import Rating, rated_verdict
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Summary
@@ -41,11 +39,10 @@ from lambda_core.solver.drivers.roller_reaction import RollerReaction
 from lambda_core.solver.drivers.structure import point_on, static_rows, stretch
 
 
-class BearingEquilibrium(Banded):
-    """One bearing of a machine at its operating point."""
+class MountedState(Record):
+    """Place and load of a bearing in a machine."""
 
     name: str
-    title: str
     position_mm: float = quantity(
         "of its middle, from the shaft's left end",
         "mm",
@@ -98,34 +95,19 @@ class BearingEquilibrium(Banded):
         digits=3,
         group="place",
     )
-    loaded_balls: int = same_as(StartState, "loaded_balls")
-    max_load_N: float = same_as(StartState, "max_load_N")
-    max_load_ring: Ring = Field(description="the ring with the largest contact load")
-    max_pressure_GPa: float = same_as(StartState, "max_pressure_GPa")
-    contact_angle_deg: list[float] = quantity(
-        "smallest and largest of the loaded contacts, sizes", "deg", label="contact angles", column="contact angles",
-        decimals=FLOATING, digits=3, group="contact",
-    )  # fmt: skip
-    equivalent_load_N: float | None = same_as(Rating, "equivalent_load_N")
-    basic_life_h: float | None = same_as(Rating, "basic_life_h", "L_10h of ISO 281; null at rest or without load")
-    reference_life_h: float | None = same_as(Rating, "reference_life_h")
-    modified_life_h: float | None = same_as(Rating, "modified_life_h", "L_nmh of ISO 281")
-    modified_reference_life_h: float | None = same_as(Rating, "modified_reference_life_h", "L_nmrh")
-    contamination: float | None = same_as(Rating, "contamination", default=None)
-    contamination_given: bool = same_as(Rating, "contamination_given", default=False)
-    viscosity_ratio: float | None = same_as(Rating, "viscosity_ratio", "kappa")
-    static_safety: float | None = same_as(Rating, "static_safety", "C_0 over P_0")
-    friction_torque_Nmm: float | None = same_as(BearingSummary, "friction_torque_Nmm")
-    power_loss_W: float | None = same_as(
-        BearingSummary, "power_loss_W", "of the friction; null where the balls have no steady motion"
-    )
-    film_um: list[float] = same_as(BearingSummary, "film_um", "smallest and largest central film under load")
     stiffness: list[list[float]] = Field(
         description="6 x 6, inner ring against outer ring, order of `axes` [N/m, N/rad, N m/rad]; no row turns about x"
     )
-    contacts: list[Contact] = Field(description="of every ball with each ring")
+
+
+class BearingEquilibrium(BearingStatics, MountedState):
+    """One bearing of a machine at its operating point."""
+
     verdict: Verdict = Field(description="against required life and limits")
-    warnings: list[str] = Field(description="values beyond a limit: ratings, pressure, shoulders, tilt, speed, oil")
+    rating: Rating = Field(description="life, safety and catalogue friction")
+    power_loss_W: float | None = same_as(
+        BearingSummary, "power_loss_W", "of the friction; null where the balls have no steady motion"
+    )
 
 
 class BodyMoved(Record):
@@ -240,6 +222,8 @@ class MachineEquilibrium(Answer):
             When xarray is not installed; it comes with the extra "data".
         """
         data, labels = declared_numbers({bearing.name: bearing for bearing in self.bearings}, "bearing")
+        lives, _ = declared_numbers({bearing.name: bearing.rating for bearing in self.bearings}, "bearing")
+        data |= lives
         data["deflection_um"] = (("position", "xyz"), np.array(self.deflection_um), {"units": "um"})
         return dataset(data, labels | {"position": self.positions_mm}, {"case": self.case, "speed_rpm": self.speed_rpm})
 
@@ -283,7 +267,7 @@ def equilibrium_of(
     bearings = [one if one.name not in preload else _preloaded(one, preload[one.name]) for one in bearings]
     moved = state.displacement[: NODE * model.body.positions.size].reshape(-1, NODE)
     cuts, forces = internal_forces(model.body, state.displacement, model.gravity)
-    lives = [b.reference_life_h for b in bearings if b.reference_life_h is not None]
+    lives = [life for b in bearings if (life := b.rating.reference_life_h) is not None]
     torques = [b.friction_torque_Nmm for b in bearings]
     rpm, rows = 30.0 / math.pi * model.speed, static_rows(model)
     found = MachineEquilibrium(
@@ -340,38 +324,14 @@ def _listed(values: FloatArray) -> Any:
 
 def _bearing(model: MachineModel, state: MachineState, index: int, found: Equilibrium) -> BearingEquilibrium:
     """Return what there is to say of one bearing."""
-    bearing, reaction = model.bearings[index], state.reactions[index]
-    alone = quasistatic_of(found)
-    radial, axial = float(np.hypot(*reaction[1:3])), float(-reaction[0])
-    rating = mounted_rating(model, state, index, found)
-    pose = state.pose(model, index)
-    tilt = 1e3 * float(np.hypot(*pose[3:]))
-    judged = rated_verdict(rating, alone.max_pressure_GPa, alone.film_parameter, tilt)
-    assert judged is not None  # a rating of rating_of has limits
-    return BearingEquilibrium(
-        **_in_machine(bearing, state, index, pose, reaction),
-        clearance_um=None if bearing.takes and bearing.nominal_angle else 1e6 * bearing.model.geometry.clearance,
-        loaded_balls=alone.loaded_balls,
-        max_load_N=alone.max_load_N,
-        max_load_ring=alone.max_load_ring,
-        max_pressure_GPa=alone.max_pressure_GPa,
-        contact_angle_deg=_angles(alone),
-        equivalent_load_N=rating.equivalent_load_N,
-        basic_life_h=rating.basic_life_h,
-        reference_life_h=rating.reference_life_h,
-        modified_life_h=rating.modified_life_h,
-        modified_reference_life_h=rating.modified_reference_life_h,
-        contamination=rating.contamination,
-        contamination_given=rating.contamination_given,
-        viscosity_ratio=rating.viscosity_ratio,
-        static_safety=rating.static_safety,
-        friction_torque_Nmm=alone.friction_torque_Nmm if found.converged else None,
-        power_loss_W=finite(float(found.losses.sum())) if found.converged else None,
-        film_um=alone.film_um,
-        contacts=alone.contacts,
-        verdict=judged,
-        warnings=_warnings(bearing, found, alone, (radial, abs(axial)), float(np.hypot(*pose[3:]))),
-    )
+    bearing, reaction, pose = model.bearings[index], state.reactions[index], state.pose(model, index)
+    own = bearing_statics(found, mounted_rating(model, state, index, found), float(np.hypot(*pose[3:])))
+    own["warnings"] = _warnings(bearing, found, own, reaction, pose)
+    # Friction follows from a steady motion of the balls; where there is none, torque and power are those of no motion.
+    own["friction_torque_Nmm"] = own["friction_torque_Nmm"] if found.converged else None
+    own["power_loss_W"] = finite(float(found.losses.sum())) if found.converged else None
+    clearance = None if bearing.takes and bearing.nominal_angle else 1e6 * bearing.model.geometry.clearance
+    return BearingEquilibrium(**own, **_in_machine(bearing, state, index, pose, reaction), clearance_um=clearance)
 
 
 def _rollers(model: MachineModel, state: MachineState, index: int, ring: RollerReaction) -> BearingEquilibrium:
@@ -379,27 +339,29 @@ def _rollers(model: MachineModel, state: MachineState, index: int, ring: RollerR
     bearing, reaction, pose = model.bearings[index], state.reactions[index], state.pose(model, index)
     found = rollers_on_shaft(ring)
     answer, rating = found.answer, found.rating
+    if not rating.contamination_given:  # a_ISO of normal cleanliness is shown where the bearing is alone
+        without = dict.fromkeys(("modified_life_h", "modified_reference_life_h", "life_factor"))
+        rating = rating.model_copy(update=without)
     least = [] if answer.film_parameter is None else [answer.film_parameter]
     judged = rated_verdict(rating, answer.max_pressure_GPa, least, 1e3 * float(np.hypot(*pose[3:])))
     assert judged is not None  # its rating has limits
     return BearingEquilibrium(
         **_in_machine(bearing, state, index, pose, reaction),
+        title=bearing.model.title,
         clearance_um=None if ring.rollers.contact_angle else 1e6 * ring.rollers.clearance,
         loaded_balls=answer.loaded_rollers,
         max_load_N=answer.max_load_N,
         max_load_ring=found.largest_ring,
         max_pressure_GPa=answer.max_pressure_GPa,
         contact_angle_deg=found.angles,
-        equivalent_load_N=rating.equivalent_load_N,
-        basic_life_h=rating.basic_life_h,
-        reference_life_h=rating.reference_life_h,
-        modified_life_h=rating.modified_life_h if rating.contamination_given else None,
-        modified_reference_life_h=rating.modified_reference_life_h if rating.contamination_given else None,
-        viscosity_ratio=rating.viscosity_ratio,
-        static_safety=rating.static_safety,
+        rating=rating,
         friction_torque_Nmm=answer.friction_torque_Nmm,
+        friction_breakdown_Nmm=dict(answer.friction_breakdown_Nmm),
         power_loss_W=found.power,
+        orbit_speed_ratio=answer.cage_speed_ratio,
         film_um=answer.film_um,
+        film_parameter=least,
+        shoulders=[],
         contacts=found.contacts(),
         verdict=judged,
         warnings=list(dict.fromkeys([*answer.warnings, *operating_warnings(bearing.model, on_shaft=True)])),
@@ -415,7 +377,6 @@ def _in_machine(
     """
     return {
         "name": bearing.name,
-        "title": bearing.model.title,
         "position_mm": 1e3 * bearing.position,
         "radial_load_N": float(np.hypot(*reaction[1:3])),
         "axial_load_N": float(-reaction[0]),
@@ -428,26 +389,14 @@ def _in_machine(
     }
 
 
-def _angles(alone: QuasiStatic) -> list[float]:
-    """Return the smallest and largest contact angle.
-
-    They are absolute values, of contacts that carry at least 1 % of the largest load.
-    """
-    angles = [abs(c.contact_angle_deg) for c in alone.contacts if c.load_N > 0.01 * alone.max_load_N]
-    return [min(angles), max(angles)] if angles else []
-
-
 def _warnings(
-    bearing: MountedBearing, found: Equilibrium, alone: QuasiStatic, loads: tuple[float, float], tilt: float
+    bearing: MountedBearing, found: Equilibrium, own: Mapping[str, Any], reaction: FloatArray, pose: FloatArray
 ) -> list[str]:
-    """Return warnings of exceeded limits, ratings first.
-
-    The load is radial and axial [N].
-    """
-    model = bearing.model
+    """Return warnings of exceeded limits, ratings first."""
+    model, tilt = bearing.model, float(np.hypot(*pose[3:]))
     told = [
-        *load_warnings(model, *loads),
-        *warnings(1e9 * alone.max_pressure_GPa, alone.shoulders, tilt, model.geometry.kind.name, on_shaft=True),
+        *load_warnings(model, float(np.hypot(*reaction[1:3])), abs(float(-reaction[0]))),
+        *warnings(1e9 * own["max_pressure_GPa"], own["shoulders"], tilt, model.geometry.kind.name, on_shaft=True),
         *operating_warnings(model, on_shaft=True),
     ]
     if not found.converged:

@@ -14,6 +14,7 @@ from lambda_core.model.checks.describe import assumption_block, verdict_line
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.results.band_text import ends, named_sources
 from lambda_core.results.quantity import Quantity, quantities
+from lambda_core.results.rating import Rating
 from lambda_core.results.text import contamination_text, line
 
 if TYPE_CHECKING:
@@ -82,14 +83,24 @@ def _equilibrium_rows(bearings: Sequence[BearingEquilibrium], units: UnitSystem)
     Numbers of an axis stand one below the other.
     """
     rows = [_Row("bearing", "", lambda b: str(b.title.split(" (")[0]))]
-    for one in quantities(type(bearings[0])).values():
-        if one.column and one.axes:
+    declared = quantities(type(bearings[0]))
+    for name in type(bearings[0]).model_fields:
+        if name == "rating":  # its lives and safety have rows, friction of catalogues has none
+            rows += [_of_rating(one) for one in quantities(Rating).values() if one.column and one.group == "life"]
+        if (one := declared.get(name)) is None or not one.column:
+            continue
+        if one.axes:
             rows += [_axis(one, k) for k in range(len(one.axes))]
-        elif one.column:
+        else:
             rows.append(_Row(one.column, one.unit, lambda b, q=one: getattr(b, q.name), quantity=one))  # type: ignore[misc]
         if one.name == "friction_torque_Nmm" and any(bearing.friction_torque_Nmm_band for bearing in bearings):
             rows.append(_Row("  model band", "", lambda b: ends(b.friction_torque_Nmm_band, "N mm", units)))
     return (*rows, *_STIFFNESS)
+
+
+def _of_rating(one: Quantity) -> _Row:
+    """Return the row of a number of the ratings."""
+    return _Row(one.column, one.unit, lambda b: getattr(b.rating, one.name), quantity=one)
 
 
 def _axis(one: Quantity, k: int) -> _Row:
@@ -200,7 +211,7 @@ def _shaft_lines(report: MachineEquilibrium) -> list[str]:
     life = f"{hours(report.system_life_h)} (L_10rh of all bearings)" if report.system_life_h is not None else _NO_LIFE
     clean = {
         contamination_text(one.contamination, is_given=one.contamination_given)
-        for one in report.bearings
+        for one in (bearing.rating for bearing in report.bearings)
         if one.contamination is not None and one.modified_life_h is not None
     }
     lines = [

@@ -105,22 +105,7 @@ def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
     model, alone = ring.model, taken_out(ring)
     solved = solve_rollers(alone)
     answer = roller_answer(alone, solved)
-    rating = Rating(
-        basic_life_h=answer.basic_life_h,
-        reference_life_h=answer.reference_life_h,
-        equivalent_load_N=answer.equivalent_load_N,
-        static_safety=answer.static_safety,
-        viscosity_ratio=answer.viscosity_ratio,
-        modified_life_h=answer.modified_life_h,
-        modified_reference_life_h=answer.modified_reference_life_h,
-        life_factor=answer.life_factor,
-        contamination=answer.contamination,
-        contamination_given=answer.contamination_given,
-        skf_torque_Nmm=None,
-        schaeffler_torque_Nmm=None,
-        limits=limits_of(model),
-        notes=[],
-    )
+    rating = answer.rating.model_copy(update={"limits": limits_of(model)})
     return RollersOnShaft(alone, solved, answer, rating)
 
 

@@ -66,11 +66,11 @@ def key_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]
             _figure(rating, "schaeffler_torque_Nmm", units),
         ]
     rows += [(f"{text} {symbol}, {standard}", _life(life), "") for text, symbol, standard, life in _every_life(found)]
-    source = rating or found
-    rows += [
-        _figure(source, "static_safety", units, "static safety C0/P0, ISO 76"),
-        _figure(source, "viscosity_ratio", units, "viscosity ratio kappa, ISO 281"),
-    ]
+    if rating is not None:
+        rows += [
+            _figure(rating, "static_safety", units, "static safety C0/P0, ISO 76"),
+            _figure(rating, "viscosity_ratio", units, "viscosity ratio kappa, ISO 281"),
+        ]
     film = getattr(found, "min_film_um", None)
     rows.append(
         _figure(found, "min_film_um", units)
@@ -111,8 +111,8 @@ def _band(found: Any, field: str, unit: str, name: str, units: UnitSystem) -> li
 
 def _every_life(found: Any) -> list[tuple[str, str, str, float | None]]:
     """Return the rating lives: meaning, symbol, standard, hours."""
-    rating = getattr(found, "rating", None) or found
-    if not hasattr(rating, "basic_life_h"):
+    rating = getattr(found, "rating", None)
+    if rating is None:
         return []
     lives_h = (rating.basic_life_h, rating.modified_life_h, rating.reference_life_h, rating.modified_reference_life_h)
     names = (
@@ -211,7 +211,7 @@ def machine_figures(found: Any, units: UnitSystem = SI, run: Any = None) -> Tabl
              _life(found.system_life_h) if symbol == "L10rh" else "")
             for i, (_, symbol, standard, _) in enumerate(_every_life(each[0]))
         ),
-        row("static_safety"),
+        row("static_safety", [one.rating for one in each]),
         row("max_pressure_GPa", moving),
         row("friction_torque_Nmm", moving, total.friction_torque_Nmm),
         *band("friction_torque_Nmm", "N mm", "torque"),
