@@ -11,6 +11,11 @@ from lambda_core.domain.units import Quantity
 from lambda_core.elements.roller.line_film import dowson_toyoda_film, inlet_heat_rolling, moes_line_film
 from lambda_core.elements.roller.roller_drag import bath_drag_terms
 from lambda_core.elements.roller.rolling import rolling_force
+from lambda_core.elements.roller.rolling_fits import (
+    aihara_rolling_force,
+    matsuyama_rolling_force,
+    zhou_hoeprich_rolling_force,
+)
 from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY, gap_capacitance
 from lambda_core.formulas.hertz import hertz_shape
 from lambda_core.laws.context import Context, Material, Oil
@@ -85,6 +90,7 @@ __all__ = [
     "StudyTable",
     "View",
     "ViewData",
+    "aihara_rolling_force",
     "asinh",
     "asinh_of",
     "asinh_quotient",
@@ -99,8 +105,10 @@ __all__ = [
     "law",
     "log",
     "log1p",
+    "matsuyama_rolling_force",
     "moes_line_film",
     "parameter",
     "power",
     "rolling_force",
+    "zhou_hoeprich_rolling_force",
 ]

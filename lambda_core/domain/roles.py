@@ -334,12 +334,19 @@ DEFAULT_LINE_MODELS: dict[str, str] = {
 DEFAULT_ROLLER_MODELS: dict[str, str] = {"asperity_load": "zhou-hoeprich"}
 # Roles in which ends of rollers on ribs have other laws than points: they slide, and have no law of rolling.
 DEFAULT_RIB_MODELS: dict[str, str] = {"rolling_resistance": "none", "elastic_hysteresis": "none"}
-# Laws of the quasi-static friction of rollers: role -> name, and name in FrictionParameters of each parameter.
-ROLLER_FRICTION: dict[str, tuple[str, dict[str, str]]] = {
-    "elastic_hysteresis": ("johnson-line", {"loss_factor": "loss_factor"}),
-    "rolling_resistance": ("biboulet-houpert-line", {"thermal_coefficient": "inlet_heat"}),
-    "traction": ("ree-eyring", {"tau_eyring": "eyring_stress", "limit_ratio": "limit_ratio"}),
-    "boundary_friction": ("micro-slip", {"mu": "boundary_friction"}),
-    "asperity_load": ("zhou-hoeprich", {"B": "asperity_scale", "C": "asperity_exponent"}),
-    "supply": ("skf-replenishment", {"k_rs": "replenishment"}),
+# Laws of the quasi-static friction of rollers: role -> names, the default first, and name in FrictionParameters of each
+# parameter.
+ROLLER_FRICTION: dict[str, tuple[tuple[str, ...], dict[str, str]]] = {
+    "elastic_hysteresis": (("johnson-line",), {"loss_factor": "loss_factor"}),
+    "rolling_resistance": (
+        ("biboulet-houpert-line", "matsuyama-line", "zhou-hoeprich-line", "aihara-line"),
+        {"thermal_coefficient": "inlet_heat"},
+    ),
+    "film_thickness": (("moes-line", "dowson-toyoda"), {}),
+    "traction": (("ree-eyring",), {"tau_eyring": "eyring_stress", "limit_ratio": "limit_ratio"}),
+    "boundary_friction": (("micro-slip",), {"mu": "boundary_friction"}),
+    "asperity_load": (("zhou-hoeprich",), {"B": "asperity_scale", "C": "asperity_exponent"}),
+    "supply": (("skf-replenishment",), {"k_rs": "replenishment"}),
 }
+# Roles whose laws the quasi-static friction of rollers exchanges: role -> name in FrictionParameters.
+ROLLER_CHOICES = {"rolling_resistance": "rolling_law", "film_thickness": "film_law"}

@@ -70,6 +70,9 @@ _LAWS: dict[str, dict[str, str]] = {
         "matsuyama": "rolling_fits:matsuyama",
         "zhou-hoeprich": "rolling_fits:zhou_hoeprich",
         "aihara": "rolling_fits:aihara",
+        "matsuyama-line": "line_contact:matsuyama_line",
+        "zhou-hoeprich-line": "line_contact:zhou_hoeprich_line",
+        "aihara-line": "line_contact:aihara_line",
         "none": "rolling_resistance:none",
     },
     "elastic_hysteresis": {

@@ -15,11 +15,14 @@ from lambda_core.plugins import (
     Context,
     FloatArray,
     NoParameters,
+    aihara_rolling_force,
     dowson_toyoda_film,
     inlet_heat_rolling,
     law,
+    matsuyama_rolling_force,
     moes_line_film,
     rolling_force,
+    zhou_hoeprich_rolling_force,
 )
 from lambda_plugins.damping import Onset, SqueezeFilm, prepare_cubic
 from lambda_plugins.elastic_hysteresis import LossFactor
@@ -178,7 +181,7 @@ def dowson_toyoda(
     G = at_least(alpha_p * E_eff, 1e-3)
     U = eta0 * speed / (E_eff * R_x)
     W = force / (E_eff * R_x * R_y)
-    central = dowson_toyoda_film(force / R_y, R_x, speed, eta0, G / E_eff, E_eff)
+    central = float(dowson_toyoda_film(force / R_y, R_x, speed, eta0, G / E_eff, E_eff))
     minimum = at_most(2.65 * R_x * U**0.70 * G**0.54 * W**-0.13, central)
     out[0] = math.sqrt(central * central + par.central * par.central)
     out[1] = math.sqrt(minimum * minimum + par.minimum * par.minimum)
@@ -220,6 +223,124 @@ def biboulet_houpert_line(
         speed = regular_speed(u_mean, par.speed_floor)
         heat = inlet_heat_rolling(speed, eta0, beta, k_oil, par.thermal_coefficient)
         out[0] = rolling_force(load / R_y, R_x, speed, eta0, E_eff) * R_y * heat * abs(u_mean) / speed
+    return OK
+
+
+@law(
+    "rolling_resistance",
+    "matsuyama-line",
+    InletShear,
+    role_api=3,
+    reference="Matsuyama, as in Manjunath et al. 2023, Machines 11, 801, table 1; heat: "
+    "Aihara 1987, J. Tribol. 109, 471",
+    validity="fully flooded piezoviscous-elastic line contacts; original not seen",
+    contact="line",
+)
+def matsuyama_line(
+    u_mean: float,
+    load: float,
+    semi_a: float,
+    semi_b: float,
+    R_x: float,
+    R_y: float,
+    E_eff: float,
+    eta0: float,
+    alpha_p: float,
+    beta: float,
+    k_oil: float,
+    par: InletShear,
+    out: FloatArray,
+) -> int:
+    """Rolling resistance of a line after Matsuyama.
+
+    Aihara's thermal factor applies.
+
+    :func:`matsuyama_rolling_force` times the length, on each surface, in proportion to the speed near rest.
+    """
+    out[0] = 0.0
+    if not (load <= 0.0 or alpha_p <= 0.0):  # NaN goes through
+        speed = regular_speed(u_mean, par.speed_floor)
+        heat = inlet_heat_rolling(speed, eta0, beta, k_oil, par.thermal_coefficient)
+        force = matsuyama_rolling_force(load / R_y, R_x, speed, eta0, alpha_p, E_eff)
+        out[0] = force * R_y * heat * abs(u_mean) / speed
+    return OK
+
+
+@law(
+    "rolling_resistance",
+    "zhou-hoeprich-line",
+    InletShear,
+    role_api=3,
+    reference="Zhou and Hoeprich 1991, J. Tribol. 113, 590, eq. 17; heat: Aihara 1987, J. Tribol. 109, 471",
+    validity="fully flooded piezoviscous-elastic line contacts; fitted from W 1e-4 to 3e-4, U 1e-11 to 1e-9",
+    contact="line",
+)
+def zhou_hoeprich_line(
+    u_mean: float,
+    load: float,
+    semi_a: float,
+    semi_b: float,
+    R_x: float,
+    R_y: float,
+    E_eff: float,
+    eta0: float,
+    alpha_p: float,
+    beta: float,
+    k_oil: float,
+    par: InletShear,
+    out: FloatArray,
+) -> int:
+    """Rolling resistance of a line after Zhou and Hoeprich.
+
+    Aihara's thermal factor applies.
+
+    :func:`zhou_hoeprich_rolling_force` times the length, on each surface, in proportion to the speed near rest.
+    """
+    out[0] = 0.0
+    if not (load <= 0.0 or alpha_p <= 0.0):  # NaN goes through
+        speed = regular_speed(u_mean, par.speed_floor)
+        heat = inlet_heat_rolling(speed, eta0, beta, k_oil, par.thermal_coefficient)
+        force = zhou_hoeprich_rolling_force(load / R_y, R_x, speed, eta0, alpha_p, E_eff)
+        out[0] = force * R_y * heat * abs(u_mean) / speed
+    return OK
+
+
+@law(
+    "rolling_resistance",
+    "aihara-line",
+    InletShear,
+    role_api=3,
+    reference="Aihara 1987, J. Tribol. 109, 471, section 2.4; heat: Aihara 1987, J. Tribol. 109, 471",
+    validity="tapered roller bearings; constants second-hand",
+    contact="line",
+)
+def aihara_line(
+    u_mean: float,
+    load: float,
+    semi_a: float,
+    semi_b: float,
+    R_x: float,
+    R_y: float,
+    E_eff: float,
+    eta0: float,
+    alpha_p: float,
+    beta: float,
+    k_oil: float,
+    par: InletShear,
+    out: FloatArray,
+) -> int:
+    """Rolling resistance of a line after Aihara.
+
+    Aihara's thermal factor applies.
+
+    :func:`aihara_rolling_force` times the length, on each surface, in proportion to the speed near rest.
+    """
+    out[0] = 0.0
+    if not (load <= 0.0 or alpha_p <= 0.0):  # NaN goes through
+        speed = regular_speed(u_mean, par.speed_floor)
+        heat = inlet_heat_rolling(speed, eta0, beta, k_oil, par.thermal_coefficient)
+        force = aihara_rolling_force(load / R_y, R_x, speed, eta0, alpha_p, E_eff)
+        out[0] = force * R_y * heat * abs(u_mean) / speed
     return OK
 
 

@@ -10,7 +10,14 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.plugins import OK, FloatArray, law
+from lambda_core.plugins import (
+    OK,
+    FloatArray,
+    aihara_rolling_force,
+    law,
+    matsuyama_rolling_force,
+    zhou_hoeprich_rolling_force,
+)
 from lambda_plugins.rolling_resistance import InletShear, regular_speed, thermal_factor
 from lambda_plugins.shapes import at_most
 
@@ -22,11 +29,6 @@ def strips(exponent: float) -> float:
 
 # Compiled kernels take these as numbers: gamma functions are none of the C library's that machine code calls.
 _MATSUYAMA, _ZHOU_HOEPRICH, _AIHARA = strips(0.08), strips(0.246), strips(0.31)
-
-
-def peak_load(load: float, semi_a: float, E_eff: float, R_x: float) -> float:
-    """Return W = w/(E' R_x) of the middle strip."""
-    return 0.75 * load / (semi_a * E_eff * R_x)
 
 
 @law(
@@ -57,17 +59,14 @@ def matsuyama(
 
     It is computed strip by strip, with Aihara's thermal factor.
 
-    F/l = 7.1 E' R_x U^0.75 G^-0.04 W^0.08, half of the moment 14.2 E' l R_x^2 U^0.75 G^-0.04 W^0.08 over R_x: Manjunath
-    et al. 2023, Machines 11, 801, table 1. U = eta0 u_m/(E' R_x), G = alpha_p E', W = w/(E' R_x): a fit to solved EHL
-    contacts, which they find nearest to the measured torque of tapered roller bearings in FVA3A.
+    :func:`matsuyama_rolling_force` of the load per length of each strip.
     """
     if load <= 0.0 or semi_a <= 0.0 or alpha_p <= 0.0:
         out[0] = 0.0
         return OK
     speed = regular_speed(u_mean, par.speed_floor)
-    U = eta0 * speed / (E_eff * R_x)
-    W = peak_load(load, semi_a, E_eff, R_x)
-    force = 7.1 * E_eff * R_x * semi_a * _MATSUYAMA * U**0.75 * (alpha_p * E_eff) ** -0.04 * W**0.08
+    peak = matsuyama_rolling_force(0.75 * load / semi_a, R_x, speed, eta0, alpha_p, E_eff)
+    force = semi_a * _MATSUYAMA * peak
     out[0] = force * thermal_factor(par.thermal_coefficient, speed, eta0, beta, k_oil) * abs(u_mean) / speed
     return OK
 
@@ -100,17 +99,15 @@ def zhou_hoeprich(
 
     It is computed strip by strip, with Aihara's thermal factor.
 
-    F/l = 29.2 (R_x/alpha_p) (G U)^0.648 W^0.246: Zhou and Hoeprich 1991, J. Tribol. 113, 590, eq. 17, a fit to their
-    solutions of isothermal line contacts (table 1), in the form of Goksem and Hargreaves. Their thermal factor, Zhu and
-    Cheng's, needs the sliding; here it is that of the other laws.
+    :func:`zhou_hoeprich_rolling_force` of the load per length of each strip. Their thermal factor, Zhu and Cheng's,
+    needs the sliding; here it is that of the other laws.
     """
     if load <= 0.0 or semi_a <= 0.0 or alpha_p <= 0.0:
         out[0] = 0.0
         return OK
     speed = regular_speed(u_mean, par.speed_floor)
-    U = eta0 * speed / (E_eff * R_x)
-    W = peak_load(load, semi_a, E_eff, R_x)
-    force = 29.2 * R_x / alpha_p * semi_a * _ZHOU_HOEPRICH * (alpha_p * E_eff * U) ** 0.648 * W**0.246
+    peak = zhou_hoeprich_rolling_force(0.75 * load / semi_a, R_x, speed, eta0, alpha_p, E_eff)
+    force = semi_a * _ZHOU_HOEPRICH * peak
     out[0] = force * thermal_factor(par.thermal_coefficient, speed, eta0, beta, k_oil) * abs(u_mean) / speed
     return OK
 
@@ -140,17 +137,15 @@ def aihara(
 ) -> int:
     """Rolling resistance after Aihara, strip by strip.
 
-    F/l = 88 (R_x/alpha_p) (G U)^0.658 W^0.31/(1 + 0.29 L^0.78), half of his moment 176 R_x^2 l/alpha_p (...) over R_x:
-    Aihara 1987, J. Tribol. 109, 471, section 2.4 as transcribed by others (the original not seen). His W takes the
-    radius of the roller where R_x stands here: up to 6 % in balls. The load's exponent is from tests on two discs.
+    :func:`aihara_rolling_force` of the load per length of each strip, times 1/(1 + 0.29 L^0.78). His radius of the
+    roller and R_x differ by up to 6 % in balls.
     """
     if load <= 0.0 or semi_a <= 0.0 or alpha_p <= 0.0:
         out[0] = 0.0
         return OK
     speed = regular_speed(u_mean, par.speed_floor)
-    U = eta0 * speed / (E_eff * R_x)
-    W = peak_load(load, semi_a, E_eff, R_x)
-    force = 88.0 * R_x / alpha_p * semi_a * _AIHARA * (alpha_p * E_eff * U) ** 0.658 * W**0.31
+    peak = aihara_rolling_force(0.75 * load / semi_a, R_x, speed, eta0, alpha_p, E_eff)
+    force = semi_a * _AIHARA * peak
     out[0] = force * thermal_factor(par.thermal_coefficient, speed, eta0, beta, k_oil) * abs(u_mean) / speed
     return OK
 

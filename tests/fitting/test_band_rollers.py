@@ -40,7 +40,19 @@ def test_the_clearance_moves_pressure_and_life_of_a_cylindrical_bearing() -> Non
         assert [cause.name for cause in one.contributors] == ["bearing.clearance"]
         assert one.low < one.value < one.high
     torque = {cause.name for cause in found.band("friction torque").contributors}
-    assert {"bearing.clearance", "lubricant.temperature", "elastic_hysteresis.loss_factor"} <= torque
+    assert {"bearing.clearance", "law of rolling_resistance"} <= torque
+
+
+def test_published_laws_of_rolling_resistance_and_film_are_exchanged() -> None:
+    """Hold the answers with other laws in the band."""
+    source = case("SKF 32216", "1500 rpm", axial="6 kN")
+    torque = band(source).band("friction torque")
+    assert torque.contributors[0].name == "law of rolling_resistance"
+    for law in ("matsuyama-line", "zhou-hoeprich-line", "aihara-line"):
+        other = api.quasistatic(source, (f"models.rolling_resistance={law}",))
+        assert torque.low < other.friction_torque_Nmm < torque.high
+    film = band(source).band("minimum film")
+    assert "law of film_thickness" in {cause.name for cause in film.contributors}
 
 
 def test_a_known_clearance_is_not_varied() -> None:

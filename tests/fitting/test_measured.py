@@ -16,6 +16,8 @@ from lambda_core import api
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
 
+PAGE = Path(__file__).parents[2] / "docs/validation.md"
+
 
 def test_every_series_names_source_licence_and_uncertainty() -> None:
     found = {series.name: series for series in api.measured_series()}
@@ -46,12 +48,14 @@ def test_tapered_bearings_are_compared_with_a_band(name: str, most: float) -> No
     assert one.mean_absolute_error_pct < most
     assert one.inside is not None
     assert f"{one.inside} of {len(one.points)} inside the 90 % band" in found.text()
+    (row,) = (row for row in PAGE.read_text(encoding="utf-8").splitlines() if row.startswith(f"| {name} |"))
+    assert row.endswith(f"| {one.inside} of {len(one.points)} inside |")
     for point in one.points:
         assert 0.5 * point.predicted < point.band[0] <= point.predicted <= point.band[1] < 1.6 * point.predicted
 
 
 def test_the_page_about_validation_has_the_errors_of_today() -> None:
-    page = (Path(__file__).parents[2] / "docs/validation.md").read_text(encoding="utf-8")
+    page = PAGE.read_text(encoding="utf-8")
     rows = page.partition("<!-- measured:begin -->")[2].partition("<!-- measured:end -->")[0].splitlines()
     for one in api.compare_measured(band=False).compared:
         (row,) = (row for row in rows if row.startswith(f"| {one.series.name} |"))

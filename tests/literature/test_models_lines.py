@@ -18,6 +18,7 @@ from scipy.integrate import quad
 from lambda_core.domain.roles import DEFAULT_LINE_MODELS
 from lambda_core.elements.roller import line_contact as theory
 from lambda_core.elements.roller.roller_drag import drag_volume
+from lambda_core.elements.roller.roller_friction import ROLLING_LAWS
 from lambda_core.laws.law import Law, law_of
 from lambda_core.laws.probe import trial_context
 
@@ -101,6 +102,34 @@ def test_rolling_resistance_of_a_light_line_is_dowson_and_higginsons() -> None:
     film = 4.9 * eta * speed * RADIUS / (load / LENGTH)
     by_hand = 4.58 * eta * speed * math.sqrt(RADIUS / film) * LENGTH
     Published(by_hand, "Dowson and Higginson 1966", "the fit joins three regimes", rel=0.05).check(out[0])
+
+
+@pytest.mark.parametrize(
+    ("law", "factor", "scale", "flow", "material", "load", "source"),
+    [
+        ("matsuyama-line", 7.1, 1.0, 0.75, -0.04, 0.08, "Manjunath et al. 2023, Machines 11, 801, table 1"),
+        ("zhou-hoeprich-line", 29.2, 0.0, 0.648, 0.648, 0.246, "Zhou and Hoeprich 1991, J. Tribol. 113, 590, eq. 17"),
+        ("aihara-line", 88.0, 0.0, 0.658, 0.658, 0.31, "Aihara 1987, J. Tribol. 109, 471, second-hand"),
+    ],
+)
+def test_rolling_resistance_of_a_line_by_published_fits(
+    law: str, factor: float, scale: float, flow: float, material: float, load: float, source: str
+) -> None:
+    """Compute `rolling_resistance` of lines by hand.
+
+    The laws of the quasi-static answer are the same.
+
+    c U^a G^b W^m in E' R, or in R/alpha where `scale` is 0.
+    """
+    out, force, speed, eta, alpha = outputs(1), 4e3, 5.0, 0.05, 20e-9
+    evaluated = getattr(line_contact, law.replace("-", "_"))
+    evaluated(speed, force, 0.5 * LENGTH, 1e-4, RADIUS, LENGTH, MODULUS, eta, alpha, 0.04, 0.13, INLET, out)
+    U, W, G = eta * speed / (MODULUS * RADIUS), force / LENGTH / (MODULUS * RADIUS), alpha * MODULUS
+    by_hand = factor * (MODULUS if scale else 1.0 / alpha) * RADIUS * U**flow * G**material * W**load * LENGTH
+    Published(by_hand, source, "digits; the floor of the speed", rel=1e-6).check(out[0])
+    given = (force / LENGTH, RADIUS, speed, eta, alpha, MODULUS)
+    assert out[0] == pytest.approx(float(ROLLING_LAWS[law](*given)) * LENGTH, rel=1e-6)  # as at rest
+    assert 0.5 < out[0] / (float(ROLLING_LAWS["biboulet-houpert-line"](*given)) * LENGTH) < 1.1
 
 
 def test_hysteresis_is_the_work_on_the_front_half() -> None:

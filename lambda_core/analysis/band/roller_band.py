@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from lambda_core.analysis.band.effects import SEEN_STEPS, Effect, range_effect
-from lambda_core.analysis.band.graded import CLEARANCE, Graded, graded_parameters
+from lambda_core.analysis.band.graded import CLEARANCE, Exchange, Graded, exchanges, graded_parameters
 from lambda_core.case.case_io import parse_case
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError
-from lambda_core.domain.roles import ROLLER_FRICTION
+from lambda_core.domain.roles import ROLLER_CHOICES, ROLLER_FRICTION
 from lambda_core.domain.written_values import Scale
 from lambda_core.elements.roller.roller_positions import PLACES
 from lambda_core.model.roller_case import roller_model
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 _TEMPERATURE, _RIB_ROUGHNESS = "lubricant.temperature", "bearing.rollers.rib_roughness"
 _RIBS = ("asperity_load",)  # roles whose published range is that of raceways: the answer has asperities at ribs alone
 _CLASS = "limits of the clearance class (ISO 5753-1)"
-_KEPT = "laws of rollers are not exchanged"
+_KEPT = "laws of ribs and of losses in the solids are not exchanged"
 
 
 class RollerEffects:
@@ -42,7 +42,7 @@ class RollerEffects:
     See :class:`~.effects.Effects`.
 
     The ranges are those of balls: of temperature, clearance, roughness of ribs, and of the parameters of laws that the
-    answer knows. Each is changed at one place of the rollers; laws are not exchanged.
+    answer knows, and so are the exchanged laws. Each is changed at one place of the rollers.
 
     Parameters
     ----------
@@ -63,6 +63,7 @@ class RollerEffects:
         fitted = [row.path for row in fit.parameters] if fit is not None else []
         self._model, self._base, self.case = model, base, base.name
         self._without = {*without, *fitted}
+        self._kept = {path.split(".")[1] for path in fitted if path.startswith("parameters.")}  # laws of fitted values
         self._solved = solve_rollers(base, PLACES[:1])
         answer = roller_answer(base, self._solved)
         self.names = tuple(name for name in quantities if _exists(_read(answer, name, base)))
@@ -100,6 +101,14 @@ class RollerEffects:
                 return [self._logarithms(one) for one in ends]
 
             yield from range_effect(graded, rows, self.left_out)
+        for exchange in exchanges(self._model):
+            if exchange.role in ROLLER_CHOICES and exchange.role not in self._kept:
+                found = [np.zeros(len(self.names)), *self._exchanged(exchange)]
+                yield Effect(f"law of {exchange.role}", exchange.source, np.array(found), is_range=False)
+
+    def _exchanged(self, exchange: Exchange) -> Iterator[FloatArray]:
+        for law in exchange.laws:
+            yield self._logarithms(_with_friction(self._base, ROLLER_CHOICES[exchange.role], law))
 
     def _logarithms(self, changed: RollerModel) -> FloatArray:
         """Return ln of relative results at one place.
@@ -128,7 +137,7 @@ def _changed(
         low, high = graded.si(graded.low), graded.si(graded.high)
         field = _field(graded)
         if field:
-            yield graded, tuple(replace(base, friction=replace(base.friction, **{field: end})) for end in (low, high))
+            yield graded, tuple(_with_friction(base, field, end) for end in (low, high))
         elif graded.path == _TEMPERATURE:
             try:
                 oils = [roller_model(case, graded.changes(end)) for end in (graded.low, graded.high)]
@@ -138,6 +147,11 @@ def _changed(
             yield graded, tuple(replace(base, oil=one.oil) for one in oils if one is not None)
     if written is not None:
         yield from _of_class(case, written, base)
+
+
+def _with_friction(base: RollerModel, field: str, value: float | str) -> RollerModel:
+    changed: dict[str, Any] = {field: value}
+    return replace(base, friction=replace(base.friction, **changed))
 
 
 def _of_class(case: Case, written: RollerModel, base: RollerModel) -> Iterator[tuple[Graded, tuple[RollerModel, ...]]]:
@@ -165,8 +179,8 @@ def _field(graded: Graded) -> str:
     if not graded.law:
         return ""
     _, role, name = graded.path.split(".")
-    law, fields = ROLLER_FRICTION.get(role, ("", {}))
-    return fields.get(name, "") if graded.law == law and role not in _RIBS else ""
+    laws, fields = ROLLER_FRICTION.get(role, ((), {}))
+    return fields.get(name, "") if graded.law in laws and role not in _RIBS else ""
 
 
 def _exists(value: float) -> bool:

@@ -53,8 +53,13 @@ def moes_line_film(
 
 
 def dowson_toyoda_film(
-    line_load: float, radius: float, speed: float, viscosity: float, pressure_viscosity: float, e_eff: float
-) -> float:
+    line_load: FloatArray | float,
+    radius: FloatArray | float,
+    speed: FloatArray | float,
+    viscosity: float,
+    pressure_viscosity: float,
+    e_eff: float,
+) -> FloatArray:
     """Return the elastic-piezoviscous film of a line [m].
 
     The central film is 3.06 R U^0.69 G^0.56 W^-0.10.
@@ -64,11 +69,11 @@ def dowson_toyoda_film(
 
     Parameters
     ----------
-    line_load : float
+    line_load : array or float
         Load per length [N/m].
-    radius : float
+    radius : array or float
         Reduced radius in the rolling direction [m].
-    speed : float
+    speed : array or float
         Mean speed of the surfaces [m/s].
     viscosity : float
         At the inlet [Pa s].
@@ -79,7 +84,10 @@ def dowson_toyoda_film(
     """
     stiffness = e_eff * radius
     flow = viscosity * speed / stiffness
-    return float(3.06 * radius * flow**0.69 * (pressure_viscosity * e_eff) ** 0.56 * (line_load / stiffness) ** -0.10)
+    film: FloatArray = (
+        3.06 * radius * flow**0.69 * (pressure_viscosity * e_eff) ** 0.56 * (line_load / stiffness) ** -0.10
+    )
+    return film
 
 
 def inlet_heat_film(

@@ -8,6 +8,7 @@ speed of one ring against the other.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -21,6 +22,11 @@ from lambda_core.elements.roller.roller_drag import bath_drag
 from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium
 from lambda_core.elements.roller.roller_motion import RollerMotion
 from lambda_core.elements.roller.rolling import flow_shear, rolling_force
+from lambda_core.elements.roller.rolling_fits import (
+    aihara_rolling_force,
+    matsuyama_rolling_force,
+    zhou_hoeprich_rolling_force,
+)
 from lambda_core.elements.roller.slices import slice_positions
 from lambda_core.formulas.hertz import HertzContact, hertz_contact
 
@@ -30,6 +36,23 @@ SKF_CONSTANTS = {"cylindrical": (0.65, 5.1), "full complement": (0.7, 6.2), "tap
 # B and C of the load share of asperities at ribs (Zhou and Hoeprich): Wingertszahn et al. 2023, Lubricants 11, 369.
 RIB_ASPERITIES = (1.90, 0.99)
 _CELLS = 24  # of a rib contact along each axis
+
+
+def _biboulet_houpert(
+    load: FloatArray, radius: FloatArray, speed: FloatArray, viscosity: float, _alpha: float, e_eff: float
+) -> FloatArray:
+    return rolling_force(load, radius, speed, viscosity, e_eff)
+
+
+_Law = Callable[[FloatArray, FloatArray, FloatArray, float, float, float], FloatArray]
+# By the names of the laws of lines in motion: load per length, reduced radius, speed, eta, alpha, E' [SI].
+ROLLING_LAWS: dict[str, _Law] = {
+    "biboulet-houpert-line": _biboulet_houpert,
+    "matsuyama-line": matsuyama_rolling_force,
+    "zhou-hoeprich-line": zhou_hoeprich_rolling_force,
+    "aihara-line": aihara_rolling_force,
+}
+FILM_LAWS: dict[str, _Law] = {"moes-line": line_film.moes_line_film, "dowson-toyoda": line_film.dowson_toyoda_film}
 
 
 @dataclass(frozen=True)
@@ -67,6 +90,8 @@ class FrictionParameters:
     replenishment: float = 3e-8  # SKF's K_rs of oil bath at low level and oil jet; zero: flooded
     oil_height: float = 0.0  # H above the lowest point of the outer raceway [m]; zero: no bath
     e_eff: float = 226e9  # E' of steel on steel [Pa]
+    rolling_law: str = "biboulet-houpert-line"  # of ROLLING_LAWS
+    film_law: str = "moes-line"  # of FILM_LAWS
 
 
 @dataclass(frozen=True)
@@ -224,10 +249,11 @@ def _raceway(
     speed = motion.entrainment * share
     carried = line_load > 0.0
     load = np.where(carried, line_load, 1.0)
-    force = np.where(carried, rolling_force(load, radius, speed, oil.viscosity, par.e_eff), 0.0)
+    inlet = (load, radius, speed, oil.viscosity, oil.pressure_viscosity, par.e_eff)
+    force = np.where(carried, ROLLING_LAWS[par.rolling_law](*inlet), 0.0)
     half = np.where(carried, half_width(load, radius, par.e_eff), 0.0)
     peak = np.where(carried, peak_pressure(load, radius, par.e_eff), 0.0)
-    film = line_film.moes_line_film(load, radius, speed, oil.viscosity, oil.pressure_viscosity, par.e_eff)
+    film = FILM_LAWS[par.film_law](*inlet)
     film = film * line_film.inlet_heat_film(
         speed, 0.0, peak, par.e_eff, oil.viscosity, oil.temperature_slope, oil.conductivity
     )

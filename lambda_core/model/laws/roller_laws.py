@@ -9,7 +9,7 @@ from pydantic import BaseModel, ValidationError
 
 from lambda_core.case.problems import problems
 from lambda_core.domain.elements import RIBS
-from lambda_core.domain.roles import ROLLER_FRICTION
+from lambda_core.domain.roles import ROLLER_CHOICES, ROLLER_FRICTION
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
@@ -43,9 +43,18 @@ def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[
     from lambda_core.model.laws.law_packages import law_called
 
     found: dict[str, Any] = {}
+    for role, (names, _) in ROLLER_FRICTION.items():
+        name = getattr(case.models, role, None)
+        if name is None:
+            continue
+        if role in ROLLER_CHOICES and name in names:
+            found[ROLLER_CHOICES[role]] = name
+        elif name not in names:
+            ledger.assume(f'models.{role} = "{name}" counts in motion only: the quasi-static answer has {names[0]}')
     for role, written in case.parameters.items():
-        name, fields = ROLLER_FRICTION.get(role, ("", {}))
-        if (getattr(case.models, role, None) or name).rpartition(":")[2] != name:
+        names, fields = ROLLER_FRICTION.get(role, (("",), {}))
+        name = getattr(case.models, role, None) or names[0]
+        if name not in names:
             fields = {}
         if fields and written:
             values = written_parameters(law_called(registry, role, name, given=False), role, written, ledger)
@@ -67,10 +76,15 @@ def friction_of_model(model: BearingModel) -> dict[str, Any]:
     The model is resolved, with rollers in motion; its case has the data. What differs between the raceways counts in
     motion only.
     """
-    found = {}
-    for role, (name, fields) in ROLLER_FRICTION.items():
+    found: dict[str, Any] = {}
+    for role, (names, fields) in ROLLER_FRICTION.items():
         chosen, other = (model.laws[raceway][role] for raceway in ("ball_inner", "ball_outer"))
-        for key, field in fields.items() if chosen.model.name == other.model.name == name else ():
+        name = chosen.model.name
+        if name != other.model.name or name not in names:
+            continue
+        if role in ROLLER_CHOICES:
+            found[ROLLER_CHOICES[role]] = name
+        for key, field in fields.items():
             alike = getattr(chosen.parameters, key) == getattr(other.parameters, key)
             if chosen.origins.get(key) == "case" and alike:
                 found[field] = float(getattr(chosen.parameters, key))
