@@ -16,12 +16,13 @@ from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
 from textual.screen import Screen
 from textual.widget import Widget
-from textual.widgets import Footer, Static, Tab, Tabs
+from textual.widgets import Static, Tab, Tabs
 
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.wrapping import wrapped
 from lambda_core.views.other_units import in_units
 from lambda_gui.charts import rows_of
+from lambda_gui.footer import KeyLine
 from lambda_gui.helper import Helper
 from lambda_gui.lifecycle import is_here
 
@@ -80,7 +81,7 @@ class AnswerScreen(Screen[None]):
         yield Tabs(*(Tab(words, id=name) for name, words in QUESTIONS.items()))
         yield Static(id="title")
         yield VerticalScroll(id="content", can_focus=False)
-        yield Footer()
+        yield KeyLine()
 
     def on_mount(self) -> None:
         """Take the keyboard.

@@ -10,13 +10,14 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.timer import Timer
-from textual.widgets import Footer, Tree
+from textual.widgets import Tree
 
 from lambda_core.domain.errors import Problem
 from lambda_core.domain.option_tree import option_paths
 from lambda_gui import entries
 from lambda_gui.checking import belongs, node_of
 from lambda_gui.derived import Derived
+from lambda_gui.footer import KeyLine
 from lambda_gui.forms import NodeForm
 from lambda_gui.head import Head
 from lambda_gui.live_draft import LiveDraft
@@ -110,7 +111,7 @@ class BuilderScreen(LiveDraft):
             with Horizontal(id="below"):
                 yield Sketch()
                 yield Derived()
-        yield Footer()
+        yield KeyLine()
 
     def on_mount(self) -> None:
         """Show the case and begin to check it."""

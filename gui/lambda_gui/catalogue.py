@@ -13,10 +13,11 @@ from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, VerticalScroll
 from textual.screen import Screen
 from textual.timer import Timer
-from textual.widgets import DataTable, Footer, Input, Static
+from textual.widgets import DataTable, Input, Static
 
 from lambda_core.domain.errors import LambdaError
 from lambda_gui.details import bearing_text, lubricant_text
+from lambda_gui.footer import KeyLine
 from lambda_gui.from_catalogue import Kind, Taken, bearing_taken
 from lambda_gui.lifecycle import is_here
 from lambda_gui.sketch import drawn
@@ -83,7 +84,7 @@ class CatalogueScreen(Screen[Taken | None]):
         with VerticalScroll(id="details"), Horizontal():
             yield Static(id="drawing")
             yield Static(id="about")
-        yield Footer()
+        yield KeyLine()
 
     def on_mount(self) -> None:
         """Show everything of the kind."""

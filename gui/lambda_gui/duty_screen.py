@@ -12,12 +12,13 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, VerticalScroll
 from textual.screen import Screen
-from textual.widgets import Footer, Input, Static
+from textual.widgets import Input, Static
 
 from lambda_core.domain.errors import LambdaError
 from lambda_gui.dialogs import AskText
 from lambda_gui.duty_values import FIRST_TIME, NAME, TIME, Column, Phase, columns_of, cycle_tables, cycle_view
 from lambda_gui.entry import Entry
+from lambda_gui.footer import KeyLine
 from lambda_gui.helper import Helper
 from lambda_gui.lifecycle import is_here
 from lambda_gui.new_files import save_next_to_case
@@ -122,7 +123,7 @@ class DutyScreen(Screen[None]):
         yield OptionHelp()
         with VerticalScroll(id="sum", can_focus=False):
             yield Static(Text(_HINT, style="dim"), id="found")
-        yield Footer()
+        yield KeyLine()
 
     async def on_unmount(self) -> None:
         """End the helper."""

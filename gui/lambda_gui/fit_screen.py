@@ -14,7 +14,7 @@ from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
 from textual.screen import Screen
 from textual.widget import Widget
-from textual.widgets import Footer, Static
+from textual.widgets import Static
 
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.wrapping import wrapped
@@ -22,6 +22,7 @@ from lambda_core.views.other_units import in_units
 from lambda_gui.charts import rows_of
 from lambda_gui.dialogs import AskText
 from lambda_gui.fields import TextRow
+from lambda_gui.footer import KeyLine
 from lambda_gui.helper import Helper
 from lambda_gui.lifecycle import is_here
 from lambda_gui.option_help import OptionHelp
@@ -99,7 +100,7 @@ class FitScreen(Screen[None]):
         yield OptionHelp()
         with VerticalScroll(id="found", can_focus=False):
             yield Static(Text(_HINT, style="dim"))
-        yield Footer()
+        yield KeyLine()
 
     def _rows(self) -> Iterator[Row]:
         around = self._around

@@ -10,12 +10,13 @@ from textual import events
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.screen import ModalScreen
-from textual.widgets import Footer, Static
+from textual.widgets import Static
 
 from lambda_core.api import BearingRow, FieldCard, Kind, LubricantRow
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.units import UNITS
 from lambda_gui.fields import row_for
+from lambda_gui.footer import KeyLine
 from lambda_gui.nodes import Keys
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.places import Held
@@ -61,7 +62,7 @@ class OwnRow(ModalScreen[str | None]):
                     self._values[keys] = value
                     yield row_for(Held(self._values, keys), card, Surroundings())
         yield OptionHelp()
-        yield Footer()
+        yield KeyLine()
 
     def on_descendant_focus(self, event: events.DescendantFocus) -> None:
         """Show the focused value's meaning and origin."""

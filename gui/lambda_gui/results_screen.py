@@ -12,7 +12,7 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical, VerticalScroll
 from textual.widget import Widget
-from textual.widgets import DataTable, Footer, OptionList, Static
+from textual.widgets import DataTable, OptionList, Static
 from textual.widgets.option_list import Option
 
 from lambda_core.domain.errors import LambdaError
@@ -20,6 +20,7 @@ from lambda_core.views.other_units import in_units
 from lambda_gui.charts import rows_of
 from lambda_gui.dialogs import AskText
 from lambda_gui.export import DIFFERENCES, SUMMARY, ExportScreen
+from lambda_gui.footer import KeyLine
 from lambda_gui.lifecycle import is_here
 from lambda_gui.pictures import NONE_HERE
 from lambda_gui.result_files import is_study, named, results_in, stamp_of
@@ -98,7 +99,7 @@ class ResultsScreen(ExportScreen):
             with Vertical():
                 yield Static(id="title")
                 yield VerticalScroll(id="content", can_focus=False)
-        yield Footer()
+        yield KeyLine()
 
     def on_mount(self) -> None:
         """List what there is."""

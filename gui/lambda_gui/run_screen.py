@@ -9,10 +9,11 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.screen import Screen
-from textual.widgets import DataTable, Footer, Static
+from textual.widgets import DataTable, Static
 
 from lambda_core.domain.number_text import plus_minus
 from lambda_gui.derived import duration
+from lambda_gui.footer import KeyLine
 from lambda_gui.lifecycle import is_here
 from lambda_gui.traces import CageTrace, LoadTrace, TorqueTrace, Trace
 
@@ -59,7 +60,7 @@ class RunScreen(Screen[None]):
             with Vertical(id="right"):
                 yield CageTrace()
                 yield LoadTrace()
-        yield Footer()
+        yield KeyLine()
 
     def on_mount(self) -> None:
         """Show the queue and follow it."""

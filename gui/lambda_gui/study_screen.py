@@ -11,12 +11,13 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.screen import Screen
 from textual.timer import Timer
-from textual.widgets import Footer, Static
+from textual.widgets import Static
 
 from lambda_core.domain.errors import LambdaError
 from lambda_gui.dialogs import AskText
 from lambda_gui.entry import Entry
 from lambda_gui.fields import TextRow, row_for
+from lambda_gui.footer import KeyLine
 from lambda_gui.helper import Helper
 from lambda_gui.lifecycle import is_here
 from lambda_gui.new_files import save_next_to_case
@@ -99,7 +100,7 @@ class StudyScreen(Screen[None]):
             yield from self._asked()
         yield OptionHelp()
         yield Static("checking ...", id="cost")
-        yield Footer()
+        yield KeyLine()
 
     def _parameter(self, number: str) -> Iterator[Row]:
         around = self._around

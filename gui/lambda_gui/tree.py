@@ -79,6 +79,7 @@ class ModelTree(Tree[Node]):
         self.draft, self._around = draft, around
         self._names: dict[str, tuple[str, ...]] = {}
         self._wrong: dict[str, int] = {}
+        self._changed: set[str] = set()  # keys of nodes that differ from the file
         self._plant()
 
     def _plant(self) -> None:
@@ -115,19 +116,24 @@ class ModelTree(Tree[Node]):
             found = node_of(problem, nodes)
             if found is not None:
                 self._wrong[found.key] = self._wrong.get(found.key, 0) + 1
-        for node in self._tree_nodes.values():
-            if node.data is not None:
-                node.set_label(self._label(node, node.data))
+        self._changed = {node.key for node in nodes if any(self.draft.is_changed(*place) for place in node.places)}
+        self._refresh_labels()
 
     def on_resize(self) -> None:
         """Fit the labels to the new width."""
+        self._refresh_labels()
+
+    def _refresh_labels(self) -> None:
         for node in self._tree_nodes.values():
-            if node.data is not None:
-                node.set_label(self._label(node, node.data))
+            if node.data is None:
+                continue
+            label, shown = self._label(node, node.data), node.label
+            if label != shown or label.style != getattr(shown, "style", ""):  # each label that is set is drawn anew
+                node.set_label(label)
 
     def _label(self, line: TreeNode[Node], node: Node) -> Text:
         wrong = sum(self._wrong.get(inner.key, 0) for inner in node.walk())
-        changed = any(self.draft.is_changed(*place) for inner in node.walk() for place in inner.places)
+        changed = any(inner.key in self._changed for inner in node.walk())
         depth, above = 0, line.parent
         while above is not None and above is not self.root:
             depth, above = depth + 1, above.parent
