@@ -18,6 +18,7 @@ from lambda_core.model.bearing_model import ResolvedValue
 from lambda_core.results import file_format as layout
 from lambda_core.results.averages import INTEGRALS
 from lambda_core.results.hdf5 import open_for_reading, reason
+from lambda_core.results.integrity import heaps_are_intact
 from lambda_core.results.objects import datasets, grows, scales_along, scales_in, texts_of
 
 
@@ -79,11 +80,13 @@ def _damage(error: Exception) -> str:
 
 
 def check_alone(file: h5py.File) -> None:
-    """Refuse a file that points at others.
+    """Refuse a file that points at others, or damaged texts.
 
-    Somebody's link would show the content of other files of the user; a run writes none.
+    The texts are looked at first: HDF5 would read damaged ones for ever. Somebody's link would show the content of
+    other files of the user; a run writes none.
     """
-
+    if not heaps_are_intact(Path(file.filename)):
+        raise ResultError(f"{file.filename} is damaged: its texts cannot be read")
     seen = set[int]()
 
     def elsewhere(name: bytes, link: Any) -> bytes | None:  # HDF5 passes on what is returned, not what is raised

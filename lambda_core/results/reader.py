@@ -22,9 +22,8 @@ from lambda_core.results import checkpoint
 from lambda_core.results import file_format as layout
 from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP
 from lambda_core.results.event_rows import EVENTS_GROUP
-from lambda_core.results.integrity import check_machine, check_model, heaps_are_intact
+from lambda_core.results.integrity import check_machine, check_model
 from lambda_core.results.opening import (
-    ResultError,
     channels_of,
     check_alone,
     integral_table,
@@ -84,55 +83,57 @@ class Result:
     def __init__(self, path: str | PathLike[str], bearing: str | None = None) -> None:
         self.path = Path(path)
         with opened(self.path) as file:
-            if not heaps_are_intact(self.path):
-                raise ResultError(f"{self.path} is damaged: its texts cannot be read")
             check_alone(file)
-            self.title, self.headline, self.case, self.created = (
-                printable(str(file.attrs[name])) for name in ("title", "headline", "case", "created")
-            )
-            self.bearing_names = tuple(map(printable, layout.bearing_names(file)))
-            self.is_machine = layout.MACHINE in file
-            if bearing is None:
-                bearing = self.bearing_names[0] if len(self.bearing_names) == 1 else ""
-            elif bearing not in self.bearing_names and (bearing or not self.is_machine):
-                raise UsageError(f"{self.path}: {unknown_name('bearing', bearing, self.bearing_names)}")
-            self.bearing = bearing
-            self._rerun: Rerun | None = None
-            group = file[self._place]
-            if bearing and len(self.bearing_names) > 1:
-                self.title, self.headline = (printable(str(group.attrs[name])) for name in ("title", "headline"))
-            found = [(_TIME, {}), *channels_of(group)]
-            self._channels = {channel.name: channel for channel, _ in found}
-            paths = {dim: path for _, own in found for dim, path in own.items()}
-            self._labels = {dim: labels_of(file[path]) for dim, path in paths.items()}
+            self._read(file, bearing)
+        self._family = {self.bearing: self}  # results of this file, which was checked once for all of them
         self.status()
+
+    def _read(self, file: h5py.File, bearing: str | None) -> None:
+        words = (printable(str(file.attrs[name])) for name in ("title", "headline", "case", "created"))
+        self.title, self.headline, self.case, self.created = words
+        self.bearing_names = tuple(map(printable, layout.bearing_names(file)))
+        self.is_machine = layout.MACHINE in file
+        if bearing is None:
+            bearing = self.bearing_names[0] if len(self.bearing_names) == 1 else ""
+        elif bearing not in self.bearing_names and (bearing or not self.is_machine):
+            raise UsageError(f"{self.path}: {unknown_name('bearing', bearing, self.bearing_names)}")
+        self.bearing = bearing
+        self._rerun: Rerun | None = None
+        group = file[self._place]
+        if bearing and len(self.bearing_names) > 1:
+            self.title, self.headline = (printable(str(group.attrs[name])) for name in ("title", "headline"))
+        found = [(_TIME, {}), *channels_of(group)]
+        self._channels = {channel.name: channel for channel, _ in found}
+        paths = {dim: path for _, own in found for dim, path in own.items()}
+        self._labels = {dim: labels_of(file[path]) for dim, path in paths.items()}
 
     # -- bearings of a machine --
 
     @cached_property
     def bearings(self) -> dict[str, Result]:
         """Results of the bearings by name, as of bearings alone."""
-        return {name: self if name == self.bearing else Result(self.path, name) for name in self.bearing_names}
+        return {name: self._part(name) for name in self.bearing_names}
 
     def of_machine(self) -> Result:
         """Return the result of the machine without its bearings."""
-        return self if not self.bearing else Result(self.path, "")
+        return self._part("")
+
+    def _part(self, bearing: str) -> Result:
+        if bearing not in self._family:
+            made = object.__new__(Result)
+            made.path, made._family = self.path, self._family
+            with opened(self.path) as file:
+                made._read(file, bearing)
+            self._family[bearing] = made
+        return self._family[bearing]
 
     def of_bearing(self, name: str | None = None) -> Result:
         """Return the result of one bearing.
 
-        Parameters
-        ----------
-        name : str, optional
-            Which one; may be left out where there is one only.
-
-        Raises
-        ------
-        UsageError
-            When there are several and none is named, or none of that name.
+        Its `name` may be left out where there is one only; otherwise that is a UsageError, as is an unknown name.
         """
         if name is not None:
-            return self if name == self.bearing else Result(self.path, name)
+            return self._part(name)
         self._chosen()
         return self
 

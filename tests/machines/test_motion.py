@@ -23,6 +23,7 @@ from lambda_core.formulas.elastic.whirl import natural_frequencies
 from lambda_core.model.machine_model import PLACES, MachineModel
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine
+from lambda_core.results import reader
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
@@ -384,3 +385,16 @@ def test_a_machine_without_cages_counts_the_turns_of_its_balls() -> None:
             0.5 * (1.0 - g.ball_diameter / g.pitch_diameter), rel=0.02
         )
         assert row["loss.pocket"] >= 0.0
+
+
+def test_a_result_is_checked_once_for_all_of_its_parts(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Find machine and bearings from one of them."""
+    checked = []
+    check = reader.check_alone
+    monkeypatch.setattr(reader, "check_alone", lambda file: checked.append(check(file)))
+    left = reader.Result(folder / "part.h5", "left")
+    assert [left.of_bearing(name).bearing for name in left.bearing_names] == list(left.bearing_names)
+    assert left.of_machine().bearings == left.bearings
+    assert left.of_machine().of_machine().bearing == ""
+    assert not np.array_equal(left["load"], left.bearings["right"]["load"])
+    assert len(checked) == 1
