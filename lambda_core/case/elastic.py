@@ -28,7 +28,7 @@ class BendingRing(Section):
         "Earthquake Spectra and Design)",
     )
     section_height: Length | None = option(
-        None, "radial height of the ring's section; absent: from its seat to the groove's bottom", gt=0.0
+        None, "radial height of the ring's section; absent: from its seat to the raceway", gt=0.0
     )
     section_width: Length | None = option(None, "axial width of the section; absent: the bearing's", gt=0.0)
 
@@ -36,7 +36,7 @@ class BendingRing(Section):
 class BendingCage(Section):
     """Cage that bends in its plane.
 
-    It bends as waves round it, pushed by balls and guiding lands.
+    It bends as waves round it, pushed by balls or rollers and guiding lands.
     """
 
     orders: int = option(4, "highest wave number round the cage in the model; an ellipse has 2", ge=2, le=MOST_ORDERS)

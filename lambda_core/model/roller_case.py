@@ -27,6 +27,7 @@ from lambda_core.elements.roller.roller_ratings import (
     roller_static_rating,
 )
 from lambda_core.model.bearing_model import ResolvedValue
+from lambda_core.model.bodies.resolve_elastic import bent_rings
 from lambda_core.model.bodies.resolve_materials import is_grease, lubrication_of, resolve_lubricant, resolve_oil_level
 from lambda_core.model.checks.oil_table import OilLaw, coefficients_of
 from lambda_core.model.checks.operating_limits import speed_warning
@@ -163,6 +164,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
             law = ledger.ask("lubricant.name", lambda: OilLaw(row, known))
             if law is not None:
                 state = _oil(law, case.lubricant.temperature, oil.thermal_conductivity)
+    geometry = bent_rings(geometry, case, catalogue, ledger) if geometry else None
     level = resolve_oil_level(case.lubricant, row, geometry.diameter if geometry else 0.0, ledger)
     held, written = _held(case, ledger), friction_of_case(case, known, ledger)
     contamination = contamination_of(case, geometry.pitch_diameter, ledger) if geometry else None

@@ -12,6 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lambda_core.case.case import Case
+from lambda_core.case.elastic import Elastic
 from lambda_core.case.modelling import ForceElement
 from lambda_core.case.parts import InlineGeometry
 from lambda_core.catalogue.protocol import Catalogue
@@ -24,6 +25,7 @@ from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import thrust_problem
 from lambda_core.elements.roller.roller_friction import RIB_ASPERITIES, SKF_CONSTANTS, skf_kind
 from lambda_core.model.bearing_model import BearingModel, ChosenLaw, ResolvedValue
+from lambda_core.model.bodies.resolve_elastic import bent_rings, waves_of_rings
 from lambda_core.model.checks.fitted_paths import fit_problems, known_numbers
 from lambda_core.model.geometry.resolve_geometry import is_of_grooves
 from lambda_core.model.laws.law_defaults import law_sentences, record_law
@@ -73,8 +75,7 @@ def rollers_of(
         if place is str:
             _refuse_thrust(case, rollers, ledger)
         _check_complement(case, rollers, ledger)
-    for part in (name for name in type(case.elastic).model_fields if getattr(case.elastic, name) is not None):
-        ledger.problem(f"elastic.{part}", "rings and cages of rollers are rigid: leave it out")
+        rollers = bent_rings(rollers, case, catalogue, ledger)
     rings = {f"rib_{rib.ring}" for rib in rollers.ribs} if rollers is not None else RIBS
     for name in (name for name in RIBS if name not in rings and getattr(case.forces, name) != ForceElement()):
         ledger.problem(f"forces.{name}", "this bearing has no such ribs: leave it out")
@@ -166,7 +167,7 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
     forces = case.forces.model_copy(update={**{rib: ForceElement() for rib in RIBS}, **others})
     depth = case.depth.model_copy(update={"cage": not rollers.full_complement})
     changed = {"forces": forces, "bearing": bearing, "bodies": bodies, "models": models, "parameters": parameters}
-    return case.model_copy(update={**changed, "depth": depth, "fit": None})
+    return case.model_copy(update={**changed, "depth": depth, "elastic": Elastic(cage=case.elastic.cage), "fit": None})
 
 
 def _without(given: ForceElement, roles: Iterable[str]) -> ForceElement:
@@ -265,7 +266,8 @@ def with_rollers(
         geometry=replace(model.geometry, ribs=_ribs(rollers)),
         title=title,
         rollers=rollers if model.mounting is None else with_clearance(rollers, model.geometry.clearance),
-        assumptions=(*told, *assumptions),
+        elastic={**waves_of_rings(rollers), **model.elastic},
+        assumptions=tuple(dict.fromkeys((*told, *assumptions))),
         values=(*sizes, *values, *ratings),
     )
 

@@ -13,7 +13,6 @@ from pydantic import Field
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, RINGS
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.formulas.elastic.ring import shape
 from lambda_core.formulas.loading import CARRYING, Ring, largest_contact, loaded_balls
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.model.geometry.axial_play import axial_play
@@ -26,28 +25,14 @@ from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
 from lambda_core.results.model_band import Banded
 from lambda_core.results.quantity import FLOATING, quantity, same_as, shown
 from lambda_core.results.rating import Rating, rated_verdict
-from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.record import INTERFACE
+from lambda_core.results.ring_shape import RingShape, ring_shape
 from lambda_core.results.summary import capacitance_note, contact_list, merged_cage, span
 from lambda_core.results.verdict import Verdict
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.wave_tables import waves_at
 from lambda_core.solver.records import CONTACT_CHANNELS
-
-_PLACES = 720  # round a ring, where its shape is looked at
-
-
-class RingShape(Record):
-    """Shape of an elastic ring, own frame."""
-
-    ring: Ring
-    orders: list[int] = Field(description="numbers of waves round the ring")
-    cosine_um: list[float] = Field(description="amplitude of cos(n azimuth) of each, outwards")
-    sine_um: list[float] = Field(description="amplitude of sin(n azimuth) of each, outwards")
-    outwards_um: float = Field(description="farthest displacement outwards")
-    outwards_deg: float = Field(description="azimuth where that is")
-    inwards_um: float = Field(description="farthest displacement inwards")
-    inwards_deg: float = Field(description="azimuth where that is")
 
 
 class BearingStatics(Banded):
@@ -228,24 +213,13 @@ def _angles(contacts: Sequence[Contact], largest: float) -> list[float]:
 
 def _ring_shapes(found: Equilibrium) -> list[RingShape]:
     """Return how the elastic rings bend."""
-    context, azimuths = found.context, np.linspace(0.0, 2.0 * np.pi, _PLACES, endpoint=False)
+    context = found.context
     shapes = []
     for body, amplitudes in waves_at(context.bundle, context.model, context.shared_part(found.state)).items():
         if body == "cage":
             continue  # nothing pushes it in the equilibrium
-        bent = shape(amplitudes, azimuths)
-        shapes.append(
-            RingShape(
-                ring="inner" if body == "inner_ring" else "outer",
-                orders=list(context.model.elastic[body].counts),
-                cosine_um=(1e6 * amplitudes[:, 0]).tolist(),
-                sine_um=(1e6 * amplitudes[:, 1]).tolist(),
-                outwards_um=1e6 * float(bent.max()),
-                outwards_deg=math.degrees(azimuths[int(bent.argmax())]),
-                inwards_um=-1e6 * float(bent.min()),
-                inwards_deg=math.degrees(azimuths[int(bent.argmin())]),
-            )
-        )
+        ring: Ring = "inner" if body == "inner_ring" else "outer"
+        shapes.append(ring_shape(ring, context.model.elastic[body].counts, amplitudes))
     return shapes
 
 

@@ -18,7 +18,7 @@ from lambda_core.domain.units import show
 from lambda_core.domain.wrapping import wrapped
 from lambda_core.elements.roller.axial_limit import AxialLimit, axial_limit
 from lambda_core.elements.roller.roller_bearing import RollerBearing
-from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium
+from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, amplitudes, waves_by_ring
 from lambda_core.elements.roller.roller_friction import RollerFriction, friction
 from lambda_core.elements.roller.roller_life import lamina_life, modified_lamina_life, roller_basic_life
 from lambda_core.elements.roller.roller_motion import RollerMotion, rolling_motion
@@ -32,6 +32,8 @@ from lambda_core.formulas.life import (
     reference_viscosity,
 )
 from lambda_core.formulas.loading import CARRYING, carries
+from lambda_core.model.bodies.resolve_elastic import waves_of_rings
+from lambda_core.model.checks.operating_limits import unbacked
 from lambda_core.model.settings.contamination import known_contamination
 from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
@@ -40,7 +42,8 @@ from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
 from lambda_core.results.model_band import Banded
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.results.text import band_lines, life_factor_text, line, place_with_play, warning_lines
+from lambda_core.results.ring_shape import RingShape, ring_shape
+from lambda_core.results.text import band_lines, bent_lines, life_factor_text, line, place_with_play, warning_lines
 
 if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
@@ -99,6 +102,7 @@ class RollerQuasiStatic(Answer, Banded):
         description="from the middle to first contact without load: part of displacement x", default=0.0
     )
     inner_ring_tilt_mrad: list[float]
+    ring_shapes: list[RingShape] = Field(description="how elastic rings bend; empty where all are rigid", default=[])
     inner_ring_moment_Nm: list[float] = Field(description="about y and z, that the rollers put on the shaft")
     rating: Rating = Field(description="lives of every lamina (ISO 16281) and of ISO 281, safety; no catalogues")
     axial_limit_N: float | None = Field(description="permissible constant axial load of ribs of cylindrical rollers")
@@ -217,6 +221,9 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
         inner_ring_displacement_um=[1e6 * x, 1e6 * y, 1e6 * z],
         axial_play_um=0.0 if bearing.kind == "tapered" else 1e6 * bearing.end_play,
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
+        ring_shapes=[
+            ring_shape(ring, waves.counts, amplitudes(bearing, state)[ring]) for ring, waves in waves_by_ring(bearing)
+        ],
         inner_ring_moment_Nm=[-float(state.loads[3]), -float(state.loads[4])],
         rating=roller_rating(
             bearing, state, (radial, axial), motion.relative, model.oil.kinematic, model.contamination
@@ -301,9 +308,8 @@ def roller_rating(
     clean = known_contamination(contamination, bearing.pitch_diameter)
     speed = abs(speed)
     angle, gamma = bearing.contact_angle, bearing.diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
-    thrust = axial if angle > 0.0 else 0.0
-    equivalent = roller_equivalent_load(radial, thrust, angle).load
-    static = roller_static_load(radial, thrust, angle)
+    equivalent = _equivalent_load(bearing, radial, axial)
+    static = roller_static_load(radial, axial if angle > 0.0 else 0.0, angle)
     ratings = lamina_ratings(bearing.dynamic_rating, bearing.count, gamma, state.inner.shape[1], contact_angle=angle)
     mean = 0.5 * (state.inner + state.outer)
     reference = lamina_life(mean, ratings, bearing.dynamic_rating)
@@ -325,6 +331,12 @@ def roller_rating(
         static_safety=finite(bearing.static_rating / static) if static > 0.0 else None,
         viscosity_ratio=finite(kappa),
     )
+
+
+def _equivalent_load(bearing: RollerBearing, radial: float, axial: float) -> float:
+    """Return P of ISO 281 [N], without thrust on ribs."""
+    thrust = axial if bearing.contact_angle > 0.0 else 0.0
+    return roller_equivalent_load(radial, thrust, bearing.contact_angle).load
 
 
 def _limit(model: RollerModel, radial: float, motion: RollerMotion) -> AxialLimit | None:
@@ -385,6 +397,8 @@ def _warnings(model: RollerModel, state: RollerEquilibrium, axial: float, limit:
             found.append(
                 f'{name} is locked: the moment goes into the shaft; bodies.inner_ring.{name} = "free" takes it'
             )
+    equivalent = _equivalent_load(model.bearing, state.carried[0], axial)
+    found += unbacked(waves_of_rings(model.bearing), equivalent, model.bearing.dynamic_rating)
     tilt = float(np.hypot(state.ring[3], state.ring[4]))
     if tilt > ROLLER_TILT:
         found.append(f"tilt of the rings {1e3 * tilt:.2f} mrad is above the 4 minutes of arc of rollers (SKF, 2018)")
@@ -409,6 +423,7 @@ def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str
             *place_with_play(found.inner_ring_displacement_um, found.axial_play_um, units),
             f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad",
         ),
+        *bent_lines(found.ring_shapes, units),
     ]
     if found.friction_torque_Nmm is not None:
         torque = units.text(found.friction_torque_Nmm, "N mm")

@@ -17,9 +17,10 @@ if TYPE_CHECKING:
     from lambda_core.results.currents import Currents
     from lambda_core.results.limits import Shoulder
     from lambda_core.results.model_band import ModelBand
-    from lambda_core.results.quasistatic import QuasiStatic, RingShape
+    from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.results.rating import Rating
     from lambda_core.results.ring_deformation import RingDeformation
+    from lambda_core.results.ring_shape import RingShape
     from lambda_core.results.summary import Summary
     from lambda_core.results.verdict import Verdict
 
@@ -268,6 +269,11 @@ def _oval(found: RingDeformation, units: UnitSystem) -> str:
     return f"{found.part} {mean} on average, {most} at most"
 
 
+def bent_lines(shapes: Iterable[RingShape], units: UnitSystem) -> list[str]:
+    """Return a line for every elastic ring."""
+    return [line("" if i else "shape of rings", *_bent(bent, units)) for i, bent in enumerate(shapes)]
+
+
 def _bent(found: RingShape, units: UnitSystem) -> tuple[str, str]:
     """Report the deformation of an elastic ring.
 
@@ -307,7 +313,7 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
             *place_with_play(found.inner_ring_displacement_um, found.axial_play_um, units),
             f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad",
         ),
-        *(line("" if i else "shape of rings", *_bent(bent, units)) for i, bent in enumerate(found.ring_shapes)),
+        *bent_lines(found.ring_shapes, units),
         *_friction_lines(found, units),
         *rating_lines(found.rating, units, found.reference_life_h_band),
         *_motion_lines(found, units),

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from lambda_core.domain.roles import RACEWAYS, ROLES
+from lambda_core.formulas.elastic.ring import MOST_ORDERS
 from lambda_core.laws.jit.binding import STRIDE
 
 f8, i8 = np.float64, np.int64
@@ -381,6 +382,7 @@ SCRATCH = record(
     ("at_rest", GUIDE),
     ("out", f8, (STRIDE * BATCH,)),  # results of laws without cells
     ("surface", f8, (3,)),  # height of a raceway and its slopes
+    ("pushes", f8, (2, 2 * MOST_ORDERS)),  # on the waves of a cage: of a roller's whole pocket, and of a part of it
     ("fault", FAULT),  # survives the call
 )
 

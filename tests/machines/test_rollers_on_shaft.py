@@ -119,7 +119,8 @@ def test_forces_and_moments_on_a_tilted_shaft_add_up() -> None:
     assert float(state.stiffness[0][0, 0]) == 0.0
 
 
-def test_one_bearing_on_a_short_shaft_is_the_bearing_alone() -> None:
+@pytest.mark.parametrize("elastic", [{}, {"outer_ring": {"housing_stiffness": "100 N/um"}}], ids=["rigid", "elastic"])
+def test_one_bearing_on_a_short_shaft_is_the_bearing_alone(elastic: dict[str, Any]) -> None:
     """Compare one bearing with itself to 0.1 %.
 
     Loads, pressure, lives, film and friction, under a load in any direction.
@@ -127,7 +128,7 @@ def test_one_bearing_on_a_short_shaft_is_the_bearing_alone() -> None:
     case = {
         **SHARED,
         "shaft": {**THICK, "support": {"at": "30 mm", "x": "locked"}},
-        "bearings": {"one": {"designation": "SKF NU 208 ECP", "at": "30 mm"}},
+        "bearings": {"one": {"designation": "SKF NU 208 ECP", "at": "30 mm", "elastic": elastic}},
         "loads": {"oblique": {"at": "30 mm", "force_y": "3 kN", "force_z": "-4 kN"}},
         "life": {"contamination": 0.4},
     }
@@ -140,6 +141,7 @@ def test_one_bearing_on_a_short_shaft_is_the_bearing_alone() -> None:
             "operation": SHARED["operation"],
             "gravity": SHARED["gravity"],
             "loads": {"radial": "5 kN", "radial_direction": "0 deg"},
+            "elastic": elastic,
             "life": {"contamination": 0.4},
         }
     )

@@ -119,12 +119,23 @@ for bearing in (tapered, straight):
         assert abs(abs(kin.entrainment_t) / rolling.entrainment - 1.0) < 1e-12
         force = one(R.WRENCH)
         force.force[:], force.moment[:] = rng.normal(size=3), rng.normal(size=3)
-        on_roller, on_ring = one(R.WRENCH), one(R.WRENCH)
-        kinematics.apply_roller_wrench(kin, roller, body, force, on_roller, on_ring)
-        f, m = inertial(roller, on_roller.force), inertial(roller, on_roller.moment)
-        place = inertial(roller, (roller.x, roller.radius, 0.0))
-        assert np.abs(f + on_ring.force).max() < 1e-14
-        assert np.abs(m + np.cross(place, f) + on_ring.moment).max() < 1e-14
+        place, found = inertial(roller, (roller.x, roller.radius, 0.0)), []
+        for slope in (0.0, 0.03):
+            kin.widening, kin.widening_slope, kin.widening_rate = 1e-3 * slope, slope, slope
+            wider = kinematics.line_kinematics(roller, body, row, raceway, kin)
+            outward = side * math.cos(raceway.cone)
+            assert abs(wider - gap + outward * 1e-3 * slope) < 1e-15
+            past = rolling.cage - speed  # of the roller past the ring's material
+            assert abs(kin.normal_velocity + outward * slope * (1.0 + past)) < 1e-12 + 1e-12 * abs(slope * past)
+            on_roller, on_ring = one(R.WRENCH), one(R.WRENCH)
+            kinematics.apply_roller_wrench(kin, roller, body, force, on_roller, on_ring)
+            f, m = inertial(roller, on_roller.force), inertial(roller, on_roller.moment)
+            assert np.abs(f + on_ring.force).max() < 1e-14
+            assert np.abs(m + np.cross(place, f) + on_ring.moment).max() < 1e-14
+            found.append((np.array(on_roller.force), np.array(on_roller.moment)))
+        lean = found[1][0] - found[0][0]  # of the raceway that rises, through the roller's centre
+        assert abs(lean[2] + force.force[2] * outward * slope / bearing.centre) < 1e-14
+        assert np.abs(lean[:2]).max() < 1e-14 and np.abs(found[1][1] - found[0][1]).max() < 1e-14
 """
 
 

@@ -20,6 +20,7 @@ from lambda_core.domain.errors import unknown_name
 from lambda_core.elements.roller import profiles
 from lambda_core.elements.roller.rib import RibContact, TaperedAngles, rib_contact, tapered_angles
 from lambda_core.elements.roller.slices import slice_positions
+from lambda_core.formulas.elastic.ring import RingWaves
 
 Ring = Literal["inner", "outer"]
 
@@ -95,6 +96,8 @@ class RollerBearing:
         Of the catalogue [rad/s].
     caged : bool
         Whether a cage keeps the rollers apart, where the kind has one.
+    inner_waves, outer_waves : RingWaves or None
+        How the rings bend; None: they are rigid.
     """
 
     kind: str
@@ -124,6 +127,8 @@ class RollerBearing:
     faces: int = 1
     limiting_speed: float | None = None
     caged: bool = True
+    inner_waves: RingWaves | None = None
+    outer_waves: RingWaves | None = None
 
     def __post_init__(self) -> None:
         """Refuse what cannot be built.

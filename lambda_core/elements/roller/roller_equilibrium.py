@@ -1,13 +1,15 @@
 """Solve the quasi-static equilibrium of a row of rollers.
 
 Every roller has three degrees of freedom in its plane, the inner ring five. All contacts are springs that only push:
-laminae of ISO 16281 on both raceways, Hertz's point contact at ribs. Their energy is convex in the displacements, so
-that the equilibrium is its only minimum; a damped Newton method with the exact Hessian finds it.
+laminae of ISO 16281 on both raceways, Hertz's point contact at ribs. An elastic ring adds the amplitudes c of its waves
+with the energy k c^2/2 (formulas.elastic.ring). All of it is convex in displacements and amplitudes, so that the
+equilibrium is its only minimum; a damped Newton method with the exact Hessian finds it.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,11 +17,13 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elements.roller.line_contact import ISO_CONSTANT, ISO_EXPONENT
-from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.roller_bearing import Ring, RollerBearing
 from lambda_core.elements.roller.slices import slice_positions
+from lambda_core.formulas.elastic.ring import RingWaves
 from lambda_core.formulas.hertz import stiffness_constant
 
 _POINT_EXPONENT = 1.5
+_POSE = 5  # displacements of the inner ring; amplitudes of waves follow
 _MOST_STEPS = 200
 _SETTLED = 1e-9  # imbalance over the largest force
 _SOFT = 1e-9  # of the stiffest direction: holds rollers that nothing touches
@@ -48,7 +52,9 @@ class RollerEquilibrium:
     steps : int
         Newton steps.
     stiffness : array
-        d(loads)/d(ring), rollers in equilibrium throughout, (5, 5) [N/m, N/rad, N m/m, N m/rad].
+        d(loads)/d(ring), rollers and waves in equilibrium throughout, (5, 5) [N/m, N/rad, N m/m, N m/rad].
+    waves : array
+        Amplitudes of cosine and sine of every wave, outwards, inner ring first [m], (waves, 2); none of rigid rings.
     """
 
     ring: FloatArray
@@ -60,6 +66,7 @@ class RollerEquilibrium:
     loads: FloatArray
     steps: int
     stiffness: FloatArray
+    waves: FloatArray
 
     @property
     def carried(self) -> tuple[float, float]:
@@ -81,7 +88,7 @@ class Springs:
     """
 
     roller: FloatArray  # (m, 3)
-    ring: FloatArray  # (m, 3), of the inner ring's motion in the roller's plane
+    ring: FloatArray  # (m, 3), of the inner ring's motion in the roller's plane; (m, 4) with an outer ring that bends
     gap: FloatArray  # (m,)
     constant: FloatArray  # (m,)
     exponent: FloatArray  # (m,)
@@ -122,12 +129,12 @@ def balance(
 ) -> RollerEquilibrium:
     """Find the equilibrium of rollers and inner ring.
 
-    The outer ring stands still.
+    The outer ring stands still, but for its waves where it bends.
 
     Parameters
     ----------
     bearing : RollerBearing
-        Geometry.
+        Geometry, and how its rings bend.
     loads : array
         On the inner ring: forces x, y, z [N] and moments about y, z [N m] through the rollers' middle plane, (5,).
         Thrust on the inner ring is positive along x.
@@ -154,12 +161,14 @@ def balance(
     _refuse(bearing, loads, held)
     springs = single_springs(bearing, slices)
     azimuths = first_angle + 2.0 * math.pi * np.arange(bearing.count) / bearing.count
-    carry = _carry(azimuths)
+    carry, bending = _carry(azimuths, bearing), _bending(bearing)
     free = ~np.array(held)
-    ring = np.zeros(5) if displacement is None else np.asarray(displacement, dtype=np.float64).copy()
+    ring = np.zeros(_POSE) if displacement is None else np.asarray(displacement, dtype=np.float64).copy()
     outside = np.zeros(3) if inertial is None else inertial
     ring, rollers = _start(bearing, loads, free, ring, azimuths)
     rollers = rollers if near is None else near.rollers
+    still = np.zeros(bending.size)
+    ring, loads, free = np.append(ring, still), np.append(loads, still), np.append(free, still == 0.0)
     merit = np.inf
     given = max(float(np.max(np.abs(loads[:3]))), abs(float(np.max(np.abs(loads[3:])))) / bearing.length, 1e-3)
     # a shadow stiffness: what moves nothing stays where it is, what is in balance does not feel it
@@ -168,26 +177,33 @@ def balance(
         penetration = rollers @ springs.roller.T + plane @ springs.ring.T - springs.gap
         force, slope = springs.forces(penetration)
         merit = springs.energy(penetration) - float(np.sum(rollers @ outside)) - float(loads @ ring)
+        merit += _bent_energy(bending, ring)
         roller_left = force @ springs.roller - outside
         ring_left = np.einsum("zm,mp,zpq->q", force, springs.ring, carry) - loads
+        ring_left[_POSE:] += bending * ring[_POSE:]
         left = max(
             float(np.max(np.abs(roller_left[:, :2]))),
             float(np.max(np.abs(roller_left[:, 2]))) / bearing.length,
             float(np.max(np.abs(np.where(free, ring_left, 0.0)[:3]))),
-            float(np.max(np.abs(np.where(free, ring_left, 0.0)[3:]))) / bearing.length,
+            float(np.max(np.abs(np.where(free, ring_left, 0.0)[3:_POSE]))) / bearing.length,
+            float(np.max(np.abs(ring_left[_POSE:]), initial=0.0)),
         )
         size = max(given, float(force.max()))
-        condensed = _condensed(springs, slope, carry, roller_left)
+        condensed = _condensed(springs, slope, carry, roller_left, bending)
         if left < _SETTLED * size:
             n = slices
             loaded = force[:, n : 2 * n], force[:, :n], force[:, 2 * n :]
-            return RollerEquilibrium(ring, rollers, azimuths, *loaded, ring_left + loads, step, condensed.stiffness)
+            carried, waves = (ring_left + loads)[:_POSE], ring[_POSE:].reshape(-1, 2)
+            return RollerEquilibrium(
+                ring[:_POSE], rollers, azimuths, *loaded, carried, step, condensed.of_the_pose(), waves
+            )
         move_ring, move_rollers = _newton(condensed, free, ring_left)
         longest = max(
             float(np.max(np.abs(move_rollers[:, :2]))),
             float(np.max(np.abs(move_ring[:3]))),
             float(np.max(np.abs(move_rollers[:, 2]))) * bearing.length,
-            float(np.max(np.abs(move_ring[3:]))) * bearing.length,
+            float(np.max(np.abs(move_ring[3:_POSE]))) * bearing.length,
+            float(np.max(np.abs(move_ring[_POSE:]), initial=0.0)),
         )
         share = min(1.0, _LONGEST / longest) if longest > 0.0 else 1.0
         descent = float(np.sum(roller_left * move_rollers)) + float(ring_left @ move_ring)
@@ -195,6 +211,7 @@ def balance(
             new_ring, new_rollers = ring + share * move_ring, rollers + share * move_rollers
             moved = new_rollers @ springs.roller.T + np.einsum("zpq,q->zp", carry, new_ring) @ springs.ring.T
             value = springs.energy(moved - springs.gap) - float(np.sum(new_rollers @ outside)) - float(loads @ new_ring)
+            value += _bent_energy(bending, new_ring)
             if value <= merit + 1e-4 * share * descent + 1e-14 * abs(merit):
                 break
             share *= 0.5
@@ -276,6 +293,8 @@ def single_springs(bearing: RollerBearing, slices: int) -> Springs:
     ring_turned = normal[:, 1] * from_axis[:, 0] - normal[:, 0] * from_axis[:, 1]
     is_inner = np.array([False] * slices + [True] * slices + [rib.ring == "inner" for rib in ribs])
     ring = np.column_stack([normal, ring_turned]) * is_inner[:, None]
+    if bearing.outer_waves is not None:
+        ring = np.column_stack([ring, normal[:, 1] * ~is_inner])
     drop = bearing.drops(slices)
     clearance = 0.25 * bearing.clearance  # half of the diametral clearance, shared by both contacts
     line = single_contact_constant(bearing.effective_length) / slices
@@ -290,16 +309,58 @@ def single_springs(bearing: RollerBearing, slices: int) -> Springs:
     )
 
 
-def _carry(azimuths: FloatArray) -> FloatArray:
-    """Return the inner ring's motion at every roller.
+def waves_by_ring(bearing: RollerBearing) -> Iterator[tuple[Ring, RingWaves]]:
+    """Yield the rings that bend, inner ring first."""
+    if bearing.inner_waves is not None:
+        yield "inner", bearing.inner_waves
+    if bearing.outer_waves is not None:
+        yield "outer", bearing.outer_waves
 
-    It is in the plane of the roller, shape (Z, 3, 5).
+
+def amplitudes(bearing: RollerBearing, state: RollerEquilibrium) -> dict[Ring, FloatArray]:
+    """Return the amplitudes of rings that bend [m].
+
+    Each has shape (orders, 2): of cosine and sine of 2, 3, ... waves.
+    """
+    found, first = {}, 0
+    for ring, waves in waves_by_ring(bearing):
+        found[ring] = state.waves[first : first + len(waves.counts)]
+        first += len(waves.counts)
+    return found
+
+
+def _bending(bearing: RollerBearing) -> FloatArray:
+    """Return the stiffness of every amplitude [N/m]."""
+    found = [[waves.ring.stiffness(n)] * 2 for _, waves in waves_by_ring(bearing) for n in waves.counts]
+    return np.ravel(found)
+
+
+def _bent_energy(bending: FloatArray, ring: FloatArray) -> float:
+    """Return the energy of bent rings [J].
+
+    It is k c^2/2 of every amplitude.
+    """
+    return 0.5 * float(bending @ ring[_POSE:] ** 2)
+
+
+def _carry(azimuths: FloatArray, bearing: RollerBearing) -> FloatArray:
+    """Return the motion of rings at every roller.
+
+    That of the inner ring is in the plane of the roller; the fourth row is the outer raceway's way outwards where it
+    bends. Pose and amplitudes have a column each.
     """
     cosine, sine = np.cos(azimuths), np.sin(azimuths)
-    carry: FloatArray = np.zeros((len(azimuths), 3, 5))
+    rows = 3 if bearing.outer_waves is None else 4
+    carry: FloatArray = np.zeros((len(azimuths), rows, _POSE + _bending(bearing).size))
     carry[:, 0, 0] = 1.0
     carry[:, 1, 1], carry[:, 1, 2] = cosine, sine
     carry[:, 2, 3], carry[:, 2, 4] = -sine, cosine
+    column = _POSE
+    for ring, waves in waves_by_ring(bearing):
+        for n in waves.counts:
+            turned = np.column_stack([np.cos(n * azimuths), np.sin(n * azimuths)])
+            carry[:, 1 if ring == "inner" else 3, column : column + 2] = turned
+            column += 2
     return carry
 
 
@@ -342,14 +403,28 @@ class _Condensed:
     The rollers are eliminated, one 3 x 3 block each.
     """
 
-    stiffness: FloatArray  # of the ring, rollers in equilibrium, (5, 5)
-    diagonal: FloatArray  # of the ring, rollers where they are, (5,)
-    follow: FloatArray  # how rollers move with the ring, sign turned, (Z, 3, 5)
+    stiffness: FloatArray  # of pose and waves, rollers in equilibrium, (q, q)
+    diagonal: FloatArray  # of pose and waves, rollers where they are, (q,)
+    follow: FloatArray  # how rollers move with them, sign turned, (Z, 3, q)
     alone: FloatArray  # step of the rollers to their own balance, sign turned, (Z, 3)
-    left: FloatArray  # on the ring, of that step, (5,)
+    left: FloatArray  # on pose and waves, of that step, (q,)
+
+    def of_the_pose(self) -> FloatArray:
+        """Return the stiffness of the pose, (5, 5).
+
+        Waves are in equilibrium throughout.
+        """
+        pose, waves = slice(0, _POSE), slice(_POSE, None)
+        found = self.stiffness[pose, pose]
+        if len(self.diagonal) > _POSE:
+            bent = np.linalg.solve(self.stiffness[waves, waves], self.stiffness[waves, pose])
+            found = found - self.stiffness[pose, waves] @ bent
+        return found
 
 
-def _condensed(springs: Springs, slope: FloatArray, carry: FloatArray, roller_left: FloatArray) -> _Condensed:
+def _condensed(
+    springs: Springs, slope: FloatArray, carry: FloatArray, roller_left: FloatArray, bending: FloatArray
+) -> _Condensed:
     """Eliminate the rollers from the Hessian.
 
     The stiffnesses of all contacts are given.
@@ -358,6 +433,8 @@ def _condensed(springs: Springs, slope: FloatArray, carry: FloatArray, roller_le
     mixed = np.einsum("zm,mi,mp->zip", slope, springs.roller, springs.ring) @ carry
     plane = np.einsum("zm,mp,mr->zpr", slope, springs.ring, springs.ring)
     ring = np.einsum("zpq,zpr,zrs->qs", carry, plane, carry, optimize=True)
+    if bending.size:
+        ring = ring + np.diag(np.append(np.zeros(_POSE), bending))
     scale = np.maximum(np.einsum("zii->zi", own).max(axis=0), 1.0)
     own = own + _SOFT * np.diag(scale)
     solved = np.linalg.solve(own, np.concatenate([mixed, roller_left[:, :, None]], axis=2))
@@ -373,7 +450,7 @@ def _condensed(springs: Springs, slope: FloatArray, carry: FloatArray, roller_le
 def _newton(condensed: _Condensed, free: NDArray[np.bool_], ring_left: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the Newton step of ring and rollers."""
     index = np.flatnonzero(free)
-    step: FloatArray = np.zeros(5)
+    step: FloatArray = np.zeros(len(free))
     if len(index):
         block = condensed.stiffness[np.ix_(index, index)]
         block = block + _SOFT * np.diag(np.maximum(condensed.diagonal[index], 1.0))

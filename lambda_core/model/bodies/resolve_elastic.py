@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from lambda_core.domain.elements import BODIES, BodyName
@@ -12,15 +13,51 @@ from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.formulas.elastic.ring import ElasticRing, RingWaves
 from lambda_core.laws.context import Material
 from lambda_core.model.bearing_model import Cage
+from lambda_core.model.bodies.resolve_materials import resolve_material
 from lambda_core.model.ledger import Ledger
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
-    from lambda_core.case.elastic import BendingCage, BendingRing
+    from lambda_core.case.elastic import BendingCage, BendingRing, Elastic
+    from lambda_core.catalogue.protocol import Catalogue
+    from lambda_core.elements.roller.roller_bearing import RollerBearing
 
 _THICK = 0.25  # height of a section over the ring's radius from which on bending alone is a poor account of it
 _RINGS: tuple[tuple[BodyName, str], ...] = (("inner_ring", "inner"), ("outer_ring", "outer"))
 _Usual = tuple[tuple[str, float, str], ...]  # field, its usual value, where that is from
+
+
+@dataclass(frozen=True)
+class RingSections:
+    """Sections of both rings, inner ring first.
+
+    Attributes
+    ----------
+    seats, raceways : tuple of float
+        Radii of bore and outside, and of the raceways where they are lowest [m].
+    width : float
+        Of the bearing [m].
+    """
+
+    seats: tuple[float, float]
+    raceways: tuple[float, float]
+    width: float
+
+    @staticmethod
+    def of_balls(geometry: Geometry) -> RingSections:
+        """Return those of a ball bearing."""
+        raceways = 0.5 * geometry.race_diameter_inner, 0.5 * geometry.race_diameter_outer
+        return RingSections((0.5 * geometry.bore_diameter, 0.5 * geometry.outside_diameter), raceways, geometry.width)
+
+    @staticmethod
+    def of_rollers(rollers: RollerBearing) -> RingSections:
+        """Return those of a roller bearing.
+
+        Raceways count at the middle of the rollers.
+        """
+        lever = 0.5 * rollers.diameter * math.cos(rollers.angles.roller)
+        raceways = rollers.centre - lever, rollers.centre + lever
+        return RingSections((0.5 * rollers.bore, 0.5 * rollers.outside), raceways, rollers.width)
 
 
 def resolve_elastic(
@@ -35,11 +72,7 @@ def resolve_elastic(
     cage : tuple of Cage and float
         Its geometry and its mass [kg].
     """
-    found: dict[BodyName, RingWaves] = {}
-    for body, part in _RINGS:
-        options: BendingRing | None = getattr(case.elastic, body)
-        if options is not None:
-            found[body] = _resolve_ring(body, options, geometry, materials[part], ledger)
+    found = resolve_rings(case.elastic, RingSections.of_balls(geometry), materials, ledger)
     if case.elastic.cage is not None:
         if not case.depth.cage:
             ledger.problem("elastic.cage", "contradicts depth.cage = false: there is no cage; leave one of the two out")
@@ -47,20 +80,62 @@ def resolve_elastic(
     return found
 
 
+def bent_rings(rollers: RollerBearing, case: Case, catalogue: Catalogue, ledger: Ledger) -> RollerBearing:
+    """Return a roller bearing whose rings bend.
+
+    They bend as in its case.
+    """
+    if case.elastic.inner_ring is None and case.elastic.outer_ring is None:
+        return rollers
+    apart = Ledger()  # models in motion list materials for all bearings
+    materials = {part: resolve_material(part, case, catalogue, apart).material for _, part in _RINGS}
+    ledger.problems += apart.problems
+    for sentence in apart.assumptions:
+        ledger.assume(sentence)
+    found = resolve_rings(case.elastic, RingSections.of_rollers(rollers), materials, ledger)
+    return replace(rollers, inner_waves=found.get("inner_ring"), outer_waves=found.get("outer_ring"))
+
+
+def waves_of_rings(rollers: RollerBearing) -> dict[BodyName, RingWaves]:
+    """Return the waves of the rings that bend."""
+    found: tuple[tuple[BodyName, RingWaves | None], ...] = (
+        ("inner_ring", rollers.inner_waves),
+        ("outer_ring", rollers.outer_waves),
+    )
+    return {body: waves for body, waves in found if waves is not None}
+
+
+def resolve_rings(
+    elastic: Elastic, sections: RingSections, materials: Mapping[str, Material], ledger: Ledger
+) -> dict[BodyName, RingWaves]:
+    """Return the rings that bend.
+
+    Complete unless there are problems.
+    """
+    found: dict[BodyName, RingWaves] = {}
+    for i, (body, part) in enumerate(_RINGS):
+        options: BendingRing | None = getattr(elastic, body)
+        if options is not None:
+            sizes = sections.seats[i], sections.raceways[i], sections.width
+            found[body] = _resolve_ring(body, options, sizes, materials[part], ledger)
+    return found
+
+
 def _resolve_ring(
-    body: BodyName, options: BendingRing, geometry: Geometry, material: Material, ledger: Ledger
+    body: BodyName, options: BendingRing, sizes: tuple[float, float, float], material: Material, ledger: Ledger
 ) -> RingWaves:
+    """Return the waves of a ring.
+
+    Its `sizes` are the radii of seat and raceway, and the bearing's width [m].
+    """
     path, name = f"elastic.{body}", BODIES[body].split(" with")[0]
-    if body == "inner_ring":
-        seat, bottom = 0.5 * geometry.bore_diameter, 0.5 * geometry.race_diameter_inner
-    else:
-        seat, bottom = 0.5 * geometry.outside_diameter, 0.5 * geometry.race_diameter_outer
+    seat, bottom, wide = sizes
     height, width = _section(
         path,
         options,
         (
-            ("section_height", abs(bottom - seat), "from the seat to the groove's bottom"),
-            ("section_width", geometry.width, "the bearing's width"),
+            ("section_height", abs(bottom - seat), "from the seat to the raceway"),
+            ("section_width", wide, "the bearing's width"),
         ),
         ledger,
     )

@@ -9,12 +9,14 @@ Every sentence here follows from the resolved case alone;
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from lambda_core.domain.elements import BodyName
 from lambda_core.domain.units import show
 from lambda_core.elements.ball.kinds import kinds
+from lambda_core.formulas.elastic.ring import RingWaves
 from lambda_core.formulas.life import dynamic_equivalent_load, static_equivalent_load
 from lambda_core.formulas.ratings import dynamic_rating, static_factor, static_rating
 from lambda_core.laws.par import flat_kernel
@@ -171,9 +173,11 @@ def is_preloaded(model: BearingModel) -> bool:
     return model.geometry.clearance < 0.0
 
 
-def _unbacked(model: BearingModel, load: float, rating: float) -> Iterator[str]:
+def unbacked(elastic: Mapping[BodyName, RingWaves], load: float, rating: float) -> Iterator[str]:
     """Warn of a heavily loaded ring without support."""
-    for body, waves in model.elastic.items():
+    if load <= HEAVY_LOAD * rating:
+        return
+    for body, waves in elastic.items():
         if body != "cage" and waves.ring.bedding == 0.0:
             yield (
                 f"nothing backs the {body.replace('_', ' ')} (elastic.{body}.housing_stiffness = 0 N/m) under "
@@ -204,8 +208,7 @@ def load_warnings(model: BearingModel, radial: float, axial: float) -> Iterator[
             f"the axial load of {_force(axial)} is below {g.kind.least_thrust:g} of the radial one: "
             f"{g.kind.thrust_words}"
         )
-    if equivalent > HEAVY_LOAD * dynamic:
-        yield from _unbacked(model, equivalent, dynamic)
+    yield from unbacked(model.elastic, equivalent, dynamic)
     if turns and not is_preloaded(model) and equivalent < MINIMUM_LOAD * dynamic:
         yield (
             f"the load P = {_force(equivalent)} is below the minimum load of ball bearings, {MINIMUM_LOAD:g} C = "

@@ -43,17 +43,20 @@ def _displacement(first, last, cosine, sine, bundle):
 def carry_pocket(azimuth, row, bundle, g):
     """Move a pocket with the cage's waves.
 
-    The pocket is at an azimuth in the cage's material.
+    The pocket is at an azimuth in the cage's material; that of a tapered roller leans by the row's axis_angle.
     """
+    lean, flat = math.sin(row.axis_angle), math.cos(row.axis_angle)  # of outwards, along the pocket's axes
     g.wave_cosine, g.wave_sine = math.cos(azimuth), math.sin(azimuth)
     g.facing_radial, g.facing_tangential = 1.0, 0.0
     w, v, w_rate, v_rate = _displacement(row.waves[0], row.waves[1], g.wave_cosine, g.wave_sine, bundle)
-    g.place[1] -= w
+    g.place[0] -= lean * w
+    g.place[1] -= flat * w
     g.place[2] -= v
-    g.velocity[1] -= w_rate
+    g.velocity[0] -= lean * w_rate
+    g.velocity[1] -= flat * w_rate
     g.velocity[2] -= v_rate
     for i in range(3):
-        g.origin[i] += w * g.radial[i] + v * g.tangential[i]
+        g.origin[i] += w * (lean * g.axial[i] + flat * g.radial[i]) + v * g.tangential[i]
 
 
 @helper

@@ -61,6 +61,20 @@ def _from_axis(ball, ring, c, s):
 
 
 @helper
+def azimuth_on(ring, across, c, s):
+    """Return an azimuth in a ring's material [rad].
+
+    It is that of a vector across the ring's axis; c and s are cosine and sine of the element's azimuth.
+    """
+    # Azimuth in the frame of least rotation of the tilted ring, less its spin: fixed to the raceway.
+    ay, az = ring.tilt[0], ring.tilt[1]
+    p0, q1, q2 = inertial(across, c, s)
+    lean = p0 + (ay * q1 + az * q2) / (1.0 + axis_x(ay, az))
+    azimuth = math.atan2(q2 - az * lean, q1 - ay * lean) - ring.angle
+    return azimuth - 2.0 * math.pi * math.floor(azimuth / (2.0 * math.pi) + 0.5)
+
+
+@helper
 def surface_lift(ball, ring, raceway, bundle, kin):
     """Look up the raceway's surface under a ball.
 
@@ -76,16 +90,11 @@ def surface_lift(ball, ring, raceway, bundle, kin):
     if not (textured or bends):
         return
     c, s = cosine_sine(ball.azimuth)
-    ay, az = ring.tilt[0], ring.tilt[1]
     _, _, along, across = _from_axis(ball, ring, c, s)
     axial = along - raceway.axial_offset
     rho = math.sqrt(across[1] * across[1] + across[0] * across[0] + across[2] * across[2])
     radial = rho - raceway.groove_circle
-    # Azimuth in the frame of least rotation of the tilted ring, less its spin: fixed to the raceway.
-    p0, q1, q2 = inertial(across, c, s)
-    lean = p0 + (ay * q1 + az * q2) / (1.0 + axis_x(ay, az))
-    azimuth = math.atan2(q2 - az * lean, q1 - ay * lean) - ring.angle
-    azimuth -= 2.0 * math.pi * math.floor(azimuth / (2.0 * math.pi) + 0.5)
+    azimuth = azimuth_on(ring, across, c, s)
     if bends:
         widen(raceway, azimuth, bundle, kin)
     if not textured:

@@ -7,7 +7,7 @@ import numpy as np
 from lambda_core.solver.arrays.bundle import NB, NS, STHETA, SVY, SVZ, SY, SZ
 from lambda_core.solver.contact.contact_kinematics import apply_wrench, near, touch
 from lambda_core.solver.contact.contact_states import hand_states
-from lambda_core.solver.contact.ring_waves import add_push_slope, wave_pushes
+from lambda_core.solver.contact.ring_waves import push_slopes, wave_pushes
 from lambda_core.solver.contact.tangent import wrench_at
 from lambda_core.solver.layout import helper, raceway_laws
 from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
@@ -74,21 +74,6 @@ def _contact_columns(ball, j, ring, raceway, row, bundle, bl):
 
 
 @helper
-def _push_slopes(raceway, r, bundle, slopes, column, step, bl):
-    """Add a contact's slope on the waves.
-
-    Change over a step of its push on its ring's waves, to one column of their force slopes.
-
-    The push where it was stands in bl.pushes[0]; scratch holds what is near it.
-    """
-    scratch = bundle.scratch[0]
-    wave_pushes(raceway, scratch.kinematics[1], scratch.wrench[1], bl.pushes[1])
-    for i in range(raceway.waves[1] - raceway.waves[0]):
-        p = bl.reach.place[r, bundle.waves[raceway.waves[0] + i].body]
-        add_push_slope(slopes[p], i, column, step, bl.pushes)
-
-
-@helper
 def _wave_columns(ball, j, ring, raceway, row, bundle, bl):
     """Add the waves' effect on a contact.
 
@@ -112,9 +97,9 @@ def _wave_columns(ball, j, ring, raceway, row, bundle, bl):
             if touch(near_ball[0], near_ring[0], raceway, bundle, kin) > -near(raceway, bundle.system[0]):
                 _wrenches_near(scratch, bl)
                 if c < NB:
-                    _push_slopes(raceway, r, bundle, bl.from_ball, c, step, bl)
+                    push_slopes(raceway, r, bundle, bl.from_ball, c, step, bl)
                 else:
-                    _push_slopes(raceway, r, bundle, bl.parts[j], NS * p + c - NB, step, bl)
+                    push_slopes(raceway, r, bundle, bl.parts[j], NS * p + c - NB, step, bl)
                 break
             step = -step
     for i in range(raceway.waves[0], raceway.waves[1]):
@@ -130,7 +115,7 @@ def _wave_columns(ball, j, ring, raceway, row, bundle, bl):
                     _wrenches_near(scratch, bl)
                     add_slope(bl.to_shared, first + c, fm[2], fm[0], step)
                     add_slope(bl.parts[j, p], first + c, fm[3], fm[1], step)
-                    _push_slopes(raceway, r, bundle, bl.parts[j], first + c, step, bl)
+                    push_slopes(raceway, r, bundle, bl.parts[j], first + c, step, bl)
                     break
                 step = -step
 

@@ -86,6 +86,21 @@ def add_push_slope(slopes, i, column, step, pushes):
 
 
 @helper
+def push_slopes(raceway, r, bundle, slopes, column, step, bl):
+    """Add a contact's slope on the waves.
+
+    Change over a step of its push on its ring's waves, to one column of their force slopes.
+
+    The push where it was stands in bl.pushes[0]; scratch holds what is near it.
+    """
+    scratch = bundle.scratch[0]
+    wave_pushes(raceway, scratch.kinematics[1], scratch.wrench[1], bl.pushes[1])
+    for i in range(raceway.waves[1] - raceway.waves[0]):
+        p = bl.reach.place[r, bundle.waves[raceway.waves[0] + i].body]
+        add_push_slope(slopes[p], i, column, step, bl.pushes)
+
+
+@helper
 def turn_waves(bundle):
     """Add the Coriolis forces on the waves.
 

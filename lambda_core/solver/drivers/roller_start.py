@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lambda_core.domain.elements import INNER, OUTER, POSE
+from lambda_core.domain.elements import BODIES, INNER, OUTER, POSE
 from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import balance, thrust_problem
 from lambda_core.elements.roller.roller_motion import rolling_motion
@@ -19,7 +19,7 @@ from lambda_core.model.laws.time_functions import initial
 def press_rollers(model: BearingModel, rollers: RollerBearing, bodies: NDArray[Any], places: NDArray[Any]) -> None:
     """Move ring and rollers to equilibrium, in place.
 
-    Free directions of the inner ring, and the rollers, to where the convex equilibrium has them.
+    Free directions of the inner ring, the rollers, and waves of rings, to where the convex equilibrium has them.
 
     A guess: it counts the centrifugal force of rolling, and nothing of friction. Without an equilibrium all stays where
     it is, and the continuation says what is missing.
@@ -27,7 +27,7 @@ def press_rollers(model: BearingModel, rollers: RollerBearing, bodies: NDArray[A
     Parameters
     ----------
     bodies : records.BODY_STATE[:]
-        Inner ring and outer ring at the places of their prescribed motions.
+        Inner ring and outer ring at the places of their prescribed motions; cage; waves of rings, then of the cage.
     places : records.ROLLER[:]
         Azimuths are theirs already.
     """
@@ -61,6 +61,7 @@ def press_rollers(model: BearingModel, rollers: RollerBearing, bodies: NDArray[A
     bodies["tilt"][INNER] += np.where(free[3:], moved[3:] - tilt, 0.0)
     places["x"] = bodies["position"][OUTER, 0] + rollers.faces * found.rollers[:, 0]
     places["radius"] = rollers.centre + found.rollers[:, 1]
+    bodies["position"][len(BODIES) : len(BODIES) + len(found.waves), 1:] = found.waves
     places["tilt"][:, 0] = rollers.faces * found.rollers[:, 2]
 
 

@@ -13,9 +13,10 @@ import math
 
 import numpy as np
 
-from lambda_core.solver.arrays.bundle import BPSI, BVT, NB, NR, NS, STHETA
+from lambda_core.solver.arrays.bundle import BPSI, BVT, NB, NR, NS, STHETA, SVY, SVZ, SY, SZ
 from lambda_core.solver.arrays.jacobian_blocks import AFTER, BEFORE
 from lambda_core.solver.contact.contact_kinematics import near
+from lambda_core.solver.contact.ring_waves import add_push_slope, push_slopes, wave_pushes
 from lambda_core.solver.layout import helper
 from lambda_core.solver.motion.block_rows import force_map
 from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
@@ -130,13 +131,15 @@ def _contact_columns(roller, j, ring, raceway, row, bundle, bl):
     """
     scratch, p = bundle.scratch[0], bl.reach.place[row.number, raceway.body]
     index, on_ring, values = bl.reach.index[row.number], bl.parts[j, p], _drivers(scratch.kinematics[0])
-    kin, wrench, fm = scratch.kinematics[1], scratch.wrench[1], bl.wrenches
+    kin, wrench, fm, bends = scratch.kinematics[1], scratch.wrench[1], bl.wrenches, raceway.waves[1] > raceway.waves[0]
     near_roller, near_ring = bl.roller.view(ROLLER), bl.body.view(BODY_STATE)
     clear(fm[0])
     apply_roller_wrench(scratch.kinematics[0], roller, ring, scratch.wrench[0], fm[0], fm[1])
+    if bends:
+        wave_pushes(raceway, scratch.kinematics[0], scratch.wrench[0], bl.pushes[0])
     for c in range(NR + NS):
         column = NS * p + c - NR
-        if c >= NR and (index[column] < 0 or c - NR == STHETA):
+        if c >= NR and (index[column] < 0 or (c - NR == STHETA and not bends)):
             continue
         near_roller[0] = roller
         near_ring[0] = ring
@@ -155,6 +158,35 @@ def _contact_columns(roller, j, ring, raceway, row, bundle, bl):
         else:
             add_slope(bl.to_shared, column, fm[2], fm[0], step)
             add_slope(on_ring, column, fm[3], fm[1], step)
+        if bends and c < NR:
+            push_slopes(raceway, row.number, bundle, bl.from_ball, c, step, bl)
+        elif bends:
+            push_slopes(raceway, row.number, bundle, bl.parts[j], column, step, bl)
+
+
+@helper
+def _wave_columns(roller, j, ring, raceway, row, bundle, bl):
+    """Add the waves' effect on a contact.
+
+    Call it after _contact_columns, whose wrenches and pushes it takes.
+    """
+    scratch, r = bundle.scratch[0], row.number
+    p, values, fm = bl.reach.place[r, raceway.body], _drivers(scratch.kinematics[0]), bl.wrenches
+    kin, wrench = scratch.kinematics[1], scratch.wrench[1]
+    for i in range(raceway.waves[0], raceway.waves[1]):
+        body = bundle.waves[i].body
+        first = NS * bl.reach.place[r, body]
+        for c in (SY, SZ, SVY, SVZ):
+            kept, step = bundle.shared[NS * body + c], body_step(c, False)
+            bundle.shared[NS * body + c] = kept + step
+            touch_roller(roller, ring, row, raceway, bundle, kin)
+            bundle.shared[NS * body + c] = kept
+            _wrench_near(values, kin, scratch.wrench[0], bl.drivers, wrench)
+            clear(fm[2])
+            apply_roller_wrench(kin, roller, ring, wrench, fm[2], fm[3])
+            add_slope(bl.to_shared, first + c, fm[2], fm[0], step)
+            add_slope(bl.parts[j, p], first + c, fm[3], fm[1], step)
+            push_slopes(raceway, r, bundle, bl.parts[j], first + c, step, bl)
 
 
 @helper
@@ -174,6 +206,8 @@ def _raceway_columns(roller, j, row, bundle, bl):
             scratch.fault.ball = j
             return 0
         _contact_columns(roller, j, ring, raceway, row, bundle, bl)
+        if raceway.waves[1] > raceway.waves[0]:
+            _wave_columns(roller, j, ring, raceway, row, bundle, bl)
     return 1
 
 
@@ -195,6 +229,7 @@ def _pocket_columns(roller, j, row, bundle, bl):
         return 0
     if _no_force(fm[0]):
         return 1
+    _keep_pushes(row, bundle, bl.pushes[0])
     for c in range(NR + NS):
         near_roller[0] = roller
         near_cage[0] = cage
@@ -209,9 +244,51 @@ def _pocket_columns(roller, j, row, bundle, bl):
         if c < NR:
             add_slope(bl.own, c, fm[2], fm[0], step)
             add_slope(bl.from_ball[p], c, fm[3], fm[1], step)
+            _pocket_pushes(row, bundle, bl.from_ball, c, step, bl)
         else:
             add_slope(bl.to_shared, NS * p + c - NR, fm[2], fm[0], step)
             add_slope(bl.parts[j, p], NS * p + c - NR, fm[3], fm[1], step)
+            _pocket_pushes(row, bundle, bl.parts[j], NS * p + c - NR, step, bl)
+    return _pocket_waves(roller, cage, j, row, bundle, bl)
+
+
+@helper
+def _keep_pushes(row, bundle, pushes):
+    """Copy the last pocket's pushes on the waves."""
+    for i in range(2 * (row.waves[1] - row.waves[0])):
+        pushes[i] = bundle.scratch[0].pushes[0, i]
+
+
+@helper
+def _pocket_pushes(row, bundle, slopes, column, step, bl):
+    """Add a pocket's slope on the waves of its cage."""
+    _keep_pushes(row, bundle, bl.pushes[1])
+    for i in range(row.waves[1] - row.waves[0]):
+        p = bl.reach.place[row.number, bundle.waves[row.waves[0] + i].body]
+        add_push_slope(slopes[p], i, column, step, bl.pushes)
+
+
+@helper
+def _pocket_waves(roller, cage, j, row, bundle, bl):
+    """Add the waves' effect on the pocket of roller j.
+
+    They are those of an elastic cage. Return 0 on a fault.
+    """
+    fm, p = bl.wrenches, bl.reach.place[row.number, row.cage]
+    for i in range(row.waves[0], row.waves[1]):
+        body = bundle.waves[i].body
+        first = NS * bl.reach.place[row.number, body]
+        for c in (SY, SZ, SVY, SVZ):
+            kept, step = bundle.shared[NS * body + c], body_step(c, True)
+            bundle.shared[NS * body + c] = kept + step
+            clear_each(fm[2:])
+            lost = pocket_forces(roller, cage, j, row, bundle, fm[2], fm[3])
+            bundle.shared[NS * body + c] = kept
+            if lost < -0.5:
+                return 0
+            add_slope(bl.to_shared, first + c, fm[2], fm[0], step)
+            add_slope(bl.parts[j, p], first + c, fm[3], fm[1], step)
+            _pocket_pushes(row, bundle, bl.parts[j], first + c, step, bl)
     return 1
 
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.solver.contact.contact_kinematics import axis_x
+from lambda_core.solver.contact.contact_kinematics import axis_x, azimuth_on
+from lambda_core.solver.contact.ring_waves import widen
 from lambda_core.solver.layout import helper
 from lambda_core.solver.roller.motion import axis_of, from_own
 from lambda_core.solver.vec import (
@@ -54,6 +55,22 @@ def _outwards(place, axis):
 
 
 @helper
+def bend_ring(roller, ring, raceway, bundle, kin):
+    """Look up an elastic ring's waves at a roller.
+
+    `line_kinematics` and `rib_kinematics` take them: call this first.
+
+    The whole roller is where its centre is on the circumference; all of the ring's section moves outwards alike.
+    """
+    kin.widening, kin.widening_slope, kin.widening_rate = 0.0, 0.0, 0.0
+    if raceway.waves[1] == raceway.waves[0]:
+        return
+    c, s, axis, centre = centre_from(roller, ring)
+    across = subtract(centre, scale(dot(centre, axis), axis))
+    widen(raceway, azimuth_on(ring, across, c, s), bundle, kin)
+
+
+@helper
 def _write(roller, ring, row, azimuth, axis, centre, lever, frame, slope, kin):
     """Write frame, arms and velocities.
 
@@ -93,8 +110,8 @@ def _write(roller, ring, row, azimuth, axis, centre, lever, frame, slope, kin):
     store(kin.arm, arm)
     kin.axial, kin.radial, kin.outward = dot(n, axis), dot(n, p), dot(n, p)
     kin.cosine, kin.sine = c, s
-    kin.lift, kin.rise_t, kin.rise_s = 0.0, 0.0, 0.0
-    kin.widening, kin.widening_slope, kin.widening_rate = 0.0, 0.0, 0.0
+    kin.lift, kin.rise_t, kin.rise_s = 0.0, -kin.outward * kin.widening_slope / rho, 0.0
+    kin.normal_velocity += kin.rise_t * (dot(u, t) - ring.spin * rho) - kin.outward * kin.widening_rate
 
 
 @helper
@@ -117,7 +134,8 @@ def line_kinematics(roller, ring, row, raceway, kin):
     towards = scale(1.0 / length(towards), towards)
     lever = scale(row.ball_radius, towards)
     along, far, _ = _outwards(add(centre, lever), axis)
-    delta = raceway.side * ((far - raceway.groove_circle) * flat - (along - raceway.axial_offset) * slant)
+    above = far - raceway.groove_circle - kin.widening
+    delta = raceway.side * (above * flat - (along - raceway.axial_offset) * slant)
     generatrix = add(scale(math.cos(row.cone_angle), own), scale(math.sin(row.cone_angle), towards))
     sign = 1.0 if dot(generatrix, s_) > 0.0 else -1.0
     kin.penetration, kin.line_tilt, kin.reach = delta, sign * dot(n, generatrix), row.ball_radius
@@ -140,7 +158,7 @@ def rib_kinematics(roller, ring, row, raceway, kin):
     t = cross(axis, p)
     gap = raceway.side * (
         (along - raceway.axial_offset) * math.cos(raceway.rib_angle)
-        + (far - raceway.rib_radius) * math.sin(raceway.rib_angle)
+        + (far - raceway.rib_radius - kin.widening) * math.sin(raceway.rib_angle)
     )
     delta = gap + end
     lever = add(middle, scale(end, n))
@@ -156,13 +174,18 @@ def apply_roller_wrench(kin, roller, ring, wrench, on_roller, on_ring):
     They act on roller and ring, equal and opposite.
 
     As contact_kinematics.apply_wrench, for contacts that are not on the normal through the centre. `on_roller` is added
-    to, `on_ring` set.
+    to, `on_ring` set. Where the raceway rises along t, what leans passes through the roller's centre, by whose azimuth
+    alone it rises.
     """
     _, _, _, centre = centre_from(roller, ring)
     f = combine(wrench.force, kin.t, kin.s, kin.n)
     m = combine(wrench.moment, kin.t, kin.s, kin.n)
+    lever = subtract(kin.arm, centre)
+    if kin.rise_t != 0.0:
+        lean = scale(wrench.force[2] * kin.rise_t, kin.t)
+        f, m = add(f, lean), subtract(m, cross(lever, lean))
     increase(on_roller.force, f)
-    increase(on_roller.moment, add(m, cross(subtract(kin.arm, centre), f)))
+    increase(on_roller.moment, add(m, cross(lever, f)))
     c, s = kin.cosine, kin.sine
     store(on_ring.force, inertial(negative(f), c, s))
     store(on_ring.moment, inertial(subtract(negative(m), cross(kin.arm, f)), c, s))

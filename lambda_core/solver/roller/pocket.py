@@ -2,6 +2,7 @@
 
 At every station the law of the pocket sees how far the roller's axis is from its place, and how fast it moves; the
 station has a share of the force that the law has for the whole length. So a roller that skews touches a bar at one end.
+The waves of an elastic cage carry all stations of a pocket alike.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import math
 
 import numpy as np
 
+from lambda_core.solver.cage.cage_waves import carry_pocket, guide_pushes
 from lambda_core.solver.cage.guides import (
     guide_energy,
     guide_force,
@@ -28,7 +30,7 @@ SHARES = 0.5 * SHARES
 
 
 @helper
-def _station_state(roller, cage, j, row, share, g):
+def _station_state(roller, cage, j, row, share, bundle, g):
     """Write a station's state in its pocket.
 
     It is place and velocity of a station of the roller's axis, along the pocket's axes.
@@ -53,6 +55,23 @@ def _station_state(roller, cage, j, row, share, g):
     v = subtract(subtract(v, cage.velocity), cross(omega, d))
     store(g.velocity, components(v, g.axial, g.radial, g.tangential))
     store(g.rotation, components(subtract(spin, omega), g.axial, g.radial, g.tangential))
+    if row.waves[1] > row.waves[0]:
+        carry_pocket(row.pocket_phase + 2.0 * math.pi * (j - row.first_ball) / row.balls, row, bundle, g)
+
+
+@helper
+def _push_cage(row, scratch):
+    """Add a station's push on the cage's waves.
+
+    The sum is that of its pocket; the station's force is in scratch.
+    """
+    first, last, out = row.waves[0], row.waves[1], scratch.out[:]
+    across = out[1]
+    out[1] = math.sin(row.axis_angle) * out[0] + math.cos(row.axis_angle) * across
+    guide_pushes(first, last, scratch.guide, out, -1.0, scratch.pushes[1])
+    out[1] = across
+    for i in range(2 * (last - first)):
+        scratch.pushes[0, i] += scratch.pushes[1, i]
 
 
 @helper
@@ -60,12 +79,17 @@ def pocket_forces(roller, cage, j, row, bundle, on_roller, on_cage):
     """Add a pocket's forces.
 
     They act on roller (turning frame) and cage (inertial frame); return the power lost [W], or -1.
+
+    Generalised forces on the waves of an elastic cage are left in scratch.pushes[0].
     """
     scratch, viscosity, lost = bundle.scratch[0], row.oil.viscosity, 0.0
     g, out = scratch.guide, scratch.out[:]
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
+    bends = row.waves[1] > row.waves[0]
+    if bends:
+        scratch.pushes[0, :] = 0.0
     for i in range(STATIONS.size):
-        _station_state(roller, cage, j, row, STATIONS[i], g)
+        _station_state(roller, cage, j, row, STATIONS[i], bundle, g)
         if guide_force(law, par, g, viscosity, out, scratch.fault, -1) != 1:
             scratch.fault.ball = j
             return -1.0
@@ -73,6 +97,8 @@ def pocket_forces(roller, cage, j, row, bundle, on_roller, on_cage):
         for k in range(3):
             out[k] *= SHARES[i]
         pocket_apply(roller, cage, g, out, on_roller, on_cage)
+        if bends:
+            _push_cage(row, scratch)
     return lost
 
 
@@ -85,7 +111,7 @@ def pocket_energy(roller, cage, j, row, bundle):
     scratch, total = bundle.scratch[0], 0.0
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     for i in range(STATIONS.size):
-        _station_state(roller, cage, j, row, STATIONS[i], scratch.guide)
+        _station_state(roller, cage, j, row, STATIONS[i], bundle, scratch.guide)
         found = guide_energy(law, par, scratch.guide, row.oil.viscosity, scratch.out[:], scratch.at_rest, 0.0)
         total += SHARES[i] * found
     return total

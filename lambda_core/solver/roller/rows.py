@@ -13,13 +13,14 @@ import numpy as np
 from lambda_core.solver.arrays.bundle import MECHANISMS, NR
 from lambda_core.solver.contact.contact_kinematics import contact_angle, contact_wrench, near
 from lambda_core.solver.contact.dissipation import raceway_losses
+from lambda_core.solver.contact.ring_waves import add_pushes, push_waves
 from lambda_core.solver.layout import cells_of, grid_of, helper, losses_of, running_of
 from lambda_core.solver.motion.bearing_sums import powers_of_bearing
 from lambda_core.solver.motion.energy import contact_energy
 from lambda_core.solver.motion.force_elements import drag_force
 from lambda_core.solver.records import CONTACT_SAMPLE, LINE, ROLLER
 from lambda_core.solver.roller.capacitance import in_series, loaded_capacitance, open_line
-from lambda_core.solver.roller.kinematics import apply_roller_wrench, line_kinematics, rib_kinematics
+from lambda_core.solver.roller.kinematics import apply_roller_wrench, bend_ring, line_kinematics, rib_kinematics
 from lambda_core.solver.roller.line import closest, line_energy, line_losses, line_wrench
 from lambda_core.solver.roller.motion import from_own, roller_energy, roller_rates
 from lambda_core.solver.roller.neighbours import neighbour_energy, neighbour_forces
@@ -43,6 +44,7 @@ def touch_roller(roller, ring, row, raceway, bundle, kin):
 
     It is that of the nearest point of a contact; a negative one is a gap [m].
     """
+    bend_ring(roller, ring, raceway, bundle, kin)
     if raceway.kind == LINE:
         line_kinematics(roller, ring, row, raceway, kin)
         return closest(raceway, kin, bundle)
@@ -81,6 +83,8 @@ def _add_contact(raceway, roller, ring, j, bundle):
     )
     increase(on_body.force, scratch.on_ring.force)
     increase(on_body.moment, scratch.on_ring.moment)
+    if raceway.waves[1] > raceway.waves[0]:
+        push_waves(raceway, 0, bundle)
 
 
 @helper
@@ -126,6 +130,7 @@ def _pockets(rollers, row, bundle, own, want):
         lost = pocket_forces(rollers[i], cage, j, row, bundle, bundle.ball_wrenches[j], on_cage)
         if lost < -0.5:
             return 0
+        add_pushes(row.waves[0], row.waves[1], bundle.scratch[0].pushes[0], bundle)
         if want == 1:
             own.pocket += lost
     return 1
