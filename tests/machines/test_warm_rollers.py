@@ -42,6 +42,7 @@ def test_friction_of_tilted_rollers_changes_smoothly_with_the_clearance() -> Non
     assert np.ptp(np.diff(losses)) < 0.01 * losses[0]
 
 
+@pytest.mark.full
 def test_a_shaft_in_rollers_and_balls_has_temperatures() -> None:
     found = api.thermal(MOTOR)
     assert abs(found.energy_residual) < 1e-9
