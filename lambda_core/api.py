@@ -1,17 +1,16 @@
 """Offer every public function of the program.
 
 What stands behind a name is imported when the name is first asked for. The imports below are for type checkers and
-readers, and they are the list of the names: this module reads them in its own text.
+readers, and they are the list of the names: see :func:`~lambda_core.domain.lazy_names.lazy_names`.
 """
 
 from __future__ import annotations
 
-import re
 from importlib import import_module
 from inspect import isfunction
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.domain.lazy_names import lazy_names
 from lambda_core.domain.public_call import public
 
 if TYPE_CHECKING:  # what one calls, and what it raises
@@ -19,8 +18,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.analysis.electric.bearing_currents import electric, film_from_capacitance
     from lambda_core.analysis.rotor.api import modes
     from lambda_core.analysis.thermal.api import thermal, warm_up
-    from lambda_core.discovery.manager import use_plugin
-    from lambda_core.discovery.packages import plugins
+    from lambda_core.discovery.api import plugins, use_plugin
     from lambda_core.domain.errors import CaseError, LambdaError, UsageError
     from lambda_core.export.fmu.unit_file import export_fmu
     from lambda_core.export.report.api import animate, draw, report, view, views
@@ -55,10 +53,19 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.case.signals import SIGNAL_KINDS
     from lambda_core.catalogue.designation import Designation, read_designation
     from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue, LubricantRow, MaterialRow
-    from lambda_core.discovery.manager import registry, switch_off
-    from lambda_core.discovery.packages import new_plugin, plugin_faults, plugin_model, watchers
-    from lambda_core.discovery.registry import Registry
-    from lambda_core.discovery.survey import CheckCard, ModelCard, NoteCard, Verdict
+    from lambda_core.discovery.api import (
+        CheckCard,
+        ModelCard,
+        NoteCard,
+        Registry,
+        Verdict,
+        new_plugin,
+        plugin_faults,
+        plugin_model,
+        registry,
+        switch_off,
+        watchers,
+    )
     from lambda_core.elements.ball.geometry import Geometry
     from lambda_core.export.report.api import machine_pictures, view_all, view_stem
     from lambda_core.export.stiffness import stiffness_target
@@ -92,14 +99,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.studies.study_files import init_study, study_examples
 
 
-def _declared() -> list[dict[str, str]]:
-    """Return each block's names with their modules."""
-    blocks = Path(__file__).read_text(encoding="utf-8").split("\nif TYPE_CHECKING:")[1:]
-    imports = [re.findall(r"^    from (\S+) import (\([^)]*\)|.*)", block, re.MULTILINE) for block in blocks]
-    return [{name: room for room, names in block for name in re.findall(r"\w+", names)} for block in imports]
-
-
-_CALLS, _PARTS = _declared()
+_CALLS, _PARTS = lazy_names(__file__)
 _HOME = _CALLS | _PARTS
 __all__ = sorted(_CALLS)
 

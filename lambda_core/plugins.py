@@ -2,8 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from lambda_core.discovery.hookspecs import hookimpl
-from lambda_core.discovery.manager import built_in
+from lambda_core.discovery.api import built_in, hookimpl
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import Channel
 from lambda_core.domain.roles import OK, ROLE_API

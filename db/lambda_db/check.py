@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 from pydantic import ValidationError
 
-from lambda_core.discovery.registry import Registry
+from lambda_core.discovery.api import Registry
 from lambda_core.domain.errors import LambdaError
 from lambda_core.formulas.ratings import dynamic_rating, static_rating
 from lambda_db.catalogue import SqlCatalogue

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.discovery.hookspecs import hookimpl
+from lambda_core.discovery.api import hookimpl
 
 if TYPE_CHECKING:
     from lambda_core.catalogue.protocol import Catalogue

@@ -139,7 +139,7 @@ def _folders() -> list[Traversable]:
 
     A plugin has them in the folder ``measured`` of the catalogue rows that it brings (hook `lambda_data`).
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     brought = [folder / "measured" for _, folder in registry().data_folders]
     return [files(__package__).joinpath(_FOLDER), *brought, _own_folder()]

@@ -202,7 +202,7 @@ def _measured(data: Measurements) -> MeasuredTraction:
 
 
 def _laws() -> Sequence[str]:
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     return list(registry().models("traction"))
 
@@ -212,7 +212,7 @@ def _model(oil: str, temperature: float, law: str, parameters: Mapping[str, Any]
 
     The traction law needs this context.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.model.api import case_of
     from lambda_core.model.checking import resolve
 

@@ -400,7 +400,7 @@ def catalogue() -> Catalogue:
     PluginError
         When no installed plugin provides one.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     return registry().catalogue()
 

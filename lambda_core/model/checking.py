@@ -78,7 +78,7 @@ def resolve(
     """
     from contextlib import closing
 
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.model.resolve import resolve as freeze
 
     models = registry()

@@ -98,7 +98,7 @@ def resolve_machine(
         With every mistake at once: those of the file and those that only catalogue and geometry show, of all that the
         former leave.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     read = read_tables(source, folder).changed(overrides)
     tables, name, folder = merged({}, read.data), read.name, read.folder
@@ -151,7 +151,7 @@ def _shaft(
     found: Sequence[Problem],
 ) -> MachineModel | None:
     """Return the machine, None after a problem."""
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     folder, outside, shape_known = case.folder or Path(), None, is_shape_known(found)
     if case.shaft.reduced is not None:

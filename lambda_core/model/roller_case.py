@@ -38,7 +38,7 @@ from lambda_core.model.settings.contamination import contamination_of
 
 if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
-    from lambda_core.discovery.registry import Registry
+    from lambda_core.discovery.api import Registry
 
 STRAIGHT = "the shaft holds the inner ring straight: tilts are locked where the case leaves them open"
 _WHERE = "bearing.designation"
@@ -136,7 +136,7 @@ def roller_model(source: Source, overrides: Iterable[str] = ()) -> RollerModel |
         With everything that is missing, contradictory or impossible about the roller bearing.
     """
     from lambda_core.case.case_io import load_case
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     try:
         case = load_case(source, overrides)

@@ -124,8 +124,7 @@ def drawn(model: Any, equilibrium: Any, modes: Any, name: str, options: Mapping[
     NotApplicable
         When there is nothing to show; the sentence says why.
     """
-    from lambda_core.discovery.manager import registry
-    from lambda_core.discovery.shown import data_of, view_of
+    from lambda_core.discovery.api import data_of, registry, view_of
     from lambda_core.views.view import MachineData
 
     view = view_of(registry(), name, "machine")

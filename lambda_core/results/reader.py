@@ -418,8 +418,7 @@ class Result:
         NotApplicable
             When there is nothing to show; the sentence says why.
         """
-        from lambda_core.discovery.manager import registry
-        from lambda_core.discovery.shown import data_of, view_of
+        from lambda_core.discovery.api import data_of, registry, view_of
 
         view = view_of(registry(), name, "result")
         return registry().figure(view, data_of(view, self, options))

@@ -77,7 +77,7 @@ def quasistatic(
     if rollers is not None:
         return rollers
     from lambda_core.analysis.rating.engineering import rating_of
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.results.quasistatic import quasistatic_of
     from lambda_core.solver.drivers.equilibrium import solve
 
@@ -371,7 +371,7 @@ def warmup(*, announce: Callable[[str], None] | None = None) -> Warmup:
     Warmup
         What was compiled now, what was there, and the laws that cannot be compiled.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.runs.warmup import warmup as compile_all
 
     return compile_all(registry(), announce)

@@ -63,7 +63,7 @@ def compare(
     """
     from lambda_core.analysis.rating.compare_methods import compare as ask
     from lambda_core.case.case_io import is_machine, refuse_bearing
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.model.roller_case import roller_model
     from lambda_core.results.reader import Result
     from lambda_core.results.roller_quasistatic import solve_rollers

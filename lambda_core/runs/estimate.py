@@ -12,7 +12,7 @@ from pydantic import Field
 from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium, equilibrium_of
 from lambda_core.analysis.rotor.machine_modes import MachineModes, modes_of
-from lambda_core.discovery.manager import registry
+from lambda_core.discovery.api import registry
 from lambda_core.model.bearing_model import BearingModel, Solver
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.machine_model import MachineModel

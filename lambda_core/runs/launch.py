@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.analysis.rating.engineering import mounted_rating, rating_of
-from lambda_core.discovery.manager import registry
+from lambda_core.discovery.api import registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_folder, check_new, check_target
 from lambda_core.domain.number_text import counted

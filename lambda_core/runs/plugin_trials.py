@@ -16,9 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.discovery.apart import LIMIT, answer, check_apart, tried_apart
-from lambda_core.discovery.registry import Registry
-from lambda_core.discovery.survey import CheckCard, chosen_others
+from lambda_core.discovery.api import LIMIT, CheckCard, Registry, answer, check_apart, chosen_others, tried_apart
 from lambda_core.domain.errors import LambdaError, Problem, SolverError
 from lambda_core.model.bearing_model import BearingModel, ChosenEvent, ChosenObserver
 from lambda_core.runs.observers import Watch
@@ -58,7 +56,7 @@ def check_plugins(names: Sequence[str] = (), *, announce: Announce = None) -> It
     UsageError
         When a name is none of these.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     found = registry()
     others = [f"{kind}/{name}" for kind, name in chosen_others(found, names)]
@@ -159,7 +157,7 @@ class _Trial:
         return list(watch.faults), list(watch.without_numbers.values()), ""
 
     def _asked(self, kind: str, item: Any) -> tuple[list[str], list[str], str]:
-        from lambda_core.discovery.shown import data_of
+        from lambda_core.discovery.api import data_of
         from lambda_core.views.method import NotApplicable, evaluate_methods
         from lambda_core.views.section import content_of
 

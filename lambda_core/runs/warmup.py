@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from pydantic import Field
 
-from lambda_core.discovery.registry import Registry
+from lambda_core.discovery.api import Registry
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws.kernels import cache_folder, compile_kernel

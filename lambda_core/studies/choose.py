@@ -158,7 +158,7 @@ def choose(
         For an unknown oil, a value that is out of range, or a level of contamination that there is none of.
     """
     from lambda_core.case.case_io import read_case
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     if kind is not None and kind not in kinds():
         raise UsageError(unknown_name("kind of bearing", kind, kinds()))

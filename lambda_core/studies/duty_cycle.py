@@ -24,7 +24,7 @@ from lambda_core.case.case_io import apply_overrides, read_case, syntax_problem
 from lambda_core.case.machine import MachineCase
 from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.problems import problems
-from lambda_core.discovery.manager import registry
+from lambda_core.discovery.api import registry
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, Problem, SolverError, UsageError
 from lambda_core.domain.files import read_text

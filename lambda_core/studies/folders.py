@@ -325,7 +325,7 @@ def _banded(case_toml: str) -> set[str]:
 
 
 def _tasks(manifest: Manifest, todo: list[tuple[int, tuple[str, ...]]], names: tuple[str, ...]) -> Iterator[Task]:
-    from lambda_core.discovery.local_files import guests
+    from lambda_core.discovery.api import guests
 
     study, case_toml, folder, plugins = manifest.study, manifest.case_toml, str(manifest.folder.resolve()), guests()
     return (Task(number, case_toml, changes, study.mode, names, folder, plugins) for number, changes in todo)

@@ -108,7 +108,7 @@ def work(task: Task) -> Outcome:
 @lru_cache(maxsize=1)
 def _be_ready(guests: bytes) -> None:
     """Take the plugins of the director, once."""
-    from lambda_core.discovery.manager import as_guests_of
+    from lambda_core.discovery.api import as_guests_of
 
     as_guests_of(guests)
 
@@ -137,7 +137,7 @@ def resolve_point(case_toml: str, changes: tuple[str, ...]) -> BearingModel:
     It is a point of a case of one bearing; CaseError with all its problems.
     """
     from lambda_core.case.case_io import apply_overrides
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.model.resolve import resolve
 
     return resolve(apply_overrides(_base(case_toml), changes), registry(), _catalogue())
@@ -162,7 +162,7 @@ def with_temperatures(model: _Model) -> _Model:
     """
     from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
     from lambda_core.analysis.thermal.operating import at_own_temperatures
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.model.resolve import resolve
 
@@ -194,7 +194,7 @@ def _base(case_toml: str) -> Case:
 
 @lru_cache(maxsize=1)
 def _catalogue() -> Catalogue:
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     return registry().catalogue()
 
@@ -298,7 +298,7 @@ def method_columns(
     if not wanted:
         return {}
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.model.settings.contamination import known_contamination
     from lambda_core.views.method import evaluate_methods
 

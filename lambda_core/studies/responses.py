@@ -68,7 +68,7 @@ class StaticPoint:
     def rating(self) -> Rating:
         """Lives and safety."""
         from lambda_core.analysis.rating.engineering import rating_of
-        from lambda_core.discovery.manager import registry
+        from lambda_core.discovery.api import registry
 
         return rating_of(self.equilibrium, registry().methods)
 

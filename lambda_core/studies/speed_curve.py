@@ -214,7 +214,7 @@ def _skf(found: Any) -> float | None:
     None where the model is not installed or does not apply.
     """
     from lambda_core.analysis.rating.engineering import rating_of
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     return rating_of(
         found, {name: method for name, method in registry().methods.items() if name == "skf"}

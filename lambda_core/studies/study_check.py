@@ -154,7 +154,7 @@ def _case_toml(study: Study, folder: Path | None, case: Case | MachineCase | Non
     from lambda_core.case.case import Case
     from lambda_core.case.case_io import apply_overrides, is_machine, load_case
     from lambda_core.case.case_writer import standalone_toml
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.domain.written_values import written
     from lambda_core.model.laws.law_packages import with_packages
     from lambda_core.model.resolve_machine import resolve_machine

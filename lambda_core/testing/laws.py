@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from pydantic import BaseModel
 
-from lambda_core.discovery.manager import registry
-from lambda_core.discovery.survey import split_label
+from lambda_core.discovery.api import registry, split_label
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.roles import ROLES

@@ -53,7 +53,7 @@ def reproduce(
     UsageError
         For an unknown experiment, or a folder that cannot be written.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_syla2026.session import reproduce as repeat
 
     return repeat(registry(), what, Path(out), workers=workers, quick=quick, progress=progress, announce=announce)

@@ -168,7 +168,7 @@ def anchors(runner: JobRunner, *, quick: bool = False) -> Anchors:
 
 
 def _row(designation: str, maker: str) -> _Row:
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     found = registry().catalogue().bearing(designation, maker)
     assert found.dynamic_rating is not None
@@ -253,7 +253,7 @@ def random_cases(name: str) -> list[tuple[str, ...]]:
     """
     from lambda_plugins.methods.skf import SERIES
 
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     draw = Random(f"{_SEED} {name}")
     known = sorted(

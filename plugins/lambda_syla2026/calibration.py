@@ -60,7 +60,7 @@ def laws_of(role: str) -> list[str]:
 
     Without rolling resistance there is nothing to compare, so "none" counts for hysteresis only.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     blind = P.entry(f"models.{role}").value
     names = [

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 
-from lambda_core.discovery.registry import Registry
+from lambda_core.discovery.api import Registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.export.report.key_tables import Table
 from lambda_core.export.report.page import write_page

@@ -56,7 +56,7 @@ def _plans() -> tuple[list[tuple[str, tuple[str, ...]]], int]:
 
     Their series and case, and how many have no geometry.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     found, unknown = [], 0
     for row in registry().catalogue().bearings("SKF", 10_000):

@@ -69,7 +69,7 @@ def skf(model: BearingModel) -> Numbers:
     The rows of the method `skf` for the same case have these names.
     """
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.studies.job import kernels_of
 
@@ -83,7 +83,7 @@ def anchor(model: BearingModel) -> Numbers:
     Return the means over the positions of the balls, and SKF's torque.
     """
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.studies.job import kernels_of
 
@@ -103,7 +103,7 @@ def anchor(model: BearingModel) -> Numbers:
 def axial_load(model: BearingModel) -> Numbers:
     """Return :func:`anchor` and the load-dependent torque of Schaeffler [N mm]."""
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.studies.job import kernels_of
 
@@ -120,7 +120,7 @@ def rated(model: BearingModel) -> Numbers:
     """
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.analysis.thermal import iso15312
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.studies.job import kernels_of
 
@@ -144,7 +144,7 @@ def capacitance(model: BearingModel) -> Numbers:
     Contacts of the quasi-static solution, means over the loaded balls.
     """
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.solver.records import CONTACT_CHANNELS
     from lambda_core.studies.job import kernels_of

@@ -10,7 +10,7 @@ from typing import Literal, get_args
 
 from pydantic import Field
 
-from lambda_core.discovery.registry import Registry
+from lambda_core.discovery.api import Registry
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.results.record import Record
 from lambda_core.studies.pool import usable_cores

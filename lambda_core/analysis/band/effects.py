@@ -131,7 +131,7 @@ class Effects:
 
         Changes without a solution are left out and named.
         """
-        from lambda_core.discovery.manager import registry
+        from lambda_core.discovery.api import registry
         from lambda_core.model.resolve import resolve
 
         models = registry()

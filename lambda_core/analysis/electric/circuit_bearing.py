@@ -71,7 +71,7 @@ def electric_model(options: Electric | None, name: str) -> ElectricModel:
     CaseError
         With everything that is wrong with it.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     ledger = Ledger()
     found = resolve_electric(options or Electric(), registry(), ledger)

@@ -87,7 +87,7 @@ def mounted_rating(model: MachineModel, state: MachineState, number: int, found:
         Of this bearing, with the load of every ball.
     """
     from lambda_core.analysis.rotor.rollers_on_shaft import rollers_on_shaft
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
 
     ring = state.rings[number]
     if isinstance(ring, RollerReaction):

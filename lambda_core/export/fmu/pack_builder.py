@@ -75,7 +75,7 @@ def _functions(announce: Callable[[str], None]) -> tuple[dict[str, Any], list[An
     """
     from lambda_core.analysis.electric.circuit_integrator import compiled
     from lambda_core.analysis.electric.compiled import switching
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.laws.jit.machine_code import Pointer
     from lambda_core.laws.kernels import compile_kernel
     from lambda_core.solver import entry

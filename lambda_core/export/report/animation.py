@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lambda_core.discovery.registry import Registry
+from lambda_core.discovery.api import Registry
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.files import check_target
 from lambda_core.views.scene import Scene

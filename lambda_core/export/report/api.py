@@ -42,7 +42,7 @@ def views(subject: Subject | None = None) -> list[ViewCard]:
     -------
     list of ViewCard
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.export.report.gallery import cards
 
     return cards(registry(), subject)
@@ -80,8 +80,7 @@ def view(
     NotApplicable
         When there is nothing to show; the sentence says why.
     """
-    from lambda_core.discovery.manager import registry
-    from lambda_core.discovery.shown import data_of, view_of
+    from lambda_core.discovery.api import data_of, registry, view_of
 
     subject, kind = subject_of(source, bearing)
     return data_of(view_of(registry(), name, kind), subject, options or {})
@@ -109,7 +108,7 @@ def view_all(
     UsageError
         For a file that does not exist or is no result.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.export.report.gallery import every
 
     subject, kind = subject_of(source, bearing)
@@ -136,7 +135,7 @@ def machine_pictures(
     list of ViewData
         For :func:`draw`: every installed view of a machine that has something to show.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.export.report.gallery import every
     from lambda_core.views.chart import ViewData
     from lambda_core.views.view import MachineData
@@ -169,7 +168,7 @@ def draw(data: ViewData, folder: str | Path, stem: str, formats: Sequence[str] =
     UsageError
         When a file cannot be written or the format is unknown.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.export.report.gallery import write
 
     return write(registry(), data, Path(folder), stem, formats)
@@ -244,7 +243,7 @@ def animate(
         When the source is no result or has no such moment, the format is unknown or has no encoder, or the file exists
         or cannot be written.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.export.report.animation import check_format, check_pace, write_animation
     from lambda_core.export.report.run_scene import scene_of
 
@@ -342,7 +341,7 @@ def _chapter(source: str | PathLike[str] | FitReport, bearing: str | None, cover
 
     It is a result, a case, a study or a fit.
     """
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.export.report.chapters import case_inputs
     from lambda_core.export.report.page import run_chapter, study_chapter
     from lambda_core.fitting.report import FitReport
@@ -376,7 +375,7 @@ def _case_chapter(source: str | PathLike[str], bearing: str | None, cover: Cover
     from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
     from lambda_core.analysis.thermal.temperatures import ready_model
     from lambda_core.case.case_io import is_machine, refuse_bearing
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.api import registry
     from lambda_core.export.report.chapters import case_chapter
     from lambda_core.export.report.page import machine_drawings
     from lambda_core.runs.api import quasistatic

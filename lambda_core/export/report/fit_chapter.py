@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lambda_core.discovery.registry import Registry
+from lambda_core.discovery.api import Registry
 from lambda_core.domain.unit_systems import UnitSystem
 from lambda_core.export.report.chapters import Chapter, Picture
 from lambda_core.export.report.key_tables import Table, rounded

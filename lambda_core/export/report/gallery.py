@@ -9,8 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
-from lambda_core.discovery.registry import Registry
-from lambda_core.discovery.shown import data_of
+from lambda_core.discovery.api import Registry, data_of
 from lambda_core.domain.errors import BearingNeededError, UsageError, unknown_name
 from lambda_core.domain.files import check_target
 from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without

@@ -10,7 +10,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.discovery.registry import Registry
+from lambda_core.discovery.api import Registry
 from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.domain.files import check_target
 from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without

@@ -20,7 +20,7 @@ from lambda_core.laws.par import flat_kernel, make_par
 from lambda_core.laws.probe import trial_context
 
 if TYPE_CHECKING:
-    from lambda_core.discovery.registry import Registry
+    from lambda_core.discovery.api import Registry
 
 _ZERO_CELSIUS = 273.15
 _GIGA = 1e9
