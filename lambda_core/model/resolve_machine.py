@@ -1,4 +1,8 @@
-"""Resolve the case of a machine to its model."""
+"""Resolve the case of a machine to its model.
+
+Each bearing is resolved as one that is alone (:mod:`~lambda_core.model.resolve`); this module resolves what is
+around them.
+"""
 
 from __future__ import annotations
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from lambda_core.analysis.thermal.temperatures import ready_model
+from lambda_core.analysis.thermal.temperatures import ready, ready_model
 from lambda_core.case.case_io import is_machine, load_case, parse_case
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError
 from lambda_core.model.api import check
 from lambda_core.results.answer import answers
-from lambda_core.runs.rerun import ready, rerun
+from lambda_core.runs.rerun import rerun
 from lambda_core.runs.stored import result
 
 if TYPE_CHECKING:

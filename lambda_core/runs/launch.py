@@ -186,16 +186,11 @@ def _with_bands(model: Runnable, provenance: Provenance, announce: Announce | No
 
     They are the model bands of each bearing.
     """
-    from lambda_core.analysis.band.model_band import band_alone, bands_of_machine
+    from lambda_core.analysis.band.model_band import bands_of_bearings
 
     if announce is not None:
         announce("computing the model band from the ranges of parameters and laws")
-    if isinstance(model, BearingModel):
-        bands = dict.fromkeys(provenance.bearings, band_alone(model))
-    else:
-        from lambda_core.solver.drivers.machine_statics import solve_machine
-
-        bands = bands_of_machine(model, solve_machine(model)).bearings
+    bands = bands_of_bearings(model, ALONE)
     origins = {name: dataclasses.replace(origin, band=bands[name]) for name, origin in provenance.bearings.items()}
     return dataclasses.replace(provenance, bearings=origins)
 

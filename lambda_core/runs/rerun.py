@@ -2,36 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.blas_threads import one_blas_thread
 
 if TYPE_CHECKING:
-    from lambda_core.case.case_io import Source
-    from lambda_core.model.bearing_model import BearingModel
-    from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
-
-
-def ready(
-    source: Source | BearingModel | MachineModel,
-    overrides: Iterable[str] = (),
-    announce: Callable[[str], None] | None = None,
-) -> BearingModel | MachineModel:
-    """Return a model with its temperatures.
-
-    The model is one of a bearing or a machine.
-    """
-    from lambda_core.analysis.thermal.temperatures import ready_model  # `show` starts without what runs need
-    from lambda_core.case.case_io import is_machine
-
-    if is_machine(source):
-        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
-
-        return ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
-    return ready_model(source, overrides, announce)  # type: ignore[arg-type]
 
 
 @one_blas_thread()
@@ -40,6 +18,7 @@ def rerun(found: Result, changes: Mapping[str, Any], out: str | Path | None) -> 
 
     The run writes `out` as :func:`lambda_core.api.run` does.
     """
+    from lambda_core.analysis.thermal.temperatures import ready  # `show` starts without what runs need
     from lambda_core.case.case_io import read_case, toml_tables
     from lambda_core.runs.launch import launch
 

@@ -108,6 +108,18 @@ def _of_machine(
     return bands if bearing is None else bands.bearings[bearing]
 
 
+def bands_of_bearings(model: BearingModel | MachineModel, alone: str) -> dict[str, ModelBand]:
+    """Return the band of each bearing by its name.
+
+    `alone` is the name of one that is no machine.
+    """
+    if isinstance(model, BearingModel):
+        return {alone: band_alone(model)}
+    from lambda_core.solver.drivers.machine_statics import solve_machine
+
+    return bands_of_machine(model, solve_machine(model)).bearings
+
+
 def bands_of_machine(
     machine: MachineModel, state: MachineState, quantities: Sequence[str] = QUANTITIES, number: int | None = None
 ) -> MachineBand:

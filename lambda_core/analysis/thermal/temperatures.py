@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.case.case_io import is_machine
 from lambda_core.model.checking import model_of, resolve
 
 if TYPE_CHECKING:
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
     from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
 
 
@@ -57,6 +59,22 @@ def temperatures_over_time(
     model = model_of(source, overrides)
     loop = BearingLoop(model, _section(model), announce)
     return course_of(loop, warm_up(loop, duration))
+
+
+def ready(
+    source: Source | BearingModel | MachineModel,
+    overrides: Iterable[str] = (),
+    announce: Callable[[str], None] | None = None,
+) -> BearingModel | MachineModel:
+    """Return the model of a bearing or a machine.
+
+    It has its own temperatures where the case wants them computed.
+    """
+    if is_machine(source):
+        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+
+        return ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
+    return ready_model(source, overrides, announce)  # type: ignore[arg-type]
 
 
 def ready_model(

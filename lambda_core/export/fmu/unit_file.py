@@ -21,9 +21,7 @@ from lambda_core.laws.pack import compiled_here
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
-    from lambda_core.case.case import Case
     from lambda_core.case.case_io import Source
-    from lambda_core.case.machine import MachineCase
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.external_inputs import Coupling
@@ -151,9 +149,7 @@ def write(task: Mapping[str, Any], announce: Callable[[str], None] | None = None
 def _write(task: Mapping[str, Any], announce: Callable[[str], None] | None) -> None:
     from importlib.metadata import version
 
-    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
-    from lambda_core.analysis.thermal.temperatures import ready_model
-    from lambda_core.case.case import Case
+    from lambda_core.analysis.thermal.temperatures import ready
     from lambda_core.case.case_io import apply_overrides, read_case, toml_tables
     from lambda_core.export.fmu.description import About, description
     from lambda_core.export.fmu.frozen import freeze
@@ -165,15 +161,10 @@ def _write(task: Mapping[str, Any], announce: Callable[[str], None] | None) -> N
     case = read_case(toml_tables(text, "case"))
     options = {option.path: option for option in varied(task["vary"], case)}
 
-    def ready(case: Case | MachineCase, announce: Callable[[str], None] | None = None) -> BearingModel | MachineModel:
-        if isinstance(case, Case):
-            return ready_model(case, (), announce)
-        return ready_machine_of(case, (), announce)
-
     def changed(values: Mapping[str, float]) -> BearingModel | MachineModel:
         return ready(apply_overrides(case, (options[path].change(value) for path, value in values.items())))
 
-    frozen = freeze(ready(case, announce), task["couple"], announce, tuple(options.values()), changed)
+    frozen = freeze(ready(case, (), announce), task["couple"], announce, tuple(options.values()), changed)
     kind = "rolling bearing" if frozen.machine is None else "shaft in rolling bearings"
     seen = variables(frozen)
     parts = library_parts(frozen, seen, task["platforms"])

@@ -5,6 +5,10 @@ It uses Newton's method on shaft nodes and outer rings.
 Every bearing answers a pose of its inner ring against the outer one with a force, a moment and a stiffness, its balls
 in equilibrium throughout. Contacts open and close, so that the steps are damped as Levenberg and Marquardt do:
 a spring to the last state at every ring, softer as the residual falls; each step ends where the potential does.
+
+The equilibrium of a bearing alone (:mod:`~lambda_core.solver.drivers.equilibrium`) is another job: its loads are given
+and rolling friction counts among them. Here loads follow from the poses of all rings; each bearing of the solution is
+then handed to that module, which finds the motion of its balls with friction.
 """
 
 from __future__ import annotations
