@@ -15,6 +15,7 @@ from lambda_core.case.rollers import InlineRollers
 from lambda_core.catalogue.protocol import Catalogue, RollerRow, Value
 from lambda_core.catalogue.roller_designation import RollerDesignation, roller_designation
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import CaseError, LambdaError, Problem
 from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.units import parse, show
@@ -38,6 +39,7 @@ from lambda_core.model.settings.contamination import contamination_of
 
 if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
+    from lambda_core.case.motion import RingBody
     from lambda_core.discovery.api import Registry
 
 STRAIGHT = "the shaft holds the inner ring straight: tilts are locked where the case leaves them open"
@@ -47,6 +49,7 @@ _QUANTITIES = {"roller_count": "", "contact_angle": "angle"}  # of what is no le
 _BOUNDARY = ("bore_diameter", "outside_diameter", "width")
 _REPLENISHMENT = {"oil bath": 3e-8, "oil jet": 3e-8, "under-race": 3e-8, "grease": 6e-8, "oil-air": 6e-8}
 _ROUGHNESS = "Wingertszahn et al. 2023, Lubricants 11, 369"
+_Held = tuple[bool, bool, bool, bool, bool]
 _SHORTER = 0.1  # effective length: roller less this share of the diameter at each end where nothing is known
 
 
@@ -86,13 +89,15 @@ class RollerModel:
         Every value with its origin.
     displacement : array or None
         Where held directions of the inner ring are [m, rad], (5,); None: at zero.
+    loose : tuple of str
+        Directions in which a load moves both rings, because nothing holds the outer one.
     """
 
     name: str
     title: str
     bearing: RollerBearing
     loads: FloatArray
-    held: tuple[bool, bool, bool, bool, bool]
+    held: _Held
     speeds: tuple[float, float]
     oil: OilState
     friction: FrictionParameters
@@ -105,6 +110,7 @@ class RollerModel:
     assumptions: tuple[str, ...]
     values: tuple[ResolvedValue, ...] = ()
     displacement: FloatArray | None = None
+    loose: tuple[str, ...] = ()
 
     @property
     def warnings(self) -> list[str]:
@@ -168,6 +174,8 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
     level = resolve_oil_level(case.lubricant, row, geometry.diameter if geometry else 0.0, ledger)
     held, written = _held(case, ledger), friction_of_case(case, known, ledger)
     contamination = contamination_of(case, geometry.pitch_diameter, ledger) if geometry else None
+    loads = _loads(case, ledger)
+    held, loose = _as_outer_ring(case, held, loads, ledger)
     ledger.check(case.name)
     if geometry is None or state is None or row is None:
         raise CaseError(case.name, [Problem(_WHERE, "is not a complete roller bearing")])
@@ -178,8 +186,9 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         name=case.name,
         title=roller_title(case, found, geometry),
         bearing=geometry,
-        loads=_loads(case, ledger),
+        loads=loads,
         held=held,
+        loose=loose,
         speeds=(initial(time_function(case.operation.speed)), _outer_speed(case)),
         oil=state,
         friction=replace(friction_parameters(geometry, case.surface.roughness, lubrication, level), **written),
@@ -410,15 +419,14 @@ def _loads(case: Case, ledger: Ledger) -> FloatArray:
     return found
 
 
-def _held(case: Case, ledger: Ledger) -> tuple[bool, bool, bool, bool, bool]:
+def _held(case: Case, ledger: Ledger) -> _Held:
     """Return the locked displacements of the inner ring.
 
     Tilts that the case leaves open are locked.
     """
     ring, found = case.bodies.inner_ring, []
-    for name in ("x", "y", "z", "tilt_y", "tilt_z"):
-        holding = getattr(ring, name)
-        mode = "spring" if getattr(holding, "stiffness", None) else getattr(holding, "mode", holding)
+    for name in POSE:
+        mode = _mode(ring, name)
         written = name in ring.model_fields_set
         if mode not in ("free", "locked"):
             ledger.problem(f"bodies.inner_ring.{name}", "must be free or locked for roller bearings")
@@ -427,6 +435,30 @@ def _held(case: Case, ledger: Ledger) -> tuple[bool, bool, bool, bool, bool]:
         ledger.assume(STRAIGHT)
     x, y, z, tilt_y, tilt_z = found
     return x, y, z, tilt_y, tilt_z
+
+
+def _mode(ring: RingBody, name: str) -> str:
+    """Return how a ring is held in a direction."""
+    holding = getattr(ring, name)
+    return "spring" if getattr(holding, "stiffness", None) else str(getattr(holding, "mode", holding))
+
+
+def _as_outer_ring(case: Case, held: _Held, loads: FloatArray, ledger: Ledger) -> tuple[_Held, tuple[str, ...]]:
+    """Return what of the rings' relative pose is held.
+
+    Also return the loose directions. Where the outer ring alone is free, it goes where no load is left.
+    """
+    found, loose = list(held), []
+    for i, name in enumerate(POSE):
+        mode = _mode(case.bodies.outer_ring, name)
+        if mode == "spring":
+            ledger.assume(f"the support of the outer ring along {name} is left out: displacements count from that ring")
+        elif mode == "free" and held[i]:
+            found[i], loads[i] = False, 0.0
+        elif mode == "free" and loads[i] != 0.0:
+            loose.append(name)
+    x, y, z, tilt_y, tilt_z = found
+    return (x, y, z, tilt_y, tilt_z), tuple(loose)
 
 
 def _oil(law: OilLaw, temperature: float, conductivity: float) -> OilState:

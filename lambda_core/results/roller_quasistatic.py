@@ -149,6 +149,12 @@ class SolvedRollers:
 
 def solve_rollers(model: RollerModel, places: Sequence[float] = PLACES) -> SolvedRollers:
     """Find a roller bearing's equilibria over one pitch, and friction."""
+    if model.loose:
+        along = model.loose[0]
+        raise SolverError(
+            f"{model.name}: no quasi-static equilibrium: a load acts along {along} and nothing holds the rings there: "
+            f"lock bodies.outer_ring.{along} or give it a support"
+        )
     motion = rolling_motion(model.bearing, *model.speeds)
     try:
         states = over_a_pitch(

@@ -381,3 +381,33 @@ def test_a_large_clearance_of_rollers_is_no_matter_of_grooves(tmp_path: Path) ->
     """
     model = api.check(case(tmp_path, "SKF NCF 3008 CV"), ["bearing.clearance=0.5 mm"])
     assert model.bearing_models[""].geometry.clearance == pytest.approx(0.5e-3)
+
+
+def test_a_load_that_no_ring_holds_has_no_equilibrium(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Say so as for balls.
+
+    It was the answer of an outer ring at rest.
+    """
+    path, free = case(tmp_path, "NJ 208"), ["--set", "bodies.outer_ring.z=free"]
+    assert main(["quasistatic", path, *free]) == 4
+    assert "lock bodies.outer_ring.z" in capsys.readouterr().err
+    assert main(["quasistatic", path, *free, "--set", "bodies.inner_ring.z=locked", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["max_load_N"] < 10.0  # of the centrifugal force
+
+
+def test_a_cup_that_tilts_is_a_cone_that_tilts(tmp_path: Path) -> None:
+    """Let the outer ring follow.
+
+    It was held whatever the case said.
+    """
+    path = case(tmp_path, "32216", "6 kN")
+    cup, cone = (api.quasistatic(path, [f"bodies.{ring}.tilt_y=free"]) for ring in ("outer_ring", "inner_ring"))
+    straight = api.quasistatic(path)
+    assert abs(cup.inner_ring_moment_Nm[0]) < 1e-3 * abs(straight.inner_ring_moment_Nm[0])
+    assert cup.max_load_N == pytest.approx(cone.max_load_N, rel=1e-6)
+    assert cup.inner_ring_tilt_mrad == pytest.approx(cone.inner_ring_tilt_mrad, rel=1e-6)
+
+
+def test_a_support_of_the_outer_ring_is_told(tmp_path: Path) -> None:
+    found = api.quasistatic(case(tmp_path, "NU 208"), ["bodies.outer_ring.z=20 N/um"])
+    assert any("support of the outer ring along z is left out" in sentence for sentence in found.assumptions)
