@@ -108,8 +108,8 @@ def lives(folder: Path) -> None:
         assert one.verdict is not None
     still = api.quasistatic(api.case(folder / "box.toml", RUN))
     for name, one in summary.bearings.items():
-        assert one.rating.basic_life_h == pytest.approx(still.bearing(name).basic_life_h, rel=1e-9)
-        assert one.rating.static_safety == pytest.approx(still.bearing(name).static_safety, rel=1e-9)
+        assert one.rating.basic_life_h == pytest.approx(still.bearing(name).rating.basic_life_h, rel=1e-9)
+        assert one.rating.static_safety == pytest.approx(still.bearing(name).rating.static_safety, rel=1e-9)
 
 
 def notebook(folder: Path) -> None:
