@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
+from lambda_core.analysis.thermal.temperature_text import ways
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.model.checking import check_bearing
 from lambda_core.model.laws.time_functions import initial
@@ -135,6 +136,11 @@ THERMAL = [
 ]
 
 
+def _labels(text: str) -> list[str]:
+    """Return the first words of the rows of tables."""
+    return [line[:30].strip() for line in text.splitlines() if line.startswith("  ") and "->" not in line[:30]]
+
+
 @pytest.mark.parametrize("changes", [[], THERMAL, ["thermal.conductances=iso-15312"]])
 def test_temperatures_are_those_of_the_bearing(changes: list[str]) -> None:
     alone = api.thermal("6208-axial-1300", changes)
@@ -144,6 +150,11 @@ def test_temperatures_are_those_of_the_bearing(changes: list[str]) -> None:
     for node, temperature in alone.temperatures_degC.items():
         name = node if node in ("housing", "ambient") else f"bearing.{node}"
         assert among.temperatures_degC[name] == pytest.approx(temperature, abs=1e-3), node
+    (one,), (other,) = alone.bearings.values(), among.bearings.values()
+    assert other.nodes == {part: f"bearing.{node}" for part, node in one.nodes.items()}
+    way, same = [{frozenset((w.source, w.target)): w.heat for w in ways(found)} for found in (alone, among)]
+    assert same == pytest.approx(way, abs=0.01)
+    assert _labels(among.text()) == _labels(alone.text())
 
 
 def test_the_circuit_is_that_of_the_bearing() -> None:

@@ -12,6 +12,7 @@ from warm_bearings import preloaded
 from lambda_core import api
 from lambda_core.analysis.thermal.feedback import BearingLoop, Runaway
 from lambda_core.analysis.thermal.losses import LossMap
+from lambda_core.analysis.thermal.report import State, SteadyTemperatures
 from lambda_core.case.written import merged
 from lambda_core.domain.errors import CaseError, SolverError
 
@@ -22,21 +23,26 @@ def loop_of(case: dict[str, Any]) -> BearingLoop:
     return BearingLoop(api.check(case), validate_case(case).thermal)
 
 
+def state_of(found: SteadyTemperatures) -> State:
+    """Return the state of the only bearing."""
+    return found.bearings["bearing"].state
+
+
 def test_steady_temperatures_close_the_loop(ordinary: dict[str, Any]) -> None:
     found = api.thermal(ordinary)
     assert abs(found.energy_residual) < 1e-9
-    assert sum(found.heat_W.values()) == pytest.approx(found.state.power_loss_W, rel=1e-9)
+    assert sum(found.heat_W.values()) == pytest.approx(found.power_loss_W, rel=1e-9)
     # The quasi-static point at the temperatures found loses what the network was given, to the tolerance of 1e-3 K.
     again = api.quasistatic(
         merged(
             ordinary,
             {
-                "bearing": {"clearance": f"{found.state.clearance_um!r} um"},
-                "lubricant": {"temperature": f"{found.state.inlet_degC!r} degC"},
+                "bearing": {"clearance": f"{state_of(found).clearance_um!r} um"},
+                "lubricant": {"temperature": f"{state_of(found).inlet_degC!r} degC"},
             },
         )
     )
-    assert again.friction_torque_Nmm == pytest.approx(found.state.friction_torque_Nmm, rel=1e-4)
+    assert again.friction_torque_Nmm == pytest.approx(state_of(found).friction_torque_Nmm, rel=1e-4)
     assert found.temperatures_degC["balls"] > found.temperatures_degC["outer_ring"] > found.temperatures_degC["ambient"]
     assert found.gain.loop < 1.0
     assert found.gain.viscosity < 0.0
@@ -47,8 +53,8 @@ def test_a_hotter_ring_takes_clearance(ordinary: dict[str, Any]) -> None:
     t = found.temperatures_degC
     steel, d_i, d_o, ball = 11.5e-6, 0.0480, 0.0719, 0.0119
     taken = steel * ((t["inner_ring"] - 20.0) * d_i - (t["outer_ring"] - 20.0) * d_o + 2.0 * (t["balls"] - 20.0) * ball)
-    assert found.state.clearance_um == pytest.approx(12.0 - 1e6 * taken, abs=0.15 * 1e6 * abs(taken))
-    assert found.state.clearance_um < api.thermal(ordinary).state.clearance_um
+    assert state_of(found).clearance_um == pytest.approx(12.0 - 1e6 * taken, abs=0.15 * 1e6 * abs(taken))
+    assert state_of(found).clearance_um < state_of(api.thermal(ordinary)).clearance_um
 
 
 def test_oil_that_flows_takes_its_heat_along(ordinary: dict[str, Any]) -> None:
@@ -64,7 +70,7 @@ def test_the_surfaces_can_be_what_the_contacts_see(ordinary: dict[str, Any]) -> 
     found = api.thermal(merged(ordinary, {"thermal": {"inlet": "surfaces"}}))
     t = found.temperatures_degC
     expected = 0.25 * (t["inner_ring"] + t["outer_ring"]) + 0.5 * t["balls"]
-    assert found.state.inlet_degC == pytest.approx(expected, abs=2e-3)
+    assert state_of(found).inlet_degC == pytest.approx(expected, abs=2e-3)
 
 
 def test_a_further_node_stands_between_its_neighbours(ordinary: dict[str, Any]) -> None:
@@ -154,19 +160,19 @@ def test_computed_temperatures_reach_statics_and_runs(ordinary: dict[str, Any], 
     case = merged(ordinary, {"operation": {"temperatures": "computed"}, "solver": {"duration": "2 ms"}})
     found, said = api.thermal(ordinary), list[str]()
     static = api.quasistatic(case, announce=said.append)
-    assert static.friction_torque_Nmm == pytest.approx(found.state.friction_torque_Nmm, rel=1e-4)
+    assert static.friction_torque_Nmm == pytest.approx(state_of(found).friction_torque_Nmm, rel=1e-4)
     assert any("temperatures found by the thermal network (harris): inner ring" in line for line in said)
     run = api.run(case, out=tmp_path / "run.h5")
     assert any("temperatures found by the thermal network" in line for line in run.assumptions)
-    assert run.model["oil"]["temperature"] - 273.15 == pytest.approx(found.state.inlet_degC, abs=2e-3)
-    assert 1e6 * run.model["geometry"]["clearance"] == pytest.approx(found.state.clearance_um, abs=5e-3)
+    assert run.model["oil"]["temperature"] - 273.15 == pytest.approx(state_of(found).inlet_degC, abs=2e-3)
+    assert 1e6 * run.model["geometry"]["clearance"] == pytest.approx(state_of(found).clearance_um, abs=5e-3)
     assert "computed" not in run.case_toml  # a result goes on without another search
     longer = api.resume(run.path, ["solver.duration=3 ms"])
     assert longer.integrals()[-1][0] >= 3e-3
     # The run's own losses give temperatures near those that it was made with.
     own = api.thermal(run.path)
     assert own.losses_from.startswith("averages of")
-    assert own.state.power_loss_W == pytest.approx(found.state.power_loss_W, rel=0.2)
+    assert own.power_loss_W == pytest.approx(found.power_loss_W, rel=0.2)
     assert own.temperatures_degC["outer_ring"] == pytest.approx(found.temperatures_degC["outer_ring"], abs=8.0)
 
 
@@ -181,7 +187,10 @@ def test_nothing_runs_before_the_temperatures_are_found(ordinary: dict[str, Any]
 def test_pictures_have_what_was_found(ordinary: dict[str, Any], tmp_path: Path) -> None:
     steady, course = api.thermal(ordinary), api.warm_up(ordinary, 30.0)
     (heat,), (time,) = api.thermal_pictures(steady), api.thermal_pictures(course)
-    flows = dict(zip(heat.panels[2].x.categories, heat.panels[2].series[0].y, strict=True))
+    panels = {panel.title: panel for panel in heat.panels}
+    assert list(panels) == ["temperatures", "where the heat comes from", "which node gets it", "where it goes"]
+    drawn = panels["where it goes"]
+    flows = dict(zip(drawn.x.categories, drawn.series[0].y, strict=True))
     assert flows["housing - ambient"] == pytest.approx(
         next(f.heat_W for f in steady.flows if (f.source, f.target) == ("housing", "ambient"))
     )

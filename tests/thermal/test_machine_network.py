@@ -18,9 +18,9 @@ from warm_machines import pair
 from lambda_core import api
 from lambda_core.analysis.thermal.conductances import rod
 from lambda_core.analysis.thermal.feedback import Runaway
-from lambda_core.analysis.thermal.machine_temperature_report import MachineTemperatures, MachineTemperaturesOverTime
 from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
 from lambda_core.analysis.thermal.network import Network
+from lambda_core.analysis.thermal.report import SteadyTemperatures
 from lambda_core.analysis.thermal.surroundings import long_fin
 from lambda_core.case.written import merged
 from lambda_core.domain.errors import CaseError, UsageError
@@ -33,16 +33,10 @@ STEEL = 46.0  # [W/(m K)], 100Cr6
 COMPUTED = {"operation": {"temperatures": "computed"}}
 
 
-def temperatures(case: dict[str, Any]) -> MachineTemperatures:
-    found = api.thermal(case)
-    assert isinstance(found, MachineTemperatures)
-    return found
-
-
 @pytest.fixture(scope="module")
-def warm() -> MachineTemperatures:
+def warm() -> SteadyTemperatures:
     """Find the temperatures of the pair once."""
-    return temperatures(pair())
+    return api.thermal(pair())
 
 
 @pytest.fixture(scope="module")
@@ -118,7 +112,7 @@ def test_losses_that_leave_by_the_ends_of_the_shaft_have_their_closed_form() -> 
         loads={"belt": {"at": "80 mm", "force_z": "-600 N"}}, operation={"speed": "500 rpm"},
         thermal={"conductances": "none", "links": joints, "nodes": ends},
     )  # fmt: skip
-    found = temperatures(case)
+    found = api.thermal(case)
     q = [found.bearings[name].state.power_loss_W for name in ("left", "right")]
     assert q[0] > 1.05 * q[1] > 0.1
     length, places = 0.2, (0.05, 0.15)
@@ -134,7 +128,7 @@ def test_losses_that_leave_by_the_ends_of_the_shaft_have_their_closed_form() -> 
     assert abs(found.energy_residual) < 1e-9
 
 
-def test_equal_bearings_have_equal_temperatures(warm: MachineTemperatures) -> None:
+def test_equal_bearings_have_equal_temperatures(warm: SteadyTemperatures) -> None:
     found = warm
     at = found.temperatures_degC
     for part in ("inner_ring", "outer_ring", "balls", "oil", "shaft"):
@@ -176,22 +170,22 @@ def test_a_machine_of_one_bearing_is_the_bearing_alone() -> None:
         "gravity": {"z": "0 m/s2"},
         "thermal": {"conductances": "palmgren"},
     }
-    found = temperatures(case)
-    assert found.power_loss_W == pytest.approx(alone.state.power_loss_W, rel=1e-3)
+    found = api.thermal(case)
+    assert found.power_loss_W == pytest.approx(alone.power_loss_W, rel=1e-3)
     for name in ("inner_ring", "outer_ring", "balls", "oil", "cage", "shaft"):
         assert found.temperatures_degC[f"only.{name}"] == pytest.approx(alone.temperatures_degC[name], abs=0.05)
     assert found.temperatures_degC["housing"] == pytest.approx(alone.temperatures_degC["housing"], abs=0.05)
     assert found.gain.viscosity == pytest.approx(alone.gain.viscosity, rel=0.05)  # slopes of 2 K away
 
 
-def test_the_loss_of_a_gear_warms_the_shaft(warm: MachineTemperatures) -> None:
+def test_the_loss_of_a_gear_warms_the_shaft(warm: SteadyTemperatures) -> None:
     """Add a gear's loss as another source.
 
     The small force of its mesh aside, the pair is the same.
     """
     gear = {"gears": {"wheel": {"at": "100 mm", "pitch_diameter": "90 mm", "torque": "20 N m", "role": "driven"}}}
     gear["gears"]["wheel"]["mesh"] = "90 deg"
-    hot = temperatures(merged(pair(thermal={"nodes": {"wheel": {"heat": "60 W"}}}), gear))
+    hot = api.thermal(merged(pair(thermal={"nodes": {"wheel": {"heat": "60 W"}}}), gear))
     assert hot.heat_W["wheel"] == pytest.approx(60.0)
     assert hot.temperatures_degC["wheel"] > max(place.temperature_degC for place in warm.shaft) + 5.0
     assert hot.bearings["left"].state.clearance_um < warm.bearings["left"].state.clearance_um
@@ -201,7 +195,7 @@ def test_the_loss_of_a_gear_warms_the_shaft(warm: MachineTemperatures) -> None:
 
 def test_oil_of_one_bearing_takes_its_heat_along() -> None:
     flow = {"oil_flow": "1 l/min", "oil_supply": "30 degC"}
-    found = temperatures(pair(bearings={"left": {"thermal": flow}}))
+    found = api.thermal(pair(bearings={"left": {"thermal": flow}}))
     at = found.temperatures_degC
     assert at["left.oil"] < at["right.oil"] - 2.0
     carried = next(flow for flow in found.flows if flow.target == "left.oil_supply")
@@ -209,7 +203,7 @@ def test_oil_of_one_bearing_takes_its_heat_along() -> None:
     assert "right.oil_supply" not in at
 
 
-def test_computed_temperatures_reach_the_equilibrium(warm: MachineTemperatures, ready: MachineModel) -> None:
+def test_computed_temperatures_reach_the_equilibrium(warm: SteadyTemperatures, ready: MachineModel) -> None:
     found, said = warm, list[str]()
     static = api.quasistatic(pair(**COMPUTED), announce=said.append)
     torques = [bearing.friction_torque_Nmm for bearing in static.bearings]
@@ -232,12 +226,11 @@ def test_the_case_of_a_warm_machine_needs_no_second_search(ready: MachineModel) 
 
 
 def test_the_losses_of_a_run_give_temperatures_near_its_own(
-    warm: MachineTemperatures, ready: MachineModel, tmp_path: Path
+    warm: SteadyTemperatures, ready: MachineModel, tmp_path: Path
 ) -> None:
     run = api.run(tomllib.loads(ready.case_toml), ["solver.duration=0.3 ms"], out=tmp_path / "pair.h5")
     assert "computed" not in run.case_toml
     found = api.thermal(run.path)
-    assert isinstance(found, MachineTemperatures)
     assert found.losses_from == f"averages of {run.path}"
     expected = warm
     assert found.power_loss_W == pytest.approx(expected.power_loss_W, rel=0.1)
@@ -248,7 +241,6 @@ def test_the_losses_of_a_run_give_temperatures_near_its_own(
 
 def test_a_warm_up_balances_its_heat_and_rises() -> None:
     course = api.warm_up(pair(), 10.0)
-    assert isinstance(course, MachineTemperaturesOverTime)
     assert course.ended == "finished"
     assert course.time_s[-1] == 10.0
     assert abs(course.energy_residual) < 1e-6
@@ -262,7 +254,7 @@ def test_a_warm_up_balances_its_heat_and_rises() -> None:
 
 
 @pytest.mark.full
-def test_a_machine_settles_in_its_steady_state(warm: MachineTemperatures) -> None:
+def test_a_machine_settles_in_its_steady_state(warm: SteadyTemperatures) -> None:
     """Cool a machine to its steady state.
 
     In a housing of little heat capacity, which takes an hour in place of eight.

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from lambda_core.analysis.thermal.feedback import Steady
-    from lambda_core.analysis.thermal.machine_temperature_report import MachineTemperatures, MachineTemperaturesOverTime
     from lambda_core.analysis.thermal.machine_temperatures import MachineLoop
     from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
     from lambda_core.case.case_io import Source
@@ -31,7 +30,7 @@ def thermal(
     *,
     band: bool = False,
     announce: Callable[[str], None] | None = None,
-) -> SteadyTemperatures | MachineTemperatures:
+) -> SteadyTemperatures:
     """Compute the steady temperatures of a bearing or machine.
 
     Parameters
@@ -49,7 +48,7 @@ def thermal(
 
     Returns
     -------
-    SteadyTemperatures or MachineTemperatures
+    SteadyTemperatures
         Temperatures, heat flows, the gain of the torque-temperature loop.
 
     Raises
@@ -66,7 +65,7 @@ def thermal(
 
     if is_machine(source):
         loop = _loop(source, overrides, announce)
-        return _of_machine(loop, loop.steady(), "quasi-static points", band=band)
+        return _of_machine(loop, loop.steady(), "quasi-static point", band=band)
 
     run = run_of(source)
     if run is not None and listed(overrides, "overrides"):
@@ -79,10 +78,10 @@ def thermal(
     return answer.with_band(temperature_band(warm())) if band else answer
 
 
-def _of_machine(loop: MachineLoop, found: Steady, origin: str, *, band: bool) -> MachineTemperatures:
+def _of_machine(loop: MachineLoop, found: Steady, origin: str, *, band: bool) -> SteadyTemperatures:
     from lambda_core.analysis.band.model_band import temperature_band
-    from lambda_core.analysis.thermal.machine_temperature_report import steady_of
     from lambda_core.analysis.thermal.machine_temperatures import machine_at_temperatures
+    from lambda_core.analysis.thermal.report import steady_of
 
     answer = steady_of(loop, found, origin)
     return answer.with_band(temperature_band(machine_at_temperatures(loop, found))) if band else answer
@@ -96,7 +95,7 @@ def warm_up(
     overrides: Iterable[str] = (),
     *,
     announce: Callable[[str], None] | None = None,
-) -> TemperaturesOverTime | MachineTemperaturesOverTime:
+) -> TemperaturesOverTime:
     """Compute temperatures over time from the start.
 
     The machine operates throughout as the case says for t = 0.
@@ -112,7 +111,7 @@ def warm_up(
 
     Returns
     -------
-    TemperaturesOverTime or MachineTemperaturesOverTime
+    TemperaturesOverTime
         Also where a temperature passed ``thermal.limit``: then it ends there and says why.
 
     Raises
@@ -127,7 +126,7 @@ def warm_up(
     if not duration > 0.0:
         raise UsageError(f"a warm-up takes more than 0 s, not {duration:g} s")
     if is_machine(source):
-        from lambda_core.analysis.thermal.machine_temperature_report import course_of
+        from lambda_core.analysis.thermal.report import course_of
         from lambda_core.analysis.thermal.transient import warm_up_machine
 
         loop = _loop(source, overrides, announce)
@@ -137,14 +136,12 @@ def warm_up(
     return temperatures_over_time(source, duration, overrides, announce)  # type: ignore[arg-type]
 
 
-def thermal_pictures(
-    found: SteadyTemperatures | TemperaturesOverTime | MachineTemperatures | MachineTemperaturesOverTime,
-) -> list[ViewData]:
+def thermal_pictures(found: SteadyTemperatures | TemperaturesOverTime) -> list[ViewData]:
     """Draw temperatures over time, or where the heat goes.
 
     Parameters
     ----------
-    found : SteadyTemperatures, TemperaturesOverTime, MachineTemperatures or MachineTemperaturesOverTime
+    found : SteadyTemperatures or TemperaturesOverTime
         From :func:`thermal` or :func:`warm_up`.
 
     Returns
@@ -152,15 +149,9 @@ def thermal_pictures(
     list of ViewData
         For :func:`draw`.
     """
-    from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
+    from lambda_core.analysis.thermal.charts import pictures
 
-    if isinstance(found, SteadyTemperatures | TemperaturesOverTime):
-        from lambda_core.analysis.thermal.charts import pictures
-
-        return pictures(found)
-    from lambda_core.analysis.thermal.machine_temperature_charts import pictures as pictures_of_machine
-
-    return pictures_of_machine(found)
+    return pictures(found)
 
 
 def _loop(source: Any, overrides: Iterable[str], announce: Callable[[str], None] | None) -> MachineLoop:

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -17,10 +18,14 @@ from lambda_core.analysis.thermal.machine_network import MachineNetwork
 from lambda_core.analysis.thermal.network import Network
 from lambda_core.analysis.thermal.pillow_block import bearing_network
 from lambda_core.analysis.thermal.surroundings import housing_area
+from lambda_core.case.short_form import NAME
 from lambda_core.case.thermal import Thermal
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.checks.describe import headline
+from lambda_core.model.laws.time_functions import initial
+from lambda_core.model.settings.resolve_thermal import network_assumptions
 
 _ZERO_CELSIUS = 273.15
 _PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
@@ -113,11 +118,45 @@ def clearance_at(model: BearingModel, at: Mapping[str, float]) -> float:
     return model.mounting.clearance(**warm) if model.mounting is not None else model.geometry.clearance
 
 
+def stated_clearance(models: Iterable[BearingModel]) -> list[str]:
+    """Return the assumption about clearances that no fit changes."""
+    stated = any(model.mounting is not None and not model.mounting.shaft for model in models)
+    return ["the stated clearance is that of the mounted bearing at the reference temperature"] if stated else []
+
+
 def inlet_at(thermal: Thermal, at: Mapping[str, float]) -> float:
     """Return the oil's inlet temperature at contacts [K]."""
     if thermal.inlet == "oil":
         return at["oil"]
     return 0.25 * (at["inner_ring"] + at["outer_ring"]) + 0.5 * at["balls"]
+
+
+class OnShaft(Protocol):
+    """A bearing on a shaft."""
+
+    @property
+    def name(self) -> str:
+        """Name in the machine."""
+
+    @property
+    def model(self) -> BearingModel:
+        """The bearing."""
+
+    @property
+    def position(self) -> float:
+        """Place on the shaft [m]."""
+
+
+@dataclass(frozen=True)
+class _Alone:
+    """The only bearing of a case.
+
+    Places count from its middle.
+    """
+
+    model: BearingModel
+    name: str = NAME
+    position: float = 0.0
 
 
 class Loop(ABC):
@@ -133,7 +172,24 @@ class Loop(ABC):
         Section of the case.
     oil : float
         Temperature of all nodes that the search starts with [K].
+
+    Attributes
+    ----------
+    bearings : tuple of OnShaft
+        From left to right.
+    shaft : tuple of (str, float)
+        Nodes of the shaft and their places [m].
+    speed : float
+        Of the shaft at t = 0 [rad/s].
+    of_network, of_case : list of str
+        Assumptions.
     """
+
+    bearings: tuple[OnShaft, ...]
+    shaft: tuple[tuple[str, float], ...]
+    speed: float
+    of_network: list[str]
+    of_case: Sequence[str]
 
     def __init__(self, name: str, nodes: MachineNetwork, thermal: Thermal, oil: float) -> None:
         self.name, self.nodes, self.thermal, self._oil = name, nodes, thermal, oil
@@ -155,6 +211,17 @@ class Loop(ABC):
         SolverError
             When there is no equilibrium there, with the place.
         """
+
+    @abstractmethod
+    def grown(self, at: Mapping[str, float]) -> FloatArray:
+        """Return the shaft's growth beyond the housing [m].
+
+        There is one value for each bearing, at temperatures of the nodes [K].
+        """
+
+    @abstractmethod
+    def headline(self, points: Sequence[Point]) -> str:
+        """Return the lines that say what has these points."""
 
     @property
     @abstractmethod
@@ -316,6 +383,10 @@ class BearingLoop(Loop):
     def __init__(self, model: BearingModel, thermal: Thermal, announce: Announce = None) -> None:
         super().__init__(model.name, bearing_network(model, thermal), thermal, model.oil.temperature)
         self.model, self.losses = model, Losses(model, announce)
+        self.bearings, self.shaft = (_Alone(model),), (("shaft", 0.0),)
+        self.speed = initial(model.inner_ring.dofs["spin"].motion)
+        self.of_network = [*network_assumptions(thermal), *stated_clearance([model])]
+        self.of_case = model.assumptions
 
     def nodes_with(self, change: Callable[[Thermal], Thermal]) -> MachineNetwork:
         """Return the network with a changed section of the case."""
@@ -334,6 +405,17 @@ class BearingLoop(Loop):
     def solved(self, seen: FloatArray) -> tuple[Point, ...]:
         """Solve and return the quasi-static point; see :meth:`Losses.at`."""
         return (self.losses.at(*seen.tolist()),)
+
+    def grown(self, at: Mapping[str, float]) -> FloatArray:
+        """Return zero.
+
+        There is no length along which shaft and housing grow.
+        """
+        return np.zeros(1)
+
+    def headline(self, points: Sequence[Point]) -> str:
+        """Return the lines that describe the bearing at its point."""
+        return "\n".join(headline(self.losses.there(points[0].inlet, points[0].clearance)))
 
     @property
     def count(self) -> int:

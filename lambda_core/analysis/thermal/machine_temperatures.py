@@ -13,7 +13,15 @@ from typing import Any, cast
 import numpy as np
 
 from lambda_core.analysis.rotor.api import machine_of
-from lambda_core.analysis.thermal.feedback import INLET_STEP, LENGTH_STEP, Loop, Steady, clearance_at, inlet_at
+from lambda_core.analysis.thermal.feedback import (
+    INLET_STEP,
+    LENGTH_STEP,
+    Loop,
+    Steady,
+    clearance_at,
+    inlet_at,
+    stated_clearance,
+)
 from lambda_core.analysis.thermal.found_temperatures import FoundTemperatures
 from lambda_core.analysis.thermal.losses import Announce, Point, model_at, point_of
 from lambda_core.analysis.thermal.machine_network import MachineNetwork
@@ -54,6 +62,10 @@ class MachineLoop(Loop):
         oil = float(np.mean([bearing.model.oil.temperature for bearing in machine.bearings]))
         super().__init__(machine.name, network_of(machine), machine.heat.section, oil)
         self.machine = replace(machine, awaits_temperatures=False)
+        self.bearings, self.speed = machine.bearings, machine.speed
+        self.shaft = tuple(zip(machine.heat.shaft, machine.body.positions.tolist(), strict=True))
+        clearances = stated_clearance(machine.bearing_models.values())
+        self.of_network, self.of_case = [*machine.heat.assumptions, *clearances], machine.assumptions
         count = len(machine.bearings)
         self.steps = np.array([INLET_STEP] * count + [LENGTH_STEP] * (2 * count))
         self._cells = np.array([_NEAR[0]] * count + [_NEAR[1]] * (2 * count))
@@ -92,6 +104,11 @@ class MachineLoop(Loop):
         ends = np.array([along.min(), along.max()])
         found: FloatArray = stretch(places, along, warm, heat.material) - stretch(places, ends, around, heat.housing)
         return found
+
+    def headline(self, points: Sequence[Point]) -> str:
+        """Return the line of speed and bearings."""
+        each = ", ".join(f"{one.name} {one.model.title.split(' (', maxsplit=1)[0]}" for one in self.bearings)
+        return f"{self.name}: {self.speed * 30.0 / math.pi:.5g} 1/min, {each}"
 
     def there(self, seen: FloatArray) -> MachineModel:
         """Return the machine in the contacts' condition.
