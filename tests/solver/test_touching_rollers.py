@@ -173,11 +173,6 @@ def test_a_full_complement_starts_with_the_loads_of_its_laminae() -> None:
     assert rollers.room == pytest.approx(3.51e-3, rel=1e-2)
 
 
-def test_a_full_complement_is_not_exported(tmp_path: Path) -> None:
-    with pytest.raises(api.UsageError, match="rollers without a cage are not exported"):
-        api.export_fmu(CASE | {"solver": {"duration": "1 ms"}}, out=tmp_path / "complement.fmu")
-
-
 def test_a_full_complement_runs() -> None:
     """Let rollers of a full complement touch.
 
