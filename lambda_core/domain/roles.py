@@ -148,7 +148,7 @@ ROLES: dict[str, Role] = {
                 f"semi_b e semi-axis along rolling [m]; {_MATERIAL}; {_OIL}; beta f -d ln(eta)/dT [1/K]; "
                 "k_oil f thermal conductivity of the oil [W/(m K)]; par a parameters; out A results"
             ),
-            ("force on each body, >= 0 [N]",),
+            ("one force, the same on both bodies, >= 0 [N]",),
             RACEWAYS,
             bounds=(_POSITIVE,),
             reads_states=True,
