@@ -207,7 +207,9 @@ def case_text(path: Path) -> str:
     try:
         return read_text(path)
     except UnicodeDecodeError:
-        raise CaseError(path.name, [Problem("", "is not a text file in UTF-8")]) from None
+        is_result = path.suffix == ".h5"
+        told = "is a result: name the file of a case here" if is_result else "is not a text file in UTF-8"
+        raise CaseError(path.name, [Problem("", told)]) from None
     except OSError as error:
         raise UsageError(f'cannot read "{path}": {error.strerror}') from None
 

@@ -330,6 +330,8 @@ DEFAULT_LINE_MODELS: dict[str, str] = {
     "elastic_hysteresis": "johnson-line",
     "capacitance": "line-gap",
 }
+# Roles whose laws know the shape of the elements -> built-in default of rollers.
+DEFAULT_SHAPE_MODELS: dict[str, str] = {"cage_contact": "roller-pocket", "fluid_drag": "skf-rollers"}
 # Roles whose laws serve points and lines alike, but whose default of rollers, on raceways and on ribs, is another one.
 DEFAULT_ROLLER_MODELS: dict[str, str] = {"asperity_load": "zhou-hoeprich"}
 # Roles in which ends of rollers on ribs have other laws than points: they slide, and have no law of rolling.

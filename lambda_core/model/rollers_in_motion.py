@@ -18,8 +18,8 @@ from lambda_core.case.parts import InlineGeometry
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.catalogue.roller_designation import roller_designation
 from lambda_core.domain.elements import NEIGHBOURS, RIBS, TILTS
-from lambda_core.domain.errors import CaseError, Problem
-from lambda_core.domain.roles import DEFAULT_LINE_MODELS, DEFAULT_ROLLER_MODELS
+from lambda_core.domain.errors import CaseError
+from lambda_core.domain.roles import DEFAULT_LINE_MODELS, DEFAULT_ROLLER_MODELS, DEFAULT_SHAPE_MODELS
 from lambda_core.domain.units import show
 from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import thrust_problem
@@ -29,7 +29,7 @@ from lambda_core.model.bodies.resolve_elastic import bent_rings, waves_of_rings
 from lambda_core.model.checks.fitted_paths import fit_problems, known_numbers
 from lambda_core.model.geometry.resolve_geometry import is_of_grooves
 from lambda_core.model.laws.law_defaults import law_sentences, record_law
-from lambda_core.model.laws.roller_laws import written_parameters
+from lambda_core.model.laws.roller_laws import law_of_rollers, written_parameters
 from lambda_core.model.laws.time_functions import initial, time_function
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.roller_case import STRAIGHT, roller_geometry, roller_model, roller_title
@@ -39,8 +39,6 @@ if TYPE_CHECKING:
 
 _ELEMENTS = ("ball_inner", "ball_outer")
 _SIDES = {1: "+x", -1: "-x"}
-# Laws that know the shape of the elements, and their defaults for rollers.
-_SHAPED = {"cage_contact": "roller-pocket", "fluid_drag": "skf-rollers"}
 NEIGHBOUR, _NEIGHBOURS = next(iter(NEIGHBOURS)), "roller-roller"
 # Force elements whose laws are those of lines or know the shape of rollers, and these roles.
 _LINES = dict.fromkeys(_ELEMENTS, tuple(DEFAULT_LINE_MODELS))
@@ -158,7 +156,7 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
     silent = [dof for dof in (*(() if pressed else ("x",)), *TILTS) if dof not in inner.model_fields_set]
     inner = inner.model_copy(update={dof: type(getattr(inner, dof))(mode="locked") for dof in silent})
     # Without a cage models.cage_contact is refused, as it is with balls.
-    own = {*DEFAULT_LINE_MODELS, *_SHAPED} - ({"cage_contact"} if rollers.full_complement else set())
+    own = {*DEFAULT_LINE_MODELS, *DEFAULT_SHAPE_MODELS} - ({"cage_contact"} if rollers.full_complement else set())
     models = case.models.model_copy(update=dict.fromkeys(own))
     bodies = case.bodies.model_copy(update={"inner_ring": inner})
     parameters = {role: values for role, values in case.parameters.items() if role not in own}
@@ -227,14 +225,12 @@ def with_rollers(
         name = getattr(own.models, role) or (None if element == NEIGHBOUR else getattr(case.models, role)) or default
         general = {} if element == NEIGHBOUR or name == "none" else case.parameters.get(role, {})
         written = {**general, **own.parameters.get(role, {})}
-        found = law(role, name)
-        if found.contact == "point":
-            problem = Problem(f"{under}models.{role}", f'"{name}" is a law of balls: choose one of rollers')
-            raise CaseError(case.name, [problem])
         ledger = Ledger(place=lambda path: under + path)
-        values = written_parameters(found, role, written, ledger)
+        found = law_of_rollers(law, role, name, ledger)
+        values = written_parameters(found, role, written, ledger) if found is not None else None
         ledger.check(case.name)
-        assert values is not None  # else a problem says why
+        assert found is not None  # else a problem says why
+        assert values is not None
         origins = {key: "case" if key in written else "default" for key in found.parameters.model_fields}
         return ChosenLaw(found, values, origins)
 
@@ -248,9 +244,11 @@ def with_rollers(
         lines = {role: chosen(element, role, name) for role, name in DEFAULT_LINE_MODELS.items()}
         supply = _with_constants(laws[element]["supply"], rollers)
         laws[element] = {**laws[element], **lines, "supply": supply}
-    drag = chosen("fluid_drag", "fluid_drag", _SHAPED["fluid_drag"])
+    drag = chosen("fluid_drag", "fluid_drag", DEFAULT_SHAPE_MODELS["fluid_drag"])
     laws["fluid_drag"] = {"fluid_drag": _with_constants(drag, rollers)}
-    contact, name = (NEIGHBOUR, _NEIGHBOURS) if rollers.full_complement else ("ball_cage", _SHAPED["cage_contact"])
+    contact, name = (
+        (NEIGHBOUR, _NEIGHBOURS) if rollers.full_complement else ("ball_cage", DEFAULT_SHAPE_MODELS["cage_contact"])
+    )
     laws[contact] = {"cage_contact": chosen(contact, "cage_contact", name)}
     values, told = _of_laws(model, laws, case)
     ratings = tuple(

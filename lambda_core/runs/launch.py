@@ -105,7 +105,7 @@ def relaunch(path: Path, model: Runnable, *, report: Report | None = None, annou
     for name, origin in provenance.bearings.items():
         other = sorted(part for part, key in origin.kernel_keys.items() if keys[name].get(part) != key)
         if other:
-            raise ResultError(f"{path} cannot go on: the code has changed since: {_some(other)}")
+            raise ResultError(f"{path} cannot go on: the code has changed since: {_some(other)}; {_anew(path)}")
     return resume(engine, provenance, path, report=report, attached=attached, began=began)
 
 
@@ -127,10 +127,11 @@ def _check_same(result: Result, model: Runnable) -> None:
                 if moved
                 else f"the case now resolves to other values: {of}{_some(changed)}"
             )
-            raise ResultError(f"{result.path} cannot go on: {why}")
+            raise ResultError(f"{result.path} cannot go on: {why}; {_anew(result.path)}")
     changed = differences(result.machine, machine_data(model)) if isinstance(model, MachineModel) else []
     if changed:
-        raise ResultError(f"{result.path} cannot go on: the case now resolves to other values: {_some(changed)}")
+        why = f"the case now resolves to other values: {_some(changed)}"
+        raise ResultError(f"{result.path} cannot go on: {why}; {_anew(result.path)}")
 
 
 def _check_end(model: Runnable) -> None:
@@ -281,6 +282,10 @@ def _moved(model: BearingModel, before: Mapping[str, Any]) -> list[str]:
             if then != now:
                 found[f"{role}/{law.model.name} is of {now} now, it was of {then}"] = None
     return list(found)
+
+
+def _anew(path: Path) -> str:
+    return f'what was computed can be read; lambda_core.api.result("{path.name}").with_() runs its case from the start'
 
 
 def _some(names: list[str]) -> str:

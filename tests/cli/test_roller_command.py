@@ -295,6 +295,26 @@ def test_check_finds_mistakes_in_laws_of_rollers(
     assert where in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("verb", ["check", "quasistatic"])
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ("models.rolling_resistance=matsuyama", "is a law of balls: choose one of rollers"),
+        ("models.rolling_resistance=nonsense", "is not a rolling_resistance model"),
+        ("models.traction=nonsense", "is not a traction model"),
+        ("parameters.nonsense.x=1", "is not a known role"),
+        ("parameters.cage_contact.nonsense=1", "nonsense"),
+    ],
+)
+def test_unknown_laws_of_rollers_are_refused(
+    verb: str, change: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([verb, case(tmp_path, "NU 208"), "--set", change]) == 3
+    told = capsys.readouterr().err
+    assert message in told
+    assert change.partition("=")[0].removesuffix(".x") in told
+
+
 def test_a_run_rates_rollers_as_rollers(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

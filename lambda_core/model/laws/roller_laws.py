@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ValidationError
 
 from lambda_core.case.problems import problems
 from lambda_core.domain.elements import RIBS
-from lambda_core.domain.roles import ROLLER_CHOICES, ROLLER_FRICTION
+from lambda_core.domain.errors import unknown_name
+from lambda_core.domain.installed import OWN
+from lambda_core.domain.roles import (
+    DEFAULT_LINE_MODELS,
+    DEFAULT_MODELS,
+    DEFAULT_ROLLER_MODELS,
+    DEFAULT_SHAPE_MODELS,
+    MOTION_ROLES,
+    ROLLER_CHOICES,
+    ROLLER_FRICTION,
+)
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
@@ -17,6 +27,9 @@ if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.laws.resolve_laws import ModelSource
     from lambda_core.model.ledger import Ledger
+
+_DEFAULTS = DEFAULT_MODELS | DEFAULT_ROLLER_MODELS | DEFAULT_LINE_MODELS | DEFAULT_SHAPE_MODELS
+_OF_THE_OIL = ("rheology", "permittivity")  # roles in which an oil has its own default
 
 
 def written_parameters(law: Law, role: str, written: Mapping[str, Any], ledger: Ledger) -> BaseModel | None:
@@ -33,6 +46,18 @@ def written_parameters(law: Law, role: str, written: Mapping[str, Any], ledger: 
     return found
 
 
+def law_of_rollers(law: Callable[[str, str], Law], role: str, name: str, ledger: Ledger) -> Law | None:
+    """Return a law by role and name.
+
+    None follows a problem: there is none, or it is one of balls.
+    """
+    found = ledger.ask(f"models.{role}", lambda: law(role, name))
+    if found is None or found.contact != "point" or role not in DEFAULT_LINE_MODELS | DEFAULT_SHAPE_MODELS:
+        return found
+    ledger.problem(f"models.{role}", f'"{name}" is a law of balls: choose one of rollers')
+    return None
+
+
 def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[str, Any]:
     """Return a case's friction data of rollers.
 
@@ -42,26 +67,33 @@ def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[
     """
     from lambda_core.model.laws.law_packages import law_called
 
+    def law(role: str, name: str) -> Law:
+        return law_called(registry, role, name, given=False)
+
     found: dict[str, Any] = {}
-    for role, (names, _) in ROLLER_FRICTION.items():
-        name = getattr(case.models, role, None)
-        if name is None:
-            continue
-        if role in ROLLER_CHOICES and name in names:
-            found[ROLLER_CHOICES[role]] = name
-        elif name not in names:
-            ledger.assume(f'models.{role} = "{name}" counts in motion only: the quasi-static answer has {names[0]}')
+    chosen = {role: getattr(case.models, role) for role in type(case.models).model_fields}
+    given = {role: name.removeprefix(f"{OWN}:") for role, name in chosen.items() if name}
+    laws = {role: law_of_rollers(law, role, name, ledger) for role, name in given.items()}
+    for role, name in given.items():
+        names, _ = ROLLER_FRICTION.get(role, ((), {}))
+        if name in names:
+            found |= {ROLLER_CHOICES[role]: name} if role in ROLLER_CHOICES else {}
+        else:
+            known = f": the quasi-static answer has {names[0]}" if names else ""
+            ledger.assume(f'models.{role} = "{name}" counts in motion only{known}')
     for role, written in case.parameters.items():
-        names, fields = ROLLER_FRICTION.get(role, (("",), {}))
-        name = getattr(case.models, role, None) or names[0]
-        if name not in names:
-            fields = {}
-        if fields and written:
-            values = written_parameters(law_called(registry, role, name, given=False), role, written, ledger)
-            for key in fields.keys() & written.keys() if values is not None else ():
-                found[fields[key]] = float(getattr(values, key))
-                ledger.given(f"parameters.{role}.{key}", found[fields[key]], "pressure" if key == "tau_eyring" else "")
-        for key in written.keys() - fields.keys():
+        if role not in MOTION_ROLES:
+            ledger.problem(f"parameters.{role}", unknown_name("role", role, MOTION_ROLES))
+            continue
+        names, fields = ROLLER_FRICTION.get(role, ((), {}))
+        name = given.get(role, _DEFAULTS[role])
+        own = laws[role] if role in laws else None if role in _OF_THE_OIL else law(role, name)
+        values = written_parameters(own, role, written, ledger) if own is not None and name != "none" else None
+        told = fields if name in names else {}
+        for key in told.keys() & written.keys() if values is not None else ():
+            found[fields[key]] = float(getattr(values, key))
+            ledger.given(f"parameters.{role}.{key}", found[fields[key]], "pressure" if key == "tau_eyring" else "")
+        for key in written.keys() - told.keys():
             ledger.assume(f"parameters.{role}.{key} counts in motion only: the quasi-static answer has no such law")
     for rib in (name for name in RIBS if name in case.forces.model_fields_set):
         ledger.assume(f"forces.{rib} counts in motion only: the quasi-static answer has its own laws at ribs")
