@@ -99,6 +99,7 @@ class Result:
             raise UsageError(f"{self.path}: {unknown_name('bearing', bearing, self.bearing_names)}")
         self.bearing = bearing
         self._rerun: Rerun | None = None
+        self._summary: tuple[Any, Summary] | None = None  # of the file as it was
         group = file[self._place]
         if bearing and len(self.bearing_names) > 1:
             self.title, self.headline = (printable(str(group.attrs[name])) for name in ("title", "headline"))
@@ -342,10 +343,17 @@ class Result:
     # -- for people and for other programs --
 
     def summary(self) -> Summary:
-        """Return the averages and the end state (the machine interface)."""
+        """Return the averages and the end state (the machine interface).
+
+        They are computed again when the file has changed.
+        """
         from lambda_core.results.summary import summarise
 
-        return summarise(self)
+        status, file = self.status(), self.path.stat()
+        seen = (status, file.st_ino, file.st_size, file.st_mtime_ns)
+        if self._summary is None or self._summary[0] != seen:
+            self._summary = (seen, summarise(self))
+        return self._summary[1]
 
     def __getattr__(self, name: str) -> Any:
         from lambda_core.results.summary import field_names
@@ -395,9 +403,7 @@ class Result:
         return self
 
     def plot(self, name: str, **options: Any) -> Any:
-        """Return a view as a matplotlib figure.
-
-        A notebook shows it.
+        """Return a view as a matplotlib figure, for a notebook.
 
         Parameters
         ----------
@@ -426,12 +432,7 @@ class Result:
     def to_xarray(self) -> Any:
         """Return all channels as an xarray.Dataset.
 
-        It has dimensions, labels, units and meanings.
-
-        Raises
-        ------
-        UsageError
-            When xarray is not installed; it comes with the extra "data".
+        It has dimensions, labels, units and meanings; UsageError when xarray is not installed.
         """
         from lambda_core.results.answer import dataset
 

@@ -8,16 +8,21 @@ from __future__ import annotations
 import pickle
 import sys
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import h5py
 import pytest
 from fake_engine import FakeEngine, MakeProvenance
 
 from lambda_core import api
 from lambda_core.domain.errors import UsageError
 from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.results import summary
+from lambda_core.results.file_format import STATUS, STATUS_BYTES
 from lambda_core.results.reader import Result
+from lambda_core.results.summary import Summary, summarise
 from lambda_core.runs.loop import run
 
 
@@ -33,6 +38,28 @@ def test_a_result_completes_and_shows_itself(result: Result) -> None:
     shown = result._repr_html_()
     assert shown.startswith("<pre>")
     assert "friction torque" in shown
+
+
+def test_numbers_of_a_result_are_computed_once_for_each_state_of_its_file(
+    result: Result, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    counted: list[Result] = []
+
+    def counting(of: Result) -> Summary:
+        counted.append(of)
+        return summarise(of)
+
+    monkeypatch.setattr(summary, "summarise", counting)
+    seen = Result(result.path)
+    assert (seen.friction_torque_Nmm, seen.state, seen.reasons) == (
+        result.friction_torque_Nmm,
+        "finished",
+        seen.reasons,
+    )
+    assert counted == [seen, result]
+    with h5py.File(result.path, "r+") as file:
+        file[STATUS][()] = replace(result.status(), state="interrupted").to_bytes(STATUS_BYTES)
+    assert seen.state == "interrupted"
 
 
 def test_a_result_is_taken_where_a_path_is(result: Result) -> None:
