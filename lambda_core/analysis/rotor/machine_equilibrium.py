@@ -339,9 +339,6 @@ def _rollers(model: MachineModel, state: MachineState, index: int, ring: RollerR
     bearing, reaction, pose = model.bearings[index], state.reactions[index], state.pose(model, index)
     found = rollers_on_shaft(ring)
     answer, rating = found.answer, found.rating
-    if not rating.contamination_given:  # a_ISO of normal cleanliness is shown where the bearing is alone
-        without = dict.fromkeys(("modified_life_h", "modified_reference_life_h", "life_factor"))
-        rating = rating.model_copy(update=without)
     least = [] if answer.film_parameter is None else [answer.film_parameter]
     judged = rated_verdict(rating, answer.max_pressure_GPa, least, 1e3 * float(np.hypot(*pose[3:])))
     assert judged is not None  # its rating has limits
