@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from lambda_core.analysis.thermal.temperatures import ready, ready_model
+from lambda_core.analysis.thermal.temperatures import ready, ready_model, resolved
 from lambda_core.case.case_io import is_machine, load_case, parse_case
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError
@@ -241,8 +241,11 @@ def iterate(
         With a sentence about the case, the solver or `interval`.
     """
     from lambda_core.runs.stepping import Stepping
+    from lambda_core.solver.drivers.external_inputs import check_coupling
 
-    return Stepping(ready(source, overrides, announce), interval, announce, exact=exact, couple=couple)
+    model = resolved(source, overrides)
+    check_coupling(model, couple)  # temperatures are not worth finding for a case that cannot be coupled so
+    return Stepping(ready(model, announce=announce), interval, announce, exact=exact, couple=couple)
 
 
 @one_blas_thread()

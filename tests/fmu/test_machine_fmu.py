@@ -179,10 +179,24 @@ def test_what_a_machine_tells_and_refuses(host: Any, machine_unit: Any, shaft: P
         api.iterate(shaft, CHANGES).push((1.0, 0.0, 0.0))
 
 
-@pytest.mark.parametrize(("case", "changes"), [
+LED = pytest.mark.parametrize(("case", "changes"), [
     ("machine", ()),
     ("6208-axial-700", ("elements.bush.law=bushing", "elements.bush.second=inner_ring")),
 ])  # fmt: skip
+
+
+@LED
+def test_steps_by_motion_are_refused_before_temperatures(case: str, changes: tuple[str, ...], shaft: Path) -> None:
+    said: list[str] = []
+    with pytest.raises(UsageError, match="couple by force"):
+        api.iterate(
+            shaft if case == "machine" else case, (*changes, "operation.temperatures=computed"), couple="motion",
+            announce=said.append,
+        )  # fmt: skip
+    assert not said
+
+
+@LED
 def test_an_export_by_motion_is_refused_before_it_begins(
     case: str, changes: tuple[str, ...], shaft: Path, tmp_path: Path
 ) -> None:

@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.analysis.rotor.api import machine_of
 from lambda_core.case.case_io import is_machine
 from lambda_core.model.checking import model_of, resolve
 
@@ -59,6 +60,15 @@ def temperatures_over_time(
     model = model_of(source, overrides)
     loop = BearingLoop(model, _section(model), announce)
     return course_of(loop, warm_up(loop, duration))
+
+
+def resolved(
+    source: Source | BearingModel | MachineModel, overrides: Iterable[str] = ()
+) -> BearingModel | MachineModel:
+    """Return the model of a case before temperatures are computed."""
+    if is_machine(source):
+        return machine_of(source, overrides)  # type: ignore[arg-type]
+    return model_of(source, overrides)  # type: ignore[arg-type]
 
 
 def ready(
