@@ -11,6 +11,7 @@ import re
 import subprocess
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -45,6 +46,12 @@ class Tree:
         return self.files("lambda_core")
 
 
+@cache
+def _nodes(text: str) -> tuple[ast.AST, ...]:
+    """Return the nodes of a module, read once."""
+    return tuple(ast.walk(ast.parse(text)))
+
+
 def _lines(texts: dict[str, str], pattern: str) -> int:
     return sum(bool(re.search(pattern, line)) for text in texts.values() for line in text.splitlines())
 
@@ -64,7 +71,7 @@ def _parameters(tree: Tree) -> int:
 
 
 def _imports(text: str) -> Iterator[str]:
-    for node in ast.walk(ast.parse(text)):
+    for node in _nodes(text):
         if isinstance(node, ast.ImportFrom):
             yield from (f"{node.module}.{alias.name}" for alias in node.names)
 
@@ -89,7 +96,7 @@ def _statements(tree: Tree) -> int:
 
 def _code_lines(text: str) -> int:
     words: set[int] = set()
-    for node in ast.walk(ast.parse(text)):
+    for node in _nodes(text):
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str):
             words.update(range(node.lineno, (node.end_lineno or node.lineno) + 1))
     lines = enumerate(text.splitlines(), 1)
@@ -98,7 +105,7 @@ def _code_lines(text: str) -> int:
 
 def _functions(tree: Tree) -> Iterator[int]:
     for text in tree.files(*_OURS).values():
-        for node in ast.walk(ast.parse(text)):
+        for node in _nodes(text):
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
                 begin = node.body[1 if ast.get_docstring(node) and len(node.body) > 1 else 0].lineno
                 yield (node.end_lineno or begin) - begin + 1
@@ -115,7 +122,7 @@ def _untyped(tree: Tree) -> int:
     """
     count = 0
     for text in tree.core.values():
-        for node in ast.walk(ast.parse(text)):
+        for node in _nodes(text):
             if isinstance(node, ast.FunctionDef):
                 arguments = [a for a in node.args.args if a.arg not in ("self", "cls")]
                 count += any(a.annotation is None for a in arguments)

@@ -79,6 +79,7 @@ def test_a_bearing_with_rollers_stands_in_a_circuit(run: Result) -> None:
     assert abs(outcome.charge_residual) < 1e-6
 
 
+@pytest.mark.full
 def test_a_motor_of_rollers_and_balls_has_one_circuit() -> None:
     outcome = api.electric(MOTOR).outcome
     assert set(outcome.bearings) == {"drive", "other"}

@@ -54,6 +54,7 @@ def test_outside_of_what_was_measured_the_laws_are_as_unknown_as_before() -> Non
     np.testing.assert_allclose(beyond, far)
 
 
+@pytest.mark.full
 def test_bands_hold_what_they_say_for_laws_that_are_wrong_as_expected() -> None:
     """Count true values in bands of 400 draws.
 

@@ -107,6 +107,7 @@ def test_parameters_of_one_bearing_are_its_own(machine: str) -> None:
     assert found.changes(0.03)[0] == "bearings.left.models.elastic_hysteresis=loss-factor"
 
 
+@pytest.mark.full
 def test_temperatures_that_a_machine_computes_are_measured_quantities(machine: str) -> None:
     text = machine.replace("[operation]", '[operation]\ntemperatures = "computed"')
     own = subject_of(tomllib.loads(text), bearing="left")

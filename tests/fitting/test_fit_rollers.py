@@ -25,6 +25,7 @@ LOSS, RIB = "parameters.elastic_hysteresis.loss_factor", "bearing.rollers.rib_ro
 HEADER = "speed [1/min],axial load [kN],friction torque [N mm],friction torque error [%]"
 
 
+@pytest.mark.full
 def test_loss_factor_and_roughness_of_the_rib_are_found_again(tmp_path: Path) -> None:
     subject, rows = subject_of(CASE), [HEADER]
     for speed, load in ((20, 2), (20, 15), (2000, 2), (2000, 15)):

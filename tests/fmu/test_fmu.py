@@ -193,6 +193,7 @@ def test_elastic_parts_have_the_bits_of_the_program(host: Any, c_compiler: tuple
         assert dict(zip(expected, instance.get(list(expected)), strict=True)) == expected, f"step {k}"
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_states_and_instances(host: Any, exported: Export, tmp_path: Path, fmi: int) -> None:
     """Save, step, restore and step again.

@@ -43,6 +43,7 @@ def seen(step: Any) -> dict[str, float]:
     return found | {"bearings.right.outer_ring.x": step.bearings["right"]["body_position"][1, 0]}
 
 
+@pytest.mark.full
 def test_a_machine_has_the_bits_of_its_engine(host: Any, machine_unit: Any, shaft: Path) -> None:
     """Push the gear, then run the shaft up."""
     instance, engine = host.Instance(machine_unit).ready(), api.iterate(shaft, CHANGES, exact=True)

@@ -80,6 +80,7 @@ async def test_a_mistake_is_corrected_and_a_load_changed_in_one_line(hand_writte
     assert api.case(hand_written).loads.radial == 1800.0
 
 
+@pytest.mark.full
 async def test_every_kind_of_row_is_changed_undone_and_redone(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)

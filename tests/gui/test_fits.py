@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from driving import SMALL, checked, screen_text, wait_for
 from lambda_gui.app import BuilderApp
 from lambda_gui.dialogs import AskText
@@ -49,6 +50,7 @@ async def test_a_parameter_is_fitted_and_the_fitted_case_saved(hand_written: Pat
     assert "# belt" in target.read_text()  # comments stay
 
 
+@pytest.mark.full
 async def test_a_fit_that_is_stopped_keeps_its_best_values(hand_written: Path) -> None:
     rows = [f"{speed},{100 + speed / 40},2" for speed in range(300, 4000, 180)]
     hand_written.with_name("rig.csv").write_text("\n".join([DATA.splitlines()[0], *rows]))

@@ -102,6 +102,7 @@ def is_of_one_element(node: Node) -> bool:
     return node.kind == "role" and bool(node.element)
 
 
+@pytest.mark.full
 @SMALL_FIRST
 async def test_every_form_of_a_case(size: tuple[int, int]) -> None:
     async with BuilderApp(FIRST).run_test(size=size) as pilot:
@@ -128,6 +129,7 @@ async def test_every_form_of_every_case(case: str, size: tuple[int, int]) -> Non
         nothing(await read_forms(pilot, lambda node: True))
 
 
+@pytest.mark.full
 @SMALL_FIRST
 async def test_an_empty_model_and_what_it_asks(work_folder: Path, size: tuple[int, int]) -> None:
     (work_folder / "a-case-with-quite-a-long-name-of-its-own.toml").write_text("", encoding="utf-8")

@@ -141,6 +141,7 @@ async def from_tree(pilot: Pilot[None], key: str, place: tuple[str, ...]) -> Non
     await wait_for(pilot, lambda: focused_place(pilot)[:-1] == place)
 
 
+@pytest.mark.full
 async def test_a_shaft_from_nothing_by_keys(work_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Build a shaft by keys on a slow machine.
 

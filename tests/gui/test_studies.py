@@ -122,6 +122,7 @@ async def test_what_is_wrong_is_said_and_nothing_runs(hand_written: Path) -> Non
         assert not pilot.app.queue.runs
 
 
+@pytest.mark.full
 async def test_a_study_is_saved_for_the_shell(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await form(pilot, "operation.speed", is_fine=False)

@@ -47,6 +47,7 @@ def test_a_thousand_short_sections_are_merged() -> None:
     assert model.body.total_mass == pytest.approx(api.check(cut(1, 0.0)).body.total_mass, rel=1e-9)
 
 
+@pytest.mark.full
 def test_merged_pieces_bend_and_weigh_like_their_parts() -> None:
     """Compare a cone of 120 slices with its compliance.
 

@@ -24,6 +24,7 @@ MOTOR: dict[str, Any] = {
 }
 
 
+@pytest.mark.full
 def test_friction_of_tilted_rollers_changes_smoothly_with_the_clearance() -> None:
     """Change the clearance by single micrometres.
 

@@ -43,6 +43,7 @@ def test_no_package_brings_a_fault(site: Installation) -> None:
     assert answer.err == ""
 
 
+@pytest.mark.full
 def test_a_law_is_chosen_with_the_parameters_that_the_package_gives_to_an_oil(site: Installation) -> None:
     case = ["check", "6319-cp10-1500", "--all", "--set", "models.traction=gecim-winer"]
     answer = site.program(*case)

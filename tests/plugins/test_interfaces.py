@@ -116,6 +116,7 @@ def test_in_the_report(site: Installation, run: Path) -> None:
         assert words in text, words
 
 
+@pytest.mark.full
 @pytest.mark.timeout(900)
 def test_on_the_command_line(site: Installation, run: Path) -> None:
     views = site.program("view", "--list")

@@ -74,6 +74,7 @@ def test_there_is_something_to_follow() -> None:
     assert len(TEST_CODE) == 1
 
 
+@pytest.mark.full
 def test_every_command_works_and_says_what_the_page_prints(
     followed: tuple[Path, dict[str, str], dict[str, str]],
 ) -> None:

@@ -22,6 +22,7 @@ def sundials() -> None:
     pytest.importorskip("sksundae", reason="CVODE comes with the extra sundials")
 
 
+@pytest.mark.full
 @pytest.mark.usefixtures("sundials")
 @pytest.mark.parametrize(
     ("case", "tolerance"), [("6208-axial-1300", 1e-3), ("6319-cp10-1500", 5e-4), ("6319-cp6.5-1500", 5e-4)]

@@ -126,6 +126,7 @@ def test_an_equilibrium_shows_and_draws_itself_and_answers_for_a_changed_case() 
     assert table["inner_ring_displacement_um"].sel(xyz="z", bearing=found.case) == found.inner_ring_displacement_um[2]
 
 
+@pytest.mark.full
 def test_other_answers_answer_for_a_changed_case() -> None:
     """Change temperature and load in a notebook.
 

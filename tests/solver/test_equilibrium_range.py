@@ -117,6 +117,7 @@ def test_unloaded_balls_that_creep_are_held_by_friction(tilt: str) -> None:
     assert solve(api.check(_point("3200A", "SKF", 1.0, 380.0, 0.0, "mineral-vg68", 40.0), changes)).converged
 
 
+@pytest.mark.full
 def test_a_map_of_currents_has_the_points_of_the_quasi_static_solution() -> None:
     case = _point("6308", "SKF", 4.92, 1672.0, 114.2, "mineral-vg32", 20.0)
     found = api.electric_map(

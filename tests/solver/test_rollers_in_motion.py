@@ -253,6 +253,7 @@ THRUST: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.full
 def test_another_process_continues_a_run(tmp_path: Path) -> None:
     """Continue a run in another process.
 

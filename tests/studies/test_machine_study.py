@@ -17,6 +17,7 @@ def box(tmp_path: Path) -> Path:
     return api.init_case("box", path=tmp_path / "box.toml", template="geared-shaft")
 
 
+@pytest.mark.full
 def test_a_study_of_a_machine_says_what_its_points_say(box: Path, tmp_path: Path) -> None:
     """Compare responses at two gear powers.
 
@@ -53,6 +54,7 @@ def test_a_study_of_a_machine_says_what_its_points_say(box: Path, tmp_path: Path
     assert api.study_resume(tmp_path / "power", executor="here").done == 2
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("mode", ["quasi-static", "dynamic"])
 def test_a_life_has_one_name_for_a_bearing_alone_and_in_a_machine(box: Path, mode: str, tmp_path: Path) -> None:
     """Give the life one name everywhere.
@@ -90,6 +92,7 @@ def test_mistakes_of_a_study_of_a_machine_are_named(box: Path) -> None:
         api.study_check({**study, "set": {"bearings.left.position": "300 mm"}})
 
 
+@pytest.mark.full
 def test_runs_of_a_machine_are_points(box: Path, tmp_path: Path) -> None:
     """Store one run and one file per point.
 

@@ -52,6 +52,7 @@ def test_a_study_of_a_few_seconds_takes_no_other_process(
     assert [where for where, _ in asked] == ["here", "processes", "processes"]
 
 
+@pytest.mark.full
 def test_a_study_killed_before_its_bands_were_written_gets_them_on_resume(
     write: Write, inline: Executor, tmp_path: Path
 ) -> None:

@@ -76,6 +76,7 @@ def runs_table(tmp_path_factory: pytest.TempPathFactory) -> list[dict[str, Any]]
     return in_this_process(tmp_path_factory.mktemp("reference") / "runs", text)
 
 
+@pytest.mark.full
 def test_processes_give_the_same_table(write: Write, tmp_path: Path, map_table: list[dict[str, Any]]) -> None:
     reports = []
     status = api.study_run(write(MAP), tmp_path / "map", workers=2, progress=reports.append)
@@ -218,6 +219,7 @@ def test_a_lost_worker_loses_no_point(
     assert study.returncode == 5  # runs of 20 ms have not converged, and the exit code says so
 
 
+@pytest.mark.full
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for workers in /proc")
 def test_workers_do_not_outlive_their_director(start: Start, write: Write, tmp_path: Path) -> None:
     folder = tmp_path / "orphans"

@@ -25,6 +25,7 @@ def test_the_run_goes_through(shaken: Result) -> None:
     assert np.ptp(spin) == 0.0  # constant speed throughout
 
 
+@pytest.mark.full
 def test_the_excitation_is_the_one_asked_for(shaken: Result) -> None:
     place, time = shaken["body_position"][:, 1, 0], shaken["time"]
     assert np.abs(place[time < REST]).max() < 1e-8  # a spline through the table: it rings a little where it sets in

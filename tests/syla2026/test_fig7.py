@@ -17,6 +17,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("reproduction")
 
 
+@pytest.mark.full
 def test_fig7_meets_every_bar(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Check each statement of Syla's section 4.3.
 

@@ -104,6 +104,7 @@ def lost(monkeypatch: pytest.MonkeyPatch) -> set[str]:
     return without
 
 
+@pytest.mark.full
 @pytest.mark.usefixtures("lost")
 def test_table_4_in_full_reaches_its_page(tmp_path: Path) -> None:
     """Skip a value without a range.

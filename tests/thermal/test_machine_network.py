@@ -96,6 +96,7 @@ def test_growth_is_the_integral_of_the_temperature() -> None:
     assert found == pytest.approx([0.0, 0.0, 12e-6 * 0.1 * 10.0, 12e-6 * (0.2 * 20.0 + 0.1 * 40.0)], abs=1e-15)
 
 
+@pytest.mark.full
 def test_losses_that_leave_by_the_ends_of_the_shaft_have_their_closed_form() -> None:
     """Compare a shaft's temperatures with its closed form.
 
@@ -178,6 +179,7 @@ def test_a_machine_of_one_bearing_is_the_bearing_alone() -> None:
     assert found.gain.viscosity == pytest.approx(alone.gain.viscosity, rel=0.05)  # slopes of 2 K away
 
 
+@pytest.mark.full
 def test_the_loss_of_a_gear_warms_the_shaft(warm: SteadyTemperatures) -> None:
     """Add a gear's loss as another source.
 
@@ -193,6 +195,7 @@ def test_the_loss_of_a_gear_warms_the_shaft(warm: SteadyTemperatures) -> None:
     assert grown[1] > grown[0]
 
 
+@pytest.mark.full
 def test_oil_of_one_bearing_takes_its_heat_along() -> None:
     flow = {"oil_flow": "1 l/min", "oil_supply": "30 degC"}
     found = api.thermal(pair(bearings={"left": {"thermal": flow}}))
@@ -225,6 +228,7 @@ def test_the_case_of_a_warm_machine_needs_no_second_search(ready: MachineModel) 
     assert ready.growth.any()
 
 
+@pytest.mark.full
 def test_the_losses_of_a_run_give_temperatures_near_its_own(
     warm: SteadyTemperatures, ready: MachineModel, tmp_path: Path
 ) -> None:

@@ -102,6 +102,7 @@ def test_measured_torque_stands_in_the_curve_over_speed(tmp_path: Path, capsys: 
     assert "--draw DIR" in capsys.readouterr().err
 
 
+@pytest.mark.full
 def test_a_run_shows_measured_torque_over_speed_and_temperatures_over_time(
     radial_run: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
