@@ -37,7 +37,7 @@ ProgressOption = Annotated[
     Style,
     typer.Option("--progress", help="On stderr: a bar on a terminal, plain lines, one JSON object per line, or none."),
 ]
-QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")]
+QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="Print no progress: results and errors only.")]
 
 
 class Talk(Protocol):

@@ -2,6 +2,7 @@
 
 ``python shaft_in_fmpy.py FMU`` draws shaft-fmu.png.
 
+It needs FMPy and Matplotlib: ``pip install fmpy matplotlib``.
 The FMU: ``lambda-bearing init box --template geared-shaft``, then ``lambda-bearing export fmu box.toml``.
 """
 

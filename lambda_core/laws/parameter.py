@@ -7,9 +7,11 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.units import UNITS
 
 Bound = float | str
+_BOUNDS = {"gt", "ge", "lt", "le"}
 
 
 class Parameters(BaseModel):
@@ -61,7 +63,15 @@ def parameter(
     -------
     Any
         A field of a pydantic model, for the class body of `Parameters`.
+
+    Raises
+    ------
+    PluginError
+        For another keyword, such as ``unit``.
     """
+    if unknown := sorted(constraints.keys() - _BOUNDS):
+        remedy = '; for a unit declare the field as Annotated[float, Quantity("pressure")]' if "unit" in unknown else ""
+        raise PluginError(f"parameter() has no `{unknown[0]}`: bounds are {', '.join(sorted(_BOUNDS))}{remedy}")
     sourced = bool(source) or default is ...  # who has to give a value answers for it
     extra: dict[str, Any] = {"status": status or ("published" if sourced else "assumed")}
     if source:

@@ -37,8 +37,8 @@ class Equilibrium(Record):
     """The quasi-static state that the run started from."""
 
     loaded_balls: int = quantity(
-        "balls that the inner ring loads with more than 1 % of its largest contact load",
-        label="balls that the inner ring loads", column="loaded balls", decimals=0, group="contact",
+        "rolling elements that the inner ring loads with more than 1 % of its largest contact load",
+        label="rolling elements that the inner ring loads", column="loaded elements", decimals=0, group="contact",
     )  # fmt: skip
     max_load_N: float = quantity(
         "largest contact load, of both rings", "N", label="largest contact load of both rings", column="Q_max",

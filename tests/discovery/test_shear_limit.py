@@ -13,6 +13,7 @@ import pytest
 from lambda_core import api
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import SolverError
+from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.laws.check import check_model
 from lambda_core.laws.law import law_of
 from lambda_core.laws.parameter import Parameters, default_fault, parameter
@@ -82,3 +83,8 @@ def test_a_default_with_a_unit_says_how_its_parameter_is_declared() -> None:
 
     fault = default_fault(Stress)
     assert 'tau: Annotated[float, Quantity("pressure")]' in fault
+
+
+def test_a_unit_as_keyword_of_a_parameter_is_refused() -> None:
+    with pytest.raises(PluginError, match=r"no `unit`: bounds are ge, gt, le, lt; .* Annotated\[float, Quantity"):
+        parameter(6e6, "Eyring stress", unit="Pa")

@@ -305,7 +305,7 @@ def bearing_lines(found: Outcome) -> list[str]:
         line(
             "capacitance",
             f"bearing {least:.1f} .. {middle:.1f} .. {most:.1f} pF",
-            f"unloaded balls {100 * found.unloaded_share:.1f} %",
+            f"unloaded elements {100 * found.unloaded_share:.1f} %",
             f"rings {found.rings_capacitance_pF:.1f} pF",
         ),
         line("impedance", *(f"{name} {value:.3g} kOhm" for name, value in found.impedance_kOhm.items())),
@@ -314,8 +314,8 @@ def bearing_lines(found: Outcome) -> list[str]:
             "discharges",
             f"{_rate(found.discharges_per_s)} 1/s through the bearing",
             f"{_rate(found.partial_discharges / found.simulated_s)} 1/s through one film",
-            f"metal {100 * found.shorted_share:.2g} %",
             *([_floor(found.floor_share)] if found.floor_share > 0.0 else []),
+            f"metal {100 * found.shorted_share:.2g} %",
         ),
         line("  voltage", _three(found.breakdown_voltage_V, "V")),
         line("  peak current", _three(found.peak_current_A, "A")),
