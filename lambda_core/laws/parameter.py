@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from inspect import signature
 from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -11,7 +12,7 @@ from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.units import UNITS
 
 Bound = float | str
-_BOUNDS = {"gt", "ge", "lt", "le"}
+_KNOWN = signature(Field).parameters.keys() - {"extra"}  # others would be ignored
 
 
 class Parameters(BaseModel):
@@ -69,9 +70,9 @@ def parameter(
     PluginError
         For another keyword, such as ``unit``.
     """
-    if unknown := sorted(constraints.keys() - _BOUNDS):
+    if unknown := sorted(constraints.keys() - _KNOWN):
         remedy = '; for a unit declare the field as Annotated[float, Quantity("pressure")]' if "unit" in unknown else ""
-        raise PluginError(f"parameter() has no `{unknown[0]}`: bounds are {', '.join(sorted(_BOUNDS))}{remedy}")
+        raise PluginError(f"parameter() has no `{unknown[0]}`: bounds are ge, gt, le, lt{remedy}")
     sourced = bool(source) or default is ...  # who has to give a value answers for it
     extra: dict[str, Any] = {"status": status or ("published" if sourced else "assumed")}
     if source:
