@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lambda_core.analysis.band.effects import Effects
 from lambda_core.analysis.band.graded import Graded, given_range, varied
-from lambda_core.analysis.band.model_band import deviations
+from lambda_core.analysis.band.model_band import bands_of_machine, deviations, effects_in
 from lambda_core.analysis.band.quantities import CONDITIONS, TEMPERATURES, Condition, Measured
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.units import from_si, parse
 from lambda_core.domain.written_values import Scale, scale_of
 from lambda_core.fitting.subjects import vocabulary
+from lambda_core.results.model_band import FIELDS
 from lambda_core.studies.job import point_model, with_temperatures
 
 if TYPE_CHECKING:
@@ -176,8 +176,6 @@ class MachineSubject:
         Torques and losses of all bearings err together, as those of their laws do; how stiff and how loaded the machine
         is counts as known.
         """
-        from lambda_core.analysis.rotor.bearing_alone import alone_under_load
-
         point, found, own = _solved(self._machine.case_toml, tuple(changes)), {}, tuple(fitted)
         sizes: dict[tuple[str, str], float] = {}
         for number, one in enumerate(point.model.bearings):
@@ -188,7 +186,7 @@ class MachineSubject:
             prefix = f"bearings.{one.name}."
             local = [path.removeprefix(prefix) for path in own]
             without = [*local, *(f"bearing.{path}" for path in local)]
-            effects = Effects(alone_under_load(point.model, point.state, number), kinds, without=without)
+            effects = effects_in(point.model, point.state, number, kinds, without)
             sizes |= {(one.name, kind): size for kind, size in deviations(effects, kinds).items()}
         for name in names:
             owner, measured = self._readers[name]
@@ -198,6 +196,24 @@ class MachineSubject:
             elif kind:
                 each = {one.name: _number(point, one.name, measured.response) or 0.0 for one in point.model.bearings}
                 found[name] = sum(each[one] * sizes.get((one, kind), 0.0) for one in each) / sum(each.values())
+        return found
+
+    def bands(self, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
+        """Return both ends of each quantity's model band.
+
+        Those of torques and losses of all bearings are added: they err together.
+        """
+        kinds = {name: next((kind for kind in FIELDS if name.endswith(kind)), "") for name in names}
+        wanted = sorted({kind for kind in kinds.values() if kind})
+        if not wanted:
+            return {}
+        point, found = _solved(self._machine.case_toml, tuple(changes)), {}
+        each = bands_of_machine(point.model, point.state, wanted).bearings
+        for name, kind in kinds.items():
+            owner, _ = self._readers[name]
+            bands = [band for one in ((owner,) if owner else each) for band in each[one].bands if band.quantity == kind]
+            if bands:
+                found[name] = [sum(band.low for band in bands), sum(band.high for band in bands)]
         return found
 
 

@@ -9,24 +9,20 @@ from dataclasses import dataclass
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from pydantic import ConfigDict, Field, ValidationError
 
-from lambda_core.analysis.band.model_band import band_alone
-from lambda_core.analysis.band.quantities import MEASURED
-from lambda_core.analysis.thermal.temperatures import ready_model
+from lambda_core.analysis.band.quantities import OPERATING_POINTS, Vocabulary
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, unknown_name
 from lambda_core.domain.files import user_data_folder
 from lambda_core.domain.lists import listed
 from lambda_core.fitting.measurements import Measurements, parse_measurements, read_measurements
-from lambda_core.fitting.operating_points import condition_change, point_values, roller_values
+from lambda_core.fitting.operating_points import condition_change
 from lambda_core.fitting.scores import interval_score, relative
+from lambda_core.fitting.subjects import Subject, subject_of
 from lambda_core.results.record import INTERFACE, Record
-
-if TYPE_CHECKING:
-    from lambda_core.case.case import Case
 
 _FOLDER = "measured_data"
 
@@ -53,8 +49,15 @@ class MeasuredSeries(Record):
 
 @dataclass(frozen=True)
 class _Loaded:
+    """A series with its points and with what predicts them.
+
+    Without a case `refused` is None, too; otherwise it says what is wrong with the case.
+    """
+
     series: MeasuredSeries
     measurements: Measurements
+    subject: Subject | None
+    refused: LambdaError | None
 
 
 class ComparedPoint(Record):
@@ -156,7 +159,9 @@ def add_series(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries:
         raise UsageError(
             f"{source} is not a TOML file: write title, source, licence, how_read and uncertainty into one"
         )
-    series, name = _load(str(source)).series, source.stem
+    loaded, name = _load(str(source)), source.stem
+    if loaded.refused is not None:
+        raise loaded.refused
     target = _own_folder() / source.name
     known = {one.name for one in all_series()}
     if name in known and not (overwrite and target.is_file()):
@@ -165,7 +170,7 @@ def add_series(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries:
     target.parent.mkdir(parents=True, exist_ok=True)
     for ending in (".csv", ".toml"):  # a description without points is never seen
         shutil.copyfile(source.with_suffix(ending), target.with_suffix(ending))
-    return series
+    return loaded.series
 
 
 def compare(
@@ -196,15 +201,32 @@ def _load(name: str) -> _Loaded:
     """Return a series with its points."""
     path = Path(name)
     if path.suffix == ".toml" and path.is_file():
-        return _Loaded(_read(path.read_text(encoding="utf-8"), path.name), read_measurements(path.with_suffix(".csv")))
+        series = _read(path.read_text(encoding="utf-8"), path.name)
+        subject, refused = _subject(series)
+        points = read_measurements(path.with_suffix(".csv"), _words(subject))
+        return _Loaded(series, points, subject, refused)
     known = {series.name: series for series in all_series()}
     if name not in known:
         raise UsageError(unknown_name("measured series", name, known))
     folder = next(one for one in _folders() if one.joinpath(f"{name}.toml").is_file())
-    points = folder.joinpath(f"{name}.csv")
-    if not points.is_file():
+    file = folder.joinpath(f"{name}.csv")
+    if not file.is_file():
         raise UsageError(f"measured series {name}: {name}.csv with its points is missing next to {name}.toml")
-    return _Loaded(known[name], parse_measurements(points.read_text(encoding="utf-8"), f"{name}.csv"))
+    subject, refused = _subject(known[name])
+    points = parse_measurements(file.read_text(encoding="utf-8"), f"{name}.csv", _words(subject))
+    return _Loaded(known[name], points, subject, refused)
+
+
+def _subject(series: MeasuredSeries) -> tuple[Subject | None, LambdaError | None]:
+    """Return what predicts a series, or what is wrong with its case."""
+    try:
+        return (subject_of(series.case), None) if series.case else (None, None)
+    except LambdaError as error:
+        return None, error
+
+
+def _words(subject: Subject | None) -> Vocabulary:
+    return OPERATING_POINTS if subject is None else subject.words
 
 
 def _compared(one: _Loaded, band: bool) -> ComparedSeries:
@@ -212,6 +234,8 @@ def _compared(one: _Loaded, band: bool) -> ComparedSeries:
     if not series.case:
         return _not_computed(series, f"there is no case for it: {series.bearing}")
     try:
+        if one.refused is not None:
+            raise one.refused
         points = _points(one, band)
     except LambdaError as error:
         return _not_computed(series, " ".join(str(error).split()))
@@ -245,38 +269,22 @@ def _not_computed(series: MeasuredSeries, reason: str) -> ComparedSeries:
 
 
 def _points(one: _Loaded, band: bool) -> list[ComparedPoint]:
-    from lambda_core.case.case_writer import standalone_toml
-    from lambda_core.model.api import case_of
-    from lambda_core.model.roller_case import roller_model
-
-    data, case = one.measurements, case_of(one.series.case)
-    text, found = standalone_toml(case), []
+    data, subject, found = one.measurements, one.subject, []
+    assert subject is not None  # the series has a case
     for row, line in enumerate(data.lines):
         changes = [condition_change(data.set_by[name], float(column[row])) for name, column in data.conditions.items()]
         names = [name for name, values in data.measured.items() if math.isfinite(values[row])]
-        rollers = roller_model(case, changes)
-        bands = _bands(case, changes, names) if band else {}
-        predicted = (
-            point_values(text, changes, names).mean(axis=0) if rollers is None else roller_values(rollers, names)
-        )
+        bands = subject.bands(changes, names) if band else {}
+        predicted = subject.values(changes, (), names, one=False).mean(axis=0)
         for name, value in zip(names, predicted.tolist(), strict=True):
             found.append(
                 ComparedPoint(
                     line=line,
                     quantity=name,
-                    unit=MEASURED[name].unit,
+                    unit=subject.words.measured[name].unit,
                     measured=float(data.measured[name][row]),
                     predicted=value,
                     band=bands.get(name, []),
                 )
             )
     return found
-
-
-def _bands(case: Case, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
-    """Return both ends of each quantity's model band.
-
-    Quantities without a band are left out.
-    """
-    found = band_alone(ready_model(case, changes, is_static=True), names)
-    return {one.quantity: [one.low, one.high] for one in found.bands}

@@ -10,8 +10,8 @@ import numpy as np
 
 from lambda_core.analysis.band.changed import is_of_laws, with_value_of_laws
 from lambda_core.analysis.band.graded import Graded
-from lambda_core.analysis.band.quantities import Condition
-from lambda_core.analysis.band.readings import READ, read_values
+from lambda_core.analysis.band.quantities import TEMPERATURES, Condition
+from lambda_core.analysis.band.readings import READ, computed_temperature, read_values
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, LambdaError, SolverError, UsageError
 from lambda_core.domain.units import UNITS, from_si
@@ -145,10 +145,11 @@ class _Point:
 ROLLER_QUANTITIES = ("friction torque", "power loss", *(f"displacement {axis}" for axis in "xyz"))
 
 
-def roller_values(model: RollerModel, names: Sequence[str]) -> FloatArray:
+def roller_values(model: RollerModel, warm: BearingModel | None, names: Sequence[str]) -> FloatArray:
     """Return measured quantities of a roller bearing.
 
-    The bearing's model predicts them; a quantity that it lacks raises a UsageError.
+    The bearing's model predicts them, and `warm` has its computed temperatures; a quantity that it lacks raises a
+    UsageError.
     """
     from lambda_core.results.roller_quasistatic import roller_quasistatic
 
@@ -158,6 +159,8 @@ def roller_values(model: RollerModel, names: Sequence[str]) -> FloatArray:
     if torque is not None:
         values |= {"friction torque": torque, "power loss": 1e-3 * torque * speed}
     values |= {f"displacement {axis}": found.inner_ring_displacement_um[i] for i, axis in enumerate("xyz")}
+    if warm is not None:
+        values |= {name: computed_temperature(warm, name) for name in names if name in TEMPERATURES}
     missing = [name for name in names if name not in values]
     if missing:
         raise UsageError(f"{model.name}: a roller bearing at this point has no {missing[0]}: {', '.join(values)}")

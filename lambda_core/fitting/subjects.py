@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from lambda_core.analysis.band.graded import Graded, varied
-from lambda_core.analysis.band.model_band import deviations, effects_alone
+from lambda_core.analysis.band.model_band import band_alone, deviations, effects_alone
 from lambda_core.analysis.band.quantities import (
     CONDITIONS,
     MEASURED,
@@ -23,6 +23,7 @@ from lambda_core.analysis.band.quantities import (
     Vocabulary,
     error_quantity,
 )
+from lambda_core.analysis.thermal.temperatures import ready_rollers
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.units import units_of
 from lambda_core.domain.written_values import quantities
@@ -61,6 +62,12 @@ class Subject(Protocol):
         """Return each quantity's relative standard deviation.
 
         It follows from the ranges of all that is not fitted.
+        """
+
+    def bands(self, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
+        """Return both ends of each quantity's model band.
+
+        Quantities without a band are left out.
         """
 
 
@@ -112,6 +119,11 @@ class BearingSubject:
         model = with_temperatures(resolve_point(self._toml, tuple(changes)))
         return deviations(effects_alone(model, names, fitted), names, model.found_temperatures)
 
+    def bands(self, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
+        """Return both ends of each quantity's model band."""
+        found = band_alone(with_temperatures(resolve_point(self._toml, tuple(changes))), names)
+        return {one.quantity: [one.low, one.high] for one in found.bands}
+
 
 class RollerSubject(BearingSubject):
     """One roller bearing, as its quasi-static answer has it."""
@@ -124,7 +136,8 @@ class RollerSubject(BearingSubject):
         assert rollers is not None
         self.model = replace(self.model, values=(*self.model.values, *rollers.values))
         kept = {name: MEASURED[name] for name in ROLLER_QUANTITIES}
-        self.words = vocabulary(CONDITIONS, kept, type(case), ())
+        computed = TEMPERATURES if case.operation.temperatures == "computed" else ()
+        self.words = vocabulary(CONDITIONS, kept, type(case), computed)
 
     def values(
         self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
@@ -134,14 +147,13 @@ class RollerSubject(BearingSubject):
         There is one position of the rollers.
         """
         from lambda_core.case.case_io import apply_overrides
-        from lambda_core.model.roller_case import roller_model
 
         del one
         moved = [change for graded, number in parameters for change in graded.changes(number)]
         # the case may be wrong with these changes: then this says what is wrong
-        model = roller_model(apply_overrides(self._case, (*changes, *moved)))
-        assert model is not None
-        return roller_values(model, names)[np.newaxis]
+        found = ready_rollers(apply_overrides(self._case, (*changes, *moved)))
+        assert found is not None
+        return roller_values(*found, names)[np.newaxis]
 
 
 def vocabulary(

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from lambda_core.analysis.thermal.temperatures import ready, ready_model, resolved
-from lambda_core.case.case_io import is_machine, load_case, parse_case
+from lambda_core.analysis.thermal.temperatures import ready, ready_model, ready_rollers, resolved
+from lambda_core.case.case_io import is_machine
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError
 from lambda_core.model.api import check
@@ -101,19 +101,12 @@ def _roller_answer(
 
     Bearings that do not run in time have no band: the ranges are those of laws in motion.
     """
-    from lambda_core.model.bearing_model import BearingModel
-    from lambda_core.model.roller_case import roller_model
     from lambda_core.results.roller_quasistatic import roller_quasistatic
 
-    if isinstance(source, BearingModel):
+    found = ready_rollers(source, overrides, announce)
+    if found is None:
         return None
-    model, warm = roller_model(source, overrides), None
-    if model is None:
-        return None
-    if load_case(source, overrides).operation.temperatures == "computed":
-        warm = ready_model(source, overrides, announce, is_static=True)
-        model = roller_model(parse_case(warm.case_toml, warm.name))
-        assert model is not None
+    model, warm = found
     answer = roller_quasistatic(model)
     if not band:
         return answer

@@ -6,7 +6,7 @@ import math
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.analysis.thermal.temperatures import ready_model
+from lambda_core.analysis.thermal.temperatures import ready_model, ready_rollers
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.lists import listed
 from lambda_core.results.answer import answers
@@ -62,9 +62,9 @@ def compare(
         With a sentence about the case, or about why there is no equilibrium.
     """
     from lambda_core.analysis.rating.compare_methods import compare as ask
-    from lambda_core.case.case_io import is_machine, refuse_bearing
+    from lambda_core.case.case_io import is_machine, parse_case, refuse_bearing
     from lambda_core.discovery.api import registry
-    from lambda_core.model.roller_case import roller_model
+    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.results.reader import Result
     from lambda_core.results.roller_quasistatic import solve_rollers
     from lambda_core.runs.compare_rollers import compare_rollers
@@ -88,9 +88,12 @@ def compare(
             )
         return _compare_in_machine(source, overrides, bearing, (chosen, of_rollers), contamination, announce)
     refuse_bearing(bearing)
-    rollers = roller_model(source, overrides) if not hasattr(source, "laws") else None  # type: ignore[arg-type]
+    if isinstance(source, BearingModel) and source.rollers is not None:
+        source = parse_case(source.case_toml, source.name)  # methods for rollers need the case itself
+    found = ready_rollers(source, overrides, announce)
     simulated = result if result is None or isinstance(result, Result) else Result(result)
-    if rollers is not None:
+    if found is not None:
+        rollers, _ = found
         clean = _clean(contamination, rollers.contamination, rollers.bearing.pitch_diameter)
         columns = []
         if simulated is not None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from lambda_core import api
@@ -20,6 +21,17 @@ CASE = {
     "lubricant": {"name": "FVA3", "temperature": "50 degC"},
     "loads": {"axial": "6 kN"},
     "operation": {"speed": "2000 rpm"},
+}
+SHAFT = {
+    "name": "motor",
+    "shaft": {"sections": [{"length": "400 mm", "diameter": "40 mm"}]},
+    "bearings": {
+        "floating": {"designation": "SKF NU 208 ECP", "at": "20 mm"},
+        "located": {"designation": "SKF 6308", "at": "360 mm"},
+    },
+    "loads": {"belt": {"at": "5 mm", "force_z": "-4 kN"}},
+    "operation": {"speed": "1000 rpm"},
+    "lubricant": {"name": "FVA3", "temperature": "60 degC"},
 }
 LOSS, RIB = "parameters.elastic_hysteresis.loss_factor", "bearing.rollers.rib_roughness"
 HEADER = "speed [1/min],axial load [kN],friction torque [N mm],friction torque error [%]"
@@ -79,19 +91,33 @@ def test_rollers_have_no_measured_film() -> None:
 
 
 def test_rollers_of_a_machine_take_fitted_parameters() -> None:
-    shaft = {
-        "name": "motor",
-        "shaft": {"sections": [{"length": "400 mm", "diameter": "40 mm"}]},
-        "bearings": {
-            "floating": {"designation": "SKF NU 208 ECP", "at": "20 mm"},
-            "located": {"designation": "SKF 6308", "at": "360 mm"},
-        },
-        "loads": {"belt": {"at": "5 mm", "force_z": "-4 kN"}},
-        "operation": {"speed": "1000 rpm"},
-        "lubricant": {"name": "FVA3", "temperature": "60 degC"},
-    }
-    subject = subject_of(shaft, bearing="floating")
+    subject = subject_of(SHAFT, bearing="floating")
     loss = subject.varied("loss_factor")
     assert loss.path == f"bearings.floating.{LOSS}"
     low, high = (subject.values((), [(loss, end)], ("friction torque",), one=True)[0, 0] for end in (0.02, 0.047))
     assert high > 1.02 * low
+
+
+def test_rollers_at_computed_temperatures_are_fitted_there() -> None:
+    """Predict rollers that warm up, and measure their temperatures.
+
+    The given temperature was kept.
+    """
+    tables = {**CASE, "operation": {"speed": "2000 rpm", "temperatures": "computed"}}
+    subject = subject_of(tables)
+    torque, oil = subject.values((), (), ("friction torque", "oil temperature"), one=True)[0]
+    assert torque == pytest.approx(api.quasistatic(tables).friction_torque_Nmm, rel=1e-6)
+    assert abs(oil - 50.0) > 2.0
+    assert subject.deviations((), ("oil temperature",), ())["oil temperature"] > 0.0
+
+
+def test_rollers_of_a_machine_have_the_errors_of_their_band() -> None:
+    """Compare the deviation before a fit with the model band.
+
+    It was that of the laws of balls.
+    """
+    subject = subject_of(SHAFT)
+    name = "floating friction torque"
+    value = subject.values((), (), (name,), one=True)[0, 0]
+    low, high = np.log(np.array(subject.bands((), (name,))[name]) / value)
+    assert subject.deviations((), (name,), ())[name] == pytest.approx((high - low) / 2 / 1.645, rel=0.01)

@@ -15,6 +15,7 @@ from lambda_syla2026.published import MEASURED, TABLE_4
 from lambda_core import api
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
+from lambda_core.model.machine_templates import geared_shaft
 
 PAGE = Path(__file__).parents[2] / "docs/validation.md"
 
@@ -143,3 +144,43 @@ def test_a_series_without_points_or_with_a_taken_name_is_not_added(
     with pytest.raises(UsageError):
         api.add_measured(tmp_path / name)
     assert not (tmp_path / "data" / "measured" / name).exists()
+
+
+ROLLERS = (
+    'title = "rig"\nsource = "us"\nlicence = "CC0"\nhow_read = "sensor"\nuncertainty = "2 %"\n'
+    '[case]\nname = "own"\nbearing = { designation = "SKF NU 208 ECP" }\n'
+    'operation = { speed = "3000 rpm", temperatures = "computed" }\n'
+    'lubricant = { name = "FVA3", temperature = "60 degC" }\nloads = { radial = "2 kN" }\n'
+)
+
+
+def test_rollers_at_computed_temperatures_are_compared_there(tmp_path: Path) -> None:
+    """Compare torques and temperatures of rollers that warm up.
+
+    The given temperature was kept, and a measured one had no column.
+    """
+    (tmp_path / "rig.toml").write_text(ROLLERS)
+    (tmp_path / "rig.csv").write_text(
+        "speed [1/min],friction torque [N mm],oil temperature [degC],oil temperature error [K]\n3000,150,75,1\n"
+    )
+    (one,) = api.compare_measured([str(tmp_path / "rig.toml")]).compared
+    torque, oil = one.points
+    answer = api.quasistatic(one.series.case, band=True)
+    assert torque.predicted == pytest.approx(answer.friction_torque_Nmm, rel=1e-6)
+    assert oil.band == pytest.approx(answer.oil_temperature_degC_band, rel=1e-3)
+    assert oil.band[0] < oil.predicted < oil.band[1]
+    assert abs(oil.predicted - 60.0) > 2.0
+
+
+def test_a_series_of_a_machine_is_compared_with_its_bands(tmp_path: Path) -> None:
+    (tmp_path / "box.toml").write_text(geared_shaft("box"))
+    (tmp_path / "rig.toml").write_text(
+        f'title = "rig"\ncase = "{tmp_path / "box.toml"}"\nsource = "us"\nlicence = "CC0"\n'
+        'how_read = "sensor"\nuncertainty = "2 %"\n'
+    )
+    (tmp_path / "rig.csv").write_text("friction torque [N mm],left friction torque [N mm]\n150,75\n")
+    (one,) = api.compare_measured([str(tmp_path / "rig.toml")]).compared
+    for point in one.points:
+        assert point.band[0] < point.predicted < point.band[1]
+    both, left = one.points
+    assert both.predicted > left.predicted

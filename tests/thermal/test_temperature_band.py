@@ -154,3 +154,19 @@ def test_rollers_at_computed_temperatures_have_their_bands() -> None:
     cold = api.quasistatic({**given, "lubricant": {"name": "FVA3", "temperature": f"{value:.4f} degC"}})
     assert isinstance(cold, RollerQuasiStatic)
     assert found.friction_torque_Nmm == pytest.approx(cold.friction_torque_Nmm, rel=0.02)
+
+
+def test_methods_on_rollers_are_compared_at_computed_temperatures() -> None:
+    """Compare methods where the bearing runs.
+
+    They were asked at the temperature that the case gives as a start.
+    """
+    rollers = {**WARM, "bearing": {"designation": "SKF NU 208 ECP"}}
+    answer = api.quasistatic(rollers)
+    assert isinstance(answer, RollerQuasiStatic)
+    compared = api.compare(rollers)
+    assert compared.value("quasi-static", "friction", "total") == pytest.approx(answer.friction_torque_Nmm)
+    model = ready_model(rollers, is_static=True)
+    assert f"{model.oil.temperature - 273.15:.4g} degC" in compared.headline
+    resolved = api.compare(api.check(rollers, ["operation.temperatures=given"], is_static=True))
+    assert resolved.value("skf", "friction", "total") != compared.value("skf", "friction", "total")

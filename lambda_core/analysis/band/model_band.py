@@ -132,12 +132,14 @@ def bands_of_machine(
     found, names = machine.found_temperatures, [one.name for one in machine.bearings]
     # computed temperatures join the bearings
     chosen = range(len(names)) if number is None or found is not None else (number,)
-    each = [_effects_in(machine, state, i, quantities) for i in chosen]
+    each = [effects_in(machine, state, i, quantities) for i in chosen]
     bands = dict(zip([names[i] for i in chosen], _bands(each, quantities, found, names), strict=True))
     return MachineBand(case=machine.name, bearings=bands if number is None else {names[number]: bands[names[number]]})
 
 
-def _effects_in(machine: MachineModel, state: MachineState, i: int, quantities: Sequence[str]) -> BearingEffects:
+def effects_in(
+    machine: MachineModel, state: MachineState, i: int, quantities: Sequence[str], without: Iterable[str] = ()
+) -> BearingEffects:
     """Return the effects on results of a machine's bearing."""
     from lambda_core.analysis.rotor.bearing_alone import alone_under_load
 
@@ -146,8 +148,8 @@ def _effects_in(machine: MachineModel, state: MachineState, i: int, quantities: 
         from lambda_core.analysis.band.roller_band import RollerEffects
         from lambda_core.analysis.rotor.rollers_on_shaft import taken_out
 
-        return _asked(partial(RollerEffects, machine.bearings[i].model, taken_out(ring)), quantities, found)
-    return _asked(partial(Effects, alone_under_load(machine, state, i)), quantities, found)
+        return _asked(partial(RollerEffects, machine.bearings[i].model, taken_out(ring)), quantities, found, without)
+    return _asked(partial(Effects, alone_under_load(machine, state, i)), quantities, found, without)
 
 
 def temperature_band(model: BearingModel | MachineModel) -> ModelBand:
@@ -158,7 +160,7 @@ def temperature_band(model: BearingModel | MachineModel) -> ModelBand:
         from lambda_core.solver.drivers.machine_statics import solve_machine
 
         state, labels = solve_machine(model), [one.name for one in model.bearings]
-        each = [_effects_in(model, state, i, ()) for i in range(len(labels))]
+        each = [effects_in(model, state, i, ()) for i in range(len(labels))]
     _, warmer = _effects(each, model.found_temperatures, labels)
     bands = list(node_bands(model.found_temperatures, warmer).values()) if warmer else []
     left_out = list(dict.fromkeys(sentence for one in each for sentence in one.left_out))

@@ -16,6 +16,7 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.domain.units import from_si, parse
 from lambda_core.formulas.life import life_hours, reference_rating_life
 from lambda_core.formulas.loading import CARRYING
+from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.checks.operating_limits import ratings
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.records import CONTACT_CHANNELS
@@ -94,19 +95,25 @@ def _displacement(axis: int) -> Callable[[Equilibrium], float]:
     return lambda found: 1e6 * float(found.displacement[axis])
 
 
-def _temperature(*place: str) -> Callable[[Equilibrium], float]:
-    """Return the reader of a computed temperature.
+_PLACES = {
+    "oil temperature": ("lubricant", "temperature"),
+    **{f"{ring} ring temperature": ("bearing", "temperatures", f"{ring}_ring") for ring in RINGS},
+}
 
-    The case of the model has it [degC].
+
+def computed_temperature(model: BearingModel, name: str) -> float:
+    """Return a computed temperature [degC].
+
+    The case of the model has it; `name` is that of a quantity.
     """
+    value: Any = toml_tables(model.case_toml, model.name)
+    for part in _PLACES[name]:
+        value = value[part]
+    return from_si(parse(value, "temperature"), "temperature", "degC")
 
-    def read(found: Equilibrium) -> float:
-        value: Any = toml_tables(found.context.model.case_toml, found.context.model.name)
-        for part in place:
-            value = value[part]
-        return from_si(parse(value, "temperature"), "temperature", "degC")
 
-    return read
+def _temperature(name: str) -> Callable[[Equilibrium], float]:
+    return lambda found: computed_temperature(found.context.model, name)
 
 
 READ: Mapping[str, Callable[[Equilibrium], float]] = {
@@ -117,6 +124,5 @@ READ: Mapping[str, Callable[[Equilibrium], float]] = {
     "capacitance": _capacitance,
     "rating life": _life,
     **{f"displacement {axis}": _displacement(index) for index, axis in enumerate("xyz")},
-    "oil temperature": _temperature("lubricant", "temperature"),
-    **{f"{ring} ring temperature": _temperature("bearing", "temperatures", f"{ring}_ring") for ring in RINGS},
+    **{name: _temperature(name) for name in _PLACES},
 }

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
+    from lambda_core.model.roller_case import RollerModel
     from lambda_core.results.reader import Result
 
 
@@ -111,6 +112,36 @@ def ready_model(
     from lambda_core.analysis.thermal.operating import at_own_temperatures
 
     return at_own_temperatures(model, partial(resolve, is_static=is_static), announce)
+
+
+def ready_rollers(
+    source: Source | BearingModel | MachineModel,
+    overrides: Iterable[str] = (),
+    announce: Callable[[str], None] | None = None,
+) -> tuple[RollerModel, BearingModel | None] | None:
+    """Return the roller bearing of a case.
+
+    It has its own temperatures where the case wants them computed; then also return its model with what was found.
+    None where the source is no case of one.
+
+    Raises
+    ------
+    CaseError, SolverError
+        With a sentence about the case, or about why there are no steady temperatures.
+    """
+    from lambda_core.case.case_io import load_case, parse_case
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.roller_case import roller_model
+
+    if isinstance(source, BearingModel):
+        return None
+    rollers = roller_model(source, overrides)  # type: ignore[arg-type]
+    if rollers is None or load_case(source, overrides).operation.temperatures != "computed":  # type: ignore[arg-type]
+        return None if rollers is None else (rollers, None)
+    warm = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
+    rollers = roller_model(parse_case(warm.case_toml, warm.name))
+    assert rollers is not None
+    return rollers, warm
 
 
 def run_of(source: object) -> Result | None:
