@@ -218,7 +218,10 @@ def _load(name: str) -> _Loaded:
 
 
 def _subject(series: MeasuredSeries) -> tuple[Subject | None, LambdaError | None]:
-    """Return what predicts a series, or what is wrong with its case."""
+    """Return what predicts a series.
+
+    Otherwise return what is wrong with its case.
+    """
     try:
         return (subject_of(series.case), None) if series.case else (None, None)
     except LambdaError as error:
