@@ -180,13 +180,13 @@ def test_what_a_machine_tells_and_refuses(host: Any, machine_unit: Any, shaft: P
         api.iterate(shaft, CHANGES).push((1.0, 0.0, 0.0))
 
 
-LED = pytest.mark.parametrize(("case", "changes"), [
+MOVED = pytest.mark.parametrize(("case", "changes"), [
     ("machine", ()),
     ("6208-axial-700", ("elements.bush.law=bushing", "elements.bush.second=inner_ring")),
 ])  # fmt: skip
 
 
-@LED
+@MOVED
 def test_steps_by_motion_are_refused_before_temperatures(case: str, changes: tuple[str, ...], shaft: Path) -> None:
     said: list[str] = []
     with pytest.raises(UsageError, match="couple by force"):
@@ -197,7 +197,7 @@ def test_steps_by_motion_are_refused_before_temperatures(case: str, changes: tup
     assert not said
 
 
-@LED
+@MOVED
 def test_an_export_by_motion_is_refused_before_it_begins(
     case: str, changes: tuple[str, ...], shaft: Path, tmp_path: Path
 ) -> None:
